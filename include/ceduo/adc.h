@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ADC_H
+#define CEDUO_ADC_H
+
+#include "stand.h"
+
+/* The forms of the Average Distance between Contacts. AUTO is the rule of Ciabocco et al. 2009: rock smaller than the
+ * spacing of the shoots → gsteiger-stems, otherwise interception; without stools gsteiger-stems. */
+enum ceduo_rule {
+    CEDUO_RULE_AUTO,
+    CEDUO_GSTEIGER_STOOLS, /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */
+    CEDUO_GSTEIGER_STEMS,  /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */
+    CEDUO_INTERCEPTION,    /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */
+    CEDUO_CROFTON          /* A/[Nc(B + mean shoot d + P/pi) + sum N(B + d) of trees]: stools met (Cauchy, Crofton) */
+};
+
+/* Metres between contacts in each form; infinite in a stand without stems. */
+struct ceduo_adc {
+    double gsteiger_stools, gsteiger_stems, interception, crofton;
+};
+
+/* All four for a rock of mean diameter b (m, > 0). */
+struct ceduo_adc ceduo_adc(const struct ceduo_stand *stand, double b);
+
+/* The rule that AUTO means here; any other rule is returned as it is. */
+enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
+
+/* The value of one form (not AUTO). */
+double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule);
+
+/* Radius (m) of the ring on which n shoots stand, neighbours s apart: s/(2 sin(pi/n)); 0 for one. */
+double ceduo_stool_radius(unsigned n, double s);
+
+/* Mean perimeter P (m) of the hull of a stool's shoots, neighbours s apart on a ring: 0, 2s, 3s, 4s … for 1, 2, 3, 4 …
+ * shoots; a fraction is a mixture of the two whole numbers. */
+double ceduo_stool_perimeter(double shoots_per_stool, double s);
+
+/* Energy (J) taken per horizontal metre in the mean, by the chosen form, stratum by stratum (Eq. 2 to 4): each stratum's
+ * own share of the form's denominator times its own energy per contact. */
+double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
+
+/* What a reader should know of a stand and a rock. A set of bits. */
+enum ceduo_stand_warning {
+    CEDUO_WARN_BELOW_FREE_PATH = 1 << 0,   /* interception < gsteiger-stems: s > (n - 1)(B + d): no path can have it */
+    CEDUO_WARN_NEAR_JUMP = 1 << 1,         /* B within 10 % of s, where the rule auto jumps */
+    CEDUO_WARN_DORREN_THIN = 1 << 2,       /* dorren below 10 cm: outside its data */
+    CEDUO_WARN_FORM_FACTOR = 1 << 3,       /* a volume by form factor, outside the species' equation */
+    CEDUO_WARN_U_ASSUMED = 1 << 4,         /* U of beech assumed for another species */
+    CEDUO_WARN_WIDE_SPACING = 1 << 5       /* s > B + d: the rock can pass between two shoots; crofton is not exact */
+};
+
+unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
+
+#endif

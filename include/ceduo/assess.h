@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ASSESS_H
+#define CEDUO_ASSESS_H
+
+#include "run.h"
+#include "scene.h"
+
+enum ceduo_light { CEDUO_UNKNOWN, CEDUO_PASS, CEDUO_FAIL };
+
+#define CEDUO_FREE_RUN_MOST 0.1  /* chance of a free run that a belt may leave */
+#define CEDUO_EXCEED_MOST 0.05   /* share of the released that may pass with too much energy */
+
+/* One belt of an option, as the index sees it. */
+struct ceduo_stand_result {
+    double length; /* m */
+    double stems_per_ha, stools_per_ha, trees_per_ha, basal_area;
+    bool bare;
+    enum ceduo_rule rule;   /* the one that was applied; without meaning where bare */
+    struct ceduo_adc adc;   /* infinite where bare */
+    double adc_m;           /* of that rule */
+    bool passes_threshold;
+    double free_run_probability; /* no contact over the threshold: exp(-T/crofton) */
+    double contacts;             /* L/ADC (Eq. 2) */
+    double energy_per_contact;   /* J; NaN where bare */
+    double dissipated;           /* J over the belt (Eq. 4) */
+    unsigned warnings;           /* enum ceduo_stand_warning */
+};
+
+/* The belts between the release and one control, as the index sees them. */
+struct ceduo_index {
+    double length;          /* wooded metres */
+    double longest_gap;     /* m without forest, from the release to the control */
+    double contacts, dissipated, meet_nothing_probability;
+    double worst_free_run;  /* the largest of the belts; 1 where no belt is */
+    bool contact_passes;    /* every belt under the threshold and no gap longer than it, over what is wooded */
+    double residual;        /* Eq. 5: max(0, bare mean - dissipated); NaN where no rock reaches */
+    bool exhausted;         /* it was cut at 0 */
+    double measured;        /* J: half M v2 of the measured speed; NaN without one */
+    enum ceduo_light contact, free_run, energy;
+};
+
+/* A belt by itself. */
+struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt);
+
+/* The belts of `option` between the mean release and the place x. `bare_mean` is the mean energy (J) of the rocks that
+ * reach x without forest, NaN where none does. */
+struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                      const struct ceduo_control *control, double bare_mean);
+
+#endif

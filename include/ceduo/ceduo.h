@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_H
+#define CEDUO_H
+
+/* All of libceduo: rockfall over a slope, and what a coppice takes from it. */
+#include "adc.h"
+#include "assess.h"
+#include "contact.h"
+#include "material.h"
+#include "number.h"
+#include "rock.h"
+#include "run.h"
+#include "scene.h"
+#include "slope.h"
+#include "stand.h"
+#include "statistics.h"
+#include "status.h"
+#include "version.h"
+#include "way.h"
+
+#endif

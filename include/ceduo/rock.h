@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ROCK_H
+#define CEDUO_ROCK_H
+
+#include "number.h"
+#include "status.h"
+
+enum ceduo_shape { CEDUO_SPHERE, CEDUO_CYLINDER, CEDUO_ELLIPSOID, CEDUO_BLOCK };
+
+/* A rock as a user describes it. Sizes that were not given have mean NaN. A sphere is given by one of diameter, volume
+ * or mass (with density), a cylinder by diameter and height, an ellipsoid or a block by three axes. Where the sizes are
+ * given, a mass replaces volume × density. */
+struct ceduo_rock_def {
+    enum ceduo_shape shape;
+    struct ceduo_number diameter;  /* m, > 0 */
+    struct ceduo_number height;    /* m, > 0 */
+    struct ceduo_number volume;    /* m3, > 0 */
+    struct ceduo_number mass;      /* kg, > 0 */
+    struct ceduo_number density;   /* kg/m3, > 0 */
+    struct ceduo_number axes[3];   /* m, > 0 */
+};
+
+/* One rock. */
+struct ceduo_rock {
+    double mass;          /* M, kg */
+    double mean_diameter; /* B, m: the mean of its dimensions, as in Ciabocco et al. 2009 (0.68 m there) */
+    double radius;        /* R = B/2, m */
+    double moment;        /* I, kg m2: sphere and ellipsoid 2/5 MR2, cylinder 1/2 MR2, block M(b2 + c2)/12 */
+    double k;             /* I/(MR2) */
+    double volume;        /* m3 */
+};
+
+/* A def without any size, density 2600 kg/m3 (limestone; assumed). */
+struct ceduo_rock_def ceduo_rock_def_default(void);
+
+/* The rock whose every size is the mean. CEDUO_BAD_ROCK where a size is missing or not above 0. */
+enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock);
+
+/* True where some size has a spread. */
+bool ceduo_rock_varies(const struct ceduo_rock_def *def);
+
+/* The rock whose sizes have the quantiles u[0…7], in the order diameter, height, volume, mass, density, axes. */
+enum ceduo_status ceduo_rock_draw(const struct ceduo_rock_def *def, const double u[8], struct ceduo_rock *rock);
+
+#endif

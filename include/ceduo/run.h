@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RUN_H
+#define CEDUO_RUN_H
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+#include "scene.h"
+#include "statistics.h"
+#include "way.h"
+
+/* A run: many rocks of one scene over its slope without forest. It can be made longer, and read at any time between. */
+struct ceduo_run;
+
+#define CEDUO_BLOCK_ROCKS 1024                       /* rocks summed as one */
+#define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
+
+struct ceduo_run_def {
+    const struct ceduo_scene *scene; /* checked; must outlive the run */
+    unsigned threads;                /* >= 1; the results do not depend on it */
+    uint64_t rocks_most;             /* no longer than this will it be made */
+    size_t cells;                    /* envelopes at this many places, 0: none */
+    const double *cell_x;            /* rising, on the slope */
+    size_t exact_bytes;              /* beyond this percentiles come from a histogram */
+    const atomic_bool *cancel;       /* may be NULL; raised by another thread: the call returns soon */
+    void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
+    void *context;
+};
+
+/* One thread, the scene's rocks, no envelopes, CEDUO_EXACT_BYTES. */
+struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene);
+
+/* A run without rocks yet. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **run);
+void ceduo_run_free(struct ceduo_run *run);
+
+/* Flies rocks until `rocks` are done. The result is the same for any number of threads and of steps.
+ * CEDUO_CANCELLED, CEDUO_NO_MEMORY: the run holds the rocks that were finished before; it can be read and extended. */
+enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks);
+
+uint64_t ceduo_run_rocks(const struct ceduo_run *run);
+uint64_t ceduo_run_contacts(const struct ceduo_run *run); /* ground contacts of all rocks */
+
+/* What arrives at a control. Means and percentiles are over the rocks that reached it. */
+struct ceduo_arrivals {
+    uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
+    double reach_probability, reach_lo, reach_hi;     /* hi counts the unfinished as reached */
+    double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
+    struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
+    double energy_per_released, energy_per_released_se;           /* J */
+    bool exact;                                                   /* percentiles from every sample */
+};
+
+/* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */
+enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
+
+/* Only the moments, without percentiles: cheap. */
+void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
+
+/* How the ways ended, and where those ended that came to rest. */
+struct ceduo_ends {
+    uint64_t count[CEDUO_ENDS];
+    struct ceduo_moments stop_x;
+    double stop_p50, stop_p95, stop_max; /* m, relative; NaN where none stopped */
+};
+
+enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
+
+/* Of the rocks that pass a cell: how many, and 5, 50, 95 % and the largest of each. Percentiles from a histogram of
+ * relative width 1/64 of an octave. */
+struct ceduo_spread_of_cell {
+    double p5, p50, p95, max;
+};
+struct ceduo_envelope {
+    uint64_t passed;
+    double mean_energy; /* J, of those that pass */
+    struct ceduo_spread_of_cell speed, height, energy;
+};
+
+void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope);
+
+/* Energies (J) of the rocks that reached a control, in the order of the rocks, for a histogram: at most `most` of them,
+ * the first. Returns how many were written; 0 where the samples are not kept. */
+size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
+
+#endif

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SCENE_H
+#define CEDUO_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "adc.h"
+#include "contact.h"
+#include "number.h"
+#include "rock.h"
+#include "slope.h"
+#include "stand.h"
+
+#define CEDUO_GRAVITY 9.81
+#define CEDUO_THRESHOLD_M 30.0 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
+#define CEDUO_ROCKS_MOST 10000000
+
+/* How a rock starts. Each number may have a spread. */
+struct ceduo_release {
+    struct ceduo_number x;      /* m, relative to the slope's first vertex */
+    struct ceduo_number height; /* m above the ground, >= 0 */
+    struct ceduo_number vx, vz; /* m/s, z upward */
+    struct ceduo_number spin;   /* rad/s, positive where it rolls forward in +x */
+};
+
+/* A place where the rocks that pass are counted. */
+struct ceduo_control {
+    double x;              /* m, relative to the slope's first vertex */
+    double x_given;        /* as the user wrote it */
+    char *name;            /* NULL: none */
+    double accepted;       /* J that the thing at risk bears; NaN: not said */
+    double measured_speed; /* m/s of a real rock seen here; NaN: none */
+};
+
+/* A stretch of forest. */
+struct ceduo_belt {
+    double from, to;             /* m, relative to the slope's first vertex */
+    double from_given, to_given; /* as the user wrote them */
+    char *name;                  /* of the stand */
+    bool assumed;                /* some value of the stand is an assumption */
+    struct ceduo_stand stand;
+};
+
+/* A silvicultural option: belts that rise along x and do not overlap. */
+struct ceduo_option {
+    char *name;
+    size_t belts_count;
+    struct ceduo_belt *belts;
+};
+
+enum ceduo_contact_model { CEDUO_INDEX };
+
+struct ceduo_simulation {
+    enum ceduo_law law;
+    uint64_t rocks; /* 1…10^7 */
+    uint64_t seed;  /* 0…2^53 */
+    enum ceduo_contact_model contact_model;
+    enum ceduo_rule rule;
+    double threshold; /* m */
+    double gravity;   /* m/s2 */
+    bool scale_rn;    /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
+};
+
+/* Everything that a run depends on. */
+struct ceduo_scene {
+    char *title;
+    struct ceduo_rock_def rock;
+    struct ceduo_release release;
+    struct ceduo_slope slope;
+    size_t controls_count;
+    struct ceduo_control *controls; /* in the user's order */
+    size_t options_count;           /* >= 1 */
+    struct ceduo_option *options;   /* the first is the baseline */
+    struct ceduo_simulation simulation;
+};
+
+/* What the paper's site and rule take where a scene does not say. */
+struct ceduo_simulation ceduo_simulation_default(void);
+
+/* Checks that the parts fit together: rock, slope, release on it, controls beyond the release and on the slope. `where`
+ * (may be NULL) is set to the index of the offending control. */
+enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where);
+
+#endif

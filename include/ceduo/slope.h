@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SLOPE_H
+#define CEDUO_SLOPE_H
+
+#include <stddef.h>
+
+#include "number.h"
+#include "status.h"
+
+/* Which way the ground's small facets are turned: always against the rock, or to both sides. */
+enum ceduo_facets { CEDUO_AGAINST, CEDUO_BOTH };
+
+#define CEDUO_FRICTION_DEFAULT 0.5 /* assumed */
+
+/* The ground of one segment. */
+struct ceduo_segment {
+    struct ceduo_number rn; /* normal restitution, 0…1 */
+    struct ceduo_number rt; /* tangential restitution, 0…1 */
+    double roughness_m;     /* a height S >= 0: largest facet angle atan(S/R) (CRSP); NaN where given as an angle */
+    double roughness_rad;   /* the largest facet angle itself, 0…<pi/2; NaN where given as a height */
+    double friction;        /* mu, tan of the angle of rolling friction, >= 0 */
+};
+
+/* A polyline with its ground. Coordinates are relative to the first vertex, so that survey coordinates lose no digit;
+ * `origin_x`, `origin_z` are what was taken off. */
+struct ceduo_slope {
+    enum ceduo_facets facets;
+    size_t vertices;                /* >= 2 */
+    double *x, *z;                  /* m, x strictly increasing */
+    struct ceduo_segment *segments; /* vertices - 1 */
+    double origin_x, origin_z;
+};
+
+/* Height of the polyline at x (m, relative), which must lie on the slope; at a vertex, the vertex. */
+double ceduo_slope_height(const struct ceduo_slope *slope, double x);
+
+/* The segment that x lies on, the right-hand one at a vertex. */
+size_t ceduo_slope_segment(const struct ceduo_slope *slope, double x);
+
+/* CEDUO_BAD_SLOPE where it is not as described above. */
+enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope);
+
+#endif

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_STAND_H
+#define CEDUO_STAND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum ceduo_system {
+    CEDUO_SIMPLE_COPPICE,
+    CEDUO_COPPICE_WITH_STANDARDS,
+    CEDUO_SELECTION_COPPICE,
+    CEDUO_LARGE_RESERVES,
+    CEDUO_HIGH_FOREST,
+    CEDUO_BARE
+};
+
+enum ceduo_energy_model { CEDUO_BRAUNER, CEDUO_DORREN };
+
+/* Stems of one kind: shoots of one age on the stools, or trees of one class. Densities are per horizontal hectare. */
+struct ceduo_stems {
+    double per_ha; /* > 0 */
+    double dbh;    /* m, > 0 */
+    double height; /* m, > 0 */
+    double volume; /* m3 of a stem; NaN: from species, dbh and height */
+    double dbh_sd; /* m; 0: all alike */
+    double age;    /* years; NaN: unknown */
+};
+
+/* A stand. No stools and no trees: no forest. Stools and shoots come together. */
+struct ceduo_stand {
+    enum ceduo_system system;
+    int species;           /* index into ceduo_species_list(); -1: not said */
+    double stools_per_ha;  /* Nc; 0: none */
+    double spacing;        /* s, m: between neighbouring shoots of a stool (dbh_int of Ciabocco et al. 2009) */
+    size_t shoots_count, trees_count;
+    struct ceduo_stems *shoots; /* cohorts on the stools */
+    struct ceduo_stems *trees;  /* classes of single trees: standards, reserves, maidens */
+    enum ceduo_energy_model energy;
+    double u;              /* J/m3, brauner; NaN: the species' */
+    double fracture_ratio; /* dorren */
+};
+
+/* Sums over a stand, per hectare. */
+double ceduo_stand_shoots(const struct ceduo_stand *stand);
+double ceduo_stand_trees(const struct ceduo_stand *stand);
+double ceduo_stand_basal_area(const struct ceduo_stand *stand); /* m2/ha: sum of N pi d2/4 */
+bool ceduo_stand_is_bare(const struct ceduo_stand *stand);
+
+/* What is known of a species. Volume (m3) = (b0 + b1 d2 h + b2 d)/1000, d in cm, h in m (Tabacchi et al. 2011), inside
+ * the rectangle of d and h only. */
+struct ceduo_species {
+    const char *name;   /* as files write it: ostrya-carpinifolia */
+    const char *common; /* hop hornbeam */
+    bool has_volume;
+    double b0, b1, b2;
+    double h_lo, h_hi, d_lo, d_hi; /* m, cm */
+    double u;                      /* J/m3: Table 4 of Ciabocco et al. 2009, or its beech value */
+    bool u_literature;             /* false: the value of beech, assumed for this species */
+};
+
+const struct ceduo_species *ceduo_species_list(size_t *count);
+
+/* Index of a species by name, -1 where there is none. */
+int ceduo_species_find(const char *name);
+
+#define CEDUO_FORM_FACTOR 0.5
+
+enum ceduo_volume_from { CEDUO_VOLUME_GIVEN, CEDUO_VOLUME_EQUATION, CEDUO_VOLUME_FORM_FACTOR };
+
+/* Volume (m3) of one of `stems`, and where it comes from: as given; by the species' equation inside its rectangle of
+ * dbh and height; otherwise form factor 0.5 × basal area × height. */
+double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from);
+
+/* Work of breaking (J/m3) that brauner takes: the stand's own, else its species', else that of beech. */
+double ceduo_stand_u(const struct ceduo_stand *stand);
+
+/* Energy (J) that a contact with one of `stems` takes. brauner: V·U (Eq. 3 of Ciabocco et al. 2009). dorren: the mean
+ * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). */
+double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+
+/* dorren: the largest energy (J) of a stem of `dbh` m, and the share of it at eccentricity u = |offset|/((B + d)/2),
+ * 0…1 (Dorren et al. 2006), cut to 0…1. */
+double ceduo_dorren_energy(double dbh, double fracture_ratio);
+double ceduo_dorren_share(double u);
+
+/* The mean of that share over u uniform in 0…1. */
+double ceduo_dorren_mean_share(void);
+
+#endif

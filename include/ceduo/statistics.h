@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_STATISTICS_H
+#define CEDUO_STATISTICS_H
+
+#include <stddef.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#define CEDUO_Z95 1.959963984540054 /* the normal law's 97.5 % quantile */
+
+/* Count, mean and sum of squares about the mean, added one by one (Welford 1962) and merged (Chan et al. 1979). */
+struct ceduo_moments {
+    uint64_t n;
+    double mean, m2, max;
+};
+
+void ceduo_moments_add(struct ceduo_moments *m, double value);
+void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from);
+
+/* Standard deviation and standard error of the mean; NaN below two values. */
+double ceduo_moments_sd(const struct ceduo_moments *m);
+double ceduo_moments_se(const struct ceduo_moments *m);
+
+/* The 95 % interval of a probability of which `hits` of `n` were seen (Wilson 1927); [0, 1] for n = 0. */
+void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi);
+
+/* Order statistics of n sorted or unsorted values: the rank (1…n) of quantile p, the smallest k with k >= pn; and the
+ * ranks between which the true quantile lies with 95 % (binomial law); 0 or n + 1 where no value bounds it. */
+size_t ceduo_quantile_rank(size_t n, double p);
+void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi);
+
+/* A distribution as it is reported; NaN where a figure does not exist. */
+struct ceduo_distribution {
+    double mean, se, sd, p50, p95, p95_lo, p95_hi, p99, max;
+};
+
+/* From exact values, which are reordered, and their moments. */
+struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m);
+
+/* A distribution of which nothing is known: all NaN. */
+struct ceduo_distribution ceduo_distribution_none(void);
+
+#endif

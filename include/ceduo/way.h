@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WAY_H
+#define CEDUO_WAY_H
+
+#include <stdint.h>
+
+#include "scene.h"
+
+/* How a rock's way ends. */
+enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_ENDS };
+
+/* More contacts than this and a rock counts as unfinished. */
+#define CEDUO_CONTACTS_MOST 1000000
+
+/* A piece of a rock's way, from (x, z) to (x1, z1): in flight the parabola that starts with (vx, vz), in a roll the
+ * straight line along the ground, speeds (vx, vz) at its start and (vx1, vz1) at its end. */
+struct ceduo_piece {
+    bool rolls;
+    double x, z, vx, vz;
+    double x1, z1, vx1, vz1;
+    double spin;       /* rad/s over the piece of a flight, at its start in a roll */
+    double seconds;    /* of a flight; 0 in a roll */
+    uint64_t contacts; /* ground contacts before it */
+};
+
+/* What a rock brings to a place. Coordinates relative to the slope's first vertex. */
+struct ceduo_crossing {
+    bool reached;
+    double vx, vz, spin; /* as it comes in */
+    double height;       /* m, clearance of the underside above the ground */
+};
+
+struct ceduo_way {
+    struct ceduo_rock rock;
+    double x0, z0, vx0, vz0, spin0; /* as released */
+    enum ceduo_end end;
+    double x, z; /* where it ended */
+    uint64_t contacts;
+};
+
+/* Follows rock number `rock` of a scene without forest, the same rock that a run of that scene flies. `visit` (may be
+ * NULL) is called for each piece in order. `crossings` (may be NULL) holds one entry for each control, in their order.
+ * The scene must have passed ceduo_scene_check(). CEDUO_NO_MEMORY, otherwise CEDUO_OK. */
+enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, uint64_t rock,
+                                   void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
+                                   struct ceduo_way *way, struct ceduo_crossing *crossings);
+
+/* The facet draw, uniform in [0, 1), of contact number `contact` of a rock: Threefry 2x64 (Salmon et al. 2011). */
+double ceduo_way_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);
+
+#endif

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/assess.h"
+
+#include <math.h>
+
+static double mean_diameter(const struct ceduo_scene *scene)
+{
+    struct ceduo_rock rock;
+    return ceduo_rock_of_means(&scene->rock, &rock) == CEDUO_OK ? rock.mean_diameter : NAN;
+}
+
+/* The figures that need only stand and rock; per metre of belt. */
+static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *scene, const struct ceduo_stand *stand,
+                                                   double length)
+{
+    double b = mean_diameter(scene);
+    bool bare = ceduo_stand_is_bare(stand);
+    enum ceduo_rule rule = ceduo_adc_rule(stand, b, scene->simulation.rule);
+    struct ceduo_adc adc = bare ? (struct ceduo_adc){INFINITY, INFINITY, INFINITY, INFINITY} : ceduo_adc(stand, b);
+    double trees = ceduo_stand_trees(stand);
+    struct ceduo_stand_result r = {.length = length,
+                                   .stems_per_ha = ceduo_stand_shoots(stand) + trees,
+                                   .stools_per_ha = stand->shoots_count > 0 ? stand->stools_per_ha : 0,
+                                   .trees_per_ha = trees,
+                                   .basal_area = ceduo_stand_basal_area(stand),
+                                   .bare = bare,
+                                   .rule = rule,
+                                   .adc = adc,
+                                   .adc_m = bare ? INFINITY : ceduo_adc_value(&adc, rule)};
+    r.passes_threshold = r.adc_m < scene->simulation.threshold;
+    r.free_run_probability = exp(-scene->simulation.threshold / adc.crofton);
+    r.contacts = length / r.adc_m;
+    r.dissipated = bare ? 0 : length * ceduo_energy_per_metre(stand, b, rule);
+    r.energy_per_contact = bare ? NAN : ceduo_energy_per_metre(stand, b, rule) * r.adc_m;
+    r.warnings = ceduo_stand_warnings(stand, b, scene->simulation.rule);
+    return r;
+}
+
+struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)
+{
+    return assess_per_length(scene, &belt->stand, belt->to - belt->from);
+}
+
+/* Adds the part of a belt between a and b to an index. */
+static void add_belt(const struct ceduo_scene *scene, const struct ceduo_belt *belt, double a, double b,
+                     struct ceduo_index *index)
+{
+    struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, b - a);
+    index->length += b - a;
+    index->contacts += r.contacts;
+    index->dissipated += r.dissipated;
+    index->meet_nothing_probability *= exp(-(b - a) / r.adc.crofton);
+    index->worst_free_run = fmax(index->worst_free_run, r.free_run_probability);
+    index->contact_passes &= r.passes_threshold;
+}
+
+struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                      const struct ceduo_control *control, double bare_mean)
+{
+    double start = scene->release.x.mean, at = start;
+    struct ceduo_index index = {.meet_nothing_probability = 1, .contact_passes = true};
+    size_t belts = 0;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        double a = fmax(belt->from, start), b = fmin(belt->to, control->x);
+        if (!(b > a) || ceduo_stand_is_bare(&belt->stand))
+            continue;
+        index.longest_gap = fmax(index.longest_gap, a - at);
+        add_belt(scene, belt, a, b, &index);
+        at = b;
+        belts++;
+    }
+    index.longest_gap = fmax(index.longest_gap, control->x - at);
+    if (belts == 0) {
+        index.contact_passes = false;
+        index.worst_free_run = 1;
+    }
+    index.contact_passes &= !(index.longest_gap > scene->simulation.threshold);
+    index.contact = index.contact_passes ? CEDUO_PASS : CEDUO_FAIL;
+    index.free_run = index.worst_free_run <= CEDUO_FREE_RUN_MOST ? CEDUO_PASS : CEDUO_FAIL;
+    index.energy = CEDUO_UNKNOWN;
+    index.exhausted = bare_mean < index.dissipated;
+    index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);
+    struct ceduo_rock rock;
+    bool known = ceduo_rock_of_means(&scene->rock, &rock) == CEDUO_OK;
+    index.measured = known ? 0.5 * rock.mass * control->measured_speed * control->measured_speed : NAN;
+    return index;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_GROUND_H
+#define CEDUO_GROUND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "ceduo/slope.h"
+
+/* A slope made ready for many rocks: what the walk needs at each segment, side by side. */
+struct ground_segment {
+    double m;          /* dz/dx */
+    double c, s;       /* unit tangent along +x; the normal upward is (-s, c) */
+    double mu;         /* friction */
+    double rn, rt;     /* means */
+    double theta;      /* largest facet angle, for the radius of the mean rock */
+    bool steep;        /* |m| > 1: z tells where a point lies better than x */
+};
+
+#define GROUND_BLOCK 8   /* segments of a block, blocks of the next level's block */
+#define GROUND_LEVELS 8
+
+struct ground {
+    size_t n; /* segments */
+    double *x, *z, *along; /* n + 1; along: metres of ground from the first vertex */
+    struct ground_segment *segments;
+    const struct ceduo_slope *slope; /* for spreads and roughness heights */
+    enum ceduo_facets facets;
+    bool rn_varies, rt_varies, theta_varies; /* from rock to rock */
+    double gravity, half_g;
+    /* levels[l][i]: how high the ground of block i (GROUND_BLOCK^l segments) rises above its chord, and a margin for
+     * rounding. A parabola this much above both ends of the chord touches no segment between. */
+    int top;
+    double *levels[GROUND_LEVELS];
+};
+
+/* Builds `ground` for a checked slope; radius of the mean rock; whether radii differ. False without memory. */
+bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, double gravity, double radius,
+                       bool radius_varies);
+void ceduo_ground_release(struct ground *ground);
+
+/* Height of the ground at x on segment j. */
+static inline double ground_height(const struct ground *g, size_t j, double x)
+{
+    if (x >= g->x[j + 1])
+        return g->z[j + 1];
+    return g->z[j] + g->segments[j].m * (x - g->x[j]);
+}
+
+/* Metres of ground between two points of one segment. */
+static inline double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
+{
+    double d = s->steep ? (z1 - z0) / s->s : (x1 - x0) / s->c;
+    return d < 0 ? -d : d;
+}
+
+/* Metres of ground between a point on segment j and one on segment k. */
+double ceduo_ground_between(const struct ground *g, size_t j, double x0, double z0, size_t k, double x1, double z1);
+
+#endif

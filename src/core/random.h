@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RANDOM_H
+#define CEDUO_RANDOM_H
+
+#include <stdint.h>
+
+/* Random123's own header is not written for our warnings. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#include <Random123/threefry.h>
+#pragma GCC diagnostic pop
+
+/* What a random number is for. A number depends on seed, rock, event and kind, on nothing else. */
+enum random_kind {
+    RANDOM_FACET,
+    RANDOM_RELEASE, /* events: x, height, vx, vz, spin */
+    RANDOM_ROCK,    /* events: diameter, height, volume, mass, density, axes */
+    RANDOM_GROUND   /* events: Rn, Rt */
+};
+
+struct random_pair {
+    double u[2];
+};
+
+/* Two uniform numbers in [0, 1): Threefry 2x64 keyed by seed and rock (Salmon et al. 2011). */
+static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint64_t event, enum random_kind kind)
+{
+    threefry2x64_ctr_t c = {{event, (uint64_t)kind}};
+    threefry2x64_key_t k = {{seed, rock}};
+    threefry2x64_ctr_t r = threefry2x64(c, k);
+    return (struct random_pair){{(double)(r.v[0] >> 11) * 0x1p-53, (double)(r.v[1] >> 11) * 0x1p-53}};
+}
+
+/* One number of kind `kind`; never 0, so that every quantile of it is finite. */
+static inline double random_open(uint64_t seed, uint64_t rock, uint64_t event, enum random_kind kind)
+{
+    return random_pair(seed, rock, event, kind).u[0] + 0x1p-54;
+}
+
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/rock.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double PI = 3.14159265358979323846;
+
+struct ceduo_rock_def ceduo_rock_def_default(void)
+{
+    struct ceduo_number none = ceduo_number(NAN);
+    return (struct ceduo_rock_def){.shape = CEDUO_SPHERE,
+                                   .diameter = none,
+                                   .height = none,
+                                   .volume = none,
+                                   .mass = none,
+                                   .density = ceduo_number(2600),
+                                   .axes = {none, none, none}};
+}
+
+/* The sizes of one rock, all drawn. */
+struct sizes {
+    double diameter, height, volume, mass, density, axes[3];
+};
+
+static void complete_sphere(struct sizes *s, struct ceduo_rock *rock)
+{
+    if (isnan(s->diameter)) {
+        double volume = isnan(s->volume) ? s->mass / s->density : s->volume;
+        s->diameter = cbrt(6 * volume / PI);
+    }
+    rock->volume = PI / 6 * s->diameter * s->diameter * s->diameter;
+    rock->mean_diameter = s->diameter;
+    rock->k = 2.0 / 5;
+}
+
+static void complete_block(const struct sizes *s, struct ceduo_rock *rock)
+{
+    const double *a = s->axes;
+    double longest = fmax(a[0], fmax(a[1], a[2]));
+    double squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - longest * longest;
+    rock->volume = a[0] * a[1] * a[2];
+    rock->mean_diameter = (a[0] + a[1] + a[2]) / 3;
+    double radius = rock->mean_diameter / 2;
+    rock->k = squares / (12 * radius * radius);
+}
+
+static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, struct sizes *s, struct ceduo_rock *rock)
+{
+    switch (shape) {
+    case CEDUO_SPHERE:
+        complete_sphere(s, rock);
+        break;
+    case CEDUO_CYLINDER:
+        rock->volume = PI / 4 * s->diameter * s->diameter * s->height;
+        rock->mean_diameter = (s->diameter + s->height) / 2;
+        rock->k = 1.0 / 2;
+        break;
+    case CEDUO_ELLIPSOID:
+        rock->volume = PI / 6 * s->axes[0] * s->axes[1] * s->axes[2];
+        rock->mean_diameter = (s->axes[0] + s->axes[1] + s->axes[2]) / 3;
+        rock->k = 2.0 / 5;
+        break;
+    case CEDUO_BLOCK:
+        complete_block(s, rock);
+        break;
+    }
+    rock->mass = isnan(s->mass) ? rock->volume * s->density : s->mass;
+    rock->radius = rock->mean_diameter / 2;
+    rock->moment = rock->k * rock->mass * rock->radius * rock->radius;
+    bool good = rock->mass > 0 && isfinite(rock->mass) && rock->radius > 0 && isfinite(rock->radius) &&
+                rock->moment > 0 && isfinite(rock->moment);
+    return good ? CEDUO_OK : CEDUO_BAD_ROCK;
+}
+
+enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock)
+{
+    struct sizes s = {def->diameter.mean, def->height.mean, def->volume.mean,
+                      def->mass.mean,     def->density.mean, {def->axes[0].mean, def->axes[1].mean, def->axes[2].mean}};
+    return rock_from_sizes(def->shape, &s, rock);
+}
+
+bool ceduo_rock_varies(const struct ceduo_rock_def *def)
+{
+    const struct ceduo_number *n[] = {&def->diameter, &def->height,  &def->volume,  &def->mass,
+                                      &def->density,  &def->axes[0], &def->axes[1], &def->axes[2]};
+    for (size_t i = 0; i < sizeof n / sizeof n[0]; i++)
+        if (n[i]->spread > 0)
+            return true;
+    return false;
+}
+
+enum ceduo_status ceduo_rock_draw(const struct ceduo_rock_def *def, const double u[8], struct ceduo_rock *rock)
+{
+    struct sizes s = {.diameter = ceduo_number_draw(def->diameter, u[0], 0, INFINITY),
+                      .height = ceduo_number_draw(def->height, u[1], 0, INFINITY),
+                      .volume = ceduo_number_draw(def->volume, u[2], 0, INFINITY),
+                      .mass = ceduo_number_draw(def->mass, u[3], 0, INFINITY),
+                      .density = ceduo_number_draw(def->density, u[4], 0, INFINITY)};
+    for (int i = 0; i < 3; i++)
+        s.axes[i] = ceduo_number_draw(def->axes[i], u[5 + i], 0, INFINITY);
+    return rock_from_sizes(def->shape, &s, rock);
+}

@@ -1,0 +1,623 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/run.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "envelope.h"
+#include "histogram.h"
+#include "walk.h"
+
+#define CHUNK_BLOCKS 256 /* blocks in work at a time: what bounds the memory of their sums */
+
+enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
+
+/* What is summed at one control. Released rocks that do not arrive are known from the counts. */
+struct sums {
+    struct ceduo_moments of[QUANTITIES];
+    uint64_t exceeded, unfinished;
+};
+
+/* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
+struct block {
+    uint64_t contacts, ends[CEDUO_ENDS];
+    struct ceduo_moments stop_x;
+    struct sums *controls;
+};
+
+struct ceduo_run {
+    struct ceduo_run_def def;
+    const struct ceduo_scene *scene;
+    struct ceduo_rock mean;
+    struct ground ground;
+    struct marks marks;
+    size_t controls;
+    int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
+    uint64_t rocks;        /* done */
+    struct block whole;    /* all whole blocks */
+    struct block tail;     /* the block that is not full yet */
+    struct block *slots;   /* CHUNK_BLOCKS in work */
+    bool exact;            /* samples are kept; otherwise histograms */
+    uint64_t room;         /* rocks that the samples have room for */
+    double *samples;       /* [control][quantity][room], NaN where a rock did not arrive */
+    double *stops;         /* [room], NaN where a rock did not stop */
+    struct histogram *bins; /* [control][quantity], then one of the stops */
+    struct envelope_cell *cells;
+};
+
+/* One thread's work on a chunk. */
+struct worker {
+    struct ceduo_run *run;
+    struct walker walker;
+    struct block *block;
+    uint64_t rock;
+    struct histogram *bins;
+    struct envelope_cell *cells;
+    bool no_memory;
+    struct chunk *chunk;
+};
+
+struct chunk {
+    uint64_t first, end; /* rocks */
+    size_t blocks;
+    atomic_size_t next;
+    atomic_bool stop;
+};
+
+struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
+{
+    return (struct ceduo_run_def){
+        .scene = scene, .threads = 1, .rocks_most = scene->simulation.rocks, .exact_bytes = CEDUO_EXACT_BYTES};
+}
+
+/* ---- blocks ---- */
+
+static bool block_init(struct block *b, size_t controls)
+{
+    *b = (struct block){.controls = calloc(controls + 1, sizeof(struct sums))};
+    return b->controls != NULL;
+}
+
+static void block_clear(struct block *b, size_t controls)
+{
+    struct sums *keep = b->controls;
+    memset(keep, 0, controls * sizeof *keep);
+    *b = (struct block){.controls = keep};
+}
+
+static void block_merge(struct block *into, const struct block *from, size_t controls)
+{
+    into->contacts += from->contacts;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        into->ends[e] += from->ends[e];
+    ceduo_moments_merge(&into->stop_x, &from->stop_x);
+    for (size_t c = 0; c < controls; c++) {
+        for (int q = 0; q < QUANTITIES; q++)
+            ceduo_moments_merge(&into->controls[c].of[q], &from->controls[c].of[q]);
+        into->controls[c].exceeded += from->controls[c].exceeded;
+        into->controls[c].unfinished += from->controls[c].unfinished;
+    }
+}
+
+static void block_swap(struct block *a, struct block *b)
+{
+    struct block t = *a;
+    *a = *b;
+    *b = t;
+}
+
+/* ---- one rock ---- */
+
+static double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
+{
+    return run->samples + (control * (size_t)run->kept + (size_t)quantity) * run->room;
+}
+
+static struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
+{
+    return &bins[control * (size_t)run->kept + (size_t)quantity];
+}
+
+static void keep_sample(struct worker *w, size_t control, const double values[QUANTITIES])
+{
+    struct ceduo_run *run = w->run;
+    for (int q = 0; q < run->kept; q++) {
+        if (run->exact)
+            samples_of(run, control, q)[w->rock] = values[q];
+        else if (!ceduo_histogram_add(bins_of(w->bins, run, control, q), values[q]))
+            w->no_memory = true;
+    }
+}
+
+static void on_cross(void *context, size_t mark, const struct ceduo_crossing *c)
+{
+    struct worker *w = context;
+    struct ceduo_run *run = w->run;
+    const struct ceduo_rock *rock = &w->walker.rock;
+    size_t what = run->marks.what[mark];
+    double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
+    double translation = 0.5 * rock->mass * (speed * speed);
+    double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
+    if (what >= run->controls) {
+        ceduo_envelope_add(&w->cells[what - run->controls], speed, c->height, energy);
+        return;
+    }
+    const double values[QUANTITIES] = {speed, c->height, energy, translation};
+    struct sums *sums = &w->block->controls[what];
+    for (int q = 0; q < QUANTITIES; q++)
+        ceduo_moments_add(&sums->of[q], values[q]);
+    sums->exceeded += energy > run->scene->controls[what].accepted; /* never, where that is NaN */
+    keep_sample(w, what, values);
+}
+
+/* An unfinished rock counts at each control that it did not reach. */
+static void note_unfinished(struct worker *w)
+{
+    for (size_t m = w->walker.next_mark; m < w->run->marks.n; m++)
+        if (w->run->marks.what[m] < w->run->controls)
+            w->block->controls[w->run->marks.what[m]].unfinished++;
+}
+
+static void clear_samples(struct ceduo_run *run, uint64_t rock)
+{
+    if (!run->exact)
+        return;
+    for (size_t c = 0; c < run->controls; c++)
+        for (int q = 0; q < run->kept; q++)
+            samples_of(run, c, q)[rock] = NAN;
+    run->stops[rock] = NAN;
+}
+
+static void note_stop(struct worker *w, double x)
+{
+    struct ceduo_run *run = w->run;
+    ceduo_moments_add(&w->block->stop_x, x);
+    if (run->exact)
+        run->stops[w->rock] = x;
+    else if (!ceduo_histogram_add(&w->bins[run->controls * (size_t)run->kept], x))
+        w->no_memory = true;
+}
+
+static void fly_rock(struct worker *w, uint64_t number)
+{
+    struct ceduo_run *run = w->run;
+    w->rock = number;
+    clear_samples(run, number);
+    enum ceduo_status status =
+        ceduo_walk_release(&w->walker, run->scene, &run->ground, &run->marks, &run->mean, number);
+    enum ceduo_end end = status == CEDUO_OK ? ceduo_walk(&w->walker, run->scene->simulation.law) : CEDUO_UNFINISHED;
+    w->block->contacts += w->walker.contacts;
+    w->block->ends[end]++;
+    if (end == CEDUO_UNFINISHED)
+        note_unfinished(w);
+    if (end == CEDUO_AT_REST)
+        note_stop(w, w->walker.at.x);
+}
+
+/* ---- many rocks ---- */
+
+static bool cancelled(const struct ceduo_run *run)
+{
+    return run->def.cancel && atomic_load_explicit(run->def.cancel, memory_order_relaxed);
+}
+
+#define CANCEL_ROCKS 64 /* how often the flag is looked at */
+
+static void *work(void *argument)
+{
+    struct worker *w = argument;
+    struct chunk *chunk = w->chunk;
+    uint64_t first_block = chunk->first / CEDUO_BLOCK_ROCKS;
+    for (size_t i; (i = atomic_fetch_add(&chunk->next, 1)) < chunk->blocks;) {
+        uint64_t from = (first_block + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
+        from = from < chunk->first ? chunk->first : from;
+        to = to > chunk->end ? chunk->end : to;
+        w->block = &w->run->slots[i];
+        for (uint64_t r = from; r < to; r++) {
+            if ((r % CANCEL_ROCKS == 0 && cancelled(w->run)) || w->no_memory)
+                atomic_store(&chunk->stop, true);
+            if (atomic_load_explicit(&chunk->stop, memory_order_relaxed))
+                return NULL;
+            fly_rock(w, r);
+        }
+    }
+    return NULL;
+}
+
+static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *chunk)
+{
+    *w = (struct worker){.run = run, .chunk = chunk};
+    w->walker.cross = on_cross;
+    w->walker.context = w;
+    size_t bins = run->controls * (size_t)run->kept + 1;
+    if (!run->exact && !(w->bins = calloc(bins, sizeof *w->bins)))
+        return false;
+    return run->def.cells == 0 || (w->cells = calloc(run->def.cells, sizeof *w->cells));
+}
+
+static void worker_release(struct worker *w)
+{
+    size_t bins = w->run->controls * (size_t)w->run->kept + 1;
+    for (size_t i = 0; w->bins && i < bins; i++)
+        ceduo_histogram_clear(&w->bins[i]);
+    free(w->bins);
+    free(w->cells);
+}
+
+static bool worker_merge(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    size_t bins = run->controls * (size_t)run->kept + 1;
+    for (size_t i = 0; w->bins && i < bins; i++)
+        if (!ceduo_histogram_merge(&run->bins[i], &w->bins[i]))
+            return false;
+    for (size_t i = 0; w->cells && i < run->def.cells; i++)
+        ceduo_envelope_merge(&run->cells[i], &w->cells[i]);
+    return true;
+}
+
+/* Runs a chunk on as many threads as can be started; this one works too. */
+static void run_workers(struct worker *workers, unsigned n)
+{
+    pthread_t *threads = n > 1 ? malloc((n - 1) * sizeof *threads) : NULL;
+    unsigned started = 0;
+    while (threads && started < n - 1 && pthread_create(&threads[started], NULL, work, &workers[started + 1]) == 0)
+        started++;
+    work(&workers[0]);
+    for (unsigned i = 0; i < started; i++)
+        pthread_join(threads[i], NULL);
+    free(threads);
+}
+
+static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, struct worker *workers, unsigned n)
+{
+    bool no_memory = false;
+    for (unsigned i = 0; i < n; i++)
+        no_memory |= workers[i].no_memory;
+    if (no_memory)
+        return CEDUO_NO_MEMORY;
+    if (atomic_load(&chunk->stop))
+        return CEDUO_CANCELLED;
+    for (unsigned i = 0; i < n; i++)
+        if (!worker_merge(&workers[i]))
+            return CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < chunk->blocks; i++) {
+        bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
+        if (full)
+            block_merge(&run->whole, &run->slots[i], run->controls);
+        else
+            block_swap(&run->tail, &run->slots[i]);
+        block_clear(&run->slots[i], run->controls);
+    }
+    run->rocks = chunk->end;
+    return CEDUO_OK;
+}
+
+/* One chunk, from where the run stands. */
+static enum ceduo_status fly_chunk(struct ceduo_run *run, uint64_t end)
+{
+    uint64_t first_block = run->rocks / CEDUO_BLOCK_ROCKS;
+    uint64_t last_block = (end - 1) / CEDUO_BLOCK_ROCKS;
+    struct chunk chunk = {.first = run->rocks, .end = end, .blocks = (size_t)(last_block - first_block + 1)};
+    unsigned n = run->def.threads < chunk.blocks ? run->def.threads : (unsigned)chunk.blocks;
+    struct worker *workers = calloc(n, sizeof *workers);
+    if (!workers)
+        return CEDUO_NO_MEMORY;
+    bool ready = true;
+    for (unsigned i = 0; i < n; i++)
+        ready &= worker_init(&workers[i], run, &chunk);
+    /* the first block goes on where the tail stands; a copy, so that a cancelled chunk leaves no trace */
+    block_clear(&run->slots[0], run->controls);
+    if (run->rocks % CEDUO_BLOCK_ROCKS != 0)
+        block_merge(&run->slots[0], &run->tail, run->controls);
+    enum ceduo_status status = CEDUO_NO_MEMORY;
+    if (ready) {
+        run_workers(workers, n);
+        status = finish_chunk(run, &chunk, workers, n);
+    }
+    if (status != CEDUO_OK)
+        for (size_t i = 0; i < chunk.blocks; i++)
+            block_clear(&run->slots[i], run->controls);
+    for (unsigned i = 0; i < n; i++)
+        worker_release(&workers[i]);
+    free(workers);
+    return status;
+}
+
+/* ---- samples ---- */
+
+static size_t columns(const struct ceduo_run *run)
+{
+    return run->controls * (size_t)run->kept + 1; /* and the stops */
+}
+
+static bool fits_exact(const struct ceduo_run *run, uint64_t rocks)
+{
+    return (double)rocks * (double)columns(run) * sizeof(double) <= (double)run->def.exact_bytes;
+}
+
+/* Makes room for the samples of `rocks` rocks. */
+static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
+{
+    if (rocks <= run->room)
+        return true;
+    uint64_t room = 2 * run->room;
+    room = room < rocks || !fits_exact(run, room) ? rocks : room;
+    size_t c = columns(run);
+    double *grown = malloc((size_t)room * c * sizeof(double));
+    if (!grown)
+        return false;
+    for (size_t i = 0; run->samples && i < c; i++)
+        memcpy(grown + i * room, run->samples + i * run->room, (size_t)run->rocks * sizeof(double));
+    free(run->samples);
+    run->samples = grown;
+    run->room = room;
+    run->stops = run->samples + (c - 1) * room;
+    return true;
+}
+
+/* From samples to histograms: there are now too many rocks to keep. */
+static bool bin_samples(struct ceduo_run *run)
+{
+    size_t c = columns(run);
+    run->bins = calloc(c, sizeof *run->bins);
+    if (!run->bins)
+        return false;
+    for (size_t i = 0; run->samples && i < c; i++)
+        for (uint64_t r = 0; r < run->rocks; r++) {
+            double v = run->samples[i * run->room + r];
+            if (!isnan(v) && !ceduo_histogram_add(&run->bins[i], v))
+                return false;
+        }
+    free(run->samples);
+    run->samples = run->stops = NULL;
+    run->room = 0;
+    run->exact = false;
+    return true;
+}
+
+static bool prepare_samples(struct ceduo_run *run, uint64_t rocks)
+{
+    if (!run->exact)
+        return true;
+    return fits_exact(run, rocks) ? grow_samples(run, rocks) : bin_samples(run);
+}
+
+enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
+{
+    if (rocks > run->def.rocks_most)
+        rocks = run->def.rocks_most;
+    if (rocks <= run->rocks)
+        return CEDUO_OK;
+    if (!prepare_samples(run, rocks))
+        return CEDUO_NO_MEMORY;
+    while (run->rocks < rocks) {
+        uint64_t end = (run->rocks / CEDUO_BLOCK_ROCKS + CHUNK_BLOCKS) * CEDUO_BLOCK_ROCKS;
+        enum ceduo_status status = fly_chunk(run, end < rocks ? end : rocks);
+        if (status != CEDUO_OK)
+            return status;
+        if (run->def.progress)
+            run->def.progress(run->def.context, run->rocks);
+    }
+    return CEDUO_OK;
+}
+
+/* ---- making and freeing ---- */
+
+static bool allocate(struct ceduo_run *run)
+{
+    const struct ceduo_run_def *def = &run->def;
+    const struct ceduo_scene *scene = run->scene;
+    bool ok = block_init(&run->whole, run->controls) && block_init(&run->tail, run->controls);
+    run->slots = calloc(CHUNK_BLOCKS, sizeof *run->slots);
+    ok = ok && run->slots;
+    for (size_t i = 0; ok && i < CHUNK_BLOCKS; i++)
+        ok = block_init(&run->slots[i], run->controls);
+    if (def->cells > 0)
+        ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
+    ok = ok && ceduo_marks_init(&run->marks, scene, def->cells, def->cell_x);
+    return ok && ceduo_ground_init(&run->ground, &scene->slope, scene->simulation.gravity, run->mean.radius,
+                                   ceduo_rock_varies(&scene->rock));
+}
+
+enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **out)
+{
+    *out = NULL;
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    if (status != CEDUO_OK)
+        return status;
+    struct ceduo_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return CEDUO_NO_MEMORY;
+    run->def = *def;
+    run->def.threads = def->threads > 0 ? def->threads : 1;
+    run->scene = def->scene;
+    run->controls = def->scene->controls_count;
+    run->exact = true;
+    bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_rock_varies(&def->scene->rock);
+    run->kept = one_energy ? HEIGHT + 1 : QUANTITIES;
+    status = ceduo_rock_of_means(&def->scene->rock, &run->mean);
+    if (!allocate(run)) {
+        ceduo_run_free(run);
+        return CEDUO_NO_MEMORY;
+    }
+    *out = run;
+    return status;
+}
+
+void ceduo_run_free(struct ceduo_run *run)
+{
+    if (!run)
+        return;
+    free(run->whole.controls);
+    free(run->tail.controls);
+    for (size_t i = 0; run->slots && i < CHUNK_BLOCKS; i++)
+        free(run->slots[i].controls);
+    free(run->slots);
+    for (size_t i = 0; run->bins && i < columns(run); i++)
+        ceduo_histogram_clear(&run->bins[i]);
+    free(run->bins);
+    free(run->samples);
+    free(run->cells);
+    ceduo_marks_release(&run->marks);
+    ceduo_ground_release(&run->ground);
+    free(run);
+}
+
+/* ---- reading ---- */
+
+uint64_t ceduo_run_rocks(const struct ceduo_run *run)
+{
+    return run->rocks;
+}
+
+uint64_t ceduo_run_contacts(const struct ceduo_run *run)
+{
+    return run->whole.contacts + run->tail.contacts;
+}
+
+static struct sums sums_at(const struct ceduo_run *run, size_t control)
+{
+    struct sums s = run->whole.controls[control];
+    const struct sums *tail = &run->tail.controls[control];
+    for (int q = 0; q < QUANTITIES; q++)
+        ceduo_moments_merge(&s.of[q], &tail->of[q]);
+    s.exceeded += tail->exceeded;
+    s.unfinished += tail->unfinished;
+    return s;
+}
+
+/* The values of a column that are there, in the order of the rocks. */
+static size_t gather(const struct ceduo_run *run, const double *column, double *to)
+{
+    size_t n = 0;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(column[r]))
+            to[n++] = column[r];
+    return n;
+}
+
+static struct ceduo_distribution distribution(const struct ceduo_run *run, size_t control, int q,
+                                              const struct ceduo_moments *m, double *scratch)
+{
+    if (!run->exact)
+        return ceduo_distribution_binned(&run->bins[control * (size_t)run->kept + (size_t)q], m);
+    size_t n = run->samples ? gather(run, samples_of(run, control, q), scratch) : 0;
+    return ceduo_distribution_exact(scratch, n, m);
+}
+
+/* Energy where one mass and no spin make it follow from speed. */
+static struct ceduo_distribution energy_from_speed(const struct ceduo_distribution *speed, double mass,
+                                                   const struct ceduo_moments *m)
+{
+    struct ceduo_distribution d = {.mean = speed->mean, .se = ceduo_moments_se(m), .sd = ceduo_moments_sd(m)};
+    const double from[5] = {speed->p50, speed->p95, speed->p95_lo, speed->p95_hi, speed->p99};
+    double *to[5] = {&d.p50, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99};
+    for (int i = 0; i < 5; i++)
+        *to[i] = 0.5 * mass * (from[i] * from[i]);
+    d.mean = m->n > 0 ? m->mean : NAN;
+    d.max = m->n > 0 ? m->max : NAN;
+    return d;
+}
+
+/* Mean and standard error over all released, of whom those that do not arrive bring nothing. */
+static void per_released(const struct ceduo_moments *m, uint64_t released, double *mean, double *se)
+{
+    double n = (double)released, share = (double)m->n / n;
+    *mean = m->mean * share;
+    double m2 = m->m2 + m->mean * m->mean * (double)m->n * (1 - share);
+    *se = released < 2 ? NAN : sqrt(m2 / (n - 1) / n);
+}
+
+enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
+{
+    struct sums s = sums_at(run, control);
+    *a = (struct ceduo_arrivals){.released = run->rocks,
+                                 .reached = s.of[SPEED].n,
+                                 .exceeded = s.exceeded,
+                                 .unfinished = s.unfinished,
+                                 .exact = run->exact};
+    double unused;
+    double released = (double)run->rocks;
+    a->reach_probability = (double)a->reached / released;
+    ceduo_wilson(a->reached, run->rocks, &a->reach_lo, &a->reach_hi);
+    if (s.unfinished > 0)
+        ceduo_wilson(a->reached + s.unfinished, run->rocks, &unused, &a->reach_hi);
+    a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
+    if (!isnan(run->scene->controls[control].accepted)) {
+        a->exceed_probability = (double)a->exceeded / released;
+        ceduo_wilson(a->exceeded, run->rocks, &a->exceed_lo, &a->exceed_hi);
+        if (s.unfinished > 0)
+            ceduo_wilson(a->exceeded + s.unfinished, run->rocks, &unused, &a->exceed_hi);
+    }
+    per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
+    double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
+    if (!scratch)
+        return CEDUO_NO_MEMORY;
+    a->speed = distribution(run, control, SPEED, &s.of[SPEED], scratch);
+    a->height = distribution(run, control, HEIGHT, &s.of[HEIGHT], scratch);
+    if (run->kept == QUANTITIES) {
+        a->energy = distribution(run, control, ENERGY, &s.of[ENERGY], scratch);
+        a->translation = distribution(run, control, TRANSLATION, &s.of[TRANSLATION], scratch);
+    } else {
+        a->energy = a->translation = energy_from_speed(&a->speed, run->mean.mass, &s.of[ENERGY]);
+    }
+    free(scratch);
+    return CEDUO_OK;
+}
+
+void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
+{
+    struct sums s = sums_at(run, control);
+    *reached = s.of[ENERGY].n;
+    *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
+    *se = ceduo_moments_se(&s.of[ENERGY]);
+}
+
+enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)
+{
+    *ends = (struct ceduo_ends){.stop_x = run->whole.stop_x, .stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
+    ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);
+    if (ends->stop_x.n == 0)
+        return CEDUO_OK;
+    ends->stop_max = ends->stop_x.max;
+    size_t n = (size_t)ends->stop_x.n;
+    size_t r50 = ceduo_quantile_rank(n, 0.5), r95 = ceduo_quantile_rank(n, 0.95);
+    if (!run->exact) {
+        const struct histogram *h = &run->bins[columns(run) - 1];
+        ends->stop_p50 = ceduo_histogram_value(h, r50);
+        ends->stop_p95 = ceduo_histogram_value(h, r95);
+        return CEDUO_OK;
+    }
+    double *scratch = malloc((n + 1) * sizeof(double));
+    if (!scratch)
+        return CEDUO_NO_MEMORY;
+    gather(run, run->stops, scratch);
+    struct ceduo_distribution d = ceduo_distribution_exact(scratch, n, &ends->stop_x);
+    ends->stop_p50 = d.p50;
+    ends->stop_p95 = d.p95;
+    free(scratch);
+    return CEDUO_OK;
+}
+
+void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope)
+{
+    ceduo_envelope_read(&run->cells[cell], envelope);
+}
+
+size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
+{
+    size_t n = 0;
+    if (!run->exact || !run->samples)
+        return 0;
+    bool from_speed = run->kept != QUANTITIES;
+    const double *column = samples_of(run, control, from_speed ? SPEED : ENERGY);
+    for (uint64_t r = 0; r < run->rocks && n < most; r++)
+        if (!isnan(column[r]))
+            to[n++] = from_speed ? 0.5 * run->mean.mass * (column[r] * column[r]) : column[r];
+    return n;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/scene.h"
+
+#include <math.h>
+
+struct ceduo_simulation ceduo_simulation_default(void)
+{
+    return (struct ceduo_simulation){.law = CEDUO_LAW_LUMPED,
+                                     .rocks = 1000,
+                                     .seed = 1,
+                                     .contact_model = CEDUO_INDEX,
+                                     .rule = CEDUO_RULE_AUTO,
+                                     .threshold = CEDUO_THRESHOLD_M,
+                                     .gravity = CEDUO_GRAVITY,
+                                     .scale_rn = false};
+}
+
+enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
+{
+    struct ceduo_rock rock;
+    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
+    if (status == CEDUO_OK)
+        status = ceduo_slope_check(&scene->slope);
+    if (status != CEDUO_OK)
+        return status;
+    double end = scene->slope.x[scene->slope.vertices - 1];
+    double first = ceduo_number_lowest(scene->release.x), last = ceduo_number_highest(scene->release.x);
+    if (!(first >= 0) || !(last < end))
+        return CEDUO_RELEASE_OFF_SLOPE;
+    if (!(ceduo_number_lowest(scene->release.height) >= 0))
+        return CEDUO_RELEASE_BELOW;
+    for (size_t i = 0; i < scene->controls_count; i++) {
+        if (where)
+            *where = i;
+        if (!(scene->controls[i].x <= end))
+            return CEDUO_CONTROL_OFF_SLOPE;
+        if (!(scene->controls[i].x > last))
+            return CEDUO_CONTROL_BEHIND;
+    }
+    return CEDUO_OK;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/slope.h"
+
+#include <math.h>
+
+size_t ceduo_slope_segment(const struct ceduo_slope *slope, double x)
+{
+    size_t lo = 0, hi = slope->vertices - 1;
+    while (hi - lo > 1) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (slope->x[mid] <= x)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+double ceduo_slope_height(const struct ceduo_slope *slope, double x)
+{
+    size_t j = ceduo_slope_segment(slope, x);
+    const double *px = slope->x, *pz = slope->z;
+    if (x >= px[j + 1])
+        return pz[j + 1];
+    return pz[j] + (pz[j + 1] - pz[j]) / (px[j + 1] - px[j]) * (x - px[j]);
+}
+
+static bool unit_interval(struct ceduo_number n)
+{
+    return n.mean >= 0 && n.mean <= 1 && n.spread >= 0 && isfinite(n.spread);
+}
+
+static bool good_segment(const struct ceduo_segment *s)
+{
+    bool rough = isnan(s->roughness_m) ? s->roughness_rad >= 0 && s->roughness_rad < 1.5707963267948966
+                                       : s->roughness_m >= 0 && isnan(s->roughness_rad);
+    return rough && unit_interval(s->rn) && unit_interval(s->rt) && s->friction >= 0 && isfinite(s->friction);
+}
+
+enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)
+{
+    if (slope->vertices < 2)
+        return CEDUO_BAD_SLOPE;
+    for (size_t i = 0; i < slope->vertices; i++)
+        if (!isfinite(slope->x[i]) || !isfinite(slope->z[i]))
+            return CEDUO_BAD_SLOPE;
+    for (size_t i = 0; i + 1 < slope->vertices; i++)
+        if (!(slope->x[i + 1] > slope->x[i]) || !good_segment(&slope->segments[i]))
+            return CEDUO_BAD_SLOPE;
+    return CEDUO_OK;
+}

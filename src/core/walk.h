@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WALK_H
+#define CEDUO_WALK_H
+
+#include <stdint.h>
+
+#include "ceduo/way.h"
+#include "landing.h"
+#include "marks.h"
+#include "random.h"
+#include "sincos.h"
+
+/* One rock under way. */
+struct walker {
+    const struct ground *g;
+    const struct marks *marks;
+    uint64_t seed, number;
+    bool scale_rn;
+    struct ceduo_rock rock;
+    double k; /* 0 where the law knows no spin */
+    double rn_u, rt_u; /* quantiles of this rock's ground */
+    struct flight at; /* where it is now */
+    double spin;
+    uint64_t contacts;
+    size_t next_mark;
+    uint64_t facets_of;        /* i, of */
+    struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
+    void (*cross)(void *context, size_t mark, const struct ceduo_crossing *crossing);
+    void (*visit)(void *context, const struct ceduo_piece *piece); /* NULL: nobody looks */
+    void *context;
+};
+
+/* Draws rock number `number` of the scene and puts it at its release. */
+enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene *scene, const struct ground *g,
+                                     const struct marks *marks, const struct ceduo_rock *mean, uint64_t number);
+
+/* Follows it to its end. */
+enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
+
+#endif
