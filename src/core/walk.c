@@ -349,34 +349,43 @@ static bool rises_to(const struct ground *g, size_t j, int dir, double z)
     }
 }
 
+/* The first segment from j on towards dir that is not level, with the metres of level ground before it; false where the
+ * profile ends. */
+static bool past_level(const struct ground *g, size_t *j, int dir, double *level)
+{
+    *level = 0;
+    for (;;) {
+        if (dir > 0 ? *j + 1 == g->n : *j == 0)
+            return false;
+        *j = dir > 0 ? *j + 1 : *j - 1;
+        if (g->segments[*j].m != 0)
+            return true;
+        *level += g->along[*j + 1] - g->along[*j];
+    }
+}
+
 /* Whether the bottom of a pit lies less than R downhill: a vertex, or a level stretch shorter than R, between two sides
  * steeper than their friction, of which the far one leads up to where the rock stands. */
 static bool in_pit(const struct ground *g, const struct walker *w)
 {
-    double r = w->rock.radius, way = 0, flat = 0;
-    size_t j = w->at.segment, side = j;
+    size_t j = w->at.segment;
     int dir = g->segments[j].m < 0 ? 1 : -1;
-    double x = w->at.x, z = w->at.z;
-    for (;;) { /* segment j falls or is level */
+    double r = w->rock.radius, x = w->at.x, z = w->at.z, way = 0;
+    for (;;) { /* segment j falls */
+        const struct ground_segment *side = &g->segments[j];
         size_t v = dir > 0 ? j + 1 : j;
-        double length = ground_length(&g->segments[j], x, z, g->x[v], g->z[v]);
-        if (g->segments[j].m == 0) {
-            flat += length;
-        } else {
-            way += flat + length;
-            flat = 0;
-            side = j;
-        }
-        if (!(way < r) || !(flat < r) || v == 0 || v == g->n)
+        double level;
+        way += ground_length(side, x, z, g->x[v], g->z[v]);
+        if (!(way < r) || !past_level(g, &j, dir, &level) || !(level < r))
+            return false;
+        const struct ground_segment *next = &g->segments[j];
+        if (dir * next->m > 0)
+            return fabs(side->m) > side->mu && fabs(next->m) > next->mu && rises_to(g, j, dir, w->at.z);
+        if (level > 0) /* a terrace, no pit */
             return false;
         x = g->x[v];
         z = g->z[v];
-        j = dir > 0 ? j + 1 : j - 1;
-        if (dir * g->segments[j].m > 0)
-            break;
     }
-    const struct ground_segment *down = &g->segments[side], *up = &g->segments[j];
-    return fabs(down->m) > down->mu && fabs(up->m) > up->mu && rises_to(g, j, dir, w->at.z);
 }
 
 static bool rests(const struct walker *w)
@@ -402,7 +411,10 @@ static inline __attribute__((always_inline)) enum contact_then touch(struct walk
         *l = next_landing(w->g, &w->at);
         if (!is_roll(w, &w->at, l))
             return CONTACT_FLIES;
-        enum after_roll then = roll_on(w, roll_speed(w), l);
+        double u = roll_speed(w);
+        if (u == 0 && rests(w))
+            return CONTACT_RESTS;
+        enum after_roll then = roll_on(w, u, l);
         while (then == STANDS) {
             if (rests(w))
                 return CONTACT_RESTS;
