@@ -8,6 +8,7 @@
 #include "contact.h"
 #include "material.h"
 #include "number.h"
+#include "result.h"
 #include "rock.h"
 #include "run.h"
 #include "scene.h"

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "arena.h"
+
+#include <stdalign.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PAGE ((size_t)16 * 1024)
+
+struct arena_page {
+    struct arena_page *before;
+    size_t size, used;
+    max_align_t bytes[];
+};
+
+static bool add_page(struct arena *arena, size_t size)
+{
+    size_t room = size > PAGE ? size : PAGE;
+    struct arena_page *page = calloc(1, sizeof *page + room);
+    if (!page)
+        return false;
+    page->size = room;
+    page->before = arena->page;
+    arena->page = page;
+    return true;
+}
+
+void *ceduo_arena_take(struct arena *arena, size_t size)
+{
+    size_t align = alignof(max_align_t);
+    if (size > SIZE_MAX / 2) {
+        arena->failed = true;
+        return NULL;
+    }
+    size = (size + align - 1) / align * align;
+    if ((!arena->page || arena->page->size - arena->page->used < size) && !add_page(arena, size)) {
+        arena->failed = true;
+        return NULL;
+    }
+    void *p = (char *)arena->page->bytes + arena->page->used;
+    arena->page->used += size;
+    arena->bytes += size;
+    return p;
+}
+
+char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
+{
+    char *p = ceduo_arena_take(arena, n + 1);
+    if (p && n > 0)
+        memcpy(p, bytes, n);
+    return p;
+}
+
+char *ceduo_arena_string(struct arena *arena, const char *string)
+{
+    return ceduo_arena_copy(arena, string, strlen(string));
+}
+
+void ceduo_arena_free(struct arena *arena)
+{
+    while (arena->page) {
+        struct arena_page *before = arena->page->before;
+        free(arena->page);
+        arena->page = before;
+    }
+    *arena = (struct arena){0};
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ARENA_H
+#define CEDUO_ARENA_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Memory that is freed all at once. Starts zeroed: `struct arena a = {0}`. */
+struct arena_page;
+struct arena {
+    struct arena_page *page;
+    size_t bytes; /* asked for so far */
+    bool failed;  /* some call returned NULL */
+};
+
+/* `size` zeroed bytes, aligned for anything; NULL without memory. */
+void *ceduo_arena_take(struct arena *arena, size_t size);
+
+/* A copy of n bytes as a string; of a string. NULL without memory. */
+char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
+char *ceduo_arena_string(struct arena *arena, const char *string);
+
+void ceduo_arena_free(struct arena *arena);
+
+#endif

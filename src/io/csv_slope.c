@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "csv_slope.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "file.h"
+#include "intl.h"
+
+/* A line of the file, and a field of it. */
+struct span {
+    const char *p;
+    size_t n;
+};
+
+static bool next_line(const struct source *s, size_t *at, struct span *line)
+{
+    if (*at >= s->length)
+        return false;
+    const char *from = s->bytes + *at, *end = memchr(from, '\n', s->length - *at);
+    line->p = from;
+    line->n = end ? (size_t)(end - from) : s->length - *at;
+    *at += line->n + 1;
+    if (line->n > 0 && line->p[line->n - 1] == '\r')
+        line->n--;
+    return true;
+}
+
+static struct span trim(struct span f)
+{
+    while (f.n > 0 && (f.p[0] == ' ' || f.p[0] == '"')) {
+        f.p++;
+        f.n--;
+    }
+    while (f.n > 0 && (f.p[f.n - 1] == ' ' || f.p[f.n - 1] == '"'))
+        f.n--;
+    return f;
+}
+
+/* Field number `which` of a line; false where it has fewer. */
+static bool field_of(struct span line, char separator, size_t which, struct span *field)
+{
+    for (size_t i = 0;; i++) {
+        const char *end = line.n > 0 ? memchr(line.p, separator, line.n) : NULL;
+        size_t n = end ? (size_t)(end - line.p) : line.n;
+        if (i == which) {
+            *field = trim((struct span){line.p, n});
+            return true;
+        }
+        if (!end)
+            return false;
+        line.p += n + 1;
+        line.n -= n + 1;
+    }
+}
+
+static bool is_word(struct span f, const char *word)
+{
+    return strlen(word) == f.n && strncasecmp(f.p, word, f.n) == 0;
+}
+
+struct columns {
+    char separator;
+    size_t x, z;
+};
+
+static bool read_header(const struct source *s, struct span line, struct columns *c, struct problems *problems)
+{
+    c->separator = memchr(line.p, ';', line.n) ? ';' : memchr(line.p, '\t', line.n) ? '\t' : ',';
+    size_t found_x = SIZE_MAX, found_z = SIZE_MAX;
+    struct span f;
+    for (size_t i = 0; field_of(line, c->separator, i, &f); i++) {
+        if (is_word(f, "distance") || is_word(f, "x"))
+            found_x = i;
+        if (is_word(f, "elevation") || is_word(f, "z"))
+            found_z = i;
+    }
+    c->x = found_x;
+    c->z = found_z;
+    if (found_x != SIZE_MAX && found_z != SIZE_MAX)
+        return true;
+    ceduo_problem(problems, s, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
+    return false;
+}
+
+static bool read_value(const struct source *s, struct span f, size_t line, const char *start, double *value,
+                       struct problems *problems)
+{
+    char room[512];
+    size_t column = (size_t)(f.p - start) + 1;
+    bool fits = f.n < sizeof room;
+    if (fits) {
+        memcpy(room, f.p, f.n);
+        room[f.n] = '\0';
+    }
+    enum ceduo_number_reading reading = fits && !memchr(room, '\0', f.n) ? ceduo_number_read(room, value)
+                                                                        : CEDUO_NUMBER_NONE;
+    if (reading == CEDUO_NUMBER_GOOD && *value <= 1e9 && *value >= -1e9)
+        return true;
+    if (f.n == 0)
+        ceduo_problem(problems, s, line, column, _("a value is missing; take the line out"));
+    else if (reading != CEDUO_NUMBER_NONE)
+        ceduo_problem(problems, s, line, column, _("beyond 1e9 m"));
+    else if (fits && strchr(room, ','))
+        ceduo_problem(problems, s, line, column, _("'%s' is no number; write a dot for the decimals"), room);
+    else
+        ceduo_problem(problems, s, line, column, _("'%s' is no number"), fits ? room : "…");
+    return false;
+}
+
+static size_t count_lines(const struct source *s)
+{
+    size_t n = 1;
+    for (size_t i = 0; i < s->length; i++)
+        n += s->bytes[i] == '\n';
+    return n;
+}
+
+static bool is_blank(struct span line)
+{
+    for (size_t i = 0; i < line.n; i++)
+        if (line.p[i] != ' ' && line.p[i] != '\t' && line.p[i] != ',' && line.p[i] != ';')
+            return false;
+    return true;
+}
+
+static void read_row(const struct source *s, const struct columns *c, struct span line, size_t number,
+                     struct points *points, struct problems *problems)
+{
+    struct span fx, fz;
+    double x, z;
+    if (!field_of(line, c->separator, c->x, &fx) || !field_of(line, c->separator, c->z, &fz)) {
+        ceduo_problem(problems, s, number, 1, _("too few columns"));
+        return;
+    }
+    if (!read_value(s, fx, number, line.p, &x, problems) || !read_value(s, fz, number, line.p, &z, problems))
+        return;
+    if (points->n > 0 && !(x > points->x[points->n - 1])) {
+        char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+        ceduo_problem(problems, s, number, (size_t)(fx.p - line.p) + 1,
+                      _("distance %s does not lie beyond %s; distances must rise"), ceduo_number_shortest(x, a),
+                      ceduo_number_shortest(points->x[points->n - 1], b));
+        return;
+    }
+    points->x[points->n] = x;
+    points->z[points->n++] = z;
+}
+
+bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems)
+{
+    size_t before = problems->count;
+    const struct source *s = ceduo_file_read(arena, path, CSV_BYTES_MOST, problems);
+    if (!s)
+        return false;
+    size_t rows = count_lines(s), at = s->length >= 3 && memcmp(s->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    points->x = ceduo_arena_take(arena, rows * sizeof(double));
+    points->z = ceduo_arena_take(arena, rows * sizeof(double));
+    if (!points->x || !points->z) {
+        ceduo_problem_memory(problems);
+        return false;
+    }
+    struct span line;
+    struct columns columns;
+    if (!next_line(s, &at, &line)) {
+        ceduo_problem(problems, s, 0, 0, _("holds nothing"));
+        return false;
+    }
+    if (!read_header(s, line, &columns, problems))
+        return false;
+    for (size_t number = 2; next_line(s, &at, &line); number++)
+        if (!is_blank(line))
+            read_row(s, &columns, line, number, points, problems);
+    return problems->count == before;
+}

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_CSV_SLOPE_H
+#define CEDUO_CSV_SLOPE_H
+
+#include "schema.h"
+
+/* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
+ * separated by comma, semicolon or tab. False where that fails. */
+bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
+
+#endif

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "intl.h"
+
+/* ---- reading ---- */
+
+static bool read_all(int fd, struct text *into, size_t most)
+{
+    char part[65536];
+    for (;;) {
+        ssize_t n = read(fd, part, sizeof part);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            return false;
+        if (n == 0)
+            return true;
+        ceduo_text_add(into, part, (size_t)n);
+        if (into->failed) {
+            errno = ENOMEM;
+            return false;
+        }
+        if (into->length > most) {
+            errno = EFBIG;
+            return false;
+        }
+    }
+}
+
+/* Does not wait for somebody to open the other end of a FIFO; waits for what a writer that is there has to say. */
+static int open_to_read(const char *path)
+{
+    int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    struct stat st;
+    if (fd >= 0 && fstat(fd, &st) == 0 && S_ISDIR(st.st_mode)) {
+        close(fd);
+        errno = EISDIR;
+        return -1;
+    }
+    if (fd >= 0)
+        fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+    return fd;
+}
+
+const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems)
+{
+    bool standard = strcmp(path, "-") == 0;
+    struct source *source = ceduo_arena_take(arena, sizeof *source);
+    char *name = ceduo_arena_string(arena, standard ? _("standard input") : path);
+    if (!source || !name) {
+        ceduo_problem_memory(problems);
+        return NULL;
+    }
+    *source = (struct source){.name = name};
+    int fd = standard ? STDIN_FILENO : open_to_read(path);
+    struct text text = {0};
+    bool good = fd >= 0 && read_all(fd, &text, most);
+    int why = errno;
+    if (fd >= 0 && !standard)
+        close(fd);
+    if (good) {
+        source->length = text.length;
+        source->bytes = ceduo_arena_copy(arena, text.bytes ? text.bytes : "", text.length);
+        good = source->bytes != NULL;
+        why = ENOMEM;
+    }
+    ceduo_text_free(&text);
+    if (good)
+        return source;
+    if (why == EFBIG)
+        ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
+    else
+        ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"), strerror(why));
+    return NULL;
+}
+
+/* ---- finding ---- */
+
+static const char *join(struct arena *arena, const char *folder, size_t length, const char *name)
+{
+    size_t n = strlen(name);
+    char *path = ceduo_arena_take(arena, length + n + 2);
+    if (!path)
+        return NULL;
+    memcpy(path, folder, length);
+    path[length] = '/';
+    memcpy(path + length + 1, name, n + 1);
+    return path;
+}
+
+static bool is_file(const char *path)
+{
+    struct stat st;
+    return path && stat(path, &st) == 0 && !S_ISDIR(st.st_mode);
+}
+
+/* Beside the program: where it was built and where it is installed. */
+static size_t program_folders(struct arena *arena, const char **folders)
+{
+    static const char *const near[] = {"profiles", "../../profiles", "../share/ceduo"};
+    char self[PATH_MAX];
+    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (n <= 0)
+        return 0;
+    self[n] = '\0';
+    char *slash = strrchr(self, '/');
+    if (!slash)
+        return 0;
+    for (size_t i = 0; i < 3; i++)
+        folders[i] = join(arena, self, (size_t)(slash - self), near[i]);
+    return 3;
+}
+
+const char *const *ceduo_file_folders(struct arena *arena)
+{
+    const char **folders = ceduo_arena_take(arena, 8 * sizeof *folders);
+    if (!folders)
+        return NULL;
+    size_t n = 0;
+    const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
+    if (data && data[0] == '/')
+        folders[n++] = join(arena, data, strlen(data), "ceduo");
+    else if (home && home[0])
+        folders[n++] = join(arena, home, strlen(home), ".local/share/ceduo");
+    n += program_folders(arena, folders + n);
+    folders[n++] = ceduo_arena_string(arena, CEDUO_DATADIR);
+    size_t kept = 0;
+    for (size_t i = 0; i < n; i++) {
+        struct stat st;
+        if (folders[i] && stat(folders[i], &st) == 0 && S_ISDIR(st.st_mode))
+            folders[kept++] = folders[i];
+    }
+    folders[kept] = NULL;
+    return folders;
+}
+
+/* A path without the steps up at its start: what may stand in a folder of profiles. */
+static const char *without_steps_up(const char *name)
+{
+    while (strncmp(name, "../", 3) == 0 || strncmp(name, "./", 2) == 0)
+        name += name[1] == '/' ? 2 : 3;
+    return name;
+}
+
+static const char *find_in(struct arena *arena, const char *root, const char *name, const char *folder)
+{
+    const char *inside = join(arena, root, strlen(root), without_steps_up(name));
+    if (is_file(inside))
+        return inside;
+    if (strchr(name, '/') || !folder)
+        return NULL;
+    const char *shelf = join(arena, root, strlen(root), folder);
+    const char *path = shelf ? join(arena, shelf, strlen(shelf), name) : NULL;
+    if (is_file(path))
+        return path;
+    char *longer = path ? ceduo_arena_take(arena, strlen(path) + 6) : NULL;
+    if (!longer)
+        return NULL;
+    strcat(strcpy(longer, path), ".yaml");
+    return is_file(longer) ? longer : NULL;
+}
+
+const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
+{
+    if (name[0] == '/')
+        return is_file(name) ? name : NULL;
+    const char *slash = beside ? strrchr(beside, '/') : NULL;
+    const char *path = slash ? join(arena, beside, (size_t)(slash - beside), name) : name;
+    if (is_file(path))
+        return path;
+    const char *const *folders = ceduo_file_folders(arena);
+    for (size_t i = 0; folders && folders[i]; i++)
+        if ((path = find_in(arena, folders[i], name, folder)))
+            return path;
+    return NULL;
+}
+
+/* ---- writing ---- */
+
+static bool write_all(int fd, const char *bytes, size_t n)
+{
+    while (n > 0) {
+        ssize_t done = write(fd, bytes, n);
+        if (done < 0 && errno == EINTR)
+            continue;
+        if (done < 0)
+            return false;
+        bytes += done;
+        n -= (size_t)done;
+    }
+    return true;
+}
+
+static bool write_straight(const char *path, const char *bytes, size_t n)
+{
+    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    if (fd < 0)
+        return false;
+    bool good = write_all(fd, bytes, n);
+    int why = errno;
+    if (close(fd) != 0 && good)
+        return false;
+    errno = why;
+    return good;
+}
+
+/* The rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on. */
+static void sync_folder(char *path)
+{
+    char *slash = strrchr(path, '/');
+    if (slash == path)
+        slash++;
+    if (slash)
+        *slash = '\0';
+    int fd = open(slash ? path : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd >= 0) {
+        fsync(fd);
+        close(fd);
+    }
+}
+
+static bool fill_temporary(int fd, mode_t mode, const char *bytes, size_t n)
+{
+    bool good = fchmod(fd, mode) == 0 && write_all(fd, bytes, n) && fsync(fd) == 0;
+    int why = errno;
+    if (close(fd) != 0 && good)
+        return false;
+    errno = why;
+    return good;
+}
+
+static bool write_whole(char *target, mode_t mode, const char *bytes, size_t n)
+{
+    size_t length = strlen(target);
+    char *temporary = malloc(length + 8);
+    if (!temporary)
+        return false;
+    memcpy(temporary, target, length);
+    memcpy(temporary + length, ".XXXXXX", 8);
+    int fd = mkstemp(temporary);
+    bool good = fd >= 0 && fill_temporary(fd, mode, bytes, n) && rename(temporary, target) == 0;
+    int why = errno;
+    if (!good && fd >= 0)
+        unlink(temporary);
+    if (good)
+        sync_folder(temporary);
+    free(temporary);
+    errno = why;
+    return good;
+}
+
+static mode_t usual_mode(void)
+{
+    mode_t mask = umask(0);
+    umask(mask);
+    return 0666 & ~mask;
+}
+
+bool ceduo_file_write(const char *path, const char *bytes, size_t n)
+{
+    struct stat st;
+    bool exists = stat(path, &st) == 0;
+    if (exists && !S_ISREG(st.st_mode))
+        return write_straight(path, bytes, n);
+    if (exists && access(path, W_OK) != 0)
+        return false;
+    char *target = exists ? realpath(path, NULL) : strdup(path); /* a link stays a link */
+    if (!target)
+        return false;
+    bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), bytes, n);
+    int why = errno;
+    free(target);
+    errno = why;
+    return good;
+}

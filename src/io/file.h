@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_FILE_H
+#define CEDUO_FILE_H
+
+#include "arena.h"
+#include "problem.h"
+
+#define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
+#define CSV_BYTES_MOST ((size_t)64 * 1024 * 1024)
+
+/* Reads a whole file, at most `most` bytes; "-" is standard input. NULL where that fails, with the reason in
+ * `problems`. Name and bytes live in the arena. */
+const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems);
+
+/* Where a file is looked for: as it is written, beside the file that names it, then in the user's data folder, the
+ * installed one, the source tree; there also by its bare name within `folder` (scenes, slopes, stands) and with .yaml
+ * added. A path in the arena; NULL where there is no such file. `beside` may be NULL. */
+const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder);
+
+/* The folders of profiles, best first, ended by NULL. */
+const char *const *ceduo_file_folders(struct arena *arena);
+
+/* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else straight.
+ * False with errno set. */
+bool ceduo_file_write(const char *path, const char *bytes, size_t n);
+
+#endif

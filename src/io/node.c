@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "node.h"
+
+#include <string.h>
+
+const struct node *ceduo_node_get(const struct node *node, const char *key)
+{
+    if (!node || node->kind != NODE_MAP)
+        return NULL;
+    for (size_t i = 0; i < node->n; i++)
+        if (strcmp(node->items[i]->key, key) == 0)
+            return node->items[i];
+    return NULL;
+}
+
+const char *ceduo_node_text(const struct node *node, const char *key)
+{
+    const struct node *entry = ceduo_node_get(node, key);
+    return entry && entry->kind == NODE_SCALAR ? entry->text : NULL;
+}
+
+/* A copy with room for n items, of which none is set. */
+static struct node *copy_shell(struct arena *arena, const struct node *node, size_t n, const struct node ***items)
+{
+    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    *items = ceduo_arena_take(arena, (n + 1) * sizeof **items);
+    if (!copy || !*items)
+        return NULL;
+    *copy = *node;
+    copy->items = *items;
+    copy->n = n;
+    copy->written = NULL;
+    return copy;
+}
+
+const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i,
+                                       const struct node *value)
+{
+    const struct node **items;
+    struct node *copy = copy_shell(arena, node, node->n, &items);
+    if (!copy || !value)
+        return NULL;
+    memcpy(items, node->items, node->n * sizeof *items);
+    items[i] = value;
+    return copy;
+}
+
+const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i,
+                                       const struct node *value)
+{
+    const struct node **items;
+    struct node *copy = copy_shell(arena, node, node->n + 1, &items);
+    if (!copy || !value)
+        return NULL;
+    if (i > 0)
+        memcpy(items, node->items, i * sizeof *items);
+    items[i] = value;
+    if (node->n > i)
+        memcpy(items + i + 1, node->items + i, (node->n - i) * sizeof *items);
+    return copy;
+}
+
+const struct node *ceduo_node_removed(struct arena *arena, const struct node *node, size_t i)
+{
+    const struct node **items;
+    struct node *copy = copy_shell(arena, node, node->n - 1, &items);
+    if (!copy)
+        return NULL;
+    if (i > 0)
+        memcpy(items, node->items, i * sizeof *items);
+    if (node->n - 1 > i)
+        memcpy(items + i, node->items + i + 1, (node->n - 1 - i) * sizeof *items);
+    return copy;
+}
+
+const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key)
+{
+    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    if (!copy || !value)
+        return NULL;
+    *copy = *value;
+    copy->key = key ? ceduo_arena_string(arena, key) : NULL;
+    return key && !copy->key ? NULL : copy;
+}
+
+const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key,
+                                   const struct node *value)
+{
+    const struct node *named = ceduo_node_renamed(arena, value, key);
+    if (!named)
+        return NULL;
+    for (size_t i = 0; i < map->n; i++)
+        if (strcmp(map->items[i]->key, key) == 0)
+            return ceduo_node_replaced(arena, map, i, named);
+    return ceduo_node_inserted(arena, map, map->n, named);
+}
+
+const struct node *ceduo_node_without(struct arena *arena, const struct node *map, const char *key)
+{
+    for (size_t i = 0; i < map->n; i++)
+        if (strcmp(map->items[i]->key, key) == 0)
+            return ceduo_node_removed(arena, map, i);
+    return map;
+}
+
+const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted)
+{
+    struct node *node = ceduo_arena_take(arena, sizeof *node);
+    if (!node)
+        return NULL;
+    *node = (struct node){
+        .kind = NODE_SCALAR, .quoted = quoted, .source = source, .text = ceduo_arena_string(arena, text)};
+    return node->text ? node : NULL;
+}
+
+bool ceduo_node_equal(const struct node *a, const struct node *b)
+{
+    if (a == b)
+        return true;
+    if (!a || !b || a->kind != b->kind || a->n != b->n)
+        return false;
+    if ((a->key != NULL) != (b->key != NULL) || (a->key && strcmp(a->key, b->key) != 0))
+        return false;
+    if (a->kind == NODE_SCALAR)
+        return a->quoted == b->quoted && strcmp(a->text, b->text) == 0;
+    for (size_t i = 0; i < a->n; i++)
+        if (!ceduo_node_equal(a->items[i], b->items[i]))
+            return false;
+    return true;
+}

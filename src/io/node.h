@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_NODE_H
+#define CEDUO_NODE_H
+
+#include <stdint.h>
+
+#include "arena.h"
+#include "problem.h"
+
+enum node_kind { NODE_SCALAR, NODE_MAP, NODE_LIST };
+
+/* A value of a YAML file. Nodes never change once made: an edit makes new ones on the way from the root to it and shares
+ * the rest, so that every earlier state of a document stays whole. */
+struct node {
+    enum node_kind kind;
+    bool quoted;                      /* a scalar in quotes: text, never a number */
+    uint32_t line, column;            /* of the value, from 1 */
+    uint32_t key_line, key_column;    /* of its key; 0: none */
+    const struct source *source;
+    const char *key;                  /* in a mapping */
+    const char *text;                 /* of a scalar */
+    const struct node *const *items;  /* of a mapping or list */
+    size_t n;
+    const struct node *written;       /* what is written here where a file was followed: its path, or base and changes */
+};
+
+/* Reads one YAML document. NULL where it is not well-formed; what is wrong is in `problems`. Aliases, anchors, tags,
+ * duplicate keys, a second document, more than 16 levels are refused. */
+const struct node *ceduo_yaml_read(struct arena *arena, const struct source *source, struct problems *problems);
+
+/* As above for one value that begins `skip` bytes into the source. */
+const struct node *ceduo_yaml_read_value(struct arena *arena, const struct source *source, size_t skip,
+                                         struct problems *problems);
+
+/* The entry of a mapping; NULL where there is none, or node is no mapping. */
+const struct node *ceduo_node_get(const struct node *node, const char *key);
+
+/* The text of a scalar entry; NULL where there is none. */
+const char *ceduo_node_text(const struct node *node, const char *key);
+
+/* A mapping with the entry put in place of one with its key, or added. NULL without memory. */
+const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key,
+                                   const struct node *value);
+const struct node *ceduo_node_without(struct arena *arena, const struct node *map, const char *key);
+
+/* A list or mapping with item i replaced; with one put in before i (i = n: at the end); with item i taken out. */
+const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i,
+                                       const struct node *value);
+const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i,
+                                       const struct node *value);
+const struct node *ceduo_node_removed(struct arena *arena, const struct node *node, size_t i);
+
+/* The same value under another key (NULL: none). */
+const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key);
+
+/* A scalar that stands nowhere yet. */
+const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted);
+
+/* Whether two values say the same, wherever they stand. */
+bool ceduo_node_equal(const struct node *a, const struct node *b);
+
+#endif

@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one table of parameters. */
+#include <math.h>
+
+#include "ceduo/material.h"
+#include "forms.h"
+#include "intl.h"
+
+#define HALF_PI 1.5707963267948966
+#define FAR 1e9 /* m: survey coordinates and more */
+
+/* ---- words ---- */
+
+const char *const ceduo_shape_names[] = {"sphere", "cylinder", "ellipsoid", "block"};
+const char *const ceduo_facets_names[] = {"against", "both"};
+const char *const ceduo_system_names[] = {"simple-coppice", "coppice-with-standards", "selection-coppice",
+                                          "large-reserves", "high-forest", "bare"};
+const char *const ceduo_energy_names[] = {"brauner", "dorren"};
+const char *const ceduo_law_names[] = {
+#define X(NAME, name) #name,
+    CEDUO_LAWS(X)
+#undef X
+};
+const char *const ceduo_rule_names[] = {"auto", "gsteiger-stools", "gsteiger-stems", "interception", "crofton"};
+const char *const ceduo_contact_model_names[] = {"index"};
+
+static const struct choices shapes = {ceduo_shape_names, 4}, facets = {ceduo_facets_names, 2},
+                            systems = {ceduo_system_names, 6}, energies = {ceduo_energy_names, 2},
+                            laws = {ceduo_law_names, CEDUO_LAW_COUNT}, rules = {ceduo_rule_names, 5},
+                            contact_models = {ceduo_contact_model_names, 1};
+
+/* Names that the core keeps in tables of its own, in its order; a test holds them together. */
+static const char *const species_names[] = {
+    "ostrya-carpinifolia", "carpinus-betulus", "fraxinus-ornus", "quercus-cerris", "quercus-pubescens", "quercus-ilex",
+    "fagus-sylvatica",     "castanea-sativa",  "acer",           "robinia-pseudoacacia", "picea-abies"};
+static const struct choices species = {species_names, sizeof species_names / sizeof species_names[0]};
+
+static const char *const material_names[] = {"cliff",      "pavement", "talus",        "thin-colluvium", "colluvium",
+                                             "bedrock-v4", "talus-v4", "soft-soil-v4", "pavement-v4"};
+static const struct choices materials = {material_names, sizeof material_names / sizeof material_names[0]};
+
+/* ---- shorthand for rows ---- */
+
+#define AT(type, member) offsetof(struct type, member)
+#define NUM(key, kind, at, unit, scale, lo, hi, flags, value, meaning) \
+    {key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL}
+#define WORD(key, at, flags, value, meaning, choices) \
+    {key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL}
+#define OTHER(key, kind, at, flags, value, meaning, object) \
+    {key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, NULL, object}
+#define OBJECT(name, type, fields, init, folder) \
+    {name, fields, sizeof fields / sizeof fields[0], sizeof(type), init, folder}
+
+/* ---- rock ---- */
+
+static const struct field rock_fields[] = {
+    WORD("shape", AT(rock_form, shape), 0, "sphere", N_("shape of the rock"), &shapes),
+    NUM("diameter_m", FIELD_SPREAD, AT(rock_form, diameter), "m", 1, 0, 1000, FIELD_ABOVE, NULL,
+        N_("diameter of a sphere or cylinder")),
+    NUM("height_m", FIELD_SPREAD, AT(rock_form, height), "m", 1, 0, 1000, FIELD_ABOVE, NULL,
+        N_("height of a cylinder")),
+    NUM("axes_m", FIELD_SPREADS, AT(rock_form, axes), "m", 1, 0, 1000, FIELD_ABOVE, NULL,
+        N_("the three axes of an ellipsoid or block")),
+    NUM("volume_m3", FIELD_SPREAD, AT(rock_form, volume), "m3", 1, 0, 1e6, FIELD_ABOVE, NULL,
+        N_("volume of a sphere, instead of its diameter")),
+    NUM("mass_kg", FIELD_SPREAD, AT(rock_form, mass), "kg", 1, 0, 1e10, FIELD_ABOVE, NULL,
+        N_("mass; of a sphere instead of its diameter, of others instead of density")),
+    NUM("density_kg_m3", FIELD_SPREAD, AT(rock_form, density), "kg/m3", 1, 0, 30000, FIELD_ABOVE, "2600",
+        N_("density of the rock; the default is limestone's, an assumption")),
+};
+
+static void rock_init(void *item)
+{
+    struct ceduo_number none = ceduo_number(NAN);
+    *(struct rock_form *)item = (struct rock_form){.diameter = none,
+                                                   .height = none,
+                                                   .volume = none,
+                                                   .mass = none,
+                                                   .density = ceduo_number(2600),
+                                                   .axes = {none, none, none}};
+}
+
+static const struct object rock_object = OBJECT("rock", struct rock_form, rock_fields, rock_init, NULL);
+
+/* ---- release ---- */
+
+static const struct field release_fields[] = {
+    NUM("x_m", FIELD_SPREAD, AT(ceduo_release, x), "m", 1, -FAR, FAR, 0, "0",
+        N_("where the rock starts; in the slope's coordinates")),
+    NUM("height_m", FIELD_SPREAD, AT(ceduo_release, height), "m", 1, 0, 10000, 0, "0",
+        N_("height of its underside above the ground")),
+    NUM("vx_m_s", FIELD_SPREAD, AT(ceduo_release, vx), "m/s", 1, -1000, 1000, 0, "0",
+        N_("horizontal speed, positive downslope along x")),
+    NUM("vz_m_s", FIELD_SPREAD, AT(ceduo_release, vz), "m/s", 1, -1000, 1000, 0, "0",
+        N_("vertical speed, positive upward")),
+    NUM("spin_rad_s", FIELD_SPREAD, AT(ceduo_release, spin), "rad/s", 1, -10000, 10000, 0, "0",
+        N_("spin, positive where it rolls forward; the law lumped knows none")),
+};
+
+static void release_init(void *item)
+{
+    struct ceduo_number zero = ceduo_number(0);
+    *(struct ceduo_release *)item = (struct ceduo_release){zero, zero, zero, zero, zero};
+}
+
+static const struct object release_object =
+    OBJECT("release", struct ceduo_release, release_fields, release_init, NULL);
+
+/* ---- slope ---- */
+
+static const struct field segment_fields[] = {
+    NUM("rn", FIELD_SPREAD, AT(ceduo_segment, rn), "", 1, 0, 1, FIELD_REQUIRED, NULL, N_("normal restitution Rn")),
+    NUM("rt", FIELD_SPREAD, AT(ceduo_segment, rt), "", 1, 0, 1, FIELD_REQUIRED, NULL, N_("tangential restitution Rt")),
+    NUM("roughness_rad", FIELD_NUMBER, AT(ceduo_segment, roughness_rad), "rad", 1, 0, HALF_PI, FIELD_UNDER, "0",
+        N_("largest angle by which the ground's small facets are turned")),
+    NUM("roughness_m", FIELD_NUMBER, AT(ceduo_segment, roughness_m), "m", 1, 0, 1000, 0, NULL,
+        N_("the same as a height S over the rock's radius, atan(S/R), as in CRSP")),
+    NUM("friction", FIELD_NUMBER, AT(ceduo_segment, friction), "", 1, 0, 100, 0, "0.5",
+        N_("tangent of the angle of rolling friction; the default is an assumption")),
+};
+
+static void segment_init(void *item)
+{
+    *(struct ceduo_segment *)item = (struct ceduo_segment){.rn = ceduo_number(NAN),
+                                                           .rt = ceduo_number(NAN),
+                                                           .roughness_m = NAN,
+                                                           .roughness_rad = NAN,
+                                                           .friction = CEDUO_FRICTION_DEFAULT};
+}
+
+static const struct object segment_object =
+    OBJECT("segment", struct ceduo_segment, segment_fields, segment_init, NULL);
+
+static const struct field material_fields[] = {
+    NUM("from_m", FIELD_NUMBER, AT(material_form, from), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
+        N_("where the ground begins")),
+    NUM("to_m", FIELD_NUMBER, AT(material_form, to), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
+        N_("where it ends")),
+    WORD("material", AT(material_form, material), FIELD_REQUIRED, NULL, N_("a ground of the library"), &materials),
+};
+
+static void material_init(void *item)
+{
+    *(struct material_form *)item = (struct material_form){.from = NAN, .to = NAN};
+}
+
+static const struct object material_object =
+    OBJECT("material", struct material_form, material_fields, material_init, NULL);
+
+static const struct field slope_fields[] = {
+    OTHER("ceduo", FIELD_TAG, 0, FIELD_REQUIRED, "slope/1", N_("what kind of file this is"), NULL),
+    OTHER("name", FIELD_TEXT, AT(slope_form, name), 0, NULL, N_("name of the slope"), NULL),
+    WORD("facets", AT(slope_form, facets), 0, "against", N_("which way the ground's small facets are turned"), &facets),
+    NUM("vertices_m", FIELD_POINTS, AT(slope_form, vertices), "m", 1, -FAR, FAR, 0, NULL,
+        N_("the profile: pairs [x, z], x rising")),
+    OTHER("segments", FIELD_LIST, AT(slope_form, segments), 0, NULL,
+          N_("the ground: one for each segment, or one for all"), &segment_object),
+    OTHER("materials", FIELD_LIST, AT(slope_form, materials), 0, NULL,
+          N_("the ground from the library, instead of segments"), &material_object),
+    OTHER("csv", FIELD_FILE, AT(slope_form, csv), 0, NULL,
+          N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL),
+};
+
+static void slope_init(void *item)
+{
+    *(struct slope_form *)item = (struct slope_form){0};
+}
+
+static const struct object slope_object = OBJECT("slope", struct slope_form, slope_fields, slope_init, "slopes");
+
+/* ---- stand ---- */
+
+static const struct field stems_fields[] = {
+    NUM("per_ha", FIELD_NUMBER, AT(ceduo_stems, per_ha), "1/ha", 1, 0, 1e6, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("stems per horizontal hectare")),
+    NUM("dbh_m", FIELD_NUMBER, AT(ceduo_stems, dbh), "m", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("diameter at breast height")),
+    NUM("height_m", FIELD_NUMBER, AT(ceduo_stems, height), "m", 1, 0, 150, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("height of a stem")),
+    NUM("volume_m3", FIELD_NUMBER, AT(ceduo_stems, volume), "m3", 1, 0, 1000, FIELD_ABOVE, NULL,
+        N_("volume of a stem; without it from species, dbh and height")),
+    NUM("dbh_sd_m", FIELD_NUMBER, AT(ceduo_stems, dbh_sd), "m", 1, 0, 10, 0, "0",
+        N_("standard deviation of the diameters")),
+    NUM("age_y", FIELD_NUMBER, AT(ceduo_stems, age), "y", 1, 0, 2000, 0, NULL, N_("age")),
+};
+
+static void stems_init(void *item)
+{
+    *(struct ceduo_stems *)item =
+        (struct ceduo_stems){.per_ha = NAN, .dbh = NAN, .height = NAN, .volume = NAN, .dbh_sd = 0, .age = NAN};
+}
+
+static const struct object stems_object = OBJECT("stems", struct ceduo_stems, stems_fields, stems_init, NULL);
+
+static const struct field stools_fields[] = {
+    NUM("per_ha", FIELD_NUMBER, AT(stand_form, stools_per_ha), "1/ha", 1, 0, 1e6, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("stools per horizontal hectare")),
+    NUM("spacing_m", FIELD_NUMBER, AT(stand_form, spacing), "m", 1, 0, 20, FIELD_REQUIRED, NULL,
+        N_("distance between neighbouring shoots of a stool (dbh_int of the paper)")),
+};
+static const struct object stools_object = OBJECT("stools", struct stand_form, stools_fields, NULL, NULL);
+
+static const struct field energy_fields[] = {
+    WORD("model", AT(stand_form, energy), 0, "brauner", N_("what a contact with a stem takes"), &energies),
+    NUM("u_J_m3", FIELD_NUMBER, AT(stand_form, u), "J/m3", 1, 0, 1e7, FIELD_ABOVE, NULL,
+        N_("brauner: work of breaking; without it the species', beech's where that is unknown")),
+    NUM("fracture_ratio", FIELD_NUMBER, AT(stand_form, fracture_ratio), "", 1, 0, 10, FIELD_ABOVE, "1.5",
+        N_("dorren: energy of this species over that of silver fir; the default is an assumption")),
+};
+static const struct object energy_object = OBJECT("energy", struct stand_form, energy_fields, NULL, NULL);
+
+static const struct field stand_fields[] = {
+    OTHER("ceduo", FIELD_TAG, 0, FIELD_REQUIRED, "stand/1", N_("what kind of file this is"), NULL),
+    OTHER("name", FIELD_TEXT, AT(stand_form, name), 0, NULL, N_("name of the stand"), NULL),
+    OTHER("base", FIELD_FILE, AT(stand_form, base), 0, NULL,
+          N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL),
+    WORD("system", AT(stand_form, system), 0, "bare", N_("silvicultural system; without it as the stems say"), &systems),
+    WORD("species", AT(stand_form, species), 0, NULL, N_("main species: volume of its stems and work of breaking"),
+         &species),
+    OTHER("stools", FIELD_GROUP, 0, 0, NULL, N_("stools"), &stools_object),
+    OTHER("shoots", FIELD_LIST, AT(stand_form, shoots), 0, NULL, N_("cohorts of shoots on the stools"), &stems_object),
+    OTHER("trees", FIELD_LIST, AT(stand_form, trees), 0, NULL, N_("classes of single trees: standards, reserves"),
+          &stems_object),
+    OTHER("energy", FIELD_GROUP, 0, 0, NULL, N_("energy of a contact"), &energy_object),
+};
+
+static void stand_init(void *item)
+{
+    *(struct stand_form *)item = (struct stand_form){.system = -1,
+                                                     .species = -1,
+                                                     .stools_per_ha = 0,
+                                                     .spacing = 0,
+                                                     .energy = CEDUO_BRAUNER,
+                                                     .u = NAN,
+                                                     .fracture_ratio = 1.5};
+}
+
+static const struct object stand_object = OBJECT("stand", struct stand_form, stand_fields, stand_init, "stands");
+
+/* ---- scene ---- */
+
+static const struct field belt_fields[] = {
+    NUM("from_m", FIELD_NUMBER, AT(belt_form, from), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
+        N_("where the belt begins; in the slope's coordinates")),
+    NUM("to_m", FIELD_NUMBER, AT(belt_form, to), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
+        N_("where the belt ends")),
+    OTHER("stand", FIELD_GROUP, AT(belt_form, stand), FIELD_REQUIRED | FIELD_FOLLOWS, NULL,
+          N_("the stand: a file, or what such a file holds"), &stand_object),
+};
+
+static void belt_init(void *item)
+{
+    struct belt_form *belt = item;
+    belt->from = belt->to = NAN;
+    stand_init(&belt->stand);
+}
+
+static const struct object belt_object = OBJECT("belt", struct belt_form, belt_fields, belt_init, NULL);
+
+static const struct field option_fields[] = {
+    OTHER("name", FIELD_TEXT, AT(option_form, name), FIELD_REQUIRED, NULL, N_("name of the option"), NULL),
+    OTHER("forest", FIELD_LIST, AT(option_form, forest), 0, NULL, N_("belts of forest, rising along x"), &belt_object),
+};
+
+static void option_init(void *item)
+{
+    *(struct option_form *)item = (struct option_form){0};
+}
+
+static const struct object option_object = OBJECT("option", struct option_form, option_fields, option_init, NULL);
+
+static const struct field control_fields[] = {
+    NUM("x_m", FIELD_NUMBER, AT(control_form, x), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
+        N_("where the rocks that pass are counted")),
+    OTHER("name", FIELD_TEXT, AT(control_form, name), 0, NULL, N_("what stands there"), NULL),
+    NUM("accepted_kJ", FIELD_NUMBER, AT(control_form, accepted), "kJ", 1000, 0, 1e9, 0, NULL,
+        N_("energy that it bears")),
+    NUM("measured_speed_m_s", FIELD_NUMBER, AT(control_form, measured_speed), "m/s", 1, 0, 1000, 0, NULL,
+        N_("speed of a real rock seen there, for comparison")),
+};
+
+static void control_init(void *item)
+{
+    *(struct control_form *)item = (struct control_form){.x = NAN, .accepted = NAN, .measured_speed = NAN};
+}
+
+static const struct object control_object =
+    OBJECT("control", struct control_form, control_fields, control_init, NULL);
+
+static const struct field simulation_fields[] = {
+    WORD("law", AT(simulation_form, law), 0, "lumped", N_("law of an impact on the ground"), &laws),
+    NUM("rocks", FIELD_COUNT, AT(simulation_form, rocks), "", 1, 1, CEDUO_ROCKS_MOST, 0, "1000",
+        N_("rocks simulated")),
+    NUM("seed", FIELD_COUNT, AT(simulation_form, seed), "", 1, 0, 9007199254740992.0, 0, "1",
+        N_("seed of the random numbers")),
+    WORD("contact_model", AT(simulation_form, contact_model), 0, "index", N_("how rocks meet stems"), &contact_models),
+    WORD("rule", AT(simulation_form, rule), 0, "auto", N_("form of the ADC; auto is the paper's rule"), &rules),
+    NUM("threshold_m", FIELD_NUMBER, AT(simulation_form, threshold), "m", 1, 0, 1e6, FIELD_ABOVE, "30",
+        N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
+    NUM("gravity_m_s2", FIELD_NUMBER, AT(simulation_form, gravity), "m/s2", 1, 0, 1000, FIELD_ABOVE, "9.81",
+        N_("acceleration of gravity")),
+    OTHER("scale_rn", FIELD_FLAG, AT(simulation_form, scale_rn), 0, "false",
+          N_("lumped: Rn falls with the speed of the impact, as in CRSP"), NULL),
+};
+static const struct object simulation_object =
+    OBJECT("simulation", struct simulation_form, simulation_fields, NULL, NULL);
+
+static const struct field scene_fields[] = {
+    OTHER("ceduo", FIELD_TAG, 0, FIELD_REQUIRED, "scene/1", N_("what kind of file this is"), NULL),
+    OTHER("title", FIELD_TEXT, AT(scene_form, title), 0, NULL, N_("title of the scene"), NULL),
+    OTHER("rock", FIELD_GROUP, AT(scene_form, rock), FIELD_REQUIRED, NULL, N_("the rock"), &rock_object),
+    OTHER("release", FIELD_GROUP, AT(scene_form, release), 0, NULL, N_("how the rock starts"), &release_object),
+    OTHER("slope", FIELD_GROUP, AT(scene_form, slope), FIELD_REQUIRED | FIELD_FOLLOWS, NULL,
+          N_("the slope: a file, or what such a file holds"), &slope_object),
+    OTHER("controls", FIELD_LIST, AT(scene_form, controls), 0, NULL, N_("places where the rocks that pass are counted"),
+          &control_object),
+    NUM("controls_m", FIELD_NUMBERS, AT(scene_form, controls_m), "m", 1, -FAR, FAR, 0, NULL,
+        N_("the same by their x alone")),
+    OTHER("forest", FIELD_LIST, AT(scene_form, forest), 0, NULL, N_("belts of forest, rising along x"), &belt_object),
+    OTHER("options", FIELD_LIST, AT(scene_form, options), 0, NULL,
+          N_("silvicultural options to compare, instead of forest; the first is the baseline"), &option_object),
+    OTHER("simulation", FIELD_GROUP, AT(scene_form, simulation), 0, NULL, N_("how it is computed"), &simulation_object),
+};
+
+void ceduo_scene_form_init(void *item)
+{
+    struct scene_form *form = item;
+    *form = (struct scene_form){0};
+    rock_init(&form->rock);
+    release_init(&form->release);
+    slope_init(&form->slope);
+    struct ceduo_simulation d = ceduo_simulation_default();
+    form->simulation = (struct simulation_form){.law = (int)d.law,
+                                                .contact_model = (int)d.contact_model,
+                                                .rule = (int)d.rule,
+                                                .rocks = d.rocks,
+                                                .seed = d.seed,
+                                                .threshold = d.threshold,
+                                                .gravity = d.gravity,
+                                                .scale_rn = d.scale_rn};
+}
+
+static const struct object scene_object =
+    OBJECT("scene", struct scene_form, scene_fields, ceduo_scene_form_init, "scenes");
+
+const struct object *ceduo_schema_scene(void)
+{
+    return &scene_object;
+}
+
+const struct object *ceduo_schema_slope(void)
+{
+    return &slope_object;
+}
+
+const struct object *ceduo_schema_stand(void)
+{
+    return &stand_object;
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_PROBLEM_H
+#define CEDUO_PROBLEM_H
+
+#include "text.h"
+
+/* Where text came from: a file, standard input, an option of the command line. */
+struct source {
+    const char *name; /* as the user knows it */
+    const char *bytes;
+    size_t length;
+    bool is_option;   /* a --set: what is wrong with it is a usage error */
+};
+
+#define CEDUO_PROBLEMS_MOST 20 /* printed in full */
+
+/* What is wrong with the input, ready to print: place, mend, the source line and a caret. */
+struct problems {
+    struct text text;
+    size_t count;
+    bool usage;  /* at least one is about the command line */
+    bool memory; /* memory ran out: the list may lack some */
+};
+
+/* Adds one. line and column count from 1; 0: no place known (the source's name alone is shown). */
+void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
+                   const char *format, ...) __attribute__((format(printf, 5, 6)));
+
+void ceduo_problem_memory(struct problems *problems);
+
+/* Ends the list: the number of those that were not printed. */
+void ceduo_problems_close(struct problems *problems);
+void ceduo_problems_free(struct problems *problems);
+
+#endif

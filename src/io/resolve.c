@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "resolve.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "file.h"
+#include "intl.h"
+
+#define BASES_MOST 8
+
+/* ---- files ---- */
+
+static bool ends_in(const char *text, const char *end)
+{
+    size_t n = strlen(text), m = strlen(end);
+    return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+/* A copy of `found` that stands where `place` stood. */
+static const struct node *in_place_of(struct arena *arena, const struct node *found, const struct node *place)
+{
+    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    if (!copy)
+        return NULL;
+    *copy = *found;
+    copy->key = place->key;
+    copy->key_line = place->key_line;
+    copy->key_column = place->key_column;
+    copy->written = place->written ? place->written : place;
+    return copy;
+}
+
+static const char *locate(struct arena *arena, const struct node *node, const char *folder, struct problems *problems)
+{
+    const char *path = ceduo_file_find(arena, node->text, node->source ? node->source->name : NULL, folder);
+    if (!path && arena->failed)
+        ceduo_problem_memory(problems);
+    else if (!path)
+        ceduo_node_problem(problems, node, node->key,
+                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
+                           node->text);
+    return path;
+}
+
+/* A mapping that only names a CSV file. */
+static const struct node *csv_map(struct arena *arena, const struct node *node)
+{
+    struct node *map = ceduo_arena_take(arena, sizeof *map);
+    if (!map)
+        return NULL;
+    *map = (struct node){.kind = NODE_MAP, .line = node->line, .column = node->column, .source = node->source};
+    const struct node *filled = ceduo_node_with(arena, map, "csv", node);
+    return filled ? in_place_of(arena, filled, node) : NULL;
+}
+
+static const struct node *follow(struct arena *arena, const struct object *object, const struct node *node, int depth,
+                                 struct problems *problems);
+
+/* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
+static const struct node *merge(struct arena *arena, const struct node *base, const struct node *over)
+{
+    const struct node *merged = base;
+    for (size_t i = 0; merged && i < over->n; i++) {
+        const struct node *entry = over->items[i], *old = ceduo_node_get(merged, entry->key);
+        if (strcmp(entry->key, "base") == 0)
+            continue;
+        if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP)
+            entry = merge(arena, old, entry);
+        merged = entry ? ceduo_node_with(arena, merged, entry->key, entry) : NULL;
+    }
+    return merged;
+}
+
+static const struct node *merge_base(struct arena *arena, const struct object *object, const struct node *node,
+                                     int depth, struct problems *problems)
+{
+    const struct node *base = ceduo_node_get(node, "base");
+    if (!base || object != ceduo_schema_stand())
+        return node;
+    if (base->kind != NODE_SCALAR) {
+        ceduo_node_problem(problems, base, "base", _("a path to a file is wanted"));
+        return NULL;
+    }
+    const struct node *below = follow(arena, object, base, depth + 1, problems);
+    if (!below)
+        return NULL;
+    if (below->kind != NODE_MAP)
+        return below;
+    const struct node *merged = merge(arena, below, node);
+    if (!merged) {
+        ceduo_problem_memory(problems);
+        return NULL;
+    }
+    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    if (!copy) {
+        ceduo_problem_memory(problems);
+        return NULL;
+    }
+    *copy = *merged;
+    copy->source = node->source;
+    copy->line = node->line;
+    copy->column = node->column;
+    copy->key = node->key;
+    copy->key_line = node->key_line;
+    copy->key_column = node->key_column;
+    copy->written = node;
+    return copy;
+}
+
+static const struct node *follow(struct arena *arena, const struct object *object, const struct node *node, int depth,
+                                 struct problems *problems)
+{
+    if (depth > BASES_MOST) {
+        ceduo_node_problem(problems, node, node->key, _("more than %d files that start from one another: a loop?"),
+                           BASES_MOST);
+        return NULL;
+    }
+    if (node->kind != NODE_SCALAR)
+        return merge_base(arena, object, node, depth, problems);
+    if (object == ceduo_schema_slope() && ends_in(node->text, ".csv"))
+        return csv_map(arena, node);
+    const char *path = locate(arena, node, object->folder, problems);
+    const struct source *source = path ? ceduo_file_read(arena, path, YAML_BYTES_MOST, problems) : NULL;
+    const struct node *found = source ? ceduo_yaml_read(arena, source, problems) : NULL;
+    if (!found)
+        return NULL;
+    if (found->kind == NODE_MAP)
+        found = merge_base(arena, object, found, depth, problems);
+    const struct node *placed = found ? in_place_of(arena, found, node) : NULL;
+    if (found && !placed)
+        ceduo_problem_memory(problems);
+    return placed;
+}
+
+const struct node *ceduo_resolve(struct arena *arena, const struct object *object, const struct node *node,
+                                 struct problems *problems)
+{
+    return follow(arena, object, node, 0, problems);
+}
+
+/* All references at and below a mapping that `object` describes. */
+static const struct node *resolve_map(struct arena *arena, const struct object *object, const struct node *map,
+                                      struct problems *problems);
+
+static const struct node *resolve_entry(struct arena *arena, const struct field *f, const struct node *entry,
+                                        struct problems *problems)
+{
+    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS)
+        return follow(arena, f->object, entry, 0, problems);
+    if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
+        return entry;
+    for (size_t i = 0; i < entry->n; i++) {
+        if (entry->items[i]->kind != NODE_MAP)
+            continue;
+        const struct node *item = resolve_map(arena, f->object, entry->items[i], problems);
+        if (item != entry->items[i])
+            entry = ceduo_node_replaced(arena, entry, i, item);
+        if (!entry)
+            return NULL;
+    }
+    return entry;
+}
+
+static const struct node *resolve_map(struct arena *arena, const struct object *object, const struct node *map,
+                                      struct problems *problems)
+{
+    for (size_t i = 0; i < map->n; i++) {
+        const struct field *f = ceduo_schema_field(object, map->items[i]->key);
+        if (!f)
+            continue;
+        size_t before = problems->count;
+        const struct node *entry = resolve_entry(arena, f, map->items[i], problems);
+        if (!entry && problems->count == before && !problems->memory)
+            ceduo_problem_memory(problems);
+        if (entry && entry != map->items[i]) {
+            const struct node *written = map->written;
+            struct node *replaced = (struct node *)(uintptr_t)ceduo_node_replaced(arena, map, i, entry);
+            if (!replaced) {
+                ceduo_problem_memory(problems);
+                return NULL;
+            }
+            replaced->written = written; /* the same thing, only followed further */
+            map = replaced;
+        }
+    }
+    return map;
+}
+
+const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems)
+{
+    return root->kind == NODE_MAP ? resolve_map(arena, ceduo_schema_scene(), root, problems) : root;
+}
+
+/* ---- paths ---- */
+
+/* One step of a path: a key, or what stands in brackets. */
+struct step {
+    const char *p;
+    size_t n;
+    bool bracket;
+};
+
+/* The step at *at; false at the end or where the path is malformed (then *at stays). */
+static bool next_step(const char *path, size_t length, size_t *at, struct step *step)
+{
+    size_t i = *at;
+    if (i >= length)
+        return false;
+    if (path[i] == '[') {
+        const char *end = memchr(path + i, ']', length - i);
+        if (!end || end == path + i + 1)
+            return false;
+        *step = (struct step){path + i + 1, (size_t)(end - path) - i - 1, true};
+        *at = (size_t)(end - path) + 1;
+        return true;
+    }
+    if (i > 0) {
+        if (path[i] != '.')
+            return false;
+        i++;
+    }
+    size_t from = i;
+    while (i < length && path[i] != '.' && path[i] != '[')
+        i++;
+    if (i == from)
+        return false;
+    *step = (struct step){path + from, i - from, false};
+    *at = i;
+    return true;
+}
+
+static bool step_is(const struct step *step, const char *word)
+{
+    return word && strlen(word) == step->n && memcmp(step->p, word, step->n) == 0;
+}
+
+static bool step_index(const struct step *step, size_t *index)
+{
+    *index = 0;
+    for (size_t i = 0; i < step->n; i++) {
+        if (step->p[i] < '0' || step->p[i] > '9' || i > 8)
+            return false;
+        *index = *index * 10 + (size_t)(step->p[i] - '0');
+    }
+    return true;
+}
+
+/* The item that a bracket means: by its place, or by its name; a belt by its stand's. */
+static bool find_item(const struct node *list, const struct step *step, size_t *index)
+{
+    if (step_index(step, index))
+        return *index < list->n;
+    for (*index = 0; *index < list->n; ++*index) {
+        const struct node *item = list->items[*index];
+        const char *name = ceduo_node_text(item, "name");
+        if (step_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name")))
+            return true;
+    }
+    return false;
+}
+
+const struct node *ceduo_resolve_find(const struct node *root, const char *path, const char **within)
+{
+    size_t at = 0, length = strlen(path);
+    struct step step;
+    *within = path;
+    while (next_step(path, length, &at, &step)) {
+        const struct node *next = NULL;
+        size_t i;
+        if (step.bracket && root->kind == NODE_LIST && find_item(root, &step, &i))
+            next = root->items[i];
+        for (i = 0; !step.bracket && root->kind == NODE_MAP && i < root->n; i++)
+            if (step_is(&step, root->items[i]->key))
+                next = root->items[i];
+        if (!next)
+            break;
+        root = next;
+        if (root->kind == NODE_MAP && root->written && root->written->kind == NODE_SCALAR)
+            *within = path[at] == '.' ? path + at + 1 : path + at;
+    }
+    return root;
+}
+
+/* ---- changing ---- */
+
+struct setter {
+    struct arena *arena;
+    const struct source *set;
+    size_t length; /* of the path */
+    const struct node *value;
+    struct problems *problems;
+};
+
+static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object,
+                                 const struct node *node, size_t at);
+
+static const struct node *fail_at(struct setter *s, const struct step *step, const char *what)
+{
+    struct text word = {0};
+    ceduo_text_add(&word, step->p, step->n);
+    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", word.bytes ? word.bytes : "",
+                  what);
+    ceduo_text_free(&word);
+    return NULL;
+}
+
+static const struct node *empty_map(struct setter *s)
+{
+    struct node *map = ceduo_arena_take(s->arena, sizeof *map);
+    if (map)
+        *map = (struct node){.kind = NODE_MAP, .source = s->set, .line = 1, .column = 1};
+    return map;
+}
+
+/* A number becomes {mean: number} where one of its parts is set. */
+static const struct node *spread_map(struct setter *s, const struct node *node)
+{
+    const struct node *map = empty_map(s);
+    return map && node ? ceduo_node_with(s->arena, map, "mean", node) : map;
+}
+
+static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
+                                    const struct step *step, size_t at)
+{
+    char key[64];
+    if (step->n >= sizeof key)
+        return fail_at(s, step, _("unknown key"));
+    memcpy(key, step->p, step->n);
+    key[step->n] = '\0';
+    const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
+    bool free_form = !object || strcmp(key, "source") == 0;
+    if (!f && !free_form)
+        return fail_at(s, step, _("unknown key (ceduo --list-parameters)"));
+    const struct node *child = ceduo_node_get(map, key);
+    bool last = at >= s->length;
+    if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = ceduo_resolve(s->arena, f->object, child, s->problems)))
+        return NULL;
+    if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR))
+        child = spread_map(s, child);
+    else if (!last && !child && (!f || f->type == FIELD_GROUP))
+        child = empty_map(s);
+    if (!last && !child)
+        return fail_at(s, step, _("there is none to change"));
+    child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
+    return child ? ceduo_node_with(s->arena, map, key, child) : NULL;
+}
+
+static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
+                                   const struct step *step, size_t at)
+{
+    const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
+    size_t i;
+    /* a belt may be named by its stand: follow it first */
+    for (size_t k = 0; object && k < list->n; k++) {
+        const struct node *item = list->items[k]->kind == NODE_MAP
+                                      ? resolve_map(s->arena, object, list->items[k], s->problems)
+                                      : list->items[k];
+        if (item && item != list->items[k] && !(list = ceduo_node_replaced(s->arena, list, k, item)))
+            return NULL;
+    }
+    if (!find_item(list, step, &i))
+        return fail_at(s, step, _("no such item"));
+    const struct node *item = set_in(s, NULL, object, list->items[i], at);
+    return item ? ceduo_node_replaced(s->arena, list, i, item) : NULL;
+}
+
+/* The node with what lies from `at` on along the path replaced. A node that was followed stays marked as such. */
+static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object,
+                                 const struct node *node, size_t at)
+{
+    if (at >= s->length)
+        return s->value;
+    struct step step;
+    size_t from = at;
+    if (!next_step(s->set->bytes, s->length, &at, &step)) {
+        ceduo_problem(s->problems, s->set, 1, from + 1, _("malformed path; keys are joined by '.', items are [0] or [name]"));
+        return NULL;
+    }
+    if (step.bracket && node->kind != NODE_LIST)
+        return fail_at(s, &step, _("there is no list here"));
+    if (!step.bracket && node->kind != NODE_MAP)
+        return fail_at(s, &step, _("there is no mapping here"));
+    const struct node *changed =
+        step.bracket ? set_item(s, f, node, &step, at) : set_entry(s, object, node, &step, at);
+    if (!changed)
+        return NULL;
+    struct node *copy = (struct node *)(uintptr_t)changed; /* made just now */
+    copy->written = node->written;
+    return copy;
+}
+
+const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
+                                     size_t path_length, const struct node *value, struct problems *problems)
+{
+    struct setter s = {arena, set, path_length, value, problems};
+    size_t before = problems->count;
+    const struct node *changed = set_in(&s, NULL, ceduo_schema_scene(), root, 0);
+    if (!changed && problems->count == before)
+        ceduo_problem_memory(problems);
+    return changed;
+}

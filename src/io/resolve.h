@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RESOLVE_H
+#define CEDUO_RESOLVE_H
+
+#include "schema.h"
+
+/* Puts in place of a path what its file holds, and merges a stand into its base. `object` says what is wanted. NULL
+ * where that fails; what is wrong is in `problems`. */
+const struct node *ceduo_resolve(struct arena *arena, const struct object *object, const struct node *node,
+                                 struct problems *problems);
+
+/* The same for all that a scene refers to. */
+const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems);
+
+/* Puts `value` at `path` below root, through references. `set` is the whole PATH=VALUE, for messages. */
+const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
+                                     size_t path_length, const struct node *value, struct problems *problems);
+
+/* The deepest node on the way along `path` that there is; `*within` is the part of the path from its file's root on. */
+const struct node *ceduo_resolve_find(const struct node *root, const char *path, const char **within);
+
+#endif

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SCENE_FILE_H
+#define CEDUO_SCENE_FILE_H
+
+#include "ceduo/scene.h"
+#include "schema.h"
+
+/* A scene as read from its files. Everything that it points to lives in its arena. */
+struct scene_file {
+    struct arena arena;
+    const char *path;        /* as it was given */
+    const struct node *root; /* the scene, with what it refers to in place */
+    struct ceduo_scene scene;
+    const struct source_note *notes; /* where values come from, last first */
+    bool ground_assumed;             /* the slope's file says no ground: talus was taken */
+    double origin_x;                 /* what was taken off every x */
+};
+
+/* Reads a scene ("-": standard input; a name without a file: a shipped scene), applies `sets` (PATH=VALUE, from left to
+ * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
+bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
+                      struct problems *problems);
+void ceduo_scene_release(struct scene_file *file);
+
+/* The scene of a document that was read before: sets `file->scene` from `file->root`. */
+bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);
+
+/* Changes one value. `set` is PATH=VALUE. */
+bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *problems);
+
+/* True where some value below `path` is marked as an assumption. */
+bool ceduo_scene_assumes(const struct scene_file *file, const char *path);
+
+#endif

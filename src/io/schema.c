@@ -1,0 +1,563 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "schema.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "ceduo/number.h"
+#include "intl.h"
+
+#define KEYS_SHOWN_MOST 32
+
+struct binder {
+    struct arena *arena;
+    struct problems *problems;
+    struct text path;
+    size_t file_start; /* where the path within the present file begins */
+    const struct source_note **notes;
+};
+
+/* ---- reporting ---- */
+
+__attribute__((format(printf, 5, 0))) static void report_v(struct problems *problems, const struct node *node,
+                                                           bool at_key, const char *path, const char *format,
+                                                           va_list args)
+{
+    struct text message = {0};
+    ceduo_text_vformat(&message, format, args);
+    bool key = at_key && node->key_line > 0;
+    ceduo_problem(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
+                  "%s%s%s", path ? path : "", path && path[0] ? ": " : "", message.bytes ? message.bytes : "");
+    problems->memory |= message.failed;
+    ceduo_text_free(&message);
+}
+
+void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    report_v(problems, node, false, path, format, args);
+    va_end(args);
+}
+
+static const char *path_here(const struct binder *b)
+{
+    return b->path.bytes ? b->path.bytes + b->file_start : "";
+}
+
+__attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format,
+                                                         ...)
+{
+    va_list args;
+    va_start(args, format);
+    report_v(b->problems, node, false, path_here(b), format, args);
+    va_end(args);
+}
+
+__attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node,
+                                                             const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    report_v(b->problems, node, true, path_here(b), format, args);
+    va_end(args);
+}
+
+/* ---- the path ---- */
+
+static size_t enter(struct binder *b, const char *key)
+{
+    size_t before = b->path.length;
+    if (before > b->file_start)
+        ceduo_text_char(&b->path, '.');
+    ceduo_text_put(&b->path, key);
+    return before;
+}
+
+static size_t enter_item(struct binder *b, size_t i)
+{
+    size_t before = b->path.length;
+    ceduo_text_format(&b->path, "[%zu]", i);
+    return before;
+}
+
+static void leave(struct binder *b, size_t before)
+{
+    b->path.length = before;
+    if (b->path.bytes)
+        b->path.bytes[before] = '\0';
+}
+
+/* ---- finding fields ---- */
+
+const struct field *ceduo_schema_field(const struct object *object, const char *key)
+{
+    for (size_t i = 0; i < object->n; i++)
+        if (strcmp(object->fields[i].key, key) == 0)
+            return &object->fields[i];
+    return NULL;
+}
+
+/* Levenshtein's distance between short words. */
+static size_t distance(const char *a, const char *b)
+{
+    size_t row[64], n = strlen(b);
+    if (n >= 64 || strlen(a) >= 64)
+        return 64;
+    for (size_t j = 0; j <= n; j++)
+        row[j] = j;
+    for (size_t i = 1; a[i - 1]; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= n; j++) {
+            size_t change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            size_t add = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
+            row[j] = change < add ? change : add;
+        }
+    }
+    return row[n];
+}
+
+/* The nearest of some words, NULL where none is near. */
+static const char *nearest(const char *word, const char *const *words, size_t n)
+{
+    const char *best = NULL;
+    size_t least = strlen(word) / 2 + 2;
+    for (size_t i = 0; i < n; i++) {
+        size_t d = distance(word, words[i]);
+        bool longer = strncmp(words[i], word, strlen(word)) == 0; /* dbh for dbh_m */
+        if (d < least || (longer && !best)) {
+            least = d < least ? d : least;
+            best = words[i];
+        }
+    }
+    return best;
+}
+
+static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
+{
+    const char *words[KEYS_SHOWN_MOST];
+    size_t n = 0;
+    for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++)
+        words[n++] = object->fields[i].key;
+    const char *near = nearest(entry->key, words, n);
+    size_t before = enter(b, entry->key);
+    if (near) {
+        report_key(b, entry, _("unknown key; did you mean '%s'?"), near);
+    } else {
+        struct text list = {0};
+        for (size_t i = 0; i < n; i++)
+            ceduo_text_format(&list, "%s%s", i ? ", " : "", words[i]);
+        report_key(b, entry, _("unknown key; known here: %s"), list.bytes ? list.bytes : "");
+        ceduo_text_free(&list);
+    }
+    leave(b, before);
+}
+
+/* ---- values ---- */
+
+static const char *kind_name(const struct node *node)
+{
+    return node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
+}
+
+static bool want_scalar(struct binder *b, const struct node *node, const char *what)
+{
+    if (node->kind == NODE_SCALAR)
+        return true;
+    report(b, node, _("%s is wanted here, not %s"), what, kind_name(node));
+    return false;
+}
+
+static bool read_number(struct binder *b, const struct node *node, double *value)
+{
+    if (!want_scalar(b, node, _("a number")))
+        return false;
+    if (node->quoted) {
+        report(b, node, _("'%s' is in quotes; write the number without them"), node->text);
+        return false;
+    }
+    switch (ceduo_number_read(node->text, value)) {
+    case CEDUO_NUMBER_GOOD:
+        return true;
+    case CEDUO_NUMBER_TOO_LARGE:
+        report(b, node, _("too large a number"));
+        return false;
+    default:
+        break;
+    }
+    if (strchr(node->text, ','))
+        report(b, node, _("'%s' is no number; write a dot for the decimals and nothing between thousands"), node->text);
+    else
+        report(b, node, _("'%s' is no number"), node->text);
+    return false;
+}
+
+static bool check_range(struct binder *b, const struct field *f, const struct node *node, double value)
+{
+    char room[CEDUO_NUMBER_ROOM], limit[CEDUO_NUMBER_ROOM];
+    const char *unit = f->unit[0] ? f->unit : "", *gap = f->unit[0] ? " " : "";
+    const char *said = ceduo_number_shortest(value, room);
+    if (value < f->lo)
+        report(b, node, _("%s is below %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
+    else if (f->flags & FIELD_ABOVE && !(value > f->lo))
+        report(b, node, _("%s is not above %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
+    else if (value > f->hi)
+        report(b, node, _("%s is above %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
+    else if (f->flags & FIELD_UNDER && !(value < f->hi))
+        report(b, node, _("%s is not below %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
+    else
+        return true;
+    return false;
+}
+
+static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
+{
+    double value;
+    if (!read_number(b, node, &value) || !check_range(b, f, node, value))
+        return false;
+    *to = value * f->scale;
+    return true;
+}
+
+static void bind_count(struct binder *b, const struct field *f, const struct node *node, uint64_t *to)
+{
+    double value;
+    if (!read_number(b, node, &value))
+        return;
+    if (value != floor(value))
+        report(b, node, _("'%s' is no whole number"), node->text);
+    else if (check_range(b, f, node, value))
+        *to = (uint64_t)value;
+}
+
+static void bind_choice(struct binder *b, const struct field *f, const struct node *node, int *to)
+{
+    if (!want_scalar(b, node, _("a word")))
+        return;
+    for (size_t i = 0; i < f->choices->n; i++)
+        if (strcmp(f->choices->names[i], node->text) == 0) {
+            *to = (int)i;
+            return;
+        }
+    struct text list = {0};
+    for (size_t i = 0; i < f->choices->n; i++)
+        ceduo_text_format(&list, "%s%s", i ? ", " : "", f->choices->names[i]);
+    const char *near = nearest(node->text, f->choices->names, f->choices->n);
+    if (near && f->choices->n > 1)
+        report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, list.bytes ? list.bytes : "");
+    else
+        report(b, node, _("'%s' is unknown; one of: %s"), node->text, list.bytes ? list.bytes : "");
+    ceduo_text_free(&list);
+}
+
+static void bind_flag(struct binder *b, const struct node *node, bool *to)
+{
+    if (!want_scalar(b, node, _("true or false")))
+        return;
+    bool yes = strcmp(node->text, "true") == 0;
+    if (node->quoted || (!yes && strcmp(node->text, "false") != 0))
+        report(b, node, _("'%s': true or false is wanted"), node->text);
+    else
+        *to = yes;
+}
+
+static void bind_text(struct binder *b, const struct node *node, const char **to)
+{
+    if (want_scalar(b, node, _("a text")))
+        *to = node->text;
+}
+
+static void bind_tag(struct binder *b, const struct field *f, const struct node *node)
+{
+    if (want_scalar(b, node, f->value) && strcmp(node->text, f->value) != 0)
+        report(b, node, _("'%s': '%s' is wanted here"), node->text, f->value);
+}
+
+/* {mean: …, spread: …, kind: …} */
+static void bind_spread_map(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
+{
+    static const char *const kinds[] = {"normal", "uniform"};
+    static const struct choices kind_choices = {kinds, 2};
+    struct field spread = *f, kind = {.choices = &kind_choices};
+    spread.lo = 0;
+    spread.flags = 0;
+    spread.hi = INFINITY;
+    bool has_mean = false;
+    for (size_t i = 0; i < node->n; i++) {
+        const struct node *entry = node->items[i];
+        size_t before = enter(b, entry->key);
+        int k = CEDUO_NORMAL;
+        if (strcmp(entry->key, "mean") == 0)
+            has_mean = bind_number(b, f, entry, &to->mean) || true;
+        else if (strcmp(entry->key, "spread") == 0)
+            bind_number(b, &spread, entry, &to->spread);
+        else if (strcmp(entry->key, "kind") == 0)
+            bind_choice(b, &kind, entry, &k);
+        else if (strcmp(entry->key, "source") != 0)
+            report_key(b, entry, _("unknown key; known here: mean, spread, kind"));
+        if (strcmp(entry->key, "kind") == 0)
+            to->kind = (enum ceduo_spread_kind)k;
+        leave(b, before);
+    }
+    if (!has_mean)
+        report(b, node, _("'mean' is missing"));
+}
+
+static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
+{
+    *to = ceduo_number(to->mean);
+    if (node->kind != NODE_MAP) {
+        bind_number(b, f, node, &to->mean);
+        return;
+    }
+    bind_spread_map(b, f, node, to);
+    /* what is not cut at its range by drawing again must not reach beyond it */
+    bool cut = f->lo == 0 && f->hi == 1;
+    double lowest = ceduo_number_lowest(*to) / f->scale, highest = ceduo_number_highest(*to) / f->scale;
+    bool below = f->flags & FIELD_ABOVE ? !(lowest > f->lo) : lowest < f->lo;
+    if (!cut && (below || highest > f->hi)) {
+        char low[CEDUO_NUMBER_ROOM], high[CEDUO_NUMBER_ROOM];
+        report(b, node, _("the spread reaches from %s to %s %s, beyond what is possible; make it smaller"),
+               ceduo_number_shortest(lowest, low), ceduo_number_shortest(highest, high), f->unit);
+    }
+}
+
+static void bind_spreads(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
+{
+    if (node->kind != NODE_LIST || node->n != 3) {
+        report(b, node, _("a list of three numbers is wanted"));
+        return;
+    }
+    for (size_t i = 0; i < 3; i++) {
+        size_t before = enter_item(b, i);
+        bind_spread(b, f, node->items[i], &to[i]);
+        leave(b, before);
+    }
+}
+
+static bool want_list(struct binder *b, const struct node *node)
+{
+    if (node->kind == NODE_LIST)
+        return true;
+    report(b, node, _("a list is wanted here, not %s"), kind_name(node));
+    return false;
+}
+
+static void *take(struct binder *b, size_t n, size_t size)
+{
+    void *p = ceduo_arena_take(b->arena, (n + 1) * size);
+    if (!p)
+        ceduo_problem_memory(b->problems);
+    return p;
+}
+
+static void bind_numbers(struct binder *b, const struct field *f, const struct node *node, struct numbers *to)
+{
+    if (!want_list(b, node) || !(to->values = take(b, node->n, sizeof(double))))
+        return;
+    for (size_t i = 0; i < node->n; i++) {
+        size_t before = enter_item(b, i);
+        to->n += bind_number(b, f, node->items[i], &to->values[to->n]);
+        leave(b, before);
+    }
+}
+
+static void bind_points(struct binder *b, const struct field *f, const struct node *node, struct points *to)
+{
+    if (!want_list(b, node))
+        return;
+    to->x = take(b, node->n, sizeof(double));
+    to->z = take(b, node->n, sizeof(double));
+    if (!to->x || !to->z)
+        return;
+    for (size_t i = 0; i < node->n; i++) {
+        const struct node *pair = node->items[i];
+        size_t before = enter_item(b, i);
+        if (pair->kind != NODE_LIST || pair->n != 2)
+            report(b, pair, _("a pair [x, z] is wanted"));
+        else if (bind_number(b, f, pair->items[0], &to->x[to->n]) && bind_number(b, f, pair->items[1], &to->z[to->n]))
+            to->n++;
+        leave(b, before);
+    }
+}
+
+static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
+
+static void bind_list(struct binder *b, const struct field *f, const struct node *node, struct list *to)
+{
+    if (!want_list(b, node) || !(to->items = take(b, node->n, f->object->size)))
+        return;
+    to->n = node->n;
+    for (size_t i = 0; i < node->n; i++) {
+        char *item = (char *)to->items + i * f->object->size;
+        size_t before = enter_item(b, i);
+        f->object->init(item);
+        bind_map(b, f->object, node->items[i], item);
+        leave(b, before);
+    }
+}
+
+static void bind_field(struct binder *b, const struct field *f, const struct node *node, void *item)
+{
+    void *to = (char *)item + f->offset;
+    switch (f->type) {
+    case FIELD_TAG:
+        bind_tag(b, f, node);
+        break;
+    case FIELD_TEXT:
+    case FIELD_FILE:
+        bind_text(b, node, to);
+        break;
+    case FIELD_NUMBER:
+        bind_number(b, f, node, to);
+        break;
+    case FIELD_SPREAD:
+        bind_spread(b, f, node, to);
+        break;
+    case FIELD_SPREADS:
+        bind_spreads(b, f, node, to);
+        break;
+    case FIELD_COUNT:
+        bind_count(b, f, node, to);
+        break;
+    case FIELD_CHOICE:
+        bind_choice(b, f, node, to);
+        break;
+    case FIELD_FLAG:
+        bind_flag(b, node, to);
+        break;
+    case FIELD_NUMBERS:
+        bind_numbers(b, f, node, to);
+        break;
+    case FIELD_POINTS:
+        bind_points(b, f, node, to);
+        break;
+    case FIELD_GROUP:
+        bind_map(b, f->object, node, to);
+        break;
+    case FIELD_LIST:
+        bind_list(b, f, node, to);
+        break;
+    }
+}
+
+/* source: {kind: measured|literature|assumed, text: …} may stand in any mapping. */
+static void bind_source(struct binder *b, const struct node *node)
+{
+    static const char *const kinds[] = {"measured", "literature", "assumed"};
+    static const struct choices kind_choices = {kinds, 3};
+    const struct field kind_field = {.choices = &kind_choices};
+    size_t before = enter(b, "source");
+    const char *text = "";
+    int kind = -1;
+    if (node->kind != NODE_MAP)
+        report(b, node, _("a mapping {kind, text} is wanted"));
+    for (size_t i = 0; node->kind == NODE_MAP && i < node->n; i++) {
+        const struct node *entry = node->items[i];
+        size_t outer = enter(b, entry->key);
+        if (strcmp(entry->key, "kind") == 0)
+            bind_choice(b, &kind_field, entry, &kind);
+        else if (strcmp(entry->key, "text") == 0)
+            bind_text(b, entry, &text);
+        else
+            report_key(b, entry, _("unknown key; known here: kind, text"));
+        leave(b, outer);
+    }
+    if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
+        report(b, node, _("'kind' is missing: measured, literature or assumed"));
+    leave(b, before);
+    if (!b->notes || kind < 0)
+        return;
+    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
+    char *path = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "");
+    if (!note || !path) {
+        ceduo_problem_memory(b->problems);
+        return;
+    }
+    *note = (struct source_note){.path = path, .kind = kinds[kind], .text = text, .before = *b->notes};
+    *b->notes = note;
+}
+
+static void report_missing(struct binder *b, const struct object *object, const struct node *node)
+{
+    for (size_t i = 0; i < object->n; i++) {
+        const struct field *f = &object->fields[i];
+        bool tag = f->type == FIELD_TAG && node->key; /* not needed where the mapping stands in another file */
+        if (f->flags & FIELD_REQUIRED && !tag && !ceduo_node_get(node, f->key))
+            report(b, node, _("'%s' is missing: %s"), f->key,
+                   f->type == FIELD_TAG ? f->value : _(f->meaning));
+    }
+}
+
+static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
+{
+    if (node->kind != NODE_MAP) {
+        report(b, node, _("a mapping is wanted here, not %s"), kind_name(node));
+        return;
+    }
+    size_t outer = b->file_start;
+    if (node->written && node->written->kind == NODE_SCALAR)
+        b->file_start = b->path.length; /* a file of its own: paths begin anew */
+    for (size_t i = 0; i < node->n; i++) {
+        const struct node *entry = node->items[i];
+        const struct field *f = ceduo_schema_field(object, entry->key);
+        if (f) {
+            size_t before = enter(b, entry->key);
+            bind_field(b, f, entry, item);
+            leave(b, before);
+        } else if (strcmp(entry->key, "source") == 0) {
+            bind_source(b, entry);
+        } else {
+            report_unknown_key(b, object, entry);
+        }
+    }
+    report_missing(b, object, node);
+    b->file_start = outer;
+}
+
+void ceduo_schema_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
+                       struct problems *problems, const struct source_note **notes)
+{
+    struct binder b = {.arena = arena, .problems = problems, .notes = notes};
+    bind_map(&b, object, node, item);
+    problems->memory |= b.path.failed;
+    ceduo_text_free(&b.path);
+}
+
+/* ---- showing the table ---- */
+
+bool ceduo_schema_range_text(const struct field *f, char *buffer, size_t size)
+{
+    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    bool low = isfinite(f->lo), high = isfinite(f->hi);
+    ceduo_number_shortest(f->lo, lo);
+    ceduo_number_shortest(f->hi, hi);
+    if (!low && !high)
+        snprintf(buffer, size, "%s", "");
+    else if (!high)
+        snprintf(buffer, size, "%s %s", f->flags & FIELD_ABOVE ? ">" : ">=", lo);
+    else
+        snprintf(buffer, size, "%s%s\xe2\x80\xa6%s%s", f->flags & FIELD_ABOVE ? ">" : "", low ? lo : "",
+                 f->flags & FIELD_UNDER ? "<" : "", hi);
+    return low || high;
+}
+
+void ceduo_schema_visit(const struct object *object, const char *prefix,
+                        void (*visit)(void *context, const char *path, const struct field *field), void *context)
+{
+    for (size_t i = 0; i < object->n; i++) {
+        const struct field *f = &object->fields[i];
+        struct text path = {0};
+        ceduo_text_format(&path, "%s%s%s%s", prefix, prefix[0] ? "." : "", f->key, f->type == FIELD_LIST ? "[]" : "");
+        if (path.failed)
+            return;
+        if (f->type == FIELD_GROUP || f->type == FIELD_LIST)
+            ceduo_schema_visit(f->object, path.bytes, visit, context);
+        else
+            visit(context, path.bytes, f);
+        ceduo_text_free(&path);
+    }
+}

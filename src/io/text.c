@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool reserve(struct text *text, size_t more)
+{
+    if (text->failed)
+        return false;
+    if (text->length + more + 1 <= text->room)
+        return true;
+    size_t room = text->room ? text->room : 64;
+    while (room < text->length + more + 1)
+        room *= 2;
+    char *bytes = realloc(text->bytes, room);
+    if (!bytes) {
+        text->failed = true;
+        return false;
+    }
+    text->bytes = bytes;
+    text->room = room;
+    return true;
+}
+
+void ceduo_text_add(struct text *text, const char *bytes, size_t n)
+{
+    if (!reserve(text, n))
+        return;
+    if (n > 0)
+        memcpy(text->bytes + text->length, bytes, n);
+    text->length += n;
+    text->bytes[text->length] = '\0';
+}
+
+void ceduo_text_put(struct text *text, const char *string)
+{
+    ceduo_text_add(text, string, strlen(string));
+}
+
+void ceduo_text_char(struct text *text, char c)
+{
+    ceduo_text_add(text, &c, 1);
+}
+
+void ceduo_text_vformat(struct text *text, const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int n = vsnprintf(NULL, 0, format, args);
+    if (n >= 0 && reserve(text, (size_t)n)) {
+        vsnprintf(text->bytes + text->length, (size_t)n + 1, format, again);
+        text->length += (size_t)n;
+    }
+    va_end(again);
+}
+
+void ceduo_text_format(struct text *text, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(text, format, args);
+    va_end(args);
+}
+
+void ceduo_text_free(struct text *text)
+{
+    free(text->bytes);
+    *text = (struct text){0};
+}
+
+size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code)
+{
+    const unsigned char *u = (const unsigned char *)p;
+    if (n == 0)
+        return 0;
+    if (u[0] < 0x80) {
+        *code = u[0];
+        return 1;
+    }
+    size_t length = u[0] >= 0xf0 ? 4 : u[0] >= 0xe0 ? 3 : 2;
+    if (u[0] < 0xc2 || u[0] > 0xf4 || n < length)
+        return 0;
+    uint32_t c = u[0] & (0xffu >> (length + 1));
+    for (size_t i = 1; i < length; i++) {
+        if ((u[i] & 0xc0) != 0x80)
+            return 0;
+        c = c << 6 | (u[i] & 0x3f);
+    }
+    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
+    if (c < least[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000))
+        return 0;
+    *code = c;
+    return length;
+}
+
+void ceduo_text_safe_n(struct text *text, const char *string, size_t n)
+{
+    for (size_t i = 0; i < n;) {
+        uint32_t c = 0;
+        size_t length = ceduo_utf8_decode(string + i, n - i, &c);
+        bool printable = length > 0 && c >= 0x20 && !(c >= 0x7f && c < 0xa0) && c != 0x2028 && c != 0x2029 &&
+                         !(c >= 0x202a && c <= 0x202e) && !(c >= 0x2066 && c <= 0x2069);
+        if (printable) {
+            ceduo_text_add(text, string + i, length);
+        } else {
+            size_t bytes = length > 0 ? length : 1;
+            for (size_t k = 0; k < bytes; k++)
+                ceduo_text_format(text, "\\x%02x", (unsigned char)string[i + k]);
+            length = bytes;
+        }
+        i += length;
+    }
+}
+
+void ceduo_text_safe(struct text *text, const char *string)
+{
+    ceduo_text_safe_n(text, string, strlen(string));
+}
+
+size_t ceduo_text_columns(const char *string)
+{
+    size_t columns = 0;
+    for (; *string; string++)
+        columns += ((unsigned char)*string & 0xc0) != 0x80;
+    return columns;
+}
+
+const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
+{
+    if (!isfinite(value))
+        return strcpy(room, "null");
+    if (value == 0)
+        return strcpy(room, "0"); /* and never -0 */
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+        if (strtod(room, NULL) == value)
+            break;
+    }
+    return room;
+}
+
+static const char *skip_digits(const char *p)
+{
+    while (*p >= '0' && *p <= '9')
+        p++;
+    return p;
+}
+
+enum ceduo_number_reading ceduo_number_read(const char *string, double *value)
+{
+    const char *p = string + (*string == '-' || *string == '+');
+    const char *whole = p;
+    p = skip_digits(p);
+    size_t digits = (size_t)(p - whole);
+    if (digits > 1 && *whole == '0')
+        return CEDUO_NUMBER_NONE;
+    if (*p == '.') {
+        const char *fraction = ++p;
+        p = skip_digits(p);
+        digits += (size_t)(p - fraction);
+    }
+    if (digits == 0)
+        return CEDUO_NUMBER_NONE;
+    if (*p == 'e' || *p == 'E') {
+        p += p[1] == '-' || p[1] == '+' ? 2 : 1;
+        const char *exponent = p;
+        p = skip_digits(p);
+        if (p == exponent)
+            return CEDUO_NUMBER_NONE;
+    }
+    if (*p)
+        return CEDUO_NUMBER_NONE;
+    *value = strtod(string, NULL);
+    return isfinite(*value) ? CEDUO_NUMBER_GOOD : CEDUO_NUMBER_TOO_LARGE;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_TEXT_H
+#define CEDUO_TEXT_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. Once memory fails, `failed` stays set and nothing
+ * more is added: check it once at the end. */
+struct text {
+    char *bytes;
+    size_t length, room;
+    bool failed;
+};
+
+void ceduo_text_add(struct text *text, const char *bytes, size_t n);
+void ceduo_text_put(struct text *text, const char *string);
+void ceduo_text_char(struct text *text, char c);
+void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
+void ceduo_text_free(struct text *text);
+
+/* A string that is safe to print: control characters and bytes that are no UTF-8 are written as \xHH. */
+void ceduo_text_safe(struct text *text, const char *string);
+void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
+
+/* Columns that a string takes on a terminal: its code points, each counted as one. */
+size_t ceduo_text_columns(const char *string);
+
+/* Bytes of the UTF-8 sequence at p (1…4), 0 where it is none; `*code` is its code point. */
+size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code);
+
+/* The shortest decimal that reads back as the same number; "null" where it is not finite. */
+#define CEDUO_NUMBER_ROOM 32
+const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
+
+enum ceduo_number_reading { CEDUO_NUMBER_GOOD, CEDUO_NUMBER_NONE, CEDUO_NUMBER_TOO_LARGE };
+
+/* Reads a decimal number with a dot: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or anything after it. */
+enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
+
+#endif

@@ -1,0 +1,343 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdlib.h>
+#include <string.h>
+#include <yaml.h>
+
+#include "intl.h"
+#include "node.h"
+
+#define DEPTH_MOST 16
+#define KEYS_MOST 64 /* of one mapping: several times what any has */
+
+struct reader {
+    struct arena *arena;
+    const struct source *source;
+    struct problems *problems;
+    yaml_parser_t parser;
+    size_t skip, skip_column; /* bytes before the part that libyaml sees; characters of them in its first line */
+    bool stopped;
+};
+
+static size_t line_of(yaml_mark_t mark)
+{
+    return mark.line + 1;
+}
+
+static size_t column_of(const struct reader *r, yaml_mark_t mark)
+{
+    return mark.column + 1 + (mark.line == 0 ? r->skip_column : 0);
+}
+
+#define STOP(r, mark, ...)                                                                                       \
+    do {                                                                                                         \
+        ceduo_problem((r)->problems, (r)->source, line_of(mark), column_of(r, mark), __VA_ARGS__);            \
+        (r)->stopped = true;                                                                                     \
+    } while (0)
+
+/* The place of byte `offset`: libyaml gives no mark for what is no UTF-8. */
+static yaml_mark_t mark_of_byte(const char *bytes, size_t length, size_t offset)
+{
+    yaml_mark_t mark = {offset, 0, 0};
+    for (size_t i = 0; i < offset && i < length; i++) {
+        if (bytes[i] == '\n') {
+            mark.line++;
+            mark.column = 0;
+        } else if (((unsigned char)bytes[i] & 0xc0) != 0x80) {
+            mark.column++;
+        }
+    }
+    return mark;
+}
+
+static void syntax_problem(struct reader *r)
+{
+    const yaml_parser_t *p = &r->parser;
+    if (p->error == YAML_MEMORY_ERROR) {
+        ceduo_problem_memory(r->problems);
+        r->stopped = true;
+        return;
+    }
+    if (p->error == YAML_READER_ERROR) {
+        yaml_mark_t at = mark_of_byte(r->source->bytes + r->skip, r->source->length - r->skip, p->problem_offset);
+        if (p->problem_value >= 0 && strstr(p->problem, "control"))
+            STOP(r, at, _("a control character (\\x%02x); take it out"), (unsigned)p->problem_value);
+        else
+            STOP(r, at, _("not UTF-8; save the file as UTF-8"));
+        return;
+    }
+    yaml_mark_t at = p->problem_mark;
+    const char *what = p->problem ? p->problem : "malformed YAML";
+    if (strstr(what, "tab"))
+        STOP(r, at, _("a tab; indent with spaces"));
+    else if (strstr(what, "cannot start any token"))
+        STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));
+    else if (p->context)
+        STOP(r, at, _("malformed YAML: %s %s"), what, p->context);
+    else
+        STOP(r, at, _("malformed YAML: %s"), what);
+}
+
+static bool next_event(struct reader *r, yaml_event_t *event)
+{
+    if (yaml_parser_parse(&r->parser, event))
+        return true;
+    syntax_problem(r);
+    return false;
+}
+
+static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t mark)
+{
+    struct node *node = ceduo_arena_take(r->arena, sizeof *node);
+    if (!node) {
+        ceduo_problem_memory(r->problems);
+        r->stopped = true;
+        return NULL;
+    }
+    *node = (struct node){.kind = kind,
+                          .source = r->source,
+                          .line = (uint32_t)line_of(mark),
+                          .column = (uint32_t)column_of(r, mark)};
+    return node;
+}
+
+static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
+{
+    struct node *node = new_node(r, NODE_SCALAR, event->start_mark);
+    if (!node)
+        return NULL;
+    const char *value = (const char *)event->data.scalar.value;
+    size_t length = event->data.scalar.length;
+    if (memchr(value, '\0', length)) {
+        STOP(r, event->start_mark, _("a NUL character in a text; take it out"));
+        return NULL;
+    }
+    node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+    node->text = ceduo_arena_copy(r->arena, value, length);
+    if (!node->text)
+        ceduo_problem_memory(r->problems);
+    return node->text ? node : NULL;
+}
+
+static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth);
+
+/* Items as they come; copied into the arena once their number is known. */
+struct pile {
+    const struct node **items;
+    size_t n, room;
+};
+
+static bool pile_add(struct reader *r, struct pile *pile, const struct node *item)
+{
+    if (pile->n == pile->room) {
+        size_t room = pile->room ? 2 * pile->room : 8;
+        const struct node **items = realloc(pile->items, room * sizeof *items);
+        if (!items) {
+            ceduo_problem_memory(r->problems);
+            r->stopped = true;
+            return false;
+        }
+        pile->items = items;
+        pile->room = room;
+    }
+    pile->items[pile->n++] = item;
+    return true;
+}
+
+static struct node *settle(struct reader *r, struct node *node, struct pile *pile)
+{
+    if (!r->stopped) {
+        const struct node **items = ceduo_arena_take(r->arena, (pile->n + 1) * sizeof *items);
+        if (items && pile->n > 0)
+            memcpy(items, pile->items, pile->n * sizeof *items);
+        else if (!items)
+            ceduo_problem_memory(r->problems);
+        node->items = items;
+        node->n = pile->n;
+        r->stopped |= !items;
+    }
+    free(pile->items);
+    return r->stopped ? NULL : node;
+}
+
+static struct node *read_list(struct reader *r, const yaml_event_t *start, int depth)
+{
+    struct node *node = new_node(r, NODE_LIST, start->start_mark);
+    struct pile pile = {0};
+    while (node && !r->stopped) {
+        yaml_event_t event;
+        if (!next_event(r, &event))
+            break;
+        bool end = event.type == YAML_SEQUENCE_END_EVENT;
+        if (!end) {
+            struct node *item = read_value(r, &event, depth);
+            if (item)
+                pile_add(r, &pile, item);
+        }
+        yaml_event_delete(&event);
+        if (end)
+            break;
+    }
+    return node ? settle(r, node, &pile) : NULL;
+}
+
+static bool key_is_new(struct reader *r, const struct pile *pile, const yaml_event_t *event)
+{
+    const char *key = (const char *)event->data.scalar.value;
+    if (pile->n >= KEYS_MOST) {
+        STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MOST);
+        return false;
+    }
+    for (size_t i = 0; i < pile->n; i++)
+        if (strcmp(pile->items[i]->key, key) == 0) {
+            STOP(r, event->start_mark, _("%s: given twice, first on line %u; keep one"), key,
+                 (unsigned)pile->items[i]->key_line);
+            return false;
+        }
+    return true;
+}
+
+/* One entry of a mapping whose key is `event`. */
+static void read_entry(struct reader *r, const yaml_event_t *event, struct pile *pile, int depth)
+{
+    if (event->type == YAML_ALIAS_EVENT) {
+        STOP(r, event->start_mark, _("an alias; write the value out"));
+        return;
+    }
+    if (event->type != YAML_SCALAR_EVENT || strlen((const char *)event->data.scalar.value) != event->data.scalar.length) {
+        STOP(r, event->start_mark, _("a key must be a plain word"));
+        return;
+    }
+    if (!key_is_new(r, pile, event))
+        return;
+    yaml_event_t value;
+    if (!next_event(r, &value))
+        return;
+    struct node *node = read_value(r, &value, depth);
+    yaml_event_delete(&value);
+    if (!node)
+        return;
+    node->key = ceduo_arena_string(r->arena, (const char *)event->data.scalar.value);
+    node->key_line = (uint32_t)line_of(event->start_mark);
+    node->key_column = (uint32_t)column_of(r, event->start_mark);
+    if (!node->key) {
+        ceduo_problem_memory(r->problems);
+        r->stopped = true;
+        return;
+    }
+    pile_add(r, pile, node);
+}
+
+static struct node *read_map(struct reader *r, const yaml_event_t *start, int depth)
+{
+    struct node *node = new_node(r, NODE_MAP, start->start_mark);
+    struct pile pile = {0};
+    while (node && !r->stopped) {
+        yaml_event_t event;
+        if (!next_event(r, &event))
+            break;
+        bool end = event.type == YAML_MAPPING_END_EVENT;
+        if (!end)
+            read_entry(r, &event, &pile, depth);
+        yaml_event_delete(&event);
+        if (end)
+            break;
+    }
+    return node ? settle(r, node, &pile) : NULL;
+}
+
+static bool has_anchor_or_tag(struct reader *r, const yaml_event_t *event)
+{
+    const yaml_char_t *anchor = NULL, *tag = NULL;
+    if (event->type == YAML_SCALAR_EVENT) {
+        anchor = event->data.scalar.anchor;
+        tag = event->data.scalar.tag;
+    } else if (event->type == YAML_SEQUENCE_START_EVENT) {
+        anchor = event->data.sequence_start.anchor;
+        tag = event->data.sequence_start.tag;
+    } else if (event->type == YAML_MAPPING_START_EVENT) {
+        anchor = event->data.mapping_start.anchor;
+        tag = event->data.mapping_start.tag;
+    }
+    if (anchor)
+        STOP(r, event->start_mark, _("an anchor; take it out and write the value where it is needed"));
+    else if (tag)
+        STOP(r, event->start_mark, _("a tag; take it out"));
+    return anchor || tag;
+}
+
+static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
+{
+    if (depth >= DEPTH_MOST) {
+        STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
+        return NULL;
+    }
+    if (has_anchor_or_tag(r, event))
+        return NULL;
+    struct node *node = NULL;
+    switch (event->type) {
+    case YAML_SCALAR_EVENT:
+        node = read_scalar(r, event);
+        break;
+    case YAML_SEQUENCE_START_EVENT:
+        node = read_list(r, event, depth + 1);
+        break;
+    case YAML_MAPPING_START_EVENT:
+        node = read_map(r, event, depth + 1);
+        break;
+    case YAML_ALIAS_EVENT:
+        STOP(r, event->start_mark, _("an alias; write the value out"));
+        break;
+    default:
+        STOP(r, event->start_mark, _("malformed YAML"));
+        break;
+    }
+    if (!node)
+        r->stopped = true;
+    return node;
+}
+
+/* The one document of the stream. */
+static struct node *read_document(struct reader *r)
+{
+    struct node *root = NULL;
+    while (!r->stopped) {
+        yaml_event_t event;
+        if (!next_event(r, &event))
+            break;
+        yaml_event_type_t type = event.type;
+        if (type == YAML_DOCUMENT_START_EVENT && root)
+            STOP(r, event.start_mark, _("a second document; keep one to a file"));
+        else if (type != YAML_STREAM_START_EVENT && type != YAML_DOCUMENT_START_EVENT &&
+                 type != YAML_DOCUMENT_END_EVENT && type != YAML_STREAM_END_EVENT)
+            root = read_value(r, &event, 0);
+        if (type == YAML_STREAM_END_EVENT && !root)
+            ceduo_problem(r->problems, r->source, 0, 0, _("holds no value"));
+        yaml_event_delete(&event);
+        if (type == YAML_STREAM_END_EVENT)
+            break;
+    }
+    return r->stopped ? NULL : root;
+}
+
+const struct node *ceduo_yaml_read_value(struct arena *arena, const struct source *source, size_t skip,
+                                         struct problems *problems)
+{
+    struct reader r = {.arena = arena, .source = source, .problems = problems, .skip = skip};
+    for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark takes no column */
+        r.skip_column += ((unsigned char)source->bytes[i] & 0xc0) != 0x80;
+    if (!yaml_parser_initialize(&r.parser)) {
+        ceduo_problem_memory(problems);
+        return NULL;
+    }
+    yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&r.parser, (const unsigned char *)source->bytes + skip, source->length - skip);
+    const struct node *root = read_document(&r);
+    yaml_parser_delete(&r.parser);
+    return root;
+}
+
+const struct node *ceduo_yaml_read(struct arena *arena, const struct source *source, struct problems *problems)
+{
+    bool bom = source->length >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0;
+    return ceduo_yaml_read_value(arena, source, bom ? 3 : 0, problems);
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_REPORT_H
+#define CEDUO_REPORT_H
+
+#include "io/scene_file.h"
+#include "words.h"
+
+enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON };
+
+/* One scene's result, ready to be written. */
+struct ceduo_report {
+    const struct scene_file *file;
+    const struct ceduo_result *result;
+    struct ceduo_run_remarks remarks;
+    double seconds; /* that the run took */
+};
+
+/* The page that a forester reads first; 80 columns. `plain`: ASCII alone. */
+void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain);
+
+/* One line of JSON, "ceduo-result-1". */
+void ceduo_report_json(struct text *text, const struct ceduo_report *report);
+
+/* CSV: a row for each option and control, or for each stand; the header alone by its own call. */
+void ceduo_report_csv_header(struct text *text, bool stands);
+void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands);
+
+#endif

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "ceduo/version.h"
+#include "io/json.h"
+#include "report.h"
+
+#define KILO 1e-3
+
+static void say_json(void *context, const char *sentence)
+{
+    ceduo_json_string(context, NULL, sentence);
+}
+
+static void distribution(struct json *j, const char *key, const struct ceduo_distribution *d, double scale)
+{
+    ceduo_json_open(j, key, '{');
+    ceduo_json_number(j, "mean", d->mean * scale);
+    ceduo_json_number(j, "se", d->se * scale);
+    ceduo_json_number(j, "sd", d->sd * scale);
+    ceduo_json_number(j, "p50", d->p50 * scale);
+    ceduo_json_number(j, "p95", d->p95 * scale);
+    ceduo_json_number(j, "p95_lo", d->p95_lo * scale);
+    ceduo_json_number(j, "p95_hi", d->p95_hi * scale);
+    ceduo_json_number(j, "p99", d->p99 * scale);
+    ceduo_json_number(j, "max", d->max * scale);
+    ceduo_json_close(j, '}');
+}
+
+static void arrivals(struct json *j, const char *key, const struct ceduo_arrivals *a)
+{
+    ceduo_json_open(j, key, '{');
+    ceduo_json_count(j, "rocks_reached", a->reached);
+    ceduo_json_number(j, "reach_probability", a->reach_probability);
+    ceduo_json_number(j, "reach_lo", a->reach_lo);
+    ceduo_json_number(j, "reach_hi", a->reach_hi);
+    ceduo_json_number(j, "exceed_probability", a->exceed_probability);
+    ceduo_json_number(j, "exceed_lo", a->exceed_lo);
+    ceduo_json_number(j, "exceed_hi", a->exceed_hi);
+    distribution(j, "speed_m_s", &a->speed, 1);
+    distribution(j, "energy_kJ", &a->energy, KILO);
+    distribution(j, "translation_kJ", &a->translation, KILO);
+    distribution(j, "height_m", &a->height, 1);
+    ceduo_json_open(j, "energy_per_released_kJ", '{');
+    ceduo_json_number(j, "mean", a->energy_per_released * KILO);
+    ceduo_json_number(j, "se", a->energy_per_released_se * KILO);
+    ceduo_json_close(j, '}');
+    ceduo_json_close(j, '}');
+}
+
+static void stand(struct json *j, const struct ceduo_report *report, const struct ceduo_belt *belt,
+                  const struct ceduo_stand_result *r)
+{
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "name", belt->name);
+    ceduo_json_number(j, "from_m", belt->from_given);
+    ceduo_json_number(j, "to_m", belt->to_given);
+    ceduo_json_number(j, "length_m", r->length);
+    ceduo_json_number(j, "stems_per_ha", r->stems_per_ha);
+    ceduo_json_number(j, "stools_per_ha", r->stools_per_ha);
+    ceduo_json_number(j, "trees_per_ha", r->trees_per_ha);
+    ceduo_json_number(j, "basal_area_m2_ha", r->basal_area);
+    ceduo_json_open(j, "adc", '{');
+    ceduo_json_string(j, "rule", r->bare ? NULL : ceduo_words_rule(r->rule));
+    ceduo_json_number(j, "adc_m", r->adc_m);
+    ceduo_json_number(j, "gsteiger_stools_m", r->adc.gsteiger_stools);
+    ceduo_json_number(j, "gsteiger_stems_m", r->adc.gsteiger_stems);
+    ceduo_json_number(j, "interception_m", r->adc.interception);
+    ceduo_json_number(j, "crofton_m", r->adc.crofton);
+    ceduo_json_close(j, '}');
+    ceduo_json_flag(j, "passes_threshold", r->passes_threshold);
+    ceduo_json_number(j, "free_run_probability", r->free_run_probability);
+    ceduo_json_number(j, "contacts", r->contacts);
+    ceduo_json_number(j, "energy_per_contact_J", r->energy_per_contact);
+    ceduo_json_number(j, "dissipated_kJ", r->dissipated * KILO);
+    ceduo_json_number(j, "dissipated_kJ_per_100m", r->dissipated / r->length * 100 * KILO);
+    ceduo_json_open(j, "warnings", '[');
+    ceduo_words_stand_warnings(&report->file->scene, belt, r, say_json, j);
+    ceduo_json_close(j, ']');
+    ceduo_json_close(j, '}');
+}
+
+static void summary(struct json *j, const struct ceduo_index *s)
+{
+    ceduo_json_open(j, "summary", '{');
+    ceduo_json_number(j, "length_m", s->length);
+    ceduo_json_number(j, "longest_gap_m", s->longest_gap);
+    ceduo_json_number(j, "adc_m", s->contacts > 0 ? s->length / s->contacts : NAN);
+    ceduo_json_number(j, "contacts", s->contacts);
+    ceduo_json_number(j, "meet_nothing_probability", s->meet_nothing_probability);
+    ceduo_json_number(j, "dissipated_kJ", s->dissipated * KILO);
+    ceduo_json_number(j, "dissipated_kJ_per_100m", s->dissipated / s->length * 100 * KILO);
+    ceduo_json_flag(j, "passes_threshold", s->contact == CEDUO_PASS);
+    ceduo_json_close(j, '}');
+}
+
+static void control(struct json *j, const struct ceduo_control *c, const struct ceduo_arrivals *bare,
+                    const struct ceduo_index *index)
+{
+    bool reached = !isnan(index->residual);
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_number(j, "x_m", c->x_given);
+    ceduo_json_string(j, "name", c->name);
+    ceduo_json_number(j, "accepted_kJ", c->accepted * KILO);
+    arrivals(j, "bare", bare);
+    ceduo_json_open(j, "index", '{');
+    ceduo_json_number(j, "dissipated_kJ", index->dissipated * KILO);
+    ceduo_json_number(j, "residual_kJ", index->residual * KILO);
+    if (reached)
+        ceduo_json_flag(j, "exhausted", index->exhausted);
+    else
+        ceduo_json_null(j, "exhausted");
+    if (!isnan(index->measured))
+        ceduo_json_number(j, "measured_kJ", index->measured * KILO);
+    ceduo_json_close(j, '}');
+    ceduo_json_null(j, "wooded");
+    ceduo_json_open(j, "lights", '{');
+    ceduo_json_string(j, "contact", ceduo_words_light(index->contact));
+    ceduo_json_string(j, "free_run", ceduo_words_light(index->free_run));
+    ceduo_json_string(j, "energy", ceduo_words_light(index->energy));
+    ceduo_json_close(j, '}');
+    ceduo_json_close(j, '}');
+}
+
+static void ends(struct json *j, const struct ceduo_report *report)
+{
+    const struct ceduo_ends *e = &report->result->ends;
+    double n = (double)report->result->rocks, origin = report->file->origin_x;
+    ceduo_json_open(j, "ends", '{');
+    ceduo_json_number(j, "stopped_by_stems", 0);
+    ceduo_json_number(j, "came_to_rest", (double)e->count[CEDUO_AT_REST] / n);
+    ceduo_json_number(j, "left_slope", (double)e->count[CEDUO_LEFT_SLOPE] / n);
+    ceduo_json_count(j, "unfinished", e->count[CEDUO_UNFINISHED]);
+    ceduo_json_close(j, '}');
+    if (e->stop_x.n == 0) {
+        ceduo_json_null(j, "stop_x_m");
+        return;
+    }
+    ceduo_json_open(j, "stop_x_m", '{');
+    ceduo_json_number(j, "p50", e->stop_p50 + origin);
+    ceduo_json_number(j, "p95", e->stop_p95 + origin);
+    ceduo_json_number(j, "max", e->stop_max + origin);
+    ceduo_json_close(j, '}');
+}
+
+static void option(struct json *j, const struct ceduo_report *report, size_t i)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_option *o = &r->scene->options[i];
+    const struct ceduo_option_result *found = &r->options[i];
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "name", o->name);
+    ceduo_json_open(j, "stands", '[');
+    for (size_t k = 0; k < o->belts_count; k++)
+        stand(j, report, &o->belts[k], &found->stands[k]);
+    ceduo_json_close(j, ']');
+    summary(j, &found->controls[r->last_control]);
+    ceduo_json_open(j, "controls", '[');
+    for (size_t k = 0; k < r->scene->controls_count; k++)
+        control(j, &r->scene->controls[k], &r->bare[k], &found->controls[k]);
+    ceduo_json_close(j, ']');
+    ends(j, report);
+    ceduo_json_close(j, '}');
+}
+
+static void work(struct json *j, const struct ceduo_report *report)
+{
+    ceduo_json_open(j, "work", '{');
+    ceduo_json_count(j, "rocks_flown", report->result->rocks);
+    ceduo_json_count(j, "contacts", report->result->contacts);
+    ceduo_json_count(j, "stems_drawn", 0);
+    ceduo_json_count(j, "runs", 1);
+    ceduo_json_count(j, "runs_reused", report->result->scene->options_count - 1);
+    ceduo_json_number(j, "seconds", report->seconds);
+    ceduo_json_close(j, '}');
+}
+
+void ceduo_report_json(struct text *text, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    struct json json = {.text = text}, *j = &json;
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "format", "ceduo-result-1");
+    ceduo_json_string(j, "version", CEDUO_VERSION);
+    ceduo_json_string(j, "scene", report->file->path);
+    ceduo_json_string(j, "title", r->scene->title);
+    ceduo_json_count(j, "seed", r->scene->simulation.seed);
+    ceduo_json_count(j, "rocks", r->rocks);
+    ceduo_json_string(j, "law", ceduo_words_law(r->scene->simulation.law));
+    ceduo_json_open(j, "rock", '{');
+    ceduo_json_number(j, "mass_kg", r->rock.mass);
+    ceduo_json_number(j, "mean_diameter_m", r->rock.mean_diameter);
+    ceduo_json_number(j, "moment_kg_m2", r->rock.moment);
+    ceduo_json_close(j, '}');
+    ceduo_json_number(j, "threshold_m", r->scene->simulation.threshold);
+    ceduo_json_open(j, "warnings", '[');
+    ceduo_words_run_warnings(r, &report->remarks, say_json, j);
+    ceduo_json_close(j, ']');
+    ceduo_json_open(j, "options", '[');
+    for (size_t i = 0; i < r->scene->options_count; i++)
+        option(j, report, i);
+    ceduo_json_close(j, ']');
+    ceduo_json_open(j, "differences", '[');
+    ceduo_json_close(j, ']');
+    work(j, report);
+    ceduo_json_close(j, '}');
+    ceduo_text_char(text, '\n');
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "words.h"
+
+#include <math.h>
+
+#include "io/forms.h"
+#include "io/intl.h"
+
+typedef void say_function(void *context, const char *sentence);
+
+const char *ceduo_words_rule(enum ceduo_rule rule)
+{
+    return ceduo_rule_names[rule];
+}
+
+const char *ceduo_words_light(enum ceduo_light light)
+{
+    static const char *const words[] = {"unknown", "pass", "fail"};
+    return words[light];
+}
+
+const char *ceduo_words_shape(enum ceduo_shape shape)
+{
+    return ceduo_shape_names[shape];
+}
+
+const char *ceduo_words_law(enum ceduo_law law)
+{
+    return ceduo_law_names[law];
+}
+
+void ceduo_words_number(struct text *text, double value, int digits)
+{
+    if (isnan(value)) {
+        ceduo_text_put(text, "-");
+        return;
+    }
+    if (isinf(value)) {
+        ceduo_text_put(text, _("none"));
+        return;
+    }
+    double size = fabs(value);
+    int before = size >= 1 ? (int)floor(log10(size)) + 1 : size > 0 ? (int)floor(log10(size)) + 1 : 1;
+    int decimals = digits - before;
+    if (decimals > 6 || size >= 1e9)
+        ceduo_text_format(text, "%.*g", digits, value == 0 ? 0.0 : value);
+    else
+        ceduo_text_format(text, "%.*f", decimals > 0 ? decimals : 0, value == 0 ? 0.0 : value);
+}
+
+__attribute__((format(printf, 3, 4))) static void say_format(say_function *say, void *context, const char *format, ...)
+{
+    struct text sentence = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&sentence, format, args);
+    va_end(args);
+    if (sentence.bytes)
+        say(context, sentence.bytes);
+    ceduo_text_free(&sentence);
+}
+
+static double rock_diameter(const struct ceduo_scene *scene)
+{
+    struct ceduo_rock rock;
+    return ceduo_rock_of_means(&scene->rock, &rock) == CEDUO_OK ? rock.mean_diameter : NAN;
+}
+
+/* How many kinds of stem have a volume by form factor, and the first of them. */
+static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ceduo_stems **first)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
+        const struct ceduo_stems *s =
+            i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+        enum ceduo_volume_from from;
+        ceduo_stem_volume(stand, s, &from);
+        if (from != CEDUO_VOLUME_FORM_FACTOR)
+            continue;
+        *first = n++ == 0 ? s : *first;
+    }
+    return n;
+}
+
+static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
+                         const struct ceduo_stand_result *r, say_function *say, void *context)
+{
+    const struct ceduo_stand *s = &belt->stand;
+    double b = rock_diameter(scene), per_stool = ceduo_stand_shoots(s) / s->stools_per_ha;
+    if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
+        say_format(say, context,
+                   _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "
+                     "which no path can have: a spacing of %g m is too wide for %.1f shoots a stool."),
+                   belt->name, r->adc.interception, r->adc.gsteiger_stems, s->spacing, per_stool);
+    if (r->warnings & CEDUO_WARN_NEAR_JUMP)
+        say_format(say, context,
+                   _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
+                     "between %.2f m (all stems) and %.2f m (Eq. 6)."),
+                   belt->name, b, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
+    if (r->warnings & CEDUO_WARN_WIDE_SPACING)
+        say_format(say, context,
+                   _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
+                   belt->name, s->spacing);
+}
+
+void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
+                                const struct ceduo_stand_result *r, say_function *say, void *context)
+{
+    const struct ceduo_stand *s = &belt->stand;
+    say_geometry(scene, belt, r, say, context);
+    if (r->warnings & CEDUO_WARN_DORREN_THIN)
+        say_format(say, context,
+                   _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
+                   belt->name);
+    const struct ceduo_stems *first = NULL;
+    size_t n = r->warnings & CEDUO_WARN_FORM_FACTOR ? form_factor_stems(s, &first) : 0;
+    if (n > 0)
+        say_format(say, context,
+                   ngettext("%s: the volume of %zu kind of stem (%g cm, %g m high) lies outside its species' equation; "
+                            "form factor 0.5 is assumed.",
+                            "%s: the volume of %zu kinds of stem (the first %g cm, %g m high) lies outside their "
+                            "species' equation; form factor 0.5 is assumed.",
+                            n),
+                   belt->name, n, first->dbh * 100, first->height);
+    if (r->warnings & CEDUO_WARN_U_ASSUMED)
+        say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
+                   belt->name, ceduo_stand_u(s));
+}
+
+static void say_tolerance(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
+                          say_function *say, void *context)
+{
+    if (remarks->tolerance > 0 && !remarks->tolerance_met)
+        say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
+                   (unsigned long long)result->rocks);
+    for (size_t i = 0; remarks->tolerance > 0 && i < result->scene->controls_count; i++)
+        if (result->bare[i].reached < CEDUO_FEW_ROCKS)
+            say_format(say, context,
+                       _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
+                       result->scene->controls[i].x_given, (unsigned long long)result->bare[i].reached);
+}
+
+void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
+                              say_function *say, void *context)
+{
+    say_tolerance(result, remarks, say, context);
+    uint64_t unfinished = result->ends.count[CEDUO_UNFINISHED];
+    if (unfinished > 0)
+        say_format(say, context,
+                   ngettext("%llu rock was still moving after %d contacts and counts as unfinished: does the ground "
+                            "take energy?",
+                            "%llu rocks were still moving after %d contacts and count as unfinished: does the ground "
+                            "take energy?",
+                            (unsigned long)unfinished),
+                   (unsigned long long)unfinished, CEDUO_CONTACTS_MOST);
+    if (remarks->ground_assumed)
+        say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
+    if (result->scene->controls_count > 0 && !result->bare[0].exact)
+        say_format(say, context, _("So many rocks: percentiles are read from a histogram, within 0.01 %%."));
+}

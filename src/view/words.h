@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WORDS_H
+#define CEDUO_WORDS_H
+
+#include "ceduo/result.h"
+#include "io/text.h"
+
+/* Results as sentences that a forester understands. Each function adds to `text`. */
+
+/* What is to be said of a belt: one sentence for each bit of its warnings, handed to `say` one by one. */
+void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
+                                const struct ceduo_stand_result *stand,
+                                void (*say)(void *context, const char *sentence), void *context);
+
+/* What is to be said of a run as a whole. `tolerance` is 0 where none was asked for. */
+struct ceduo_run_remarks {
+    double tolerance;
+    bool tolerance_met;
+    bool ground_assumed;
+};
+void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
+                              void (*say)(void *context, const char *sentence), void *context);
+
+const char *ceduo_words_rule(enum ceduo_rule rule);      /* interception */
+const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
+const char *ceduo_words_shape(enum ceduo_shape shape);   /* cylinder */
+const char *ceduo_words_law(enum ceduo_law law);
+
+/* A number with so many significant digits, never in exponent form where that can be avoided. "-" where it is NaN,
+ * "none" where infinite. */
+void ceduo_words_number(struct text *text, double value, int digits);
+
+#endif

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "line_scene.h"
+
+#include <math.h>
+#include <string.h>
+
+void line_scene_init(struct line_scene *s, size_t vertices, const double *x, const double *z, struct line_ground ground,
+                     double radius, enum ceduo_law law)
+{
+    memset(s, 0, sizeof *s);
+    memcpy(s->x, x, vertices * sizeof *x);
+    memcpy(s->z, z, vertices * sizeof *z);
+    for (size_t j = 0; j + 1 < vertices; j++)
+        s->segments[j] = (struct ceduo_segment){.rn = ceduo_number(ground.rn),
+                                                .rt = ceduo_number(ground.rt),
+                                                .roughness_m = 0,
+                                                .roughness_rad = NAN,
+                                                .friction = ground.friction};
+    struct ceduo_scene *scene = &s->scene;
+    scene->rock = ceduo_rock_def_default();
+    scene->rock.diameter = ceduo_number(2 * radius);
+    scene->slope = (struct ceduo_slope){
+        .facets = CEDUO_AGAINST, .vertices = vertices, .x = s->x, .z = s->z, .segments = s->segments};
+    scene->controls = &s->control;
+    scene->options = &s->option;
+    scene->options_count = 1;
+    scene->simulation = ceduo_simulation_default();
+    scene->simulation.law = law;
+}
+
+void line_scene_release(struct line_scene *s, double x, double height, double vx, double vz, double spin)
+{
+    s->scene.release = (struct ceduo_release){.x = ceduo_number(x),
+                                              .height = ceduo_number(height),
+                                              .vx = ceduo_number(vx),
+                                              .vz = ceduo_number(vz),
+                                              .spin = ceduo_number(spin)};
+}
+
+/* ---- random scenes ---- */
+
+static uint64_t next(struct line_random *r)
+{
+    uint64_t v = r->state += 0x9e3779b97f4a7c15U;
+    v = (v ^ v >> 30) * 0xbf58476d1ce4e5b9U;
+    v = (v ^ v >> 27) * 0x94d049bb133111ebU;
+    return v ^ v >> 31;
+}
+
+double line_uniform(struct line_random *r, double lo, double hi)
+{
+    return lo + (double)(next(r) >> 11) * 0x1p-53 * (hi - lo);
+}
+
+double line_log_uniform(struct line_random *r, double lo, double hi)
+{
+    return exp(line_uniform(r, log(lo), log(hi)));
+}
+
+bool line_chance(struct line_random *r, double p)
+{
+    return line_uniform(r, 0, 1) < p;
+}
+
+static size_t random_profile(struct line_scene *s, struct line_random *r)
+{
+    size_t n = (size_t)line_log_uniform(r, 1, LINE_SEGMENTS_MOST + 0.999);
+    int style = (int)line_uniform(r, 0, 4);
+    double spacing = line_log_uniform(r, 0.05, 5), fall = line_uniform(r, -0.3, 1.5);
+    double noise = spacing * line_log_uniform(r, 0.01, 1);
+    bool survey = line_chance(r, 0.3);
+    double x = 0, z = 0;
+    for (size_t i = 0; i <= n; i++) {
+        double given = survey ? (480000 + x) - 480000 : x;
+        s->x[i] = i > 0 && !(given > s->x[i - 1]) ? nextafter(s->x[i - 1], INFINITY) : given;
+        s->z[i] = i > 0 && style == 0 ? z + noise * line_uniform(r, -1, 1) : z;
+        x = s->x[i];
+        double dx, dz;
+        if (style == 0) { /* noise about a slope */
+            dx = spacing * line_uniform(r, 0.5, 1.5);
+            dz = -fall * dx;
+        } else if (style == 1) { /* long slopes */
+            dx = line_uniform(r, 1, 30);
+            dz = dx * line_uniform(r, -2, 1);
+        } else if (style == 2) { /* walls and slivers */
+            bool sliver = line_chance(r, 0.2);
+            dx = sliver ? line_log_uniform(r, 1e-9, 1e-3) : line_log_uniform(r, 0.01, 10);
+            dz = sliver ? line_uniform(r, -5, 2) : dx * line_uniform(r, -1.5, 0.7);
+            if (sliver && line_chance(r, 0.3))
+                dz = dx * line_uniform(r, -1, 1);
+        } else { /* level steps on a grid that loses no bit */
+            dx = 0.25 * floor(line_uniform(r, 1, 9));
+            dz = line_chance(r, 0.4) ? 0 : 0.125 * floor(line_uniform(r, -9, 4));
+        }
+        x += dx;
+        z += dz;
+    }
+    return n + 1;
+}
+
+static double random_share(struct line_random *r, double lo, double hi)
+{
+    return line_chance(r, 0.1) ? 0 : line_uniform(r, lo, hi);
+}
+
+static void random_segment(struct ceduo_segment *to, struct line_random *r, double radius, double rough)
+{
+    bool angle = line_chance(r, 0.5);
+    double largest = line_uniform(r, 0, rough);
+    *to = (struct ceduo_segment){.rn = ceduo_number(random_share(r, 0.02, 0.95)),
+                                 .rt = ceduo_number(random_share(r, 0.3, 0.98)),
+                                 .roughness_m = angle ? NAN : radius * tan(largest),
+                                 .roughness_rad = angle ? largest : NAN,
+                                 .friction = line_chance(r, 0.15) ? 0 : line_uniform(r, 0.01, 1.2)};
+}
+
+static void random_ground(struct line_scene *s, struct line_random *r, double radius, bool lasting)
+{
+    double rough = line_chance(r, 0.4) ? 0 : line_chance(r, 0.1) ? 1.5 : 0.5;
+    bool alike = line_chance(r, 0.5), ones = line_chance(r, 0.05);
+    for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++) {
+        struct ceduo_segment *to = &s->segments[j];
+        if (alike && j > 0)
+            *to = s->segments[0];
+        else
+            random_segment(to, r, radius, rough);
+        /* a share of 1 that something else still brakes */
+        if (ones && s->scene.simulation.law == CEDUO_LAW_CRSP)
+            to->rn.mean = 1;
+        else if (ones && to->friction > 0.05)
+            to->rt.mean = 1;
+        if (lasting && line_chance(r, 0.7))
+            to->rt.mean = 1;
+        if (lasting && line_chance(r, 0.5))
+            to->rn.mean = 1;
+        if (lasting && line_chance(r, 0.5))
+            to->friction = 0;
+    }
+}
+
+static double random_speed(struct line_random *r)
+{
+    return line_chance(r, 0.25) ? 0 : line_uniform(r, -10, 15);
+}
+
+void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_every)
+{
+    struct line_random random = {.state = number * 0xd1342543de82ef95U + 17}, *r = &random;
+    bool lasting = lasting_every > 0 && number % lasting_every == lasting_every - 1;
+    double radius = line_log_uniform(r, 0.005, 5);
+    line_scene_init(s, 0, s->x, s->z, (struct line_ground){0}, radius,
+                    line_chance(r, 0.5) ? CEDUO_LAW_LUMPED : CEDUO_LAW_CRSP);
+    struct ceduo_scene *scene = &s->scene;
+    scene->slope.vertices = random_profile(s, r);
+    scene->slope.facets = line_chance(r, 0.5) ? CEDUO_AGAINST : CEDUO_BOTH;
+    scene->simulation.scale_rn = line_chance(r, 0.2);
+    scene->simulation.seed = number;
+    scene->simulation.gravity = line_chance(r, 0.8) ? CEDUO_GRAVITY : line_log_uniform(r, 1, 30);
+    random_ground(s, r, radius, lasting);
+    double end = s->x[scene->slope.vertices - 1];
+    double at = end * (line_chance(r, 0.1) ? 0 : line_uniform(r, 0, 0.9));
+    if (line_chance(r, 0.1)) /* on a vertex */
+        at = s->x[(size_t)line_uniform(r, 0, (double)scene->slope.vertices - 1)];
+    line_scene_release(s, at, line_chance(r, 0.3) ? 0 : line_log_uniform(r, 1e-3, 20), random_speed(r),
+                       random_speed(r) - 2, line_chance(r, 0.3) ? 0 : line_uniform(r, -20, 20));
+    s->control = (struct ceduo_control){
+        .x = at + (end - at) * line_uniform(r, 0.01, 1), .accepted = NAN, .measured_speed = NAN};
+    scene->controls_count = 1;
+}
+
+bool line_scene_lasts(const struct line_scene *s)
+{
+    const struct ceduo_simulation *sim = &s->scene.simulation;
+    for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++) {
+        const struct ceduo_segment *at = &s->segments[j];
+        bool bounces = at->rn.mean == 1 && sim->law == CEDUO_LAW_LUMPED && !sim->scale_rn;
+        if (bounces || (at->rt.mean == 1 && at->friction == 0))
+            return true;
+    }
+    return false;
+}
+
+/* ---- following ---- */
+
+static void keep_piece(void *context, const struct ceduo_piece *piece)
+{
+    struct line_way *to = context;
+    if (to->count < LINE_PIECES_MOST)
+        to->pieces[to->count++] = *piece;
+}
+
+enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to)
+{
+    to->count = 0;
+    return ceduo_way_follow(&s->scene, 0, keep_piece, to, &to->way, &to->crossing);
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef LINE_SCENE_H
+#define LINE_SCENE_H
+
+#include "ceduo/ceduo.h"
+
+/* A small scene in one piece of memory: a sphere on a polyline, one control. It points into itself: never copy it. */
+#define LINE_SEGMENTS_MOST 200
+#define LINE_PIECES_MOST 20000
+
+struct line_scene {
+    struct ceduo_scene scene;
+    double x[LINE_SEGMENTS_MOST + 1], z[LINE_SEGMENTS_MOST + 1];
+    struct ceduo_segment segments[LINE_SEGMENTS_MOST];
+    struct ceduo_control control;
+    struct ceduo_option option;
+};
+
+struct line_ground {
+    double rn, rt, friction;
+};
+
+/* A smooth slope of one ground; the rock at rest on its first vertex, no control, gravity 9.81. */
+void line_scene_init(struct line_scene *s, size_t vertices, const double *x, const double *z, struct line_ground ground,
+                     double radius, enum ceduo_law law);
+
+/* Where and how the rock starts. */
+void line_scene_release(struct line_scene *s, double x, double height, double vx, double vz, double spin);
+
+/* A simple generator of numbers for tests (splitmix64; Steele, Lea and Flood 2014). */
+struct line_random {
+    uint64_t state;
+};
+double line_uniform(struct line_random *r, double lo, double hi);
+double line_log_uniform(struct line_random *r, double lo, double hi);
+bool line_chance(struct line_random *r, double p);
+
+/* Random scene number `number`: 1 to 200 segments; terrain of noise of 5 cm to 5 m, of long slopes, with walls and
+ * slivers of 1e-9 m, or of level steps; survey coordinates; rocks of 1 cm to 10 m; both laws, facets on either side;
+ * friction, Rn and Rt from 0 on. One in `lasting_every` (0: none) has Rn or Rt 1, so that a rock may go on for ever. */
+void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_every);
+
+/* Whether nothing need take energy from a rock somewhere: it may bounce or roll for ever. */
+bool line_scene_lasts(const struct line_scene *s);
+
+/* The pieces of rock 0's way, at most LINE_PIECES_MOST kept. */
+struct line_way {
+    struct ceduo_way way;
+    struct ceduo_crossing crossing;
+    size_t count;
+    struct ceduo_piece pieces[LINE_PIECES_MOST];
+};
+enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to);
+
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef PAPER_SITE_H
+#define PAPER_SITE_H
+
+#include "ceduo/ceduo.h"
+
+/* The test site of Ciabocco, Boccia and Ripa 2009: Table 2 (rock, release), Table 3 (slope), Table 1 (plots ADS 1 and
+ * ADS 2, 67.5 m of each), one control at x = 135 m where 15.6 m/s were measured. */
+#define PAPER_VERTICES 14
+#define PAPER_SEGMENTS (PAPER_VERTICES - 1)
+#define PAPER_TOP 126.0 /* y of the first vertex */
+#define PAPER_U 102800.0
+#define PAPER_B 0.68
+
+enum paper_theta { PAPER_ANGLE, PAPER_HEIGHT }; /* how Table 3's column theta is read: radians, or metres over R */
+
+/* One plot's stems: the shoots of the stools and the single trees, all with the plot's means. */
+struct paper_plot {
+    struct ceduo_stand stand;
+    struct ceduo_stems shoots, trees;
+};
+
+struct paper_site {
+    struct ceduo_scene scene;
+    double x[PAPER_VERTICES], z[PAPER_VERTICES];
+    struct ceduo_segment segments[PAPER_SEGMENTS];
+    struct ceduo_control control;
+    struct ceduo_option option;
+    struct ceduo_belt belts[2];
+    struct paper_plot plots[2];
+};
+
+/* Table 3's x and y, and the theta of a segment. */
+extern const double paper_x[PAPER_VERTICES], paper_y[PAPER_VERTICES];
+double paper_theta(size_t segment);
+
+/* Plot ADS `number` (1 or 2) of Table 1. `plot` points into itself: it must not be copied. */
+void paper_plot_init(struct paper_plot *plot, int number);
+
+/* The whole site: lumped, theta in radians, facets against the rock, friction 0.5. `site` must not be copied. */
+void paper_site_init(struct paper_site *site);
+
+/* Another reading of theta, or 0 everywhere. */
+void paper_site_read_theta(struct paper_site *site, enum paper_theta theta);
+void paper_site_smooth(struct paper_site *site);
+
+/* The rock as a sphere of the same mean diameter. */
+void paper_site_sphere(struct paper_site *site);
+
+#endif

@@ -1,0 +1,728 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ways and statistics whose results are known in closed form or from published tables. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+#define G CEDUO_GRAVITY
+
+static struct line_scene scene;
+static struct line_way way, other;
+
+static void expect_near(double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fmax(fabs(expected), 1e-300)))
+        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
+}
+
+static void follow(void)
+{
+    assert_int_equal(ceduo_scene_check(&scene.scene, NULL), CEDUO_OK);
+    assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+}
+
+/* One straight slope from x = 0 to 1000 that rises by `rise` per metre. */
+static void straight(double rise, struct line_ground ground, double radius, enum ceduo_law law)
+{
+    const double x[] = {0, 1000}, z[] = {0, 1000 * rise};
+    line_scene_init(&scene, 2, x, z, ground, radius, law);
+}
+
+/* ---- flight ---- */
+
+static void free_fall(void **state)
+{
+    (void)state;
+    straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 500, 20, 0, 0, 0);
+    follow();
+    const struct ceduo_piece *p = &way.pieces[0];
+    expect_near(p->seconds, sqrt(2 * 20 / G), 1e-15);
+    expect_near(p->vz1, -sqrt(2 * G * 20), 1e-15);
+    assert_true(p->x1 == 500 && p->z1 == 0 && p->vx1 == 0);
+}
+
+static void projectiles_on_a_slope(void **state)
+{
+    (void)state;
+    static const double rises[] = {0, -.5, .5, -3, 2};
+    for (size_t i = 0; i < LENGTH(rises); i++) {
+        straight(rises[i], (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
+        line_scene_release(&scene, 500, 5, -4, 3, 0);
+        follow();
+        double b = 3 + 4 * rises[i], t = (b + sqrt(b * b + 2 * G * 5)) / G; /* 5 + b t = g t2/2 */
+        const struct ceduo_piece *p = &way.pieces[0];
+        expect_near(p->seconds, t, 1e-14);
+        expect_near(p->x1, 500 - 4 * t, 1e-14);
+        expect_near(p->z1, rises[i] * (500 - 4 * t), 1e-14);
+        expect_near(p->vz1, 3 - G * t, 1e-14);
+    }
+}
+
+static void a_control_sees_the_flight_over_it(void **state)
+{
+    (void)state;
+    straight(-.5, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 0, 50, 10, 0, 0);
+    scene.control.x = 8;
+    scene.scene.controls_count = 1;
+    follow();
+    assert_true(way.crossing.reached && way.crossing.vx == 10);
+    expect_near(way.crossing.vz, -G * .8, 1e-15);
+    expect_near(way.crossing.height, 50 + 4 - G * .32, 1e-14);
+    line_scene_release(&scene, 0, 0, -.1, 0, 0); /* goes the other way */
+    assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+    assert_false(way.crossing.reached);
+    assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
+}
+
+/* ---- bouncing ---- */
+
+static void a_vertical_drop_rebounds_to_rn2_h(void **state)
+{
+    (void)state;
+    const double rn = .75, radius = .1;
+    straight(0, (struct line_ground){rn, .5, .5}, radius, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 500, 10, 0, 0, 0);
+    follow();
+    double h = 10;
+    size_t i = 1;
+    while ((h *= rn * rn) > radius) {
+        assert_true(i < way.count);
+        const struct ceduo_piece *p = &way.pieces[i++];
+        assert_false(p->rolls);
+        expect_near(p->vz * p->vz / (2 * G), h, 1e-13);
+    }
+    assert_int_equal(i, way.count); /* the next one is lower than R */
+    assert_int_equal(way.way.end, CEDUO_AT_REST);
+    assert_true(way.way.x == 500 && way.way.z == 0 && way.way.contacts == i);
+}
+
+static void an_oblique_impact_on_the_flat(void **state)
+{
+    (void)state;
+    straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 500, 0, 2, -4, 0);
+    follow();
+    const struct ceduo_piece *p = &way.pieces[0];
+    assert_true(!p->rolls && p->x == 500 && p->vx == 1 && p->vz == 2 && p->contacts == 1);
+    expect_near(p->x1, 500 + 4 / G, 1e-15);
+    line_scene_release(&scene, 500, 0, -2, -4, 0);
+    follow();
+    assert_true(way.pieces[0].vx == -1 && way.pieces[0].vz == 2);
+}
+
+static void a_release_that_leaves_the_ground_has_no_contact(void **state)
+{
+    (void)state;
+    straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 500, 0, 2, 4, 0);
+    follow();
+    const struct ceduo_piece *p = &way.pieces[0];
+    assert_true(p->contacts == 0 && p->vx == 2 && p->vz == 4 && p[1].vx == 1 && p[1].contacts == 1);
+    expect_near(p[1].vz, 2, 1e-15);
+}
+
+/* ---- rolling ---- */
+
+static void roll_stops(enum ceduo_law law, double k, double v0)
+{
+    const double mu = .25;
+    straight(0, (struct line_ground){.5, 1, mu}, .34, law);
+    line_scene_release(&scene, 500, 0, v0, 0, v0 / .34);
+    follow();
+    expect_near(fabs(way.way.x - 500), (1 + k) * v0 * v0 / (2 * G * mu), 1e-12);
+    assert_true((way.way.x > 500) == (v0 > 0));
+    assert_int_equal(way.way.end, CEDUO_AT_REST);
+    for (size_t i = 0; i < way.count; i++)
+        assert_true(way.pieces[i].rolls);
+    assert_int_equal(way.way.contacts, ceil(fabs(way.way.x - 500) / .34)); /* one for each radius */
+}
+
+static void a_roll_on_the_flat_stops_by_friction(void **state)
+{
+    (void)state;
+    roll_stops(CEDUO_LAW_LUMPED, 0, 5);
+    roll_stops(CEDUO_LAW_LUMPED, 0, -5);
+    roll_stops(CEDUO_LAW_CRSP, .4, 5);
+    roll_stops(CEDUO_LAW_CRSP, .4, -5);
+}
+
+static void roll_accelerates(enum ceduo_law law, double k, double rise, double mu)
+{
+    straight(rise, (struct line_ground){.5, 1, mu}, .34, law);
+    line_scene_release(&scene, 500, 0, 0, 0, 0);
+    follow();
+    double c = 1 / sqrt(1 + rise * rise), a = G * (fabs(rise) - mu) * c / (1 + k);
+    assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
+    assert_true(way.way.x == (rise < 0 ? 1000 : 0));
+    for (size_t i = 0; i < way.count; i++) {
+        const struct ceduo_piece *p = &way.pieces[i];
+        assert_true(p->rolls);
+        double ds = hypot(p->x1 - 500, p->z1 - 500 * rise);
+        expect_near(p->vx1 * p->vx1 + p->vz1 * p->vz1, 2 * a * ds, 1e-11);
+        if (i > 0 && k > 0)
+            expect_near(p->spin * .34, (rise < 0 ? 1 : -1) * hypot(p->vx, p->vz), 1e-14);
+    }
+}
+
+/* A sphere without friction goes with (5/7) g sin(slope). */
+static void a_roll_down_a_slope(void **state)
+{
+    (void)state;
+    roll_accelerates(CEDUO_LAW_CRSP, .4, -.3, 0);
+    roll_accelerates(CEDUO_LAW_CRSP, .4, .3, 0);
+    roll_accelerates(CEDUO_LAW_CRSP, .4, -1.5, .25);
+    roll_accelerates(CEDUO_LAW_LUMPED, 0, -.3, 0);
+    roll_accelerates(CEDUO_LAW_LUMPED, 0, 1.5, .25);
+}
+
+static void spin_and_speed_share_their_momentum_in_a_roll(void **state)
+{
+    (void)state;
+    straight(0, (struct line_ground){0, 1, .5}, .5, CEDUO_LAW_CRSP);
+    line_scene_release(&scene, 500, 0, 0, 0, 8); /* a spinning sphere put down */
+    follow();
+    /* f = 1, SF = 1 at Rt = 1: the energy of the spin becomes that of a roll */
+    expect_near(way.pieces[0].vx, sqrt(.4 * 16 / 1.4), 1e-15);
+    expect_near(way.pieces[0].spin * .5, way.pieces[0].vx, 1e-15);
+}
+
+static void a_concave_vertex_takes_the_part_into_the_ground(void **state)
+{
+    (void)state;
+    const double x[] = {0, 1, 9}, z[] = {0, 0, 6}; /* cosine 4/5 */
+    line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, 1.5, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, .5, 0, 2, 0, 0);
+    follow();
+    assert_true(way.pieces[0].vx1 == 2 && way.pieces[0].x1 == 1);
+    expect_near(hypot(way.pieces[1].vx, way.pieces[1].vz), 1.6, 1e-15);
+    expect_near(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
+}
+
+static void over_a_convex_vertex_it_rolls_or_flies(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10, 20}, z[] = {0, 0, -5};
+    for (int fast = 0; fast <= 1; fast++) {
+        line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, .5, CEDUO_LAW_LUMPED);
+        line_scene_release(&scene, 9.9, 0, fast ? 3 : .3, 0, 0);
+        follow();
+        assert_true(way.pieces[0].rolls && way.pieces[0].x1 == 10);
+        assert_true(way.pieces[1].rolls == !fast && way.pieces[1].x == 10);
+        double v = hypot(way.pieces[1].vx, way.pieces[1].vz); /* nothing is lost */
+        expect_near(v, fast ? 3 : .3, 1e-15);
+        if (fast) /* z = -g t2/2 meets z = -x/2 */
+            expect_near(way.pieces[1].x1, 10 + 3 * 3 / G, 1e-14);
+    }
+}
+
+/* ---- resting ---- */
+
+static void at_rest_it_goes_where_it_is_steeper_than_friction(void **state)
+{
+    (void)state;
+    for (int dir = -1; dir <= 1; dir += 2)
+        for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+            straight(.3 * dir, (struct line_ground){.5, .5, .31}, .34, (enum ceduo_law)law);
+            line_scene_release(&scene, 500, 0, 0, 0, 0);
+            follow();
+            assert_true(way.way.end == CEDUO_AT_REST && way.way.x == 500 && way.way.contacts == 1);
+            straight(.3 * dir, (struct line_ground){.5, .5, .29}, .34, (enum ceduo_law)law);
+            line_scene_release(&scene, 500, 0, 0, 0, 0);
+            follow();
+            assert_true(way.way.end == CEDUO_LEFT_SLOPE && way.way.x == (dir < 0 ? 1000 : 0));
+        }
+}
+
+static void released_in_a_pit(double radius, double level, double beyond, bool stays)
+{
+    const double x[] = {0, 2, 2 + level, 4 + level, 10}, z[] = {0, -1, -1, -1 + beyond, -1 + beyond};
+    line_scene_init(&scene, LENGTH(x), x, z, (struct line_ground){.2, .5, .2}, radius, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 1.8, 0, 0, 0, 0);
+    follow();
+    assert_int_equal(way.way.end, CEDUO_AT_REST);
+    assert_true((way.way.x == 1.8) == stays);
+}
+
+static void at_rest_it_stays_in_a_pit_within_its_radius(void **state)
+{
+    (void)state;
+    const double bottom = hypot(.2, .1);
+    released_in_a_pit(bottom * 1.01, .001, 1, true);
+    released_in_a_pit(bottom * .99, .001, 1, false);
+    released_in_a_pit(.5, .49, 1, true);
+    released_in_a_pit(.5, .51, 1, false); /* a level stretch not shorter than R is no pit */
+    const double x[] = {0, 2, 4, 10}, z[] = {0, -1, -1 + .08, -5}; /* the far side is lower than the rock */
+    line_scene_init(&scene, 4, x, z, (struct line_ground){.2, .5, .01}, .5, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 1.8, 0, 0, 0, 0);
+    follow();
+    assert_true(way.way.x != 1.8);
+    const double gentle[] = {0, -1, -1 + .3, -5}; /* the far side holds by its friction: not steeper than it */
+    line_scene_init(&scene, 4, x, gentle, (struct line_ground){.2, .5, .2}, .5, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 1.8, 0, 0, 0, 0);
+    follow();
+    assert_true(way.way.x != 1.8);
+}
+
+/* ---- vertices and ends ---- */
+
+/* Two level segments that meet at x = 1, of Rn = Rt = 1/2 and 1/4. */
+static void two_grounds(double radius)
+{
+    const double x[] = {0, 1, 100}, z[] = {0, 0, 0};
+    line_scene_init(&scene, 3, x, z, (struct line_ground){.5, .5, 0}, radius, CEDUO_LAW_LUMPED);
+    scene.segments[1].rn = scene.segments[1].rt = ceduo_number(.25);
+    scene.scene.simulation.gravity = 8;
+}
+
+static void a_release_on_a_vertex_is_on_the_right(void **state)
+{
+    (void)state;
+    two_grounds(.01);
+    for (int dir = -1; dir <= 1; dir++) {
+        line_scene_release(&scene, 1, 0, dir * 4, -8, 0);
+        follow();
+        assert_true(way.pieces[0].vz == 2 && way.pieces[0].vx == dir);
+    }
+    line_scene_release(&scene, 1, 4, 0, 0, 0); /* dropped on it */
+    follow();
+    assert_true(way.pieces[0].vz1 == -8 && way.pieces[1].vz == 2);
+    line_scene_release(&scene, 0, 0, 0, -8, 0); /* the first vertex */
+    follow();
+    assert_true(way.pieces[0].vz == 4);
+}
+
+static void a_flight_exactly_through_a_vertex_is_on_the_segment_ahead(void **state)
+{
+    (void)state;
+    two_grounds(.01);
+    line_scene_release(&scene, 0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
+    follow();
+    assert_true(way.pieces[0].x1 == 1 && way.pieces[0].z1 == 0 && way.pieces[0].vz1 == -4);
+    assert_true(way.pieces[1].vz == 1 && way.pieces[1].vx == .5);
+    line_scene_release(&scene, 2, 1, -2, 0, 0); /* and from the other side */
+    follow();
+    assert_true(way.pieces[0].x1 == 1 && way.pieces[1].vz == 2 && way.pieces[1].vx == -1);
+}
+
+static void a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along(void **state)
+{
+    (void)state;
+    two_grounds(.5);
+    line_scene_release(&scene, .5, 0, 1, 0, 0);
+    follow();
+    assert_true(way.pieces[0].rolls && way.pieces[0].x1 == 1 && way.pieces[0].vx == .5);
+    for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 once more at x = 1, 1/4 from there on */
+        const struct ceduo_piece *p = &way.pieces[i];
+        assert_true(p->contacts != 2 || (p->vx == .25 && p->x == 1));
+        assert_true(p->contacts != 3 || (p->vx == .0625 && p->x == 1.5));
+    }
+}
+
+static void the_way_ends_at_either_end_of_the_slope(void **state)
+{
+    (void)state;
+    for (int dir = -1; dir <= 1; dir += 2) {
+        straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
+        double x = dir < 0 ? 1 : 999, end = dir < 0 ? 0 : 1000;
+        line_scene_release(&scene, x, 10, dir * 50, 0, 0); /* flies out */
+        follow();
+        assert_true(way.way.end == CEDUO_LEFT_SLOPE && way.way.x == end && way.way.contacts == 0);
+        expect_near(way.way.z, 10 - G / 2 / 2500, 1e-15);
+        line_scene_release(&scene, x, 0, dir * 3, 0, 0); /* rolls out */
+        follow();
+        assert_true(way.way.end == CEDUO_LEFT_SLOPE && way.way.x == end && way.way.z == 0);
+        assert_true(way.pieces[way.count - 1].rolls);
+        line_scene_release(&scene, x, 0, dir * 1.4, 0, 0); /* stops within the last metre: v2 < 2 g mu */
+        follow();
+        assert_int_equal(way.way.end, CEDUO_AT_REST);
+        expect_near(fabs(way.way.x - x), 1.4 * 1.4 / (2 * G * .1), 1e-11);
+    }
+}
+
+static void a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards(void **state)
+{
+    (void)state;
+    const double x[] = {0, 20, 20.001}, z[] = {0, -10, 90};
+    line_scene_init(&scene, 3, x, z, (struct line_ground){.3, .8, .5}, .34, CEDUO_LAW_CRSP);
+    line_scene_release(&scene, 1, 1, 5, 0, 0);
+    scene.control.x = 20;
+    scene.scene.controls_count = 1;
+    follow();
+    assert_int_equal(way.way.end, CEDUO_AT_REST);
+    assert_true(way.way.x <= 20.001 && way.way.x > 10);
+}
+
+/* ---- units of length and place ---- */
+
+static bool same_pieces(const struct line_way *a, const struct line_way *b, double length, double speed)
+{
+    bool same = a->count == b->count && a->way.end == b->way.end && a->way.contacts == b->way.contacts;
+    for (size_t i = 0; same && i < a->count; i++) {
+        const struct ceduo_piece *p = &a->pieces[i], *q = &b->pieces[i];
+        same = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
+               p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz &&
+               p->vx1 * speed == q->vx1 && p->vz1 * speed == q->vz1 && p->contacts == q->contacts &&
+               p->seconds * (length / speed) == q->seconds;
+    }
+    return same;
+}
+
+/* Relative to its first vertex a profile in survey coordinates is the profile, where they lose no bit. */
+static void a_shift_that_loses_no_bit_changes_no_bit(void **state)
+{
+    (void)state;
+    for (uint64_t n = 0; n < 2000; n++) {
+        line_scene_random(&scene, n, 0);
+        size_t vertices = scene.scene.slope.vertices;
+        for (size_t i = 0; i < vertices; i++) /* multiples of 2^-12 m */
+            scene.x[i] = ldexp((double)i + rint(ldexp(scene.x[i], 12)), -12);
+        line_scene_release(&scene, scene.x[(vertices - 1) / 2], .5, 1, 0, 0);
+        scene.scene.controls_count = 0;
+        follow();
+        double origin = 480000.25;
+        for (size_t i = 0; i < vertices; i++)
+            scene.x[i] += origin;
+        for (size_t i = vertices; i-- > 0;)
+            scene.x[i] -= scene.x[0];
+        scene.scene.slope.origin_x = origin;
+        assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
+        assert_true(same_pieces(&way, &other, 1, 1));
+    }
+}
+
+/* Lengths × 4 and speeds × 2 leave v2/(g l) as it is; the lumped law has no speed of its own. */
+static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **state)
+{
+    (void)state;
+    size_t bounces = 0;
+    for (uint64_t n = 0; n < 3000; n++) {
+        line_scene_random(&scene, n, 0);
+        struct ceduo_scene *s = &scene.scene;
+        s->simulation.law = CEDUO_LAW_LUMPED;
+        s->simulation.scale_rn = false;
+        for (size_t j = 0; j + 1 < s->slope.vertices; j++)
+            scene.segments[j].rt.mean = fmin(scene.segments[j].rt.mean, .9);
+        follow();
+        bounces += way.count;
+        for (size_t i = 0; i < s->slope.vertices; i++) {
+            scene.x[i] *= 4;
+            scene.z[i] *= 4;
+            scene.segments[i < s->slope.vertices - 1 ? i : 0].roughness_m *= i < s->slope.vertices - 1 ? 4 : 1;
+        }
+        s->rock.diameter.mean *= 4;
+        struct ceduo_release *r = &s->release;
+        line_scene_release(&scene, r->x.mean * 4, r->height.mean * 4, r->vx.mean * 2, r->vz.mean * 2, 0);
+        scene.control.x *= 4;
+        struct ceduo_crossing before = way.crossing;
+        assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
+        assert_true(same_pieces(&way, &other, 4, 2));
+        assert_true(before.reached == other.crossing.reached && before.height * 4 == other.crossing.height &&
+                    before.vx * 2 == other.crossing.vx && before.vz * 2 == other.crossing.vz);
+    }
+    assert_true(bounces > 10000);
+}
+
+/* ---- probabilities ---- */
+
+struct wilson_row {
+    uint64_t hits, n;
+    double lo, hi;
+};
+
+/* Newcombe 1998, Table I, method 3, to its four decimals; the rest by hand from Wilson 1927. */
+static void intervals_of_wilson(void **state)
+{
+    (void)state;
+    static const struct wilson_row rows[] = {{81, 263, .2553, .3662},   {15, 148, .0624, .1605}, {0, 20, 0, .1611},
+                                             {1, 29, .0061, .1718},     {29, 29, .8830, 1},      {0, 999, 0, .0038},
+                                             {999, 999, .9962, 1}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        double lo, hi;
+        ceduo_wilson(rows[i].hits, rows[i].n, &lo, &hi);
+        assert_true(fabs(lo - rows[i].lo) <= .5e-4 + 1e-12 && fabs(hi - rows[i].hi) <= .5e-4 + 1e-12);
+        assert_true(rows[i].hits > 0 || lo == 0);
+        assert_true(rows[i].hits < rows[i].n || hi == 1);
+        /* each bound p solves (hits/n - p)2 = z2 p(1 - p)/n */
+        double z2 = 1.959963984540054 * 1.959963984540054, n = (double)rows[i].n, p = (double)rows[i].hits / n;
+        if (rows[i].hits > 0)
+            expect_near((p - lo) * (p - lo), z2 * lo * (1 - lo) / n, 1e-9);
+        if (rows[i].hits < rows[i].n)
+            expect_near((p - hi) * (p - hi), z2 * hi * (1 - hi) / n, 1e-9);
+    }
+    double lo, hi;
+    ceduo_wilson(0, 0, &lo, &hi);
+    assert_true(lo == 0 && hi == 1);
+    ceduo_wilson(0, 999, &lo, &hi);
+    assert_true(hi < .004 && hi > .0038); /* "below 0.4 %" */
+}
+
+static void ranks_of_quantiles(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t n;
+        double p;
+        size_t rank;
+    } rows[] = {{1, .5, 1}, {2, .5, 1}, {3, .5, 2}, {20, .95, 19}, {21, .95, 20}, {100, .95, 95}, {100, .99, 99},
+                {101, .95, 96}, {999, .95, 950}, {1000, .95, 950}, {10000000, .95, 9500000}, {5, 1, 5}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        assert_int_equal(ceduo_quantile_rank(rows[i].n, rows[i].p), rows[i].rank);
+}
+
+/* P(X <= k) of the binomial law by its own sum. */
+static long double binomial_below(size_t n, long double p, size_t k)
+{
+    long double sum = 0, term = powl(1 - p, (long double)n);
+    for (size_t i = 0; i <= k; i++) {
+        sum += term;
+        term *= (long double)(n - i) / (long double)(i + 1) * p / (1 - p);
+    }
+    return sum;
+}
+
+/* The 95 % limits of a median are in many tables: 8 and 18 of 25, 18 and 33 of 50, 40 and 61 of 100 (Conover 1999). */
+static void intervals_of_quantiles(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t n;
+        double p;
+        size_t lo, hi;
+    } rows[] = {{5, .5, 0, 6},     {10, .5, 2, 9},      {20, .5, 6, 15},      {25, .5, 8, 18},     {50, .5, 18, 33},
+                {100, .5, 40, 61}, {100, .95, 90, 100}, {999, .95, 935, 963}, {30, .95, 26, 31}, {1000, .95, 936, 964}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        size_t lo, hi;
+        ceduo_quantile_interval(rows[i].n, rows[i].p, &lo, &hi);
+        assert_int_equal(lo, rows[i].lo);
+        assert_int_equal(hi, rows[i].hi);
+    }
+    for (size_t n = 1; n <= 300; n++) { /* neither tail has more than 2.5 %, and one rank further in it would */
+        size_t lo, hi;
+        ceduo_quantile_interval(n, .95, &lo, &hi);
+        assert_true(lo == 0 || binomial_below(n, .95L, lo - 1) < .025L);
+        assert_true(lo == n || binomial_below(n, .95L, lo) >= .025L);
+        assert_true(binomial_below(n, .95L, hi - 1) >= .975L * (1 - 1e-15L));
+        assert_true(hi < 2 || binomial_below(n, .95L, hi - 2) < .975L);
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void a_distribution_of_exact_values(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {1, 2, 19, 20, 100, 999, 5000};
+    static double values[5000], sorted[5000];
+    struct line_random r = {.state = 5};
+    for (size_t s = 0; s < LENGTH(sizes); s++) {
+        size_t n = sizes[s], lo, hi;
+        struct ceduo_moments m = {0};
+        for (size_t i = 0; i < n; i++) {
+            values[i] = sorted[i] = floor(line_log_uniform(&r, 1, 1e4)); /* many are equal */
+            ceduo_moments_add(&m, values[i]);
+        }
+        qsort(sorted, n, sizeof *sorted, by_value);
+        ceduo_quantile_interval(n, .95, &lo, &hi);
+        struct ceduo_distribution d = ceduo_distribution_exact(values, n, &m);
+        assert_true(d.p50 == sorted[(n + 1) / 2 - 1] && d.max == sorted[n - 1] && d.mean == m.mean);
+        assert_true(d.p95 == sorted[ceduo_quantile_rank(n, .95) - 1] &&
+                    d.p99 == sorted[ceduo_quantile_rank(n, .99) - 1]);
+        assert_true(lo > 0 ? d.p95_lo == sorted[lo - 1] : isnan(d.p95_lo));
+        assert_true(hi <= n ? d.p95_hi == sorted[hi - 1] : isnan(d.p95_hi));
+        assert_true(n > 1 ? d.sd == ceduo_moments_sd(&m) && d.se == ceduo_moments_se(&m) : isnan(d.sd) && isnan(d.se));
+    }
+    struct ceduo_distribution none = ceduo_distribution_none();
+    assert_true(isnan(none.mean) && isnan(none.p50) && isnan(none.p95) && isnan(none.p99) && isnan(none.max));
+}
+
+static void moments_added_and_merged(void **state)
+{
+    (void)state;
+    static double values[10000];
+    const size_t n = LENGTH(values);
+    struct line_random r = {.state = 3};
+    long double sum = 0, squares = 0;
+    double largest = -INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        values[i] = line_uniform(&r, -1, 1) - 1e4; /* far from 0, all negative */
+        sum += values[i];
+        largest = fmax(largest, values[i]);
+    }
+    long double mean = sum / (long double)n;
+    for (size_t i = 0; i < n; i++)
+        squares += (values[i] - mean) * (values[i] - mean);
+    static const size_t cuts[] = {1, 2, 7, 1000, 10000};
+    for (size_t c = 0; c < LENGTH(cuts); c++) {
+        struct ceduo_moments all = {0};
+        for (size_t i = 0; i < n;) {
+            struct ceduo_moments part = {0};
+            for (size_t j = 0; j < cuts[c] && i < n; j++)
+                ceduo_moments_add(&part, values[i++]);
+            ceduo_moments_merge(&all, &part);
+        }
+        struct ceduo_moments none = {0};
+        ceduo_moments_merge(&all, &none);
+        assert_int_equal(all.n, n);
+        assert_true(all.max == largest);
+        expect_near(all.mean, (double)mean, 1e-14);
+        expect_near(all.m2, (double)squares, 1e-9);
+        expect_near(ceduo_moments_sd(&all), (double)sqrtl(squares / (long double)(n - 1)), 1e-9);
+        expect_near(ceduo_moments_se(&all), (double)sqrtl(squares / (long double)(n - 1) / (long double)n), 1e-9);
+    }
+    struct ceduo_moments one = {0};
+    assert_true(isnan(ceduo_moments_sd(&one)));
+    ceduo_moments_add(&one, 4);
+    assert_true(isnan(ceduo_moments_sd(&one)) && isnan(ceduo_moments_se(&one)) && one.mean == 4 && one.max == 4);
+}
+
+/* ---- numbers that differ from rock to rock ---- */
+
+static double density(double z)
+{
+    return exp(-z * z / 2) / sqrt(2 * acos(-1));
+}
+
+static double below(double z)
+{
+    return erfc(-z / sqrt(2)) / 2;
+}
+
+struct seen {
+    double mean, sd, lowest, highest;
+};
+
+/* Draws by n evenly spread quantiles (n > 0) or by 10^6 random ones. */
+static struct seen draw_many(struct ceduo_number number, double lo, double hi, size_t n)
+{
+    struct line_random r = {.state = 11};
+    struct ceduo_moments m = {0};
+    struct seen seen = {.lowest = INFINITY, .highest = -INFINITY};
+    size_t count = n > 0 ? n : 1000000;
+    for (size_t i = 0; i < count; i++) {
+        double u = n > 0 ? ((double)i + .5) / (double)n : line_uniform(&r, 0, 1) + 0x1p-54;
+        double v = ceduo_number_draw(number, u, lo, hi);
+        ceduo_moments_add(&m, v);
+        seen.lowest = fmin(seen.lowest, v);
+        seen.highest = fmax(seen.highest, v);
+    }
+    seen.mean = m.mean;
+    seen.sd = ceduo_moments_sd(&m);
+    return seen;
+}
+
+/* Against the normal law cut at [a, b] standard deviations from its mean. */
+static void expect_cut_normal(double mean, double sd, double lo, double hi)
+{
+    struct ceduo_number n = {.mean = mean, .spread = sd, .kind = CEDUO_NORMAL};
+    double a = fmax(-3, (lo - mean) / sd), b = fmin(3, (hi - mean) / sd), p = below(b) - below(a);
+    double shift = (density(a) - density(b)) / p;
+    double variance = 1 + (a * density(a) - b * density(b)) / p - shift * shift;
+    double expected = mean + sd * shift, width = sd * sqrt(variance);
+    struct seen even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
+    assert_true(fabs(even.mean - expected) < 1e-5 * sd && fabs(even.sd - width) < 1e-4 * sd);
+    assert_true(fabs(random.mean - expected) < 4 * width / 1e3);    /* 4 standard errors of 10^6 */
+    assert_true(fabs(random.sd - width) < 4 * width / 1e3);         /* its own are smaller: no long tails */
+    assert_true(even.lowest >= mean + a * sd - 1e-15 && even.lowest < mean + (a + .05) * sd);
+    assert_true(even.highest <= mean + b * sd + 1e-15 && even.highest > mean + (b - .05) * sd);
+}
+
+static void a_normal_spread_is_cut(void **state)
+{
+    (void)state;
+    expect_cut_normal(.5, .05, -INFINITY, INFINITY); /* at three standard deviations */
+    expect_cut_normal(.9, .1, 0, 1);
+    expect_cut_normal(.05, .1, 0, 1);
+    expect_cut_normal(.5, .5, 0, 1);
+    struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_NORMAL};
+    assert_true(ceduo_number_lowest(n) == .5 && ceduo_number_highest(n) == 3.5);
+    expect_near(ceduo_number_draw(n, .5, -INFINITY, INFINITY), 2, 1e-14);
+}
+
+static void a_uniform_spread(void **state)
+{
+    (void)state;
+    struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
+    assert_true(ceduo_number_lowest(n) == 1.5 && ceduo_number_highest(n) == 2.5);
+    struct seen all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
+    assert_true(fabs(all.mean - 2) < 4 * .5 / sqrt(3) / 1e3 && fabs(all.sd - .5 / sqrt(3)) < 1e-3);
+    assert_true(all.lowest >= 1.5 && all.highest <= 2.5 && all.lowest < 1.501 && all.highest > 2.499);
+    assert_true(fabs(cut.mean - 1.75) < 4 * .25 / sqrt(3) / 1e3 && cut.highest <= 2 && cut.lowest >= 1.5);
+    struct ceduo_number fixed = ceduo_number(.3);
+    assert_true(ceduo_number_draw(fixed, .01, 0, 1) == .3 && ceduo_number_lowest(fixed) == .3);
+}
+
+/* ---- facet draws ---- */
+
+static void facet_draws_are_even_and_depend_on_all_they_should(void **state)
+{
+    (void)state;
+    const uint64_t n = 200000;
+    double sum = 0, squares = 0, product = 0, last = .5;
+    for (uint64_t i = 0; i < n; i++) {
+        double u = ceduo_way_facet_draw(1, i / 20, i % 20);
+        assert_true(u >= 0 && u < 1);
+        sum += u;
+        squares += u * u;
+        product += (u - .5) * (last - .5);
+        last = u;
+    }
+    double count = (double)n, se = sqrt(1 / 12. / count);
+    assert_true(fabs(sum / count - .5) < 4 * se);
+    assert_true(fabs(squares / count - 1 / 3.) < 4 * sqrt(4 / 45. / count));
+    assert_true(fabs(product / count) < 4 / 12. / sqrt(count));
+    double u = ceduo_way_facet_draw(1, 2, 3);
+    assert_true(u == ceduo_way_facet_draw(1, 2, 3) && u != ceduo_way_facet_draw(2, 2, 3));
+    assert_true(u != ceduo_way_facet_draw(1, 3, 3) && u != ceduo_way_facet_draw(1, 2, 2));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(free_fall),
+        cmocka_unit_test(projectiles_on_a_slope),
+        cmocka_unit_test(a_control_sees_the_flight_over_it),
+        cmocka_unit_test(a_vertical_drop_rebounds_to_rn2_h),
+        cmocka_unit_test(an_oblique_impact_on_the_flat),
+        cmocka_unit_test(a_release_that_leaves_the_ground_has_no_contact),
+        cmocka_unit_test(a_roll_on_the_flat_stops_by_friction),
+        cmocka_unit_test(a_roll_down_a_slope),
+        cmocka_unit_test(spin_and_speed_share_their_momentum_in_a_roll),
+        cmocka_unit_test(a_concave_vertex_takes_the_part_into_the_ground),
+        cmocka_unit_test(over_a_convex_vertex_it_rolls_or_flies),
+        cmocka_unit_test(at_rest_it_goes_where_it_is_steeper_than_friction),
+        cmocka_unit_test(at_rest_it_stays_in_a_pit_within_its_radius),
+        cmocka_unit_test(a_release_on_a_vertex_is_on_the_right),
+        cmocka_unit_test(a_flight_exactly_through_a_vertex_is_on_the_segment_ahead),
+        cmocka_unit_test(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along),
+        cmocka_unit_test(the_way_ends_at_either_end_of_the_slope),
+        cmocka_unit_test(a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards),
+        cmocka_unit_test(a_shift_that_loses_no_bit_changes_no_bit),
+        cmocka_unit_test(four_times_the_lengths_and_twice_the_speeds_are_the_same_way),
+        cmocka_unit_test(intervals_of_wilson),
+        cmocka_unit_test(ranks_of_quantiles),
+        cmocka_unit_test(intervals_of_quantiles),
+        cmocka_unit_test(a_distribution_of_exact_values),
+        cmocka_unit_test(moments_added_and_merged),
+        cmocka_unit_test(a_normal_spread_is_cut),
+        cmocka_unit_test(a_uniform_spread),
+        cmocka_unit_test(facet_draws_are_even_and_depend_on_all_they_should),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,730 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures of Ciabocco, Boccia and Ripa 2009 and of the equations they use, to the digits that are known. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+/* The value rounds to `expected`, which is printed with this many decimals. */
+static void expect_decimals(double value, double expected, int decimals)
+{
+    double off = 0.5 * pow(10, -decimals);
+    if (!(fabs(value - expected) <= off * (1 + 1e-9)))
+        fail_msg("%.17g is not %.*f", value, decimals, expected);
+}
+
+/* The value is `expected` but for the rounding of some operations. */
+static void expect_exact(double value, double expected)
+{
+    if (!(fabs(value - expected) <= 8e-16 * fabs(expected)))
+        fail_msg("%.17g is not %.17g", value, expected);
+}
+
+static void expect_bits(unsigned value, unsigned set, unsigned clear)
+{
+    if ((value & set) != set || (value & clear) != 0)
+        fail_msg("warnings %#x, not with %#x and without %#x", value, set, clear);
+}
+
+/* ---- rock ---- */
+
+static void rock_of_table_2(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    struct ceduo_rock rock;
+    assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
+    expect_decimals(rock.mass, 512.3058, 4);
+    expect_exact(rock.mean_diameter, 0.68);
+    expect_exact(rock.radius, 0.34);
+    expect_exact(rock.k, 0.5);
+    expect_exact(rock.moment, 0.5 * rock.mass * 0.34 * 0.34);
+    expect_decimals(0.5 * rock.mass * 20.94 * 20.94 / 1e3, 112.319, 3); /* Table 5's mean speed */
+    expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);    /* the speed seen by video */
+    expect_decimals(0.5 * rock.mass * (20.94 * 20.94 - 15.6 * 15.6) / 1e3, 50.0, 1); /* like for like */
+}
+
+static void rock_shapes(void **state)
+{
+    (void)state;
+    const double pi = acos(-1);
+    struct ceduo_rock_def def = ceduo_rock_def_default();
+    struct ceduo_rock rock;
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_BAD_ROCK);
+    def.volume = ceduo_number(pi / 6);
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    expect_exact(rock.mean_diameter, 1);
+    expect_exact(rock.k, 0.4);
+    expect_exact(rock.mass, 2600 * pi / 6);
+    def = ceduo_rock_def_default();
+    def.mass = ceduo_number(2600 * pi / 6 * 8);
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    expect_exact(rock.mean_diameter, 2);
+    expect_exact(rock.moment, 0.4 * rock.mass);
+    def = ceduo_rock_def_default();
+    def.shape = CEDUO_ELLIPSOID;
+    def.axes[0] = ceduo_number(0.5);
+    def.axes[1] = ceduo_number(1.5);
+    def.axes[2] = ceduo_number(1);
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    expect_exact(rock.volume, pi / 6 * 0.75);
+    expect_exact(rock.mean_diameter, 1);
+    expect_exact(rock.k, 0.4);
+    def.shape = CEDUO_BLOCK;
+    def.mass = ceduo_number(1000);
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    expect_exact(rock.mass, 1000);
+    expect_exact(rock.volume, 0.75);
+    expect_exact(rock.moment, 1000 * (0.25 + 1) / 12); /* about the longest axis */
+    expect_exact(rock.k, (0.25 + 1) / 12 / 0.25);
+    def.axes[2] = ceduo_number(0);
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_BAD_ROCK);
+}
+
+/* ---- impacts ---- */
+
+struct impact_row {
+    double vn, vt, spin, rn, rt, k;
+    double f, sf, vn_out, vt_out, spin_out;
+};
+
+static void impacts_of_pfeiffer_and_higgins(void **state)
+{
+    (void)state;
+    static const struct impact_row rows[] = {
+        {5, 10, 0, .31, .83, .4, .873691, .794408, 1.193228, 7.041038, 20.708937},
+        {5, 10, 10 / .34, .31, .83, .4, .971667, .794408, 1.193228, 8.785784, 25.840540},
+        {10, 5, 0, .31, .83, .4, .920776, .703860, 1.411664, 3.401936, 10.005693},
+        {10, 20, 30, .40, .90, .4, .926424, .812539, 1.821502, 15.409390, 45.321734},
+        {2, 3, 5, .31, .87, .4, .974378, .863808, .591694, 2.470982, 7.267594},
+        {5, 10, 30, .31, .83, .5, .971540, .794408, 1.193228, 8.844166, 26.012252},
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct impact_row *r = &rows[i];
+        struct ceduo_ground_point at = {.rn = r->rn, .rt = r->rt, .radius = 0.34, .k = r->k};
+        struct ceduo_impact in = {.vn = r->vn, .vt = r->vt, .spin = r->spin};
+        struct ceduo_impact out = ceduo_contact(CEDUO_LAW_CRSP, in, &at);
+        expect_decimals(ceduo_crsp_friction(r->rt, r->vt - r->spin * 0.34), r->f, 6);
+        expect_decimals(ceduo_crsp_scaling(r->rn, r->rt, r->vn), r->sf, 6);
+        expect_decimals(out.vn, r->vn_out, 6);
+        expect_decimals(out.vt, r->vt_out, 6);
+        expect_decimals(out.spin, r->spin_out, 6);
+        in.vt = -in.vt; /* the mirror image */
+        in.spin = -in.spin;
+        struct ceduo_impact mirror = ceduo_contact(CEDUO_LAW_CRSP, in, &at);
+        assert_true(mirror.vn == out.vn && mirror.vt == -out.vt && mirror.spin == -out.spin);
+    }
+}
+
+static void impacts_at_the_limits_of_crsp(void **state)
+{
+    (void)state;
+    assert_true(ceduo_crsp_scaling(0, 0.8, 0) == 0.8);
+    assert_true(ceduo_crsp_scaling(0, 0.8, 1e-9) == 0);
+    struct ceduo_ground_point at = {.rn = 0.3, .rt = 0.8, .radius = 0.5, .k = 0.4};
+    struct ceduo_impact out = ceduo_contact(CEDUO_LAW_CRSP, (struct ceduo_impact){1, 0, -10}, &at);
+    assert_true(out.vt < 0 && out.spin < 0); /* without speed the spin says where to */
+    out = ceduo_contact(CEDUO_LAW_CRSP, (struct ceduo_impact){1, -2, 10}, &at);
+    assert_true(out.vt < 0);
+    out = ceduo_contact(CEDUO_LAW_CRSP, (struct ceduo_impact){9.144, 0, 0}, &at); /* 30 ft/s */
+    expect_exact(out.vn, 0.3 * 9.144 / 2);
+}
+
+static void impacts_of_the_lumped_law(void **state)
+{
+    (void)state;
+    struct ceduo_ground_point at = {.rn = 0.31, .rt = 0.83, .radius = 0.34, .k = 0.4};
+    struct ceduo_impact out = ceduo_contact(CEDUO_LAW_LUMPED, (struct ceduo_impact){5, -10, 7}, &at);
+    expect_exact(out.vn, 1.55);
+    expect_exact(out.vt, -8.3);
+    assert_true(out.spin == 0);
+    at.scale_rn = true;
+    out = ceduo_contact(CEDUO_LAW_LUMPED, (struct ceduo_impact){5, 10, 0}, &at);
+    expect_decimals(out.vn, 1.193228, 6); /* as in Pfeiffer & Higgins 1990 */
+    expect_exact(out.vt, 8.3);
+}
+
+/* ---- ways ---- */
+
+static void slope_chains_as_table_3(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
+    static const double heights[] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26, 16, 6, 2, 0};
+    for (size_t i = 0; i < LENGTH(heights); i++)
+        assert_true(ceduo_slope_height(&site.scene.slope, paper_x[i]) + PAPER_TOP == heights[i]);
+    expect_exact(ceduo_slope_height(&site.scene.slope, 5), 116 - PAPER_TOP);
+    assert_int_equal(ceduo_slope_segment(&site.scene.slope, 10), 1);
+    assert_int_equal(ceduo_slope_segment(&site.scene.slope, 9.99), 0);
+}
+
+static struct line_way walked;
+
+static void keep(void *context, const struct ceduo_piece *piece)
+{
+    struct line_way *to = context;
+    if (to->count < LINE_PIECES_MOST)
+        to->pieces[to->count++] = *piece;
+}
+
+static void two_contacts_on_the_slope_of_table_3(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    paper_site_sphere(&site);
+    paper_site_smooth(&site);
+    site.scene.simulation.law = CEDUO_LAW_CRSP;
+    site.scene.release.x = ceduo_number(5);
+    site.scene.release.height = ceduo_number(117 - 116);
+    site.scene.release.vx = ceduo_number(1);
+    site.scene.release.vz = ceduo_number(0);
+    walked.count = 0;
+    assert_int_equal(ceduo_way_follow(&site.scene, 0, keep, &walked, &walked.way, NULL), CEDUO_OK);
+    assert_true(walked.count >= 3);
+    const struct ceduo_piece *p = walked.pieces;
+    assert_false(p[0].rolls || p[1].rolls || p[2].rolls);
+    assert_true(p[0].x == 5 && p[0].z == 117 - PAPER_TOP && p[0].vx == 1 && p[0].vz == 0);
+    expect_decimals(p[0].x1, 5.6993, 4);
+    expect_decimals(p[0].z1 + PAPER_TOP, 114.6014, 4);
+    expect_decimals(p[1].vx, 2.7930, 4);
+    expect_decimals(p[1].vz, -4.1600, 4);
+    expect_decimals(p[1].x1, 6.5113, 4);
+    expect_decimals(p[1].z1 + PAPER_TOP, 112.9774, 4);
+    expect_decimals(p[2].vx, 2.9972, 4);
+    expect_decimals(p[2].vz, -5.5545, 4);
+}
+
+static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
+{
+    static const double px[] = {0, 8, 10, 11, 13, 14, 24, 25, 31};
+    static const double pz[] = {0, -2, -2, -1.8, -3, -3, -3.2, -2.9, -2.9};
+    struct line_scene s;
+    line_scene_init(&s, LENGTH(px), px, pz, (struct line_ground){.3, .99, .1}, .34, law);
+    line_scene_release(&s, 1, 0, 0, 0, 0);
+    assert_int_equal(line_scene_follow(&s, &walked), CEDUO_OK);
+    assert_int_equal(walked.way.end, CEDUO_AT_REST);
+    expect_decimals(walked.way.x, x, 6);
+    assert_int_equal(walked.way.contacts, contacts);
+    size_t flights_from_11 = 0;
+    for (size_t i = 0; i < walked.count; i++)
+        flights_from_11 += !walked.pieces[i].rolls && walked.pieces[i].x == 11;
+    assert_int_equal(flights_from_11, 1);
+}
+
+static void rolling_and_resting_on_a_polyline(void **state)
+{
+    (void)state;
+    rolling_and_resting(CEDUO_LAW_LUMPED, 20.632084, 59);
+    rolling_and_resting(CEDUO_LAW_CRSP, 22.158570, 63);
+}
+
+/* ---- ADC ---- */
+
+static void adc_of_table_1(void **state)
+{
+    (void)state;
+    struct paper_plot one, two;
+    paper_plot_init(&one, 1);
+    paper_plot_init(&two, 2);
+    struct ceduo_adc a = ceduo_adc(&one.stand, PAPER_B), b = ceduo_adc(&two.stand, PAPER_B);
+    expect_exact(a.gsteiger_stools, 3.0408464743513717);
+    expect_exact(b.gsteiger_stools, 4.1072434112628);
+    expect_exact(a.interception, 1.9483462242414016);
+    expect_exact(b.interception, 2.6053723298516003);
+    expect_exact(a.gsteiger_stems, 1.4869189789743706);
+    expect_exact(b.gsteiger_stems, 2.9638349890797495);
+    expect_decimals(a.crofton, 2.16747, 5);
+    expect_decimals(b.crofton, 3.51373, 5);
+    assert_true(ceduo_adc_value(&a, CEDUO_GSTEIGER_STOOLS) == a.gsteiger_stools);
+    assert_true(ceduo_adc_value(&a, CEDUO_INTERCEPTION) == a.interception);
+    assert_true(ceduo_adc_value(&a, CEDUO_GSTEIGER_STEMS) == a.gsteiger_stems);
+    assert_true(ceduo_adc_value(&a, CEDUO_CROFTON) == a.crofton);
+    expect_decimals(1 / a.gsteiger_stems, .67253, 5); /* stems met per metre */
+    expect_decimals(1 / b.gsteiger_stems, .33740, 5);
+    expect_decimals(1 / a.crofton, .46137, 5); /* stools and trees met per metre */
+    one.stand.trees_count = 0;
+    expect_decimals(1 / ceduo_adc(&one.stand, PAPER_B).crofton, .40579, 5); /* stools alone */
+}
+
+static void the_rule_of_the_paper(void **state)
+{
+    (void)state;
+    struct paper_plot plot;
+    paper_plot_init(&plot, 1);
+    assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION);
+    assert_int_equal(ceduo_adc_rule(&plot.stand, 0.5, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION);
+    assert_int_equal(ceduo_adc_rule(&plot.stand, 0.49, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS);
+    assert_int_equal(ceduo_adc_rule(&plot.stand, 0.49, CEDUO_CROFTON), CEDUO_CROFTON);
+    plot.stand.stools_per_ha = 0;
+    plot.stand.shoots_count = 0;
+    assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS);
+}
+
+/* Kilojoules over 67.5 m of ADS 1 and 67.5 m of ADS 2. */
+static double energy_of_both_plots(enum ceduo_rule rule)
+{
+    double sum = 0;
+    for (int number = 1; number <= 2; number++) {
+        struct paper_plot plot;
+        paper_plot_init(&plot, number);
+        sum += 67.5 * ceduo_energy_per_metre(&plot.stand, PAPER_B, rule) / 1e3;
+    }
+    return sum;
+}
+
+static double three_decimals(double v)
+{
+    return round(v * 1e3) / 1e3;
+}
+
+static void energy_of_tables_7_and_8(void **state)
+{
+    (void)state;
+    expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34.3844, 4);
+    expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34, 0);
+    expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION), 53.8216, 4);
+    assert_true(energy_of_both_plots(CEDUO_RULE_AUTO) == energy_of_both_plots(CEDUO_INTERCEPTION));
+    expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STEMS), 63.7469, 4);
+    expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 39.87, 2); /* per 100 m */
+    expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 40, 0);
+    double printed = 0; /* the paper goes on with ADC rounded to three decimals */
+    for (int number = 1; number <= 2; number++) {
+        struct paper_plot plot;
+        paper_plot_init(&plot, number);
+        double adc = three_decimals(ceduo_adc(&plot.stand, PAPER_B).interception);
+        expect_decimals(adc, number == 1 ? 1.948 : 2.605, 9);
+        printed += 67.5 / adc * ceduo_contact_energy(&plot.stand, &plot.shoots) / 1e3;
+    }
+    expect_decimals(printed, 53.831, 3);
+}
+
+static void energy_of_one_contact(void **state)
+{
+    (void)state;
+    struct paper_plot one, two;
+    paper_plot_init(&one, 1);
+    paper_plot_init(&two, 2);
+    expect_exact(ceduo_contact_energy(&one.stand, &one.shoots), 1099.96); /* Eq. 3 */
+    expect_exact(ceduo_contact_energy(&two.stand, &two.trees), 606.52);
+}
+
+static void reserves_after_a_cut(void **state)
+{
+    (void)state;
+    struct ceduo_stems reserves = {.per_ha = 60, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
+    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves,
+                                .u = NAN};
+    struct ceduo_adc adc = ceduo_adc(&stand, PAPER_B);
+    expect_decimals(adc.gsteiger_stems, 189.394, 3);
+    assert_true(adc.gsteiger_stools == adc.gsteiger_stems && adc.interception == adc.gsteiger_stems &&
+                adc.crofton == adc.gsteiger_stems);
+    reserves.per_ha = 378;
+    assert_false(ceduo_adc(&stand, PAPER_B).gsteiger_stems < CEDUO_THRESHOLD_M);
+    reserves.per_ha = 379;
+    assert_true(ceduo_adc(&stand, PAPER_B).gsteiger_stems < CEDUO_THRESHOLD_M);
+}
+
+static void the_threshold_in_a_belt(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    struct ceduo_stems reserves = {.per_ha = 378, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
+    struct ceduo_belt belt = {.from = 0, .to = 135, .stand = {.species = -1, .trees_count = 1, .trees = &reserves,
+                                                              .u = NAN}};
+    assert_false(ceduo_assess_stand(&site.scene, &belt).passes_threshold);
+    reserves.per_ha = 379;
+    struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &belt);
+    assert_true(r.passes_threshold);
+    assert_int_equal(r.rule, CEDUO_GSTEIGER_STEMS);
+    expect_exact(r.contacts, 135 * 379 * 0.88 / 1e4);
+    assert_true(r.stools_per_ha == 0 && r.trees_per_ha == 379 && r.stems_per_ha == 379);
+}
+
+/* The paper says ±0.03 m. */
+static void sensitivity_to_the_spacing_of_the_shoots(void **state)
+{
+    (void)state;
+    static const double change[2][2] = {{0.151, -0.131}, {0.206, -0.178}};
+    for (int i = 0; i < 2; i++) {
+        struct paper_plot plot;
+        paper_plot_init(&plot, i + 1);
+        double at = ceduo_adc(&plot.stand, PAPER_B).interception;
+        plot.stand.spacing = 0.4;
+        expect_decimals(ceduo_adc(&plot.stand, PAPER_B).interception - at, change[i][0], 3);
+        plot.stand.spacing = 0.6;
+        expect_decimals(ceduo_adc(&plot.stand, PAPER_B).interception - at, change[i][1], 3);
+    }
+}
+
+static void stools_on_a_ring(void **state)
+{
+    (void)state;
+    assert_true(ceduo_stool_perimeter(1, 0.5) == 0);
+    expect_exact(ceduo_stool_perimeter(2, 0.5), 1);
+    expect_exact(ceduo_stool_perimeter(3, 0.5), 1.5);
+    expect_exact(ceduo_stool_perimeter(4, 0.5), 2);
+    expect_exact(ceduo_stool_perimeter(1.25, 0.5), 0.25); /* a quarter of the stools have two */
+    expect_exact(ceduo_stool_perimeter(2.5, 0.5), 1.25);
+    assert_true(ceduo_stool_radius(1, 0.5) == 0);
+    expect_exact(ceduo_stool_radius(2, 0.5), 0.25);
+    expect_exact(ceduo_stool_radius(3, 0.5), 0.5 / sqrt(3));
+    expect_exact(ceduo_stool_radius(4, 0.5), 0.5 / sqrt(2));
+    expect_exact(ceduo_stool_radius(6, 0.5), 0.5);
+}
+
+static void basal_area_of_table_1(void **state)
+{
+    (void)state;
+    struct paper_plot one, two;
+    paper_plot_init(&one, 1);
+    paper_plot_init(&two, 2);
+    expect_decimals(ceduo_stand_basal_area(&one.stand), 26.52, 2); /* the paper prints 25.929 */
+    expect_decimals(ceduo_stand_basal_area(&two.stand), 8.05, 2);  /* and 8.11 */
+    expect_exact(ceduo_stand_shoots(&one.stand) + ceduo_stand_trees(&one.stand), 9076);
+    expect_exact(ceduo_stand_shoots(&two.stand) + ceduo_stand_trees(&two.stand), 4641);
+    one.trees.dbh_sd = 0.02; /* the mean of d2 is the mean squared and the variance */
+    expect_decimals(ceduo_stand_basal_area(&one.stand) - 750 * acos(-1) / 4 * 4e-4, 26.52, 2);
+}
+
+/* ---- energies of contacts ---- */
+
+static void energies_of_dorren(void **state)
+{
+    (void)state;
+    static const double cm[] = {4.7, 6.1, 8, 10}, kj[] = {1.381, 2.522, 4.719, 7.902};
+    for (size_t i = 0; i < LENGTH(cm); i++)
+        expect_decimals(ceduo_dorren_energy(cm[i] / 100, 1) / 1e3, kj[i], 3);
+    expect_decimals(ceduo_dorren_energy(.15, 1) / 1e3, 20.16, 2);
+    expect_decimals(ceduo_dorren_energy(.20, 1) / 1e3, 39.18, 2);
+    expect_decimals(ceduo_dorren_energy(.30, 1) / 1e3, 99.97, 2);
+    expect_decimals(ceduo_dorren_energy(.40, 1) / 1e3, 194.3, 1);
+    expect_exact(ceduo_dorren_energy(.40, 1.7), 1.7 * ceduo_dorren_energy(.40, 1));
+    expect_decimals(ceduo_dorren_share(0), .980, 3);
+    expect_decimals(ceduo_dorren_share(.5), .789, 3);
+    expect_decimals(ceduo_dorren_share(.58), .467, 3);
+    assert_true(ceduo_dorren_share(1) == 0); /* -0.046, cut */
+    expect_decimals(ceduo_dorren_mean_share(), .558, 3);
+    double sum = 0;
+    for (int i = 0; i < 100000; i++)
+        sum += ceduo_dorren_share((i + 0.5) / 1e5);
+    expect_decimals(ceduo_dorren_mean_share(), sum / 1e5, 8);
+    struct paper_plot plot;
+    paper_plot_init(&plot, 1);
+    plot.stand.energy = CEDUO_DORREN;
+    plot.stand.fracture_ratio = 1.5;
+    expect_exact(ceduo_contact_energy(&plot.stand, &plot.shoots),
+                 1.5 * ceduo_dorren_mean_share() * ceduo_dorren_energy(.061, 1));
+}
+
+struct volume_row {
+    const char *species;
+    double d_cm, h, litres;
+    enum ceduo_volume_from from;
+};
+
+static void volumes_of_tabacchi(void **state)
+{
+    (void)state;
+    static const struct volume_row rows[] = {
+        {"acer", 22, 14, 252.958, CEDUO_VOLUME_EQUATION},
+        {"ostrya-carpinifolia", 6.1, 6, -1.4983 + 0.038828 * 6.1 * 6.1 * 6, CEDUO_VOLUME_EQUATION}, /* 7.17 */
+        {"fraxinus-ornus", 6.1, 6, -0.11137 + 0.039108 * 6.1 * 6.1 * 6, CEDUO_VOLUME_EQUATION},     /* 8.62 */
+        {"quercus-cerris", 20, 15, -0.043221 + 0.038079 * 400 * 15, CEDUO_VOLUME_EQUATION},
+        {"quercus-pubescens", 20, 12, 0.51025 + 0.045184 * 400 * 12 - 0.36026 * 20, CEDUO_VOLUME_EQUATION},
+        {"quercus-ilex", 20, 12, -2.2219 + 0.039685 * 400 * 12 + 0.62762 * 20, CEDUO_VOLUME_EQUATION},
+        {"fagus-sylvatica", 30, 20, 0.81151 + 0.038965 * 900 * 20, CEDUO_VOLUME_EQUATION},
+        {"castanea-sativa", 20, 15, -2.001 + 0.036524 * 400 * 15 + 0.74466 * 20, CEDUO_VOLUME_EQUATION},
+        {"robinia-pseudoacacia", 20, 15, -2.1214 + 0.037123 * 400 * 15 + 0.14296 * 20, CEDUO_VOLUME_EQUATION},
+        {"picea-abies", 30, 20, -9.1298 + 0.034866 * 900 * 20 + 1.4633 * 30, CEDUO_VOLUME_EQUATION},
+        {"ostrya-carpinifolia", 4.7, 4, 0.5 * 3.14159265358979 / 4 * 4.7 * 4.7 * 4 / 10, CEDUO_VOLUME_FORM_FACTOR},
+        {"ostrya-carpinifolia", 36, 20, 0.5 * 3.14159265358979 / 4 * 36 * 36 * 20 / 10, CEDUO_VOLUME_FORM_FACTOR},
+        {"acer", 20, 25, 0.5 * 3.14159265358979 / 4 * 20 * 20 * 25 / 10, CEDUO_VOLUME_FORM_FACTOR},
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct volume_row *r = &rows[i];
+        struct ceduo_stand stand = {.species = ceduo_species_find(r->species), .u = NAN};
+        assert_true(stand.species >= 0);
+        struct ceduo_stems stems = {.per_ha = 1, .dbh = r->d_cm / 100, .height = r->h, .volume = NAN};
+        enum ceduo_volume_from from;
+        expect_decimals(ceduo_stem_volume(&stand, &stems, &from) * 1e3, r->litres, i == 0 ? 3 : 9);
+        assert_int_equal(from, r->from);
+    }
+    assert_int_equal(ceduo_species_find("sequoia"), -1);
+}
+
+static void energy_of_a_reserve_by_its_volume(void **state)
+{
+    (void)state;
+    struct ceduo_stand stand = {.species = ceduo_species_find("ostrya-carpinifolia"), .u = NAN};
+    struct ceduo_stems stems = {.per_ha = 60, .dbh = .20, .height = 14, .volume = NAN};
+    expect_decimals(ceduo_contact_energy(&stand, &stems) / 1e3, 22.2, 1);
+}
+
+static void work_of_table_4(void **state)
+{
+    (void)state;
+    struct ceduo_stand stand = {.species = ceduo_species_find("picea-abies"), .u = NAN};
+    assert_true(ceduo_stand_u(&stand) == 92213);
+    stand.species = ceduo_species_find("fagus-sylvatica");
+    assert_true(ceduo_stand_u(&stand) == 102800);
+    stand.species = ceduo_species_find("quercus-cerris");
+    assert_true(ceduo_stand_u(&stand) == 102800);
+    stand.species = -1;
+    assert_true(ceduo_stand_u(&stand) == 102800);
+    stand.u = 5e4;
+    assert_true(ceduo_stand_u(&stand) == 5e4);
+}
+
+/* ---- strata ---- */
+
+static void each_stratum_takes_its_own_energy(void **state)
+{
+    (void)state;
+    struct ceduo_stems shoots[2] = {{.per_ha = 3000, .dbh = .05, .height = 6, .volume = .01, .age = NAN},
+                                    {.per_ha = 1000, .dbh = .10, .height = 9, .volume = .04, .age = NAN}};
+    struct ceduo_stems trees[2] = {{.per_ha = 100, .dbh = .20, .height = 14, .volume = .2, .age = NAN},
+                                   {.per_ha = 20, .dbh = .40, .height = 20, .volume = 1, .age = NAN}};
+    struct ceduo_stand stand = {.species = -1, .stools_per_ha = 2000, .spacing = .3, .shoots_count = 2,
+                                .trees_count = 2, .shoots = shoots, .trees = trees, .u = 1e5};
+    const double b = .7, a = 1e4, dc = .0625, wc = 1e5 * .0175;
+    const double d = (150 + 100 + 20 + 8) / 4120., t = (100 * .9 * 2e4 + 20 * 1.1 * 1e5) / a;
+    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t);
+    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_CROFTON), 2000 * (b + dc + .6 / acos(-1)) * wc / a + t);
+    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STOOLS),
+                 (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a);
+    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STEMS),
+                 (3000 * (b + .05) * 1e3 + 1000 * (b + .1) * 4e3) / a + t);
+    struct ceduo_adc adc = ceduo_adc(&stand, b);
+    expect_exact(adc.gsteiger_stools, a / (2120 * (b + d)));
+    expect_exact(adc.gsteiger_stems, a / (3000 * .75 + 1000 * .8 + 100 * .9 + 20 * 1.1));
+    expect_exact(adc.interception, a / (2120 * b + 2000 * (dc + .3) + 28));
+}
+
+/* ---- warnings ---- */
+
+static void warnings_of_the_plots(void **state)
+{
+    (void)state;
+    struct paper_plot one, two;
+    paper_plot_init(&one, 1);
+    paper_plot_init(&two, 2);
+    /* ADS 2: s > (n - 1)(B + d), more contacts than there are stems */
+    expect_bits(ceduo_stand_warnings(&two.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_BELOW_FREE_PATH,
+                ~(unsigned)CEDUO_WARN_BELOW_FREE_PATH);
+    expect_bits(ceduo_stand_warnings(&one.stand, PAPER_B, CEDUO_RULE_AUTO), 0, ~0U);
+}
+
+static void warning_near_the_jump(void **state)
+{
+    (void)state;
+    struct paper_plot plot;
+    paper_plot_init(&plot, 1);
+    static const double near[] = {.62, .68, .74}, far[] = {.60, .76};
+    for (size_t i = 0; i < LENGTH(near); i++) {
+        plot.stand.spacing = near[i];
+        expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_NEAR_JUMP, 0);
+        expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_CROFTON), 0, CEDUO_WARN_NEAR_JUMP);
+    }
+    for (size_t i = 0; i < LENGTH(far); i++) {
+        plot.stand.spacing = far[i];
+        expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), 0, CEDUO_WARN_NEAR_JUMP);
+    }
+}
+
+static void warnings_of_energies_and_spacing(void **state)
+{
+    (void)state;
+    struct paper_plot plot;
+    paper_plot_init(&plot, 1);
+    plot.stand.energy = CEDUO_DORREN;
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_DORREN_THIN,
+                CEDUO_WARN_U_ASSUMED | CEDUO_WARN_FORM_FACTOR);
+    plot.shoots.dbh = plot.trees.dbh = .1;
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), 0, CEDUO_WARN_DORREN_THIN);
+    plot.trees.dbh = .099;
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_DORREN_THIN, 0);
+    paper_plot_init(&plot, 2);
+    plot.shoots.volume = NAN; /* 4.7 cm and 4 m lie outside the equation */
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_FORM_FACTOR, 0);
+    plot.stand.u = NAN; /* hop hornbeam is not in Table 4 */
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_U_ASSUMED, 0);
+    plot.stand.species = ceduo_species_find("fagus-sylvatica");
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), 0, CEDUO_WARN_U_ASSUMED);
+    plot.stand.spacing = .73; /* B + d = .727 */
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_WIDE_SPACING, 0);
+    plot.stand.spacing = .72;
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), 0, CEDUO_WARN_WIDE_SPACING);
+}
+
+/* ---- the index ---- */
+
+static void free_runs_of_the_plots(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    for (int i = 0; i < 2; i++) {
+        struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &site.belts[i]);
+        double crofton = i == 0 ? 2.16747 : 3.51373;
+        assert_true(fabs(r.free_run_probability / exp(-30 / crofton) - 1) < 5e-5);
+        expect_exact(r.free_run_probability, exp(-30 / r.adc.crofton));
+        expect_exact(r.contacts, 67.5 / (i == 0 ? 1.9483462242414016 : 2.6053723298516003)); /* Eq. 2 */
+        expect_exact(r.energy_per_contact, i == 0 ? 1099.96 : 606.52);
+        expect_exact(r.dissipated, r.contacts * r.energy_per_contact); /* Eq. 4 */
+        assert_true(r.passes_threshold && r.adc_m == r.adc.interception);
+    }
+}
+
+static void index_of_the_site(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 112.319e3);
+    expect_decimals(i.dissipated / 1e3, 53.8216, 4);
+    expect_decimals(i.residual / 1e3, 112.319 - 53.8216, 3); /* Eq. 5 */
+    assert_false(i.exhausted);
+    assert_true(i.length == 135 && i.longest_gap == 0 && i.contact_passes);
+    assert_true(i.contact == CEDUO_PASS && i.free_run == CEDUO_PASS);
+    expect_decimals(i.measured / 1e3, 62.337, 3);
+    double nothing = exp(-67.5 / 2.16747 - 67.5 / 3.51373);
+    assert_true(fabs(i.meet_nothing_probability / nothing - 1) < 2e-4);
+    i = ceduo_assess_index(&site.scene, &site.option, &site.control, 50e3);
+    assert_true(i.exhausted && i.residual == 0);
+    i = ceduo_assess_index(&site.scene, &site.option, &site.control, NAN);
+    assert_true(isnan(i.residual) && !i.exhausted);
+}
+
+static void meets_nothing_in_ten_metres_of_ads_1(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    site.belts[0].to = 10;
+    site.option.belts_count = 1;
+    struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
+    expect_decimals(i.meet_nothing_probability, .00992, 5);
+    assert_true(i.longest_gap == 125 && !i.contact_passes && i.contact == CEDUO_FAIL);
+}
+
+static void index_without_forest(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    site.option.belts_count = 0;
+    site.control.measured_speed = NAN;
+    struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
+    assert_true(i.length == 0 && i.longest_gap == 135 && i.dissipated == 0 && i.residual == 1e5);
+    assert_true(i.meet_nothing_probability == 1 && i.worst_free_run == 1 && !i.contact_passes);
+    assert_true(i.contact == CEDUO_FAIL && i.free_run == CEDUO_FAIL && isnan(i.measured));
+    struct ceduo_belt bare = {.from = 0, .to = 135, .stand = {.system = CEDUO_BARE, .species = -1, .u = NAN}};
+    struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &bare);
+    assert_true(r.bare && isinf(r.adc_m) && r.contacts == 0 && r.dissipated == 0 && isnan(r.energy_per_contact));
+    assert_true(r.free_run_probability == 1 && !r.passes_threshold && r.basal_area == 0 && r.warnings == 0);
+}
+
+static void a_young_coppice_passes_thirty_metres_and_stops_nothing(void **state)
+{
+    (void)state;
+    struct ceduo_stems shoots = {.per_ha = 12000, .dbh = .02, .height = 3, .volume = NAN, .age = 5};
+    struct ceduo_stand stand = {.species = -1, .stools_per_ha = 3000, .spacing = .2, .shoots_count = 1,
+                                .shoots = &shoots, .u = NAN};
+    assert_true(ceduo_adc(&stand, PAPER_B).interception < CEDUO_THRESHOLD_M);
+    assert_true(100 * ceduo_energy_per_metre(&stand, PAPER_B, CEDUO_RULE_AUTO) < 2e3);
+}
+
+/* ---- checks of a scene ---- */
+
+static void scenes_that_do_not_fit_are_refused(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    size_t where = 9;
+    paper_site_init(&site);
+    site.control.x = 153;
+    assert_int_equal(ceduo_scene_check(&site.scene, &where), CEDUO_CONTROL_OFF_SLOPE);
+    assert_int_equal(where, 0);
+    site.control.x = 0;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_CONTROL_BEHIND);
+    paper_site_init(&site);
+    site.scene.release.x = ceduo_number(-1);
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_RELEASE_OFF_SLOPE);
+    site.scene.release.x = ceduo_number(152.68);
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_RELEASE_OFF_SLOPE);
+    site.scene.release.x = (struct ceduo_number){.mean = 1, .spread = 2, .kind = CEDUO_UNIFORM};
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_RELEASE_OFF_SLOPE);
+    paper_site_init(&site);
+    site.scene.release.height = ceduo_number(-0.1);
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_RELEASE_BELOW);
+    site.scene.release.height = (struct ceduo_number){.mean = 1, .spread = .5, .kind = CEDUO_NORMAL};
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_RELEASE_BELOW);
+    paper_site_init(&site);
+    site.x[3] = site.x[2];
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+    paper_site_init(&site);
+    site.z[3] = NAN;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+    paper_site_init(&site);
+    site.segments[2].rn.mean = 1.01;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+    paper_site_init(&site);
+    site.segments[2].roughness_rad = acos(0);
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+    paper_site_init(&site);
+    site.scene.rock.height = ceduo_number(0);
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rock_of_table_2),
+        cmocka_unit_test(rock_shapes),
+        cmocka_unit_test(impacts_of_pfeiffer_and_higgins),
+        cmocka_unit_test(impacts_at_the_limits_of_crsp),
+        cmocka_unit_test(impacts_of_the_lumped_law),
+        cmocka_unit_test(slope_chains_as_table_3),
+        cmocka_unit_test(two_contacts_on_the_slope_of_table_3),
+        cmocka_unit_test(rolling_and_resting_on_a_polyline),
+        cmocka_unit_test(adc_of_table_1),
+        cmocka_unit_test(the_rule_of_the_paper),
+        cmocka_unit_test(energy_of_tables_7_and_8),
+        cmocka_unit_test(energy_of_one_contact),
+        cmocka_unit_test(reserves_after_a_cut),
+        cmocka_unit_test(the_threshold_in_a_belt),
+        cmocka_unit_test(sensitivity_to_the_spacing_of_the_shoots),
+        cmocka_unit_test(stools_on_a_ring),
+        cmocka_unit_test(basal_area_of_table_1),
+        cmocka_unit_test(energies_of_dorren),
+        cmocka_unit_test(volumes_of_tabacchi),
+        cmocka_unit_test(energy_of_a_reserve_by_its_volume),
+        cmocka_unit_test(work_of_table_4),
+        cmocka_unit_test(each_stratum_takes_its_own_energy),
+        cmocka_unit_test(warnings_of_the_plots),
+        cmocka_unit_test(warning_near_the_jump),
+        cmocka_unit_test(warnings_of_energies_and_spacing),
+        cmocka_unit_test(free_runs_of_the_plots),
+        cmocka_unit_test(index_of_the_site),
+        cmocka_unit_test(meets_nothing_in_ten_metres_of_ads_1),
+        cmocka_unit_test(index_without_forest),
+        cmocka_unit_test(a_young_coppice_passes_thirty_metres_and_stops_nothing),
+        cmocka_unit_test(scenes_that_do_not_fit_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

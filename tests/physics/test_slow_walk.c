@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program's walk beside the slow one, rock by rock, on the same facet draws. Ways are chaotic: what begins as the
+ * rounding of doubles grows from contact to contact, and a decision on the knife's edge turns it into another way. A way
+ * that differs is therefore excused only where the slow walk itself, with its start, its rock and its draws changed by
+ * 1e-13 of their size, differs from itself as much, at the same contact; or where the rock's energy had fallen below the
+ * rounding of its height, so that a double cannot tell whether it climbs over the next vertex, or where nothing but
+ * rounding says which way it rolls (Rt = 0 leaves no speed along the ground). Few may need any of that. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+#include "slow_walk.h"
+
+#define CONTACTS 3000  /* of a way are compared; a longer one is not followed to its end */
+#define SAME 1e-6      /* relative: the same */
+#define SAME_FIRST 1e-9 /* relative, at the first contact */
+#define OTHERS 24      /* changed slow walks */
+#define CHANGE 1e-13
+#define STILL 1e-14    /* of g × length: less energy than this per kilogram is lost in the rounding of the height */
+
+/* What a rock has after a contact: where it is and, where known, how it leaves. */
+struct state {
+    bool known, moves;
+    double v[5]; /* x, z, vx, vz, spin */
+};
+
+/* A way as both walks tell it. */
+struct trace {
+    struct state after[CONTACTS + 1];
+    uint64_t contacts;
+    int end; /* enum ceduo_end; -1: not followed to its end */
+    double x, z;
+    bool reached;
+    double crossing[4]; /* vx, vz, spin, height */
+};
+
+static struct trace fast, slow, changed;
+
+/* ---- the program's walk ---- */
+
+static void note_piece(void *context, const struct ceduo_piece *p)
+{
+    struct trace *t = context;
+    if (p->contacts == 0 || p->contacts > CONTACTS || t->after[p->contacts].known)
+        return;
+    t->after[p->contacts] = (struct state){true, !p->rolls, {p->x, p->z, p->vx, p->vz, p->spin}};
+}
+
+static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct trace *t)
+{
+    struct ceduo_way way;
+    struct ceduo_crossing c;
+    memset(t, 0, sizeof *t);
+    assert_int_equal(ceduo_way_follow(scene, rock, note_piece, t, &way, &c), CEDUO_OK);
+    t->contacts = way.contacts;
+    t->end = way.contacts > CONTACTS ? -1 : (int)way.end;
+    t->x = way.x;
+    t->z = way.z;
+    t->reached = c.reached;
+    memcpy(t->crossing, (double[4]){c.vx, c.vz, c.spin, c.height}, sizeof t->crossing);
+}
+
+/* ---- the slow walk ---- */
+
+struct slow_context {
+    struct trace *t;
+    uint64_t seed, rock, contact;
+    struct line_random *change; /* NULL: none */
+};
+
+static double nudge(double v, struct line_random *r)
+{
+    return r ? v * (1 + CHANGE * line_uniform(r, -1, 1)) : v;
+}
+
+static double draw(void *context, uint64_t contact)
+{
+    struct slow_context *c = context;
+    c->contact = contact;
+    return nudge(ceduo_way_facet_draw(c->seed, c->rock, contact), c->change);
+}
+
+static void note_contact(void *context, double x, double z, double vx, double vz, double spin)
+{
+    struct slow_context *c = context;
+    if (c->contact + 1 <= CONTACTS)
+        c->t->after[c->contact + 1] = (struct state){true, true, {x, z, vx, vz, spin}};
+}
+
+/* The height that rounds to that of the ground at x, where the rock lies on it. */
+static double on_ground(const struct ceduo_slope *s, double x)
+{
+    size_t j = ceduo_slope_segment(s, x);
+    long double m = ((long double)s->z[j + 1] - s->z[j]) / ((long double)s->x[j + 1] - s->x[j]);
+    return (double)(s->z[j] + m * ((long double)x - s->x[j]));
+}
+
+struct slow_ground {
+    double rn[LINE_SEGMENTS_MOST], rt[LINE_SEGMENTS_MOST], theta[LINE_SEGMENTS_MOST], friction[LINE_SEGMENTS_MOST];
+};
+
+static void slow_ground_of(const struct ceduo_slope *slope, double radius, struct slow_ground *g)
+{
+    for (size_t j = 0; j + 1 < slope->vertices; j++) {
+        const struct ceduo_segment *s = &slope->segments[j];
+        g->rn[j] = s->rn.mean;
+        g->rt[j] = s->rt.mean;
+        g->friction[j] = s->friction;
+        g->theta[j] = isnan(s->roughness_rad) ? atan(s->roughness_m / radius) : s->roughness_rad;
+    }
+}
+
+static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct line_random *change, struct trace *t)
+{
+    static struct slow_ground g;
+    const struct ceduo_slope *slope = &scene->slope;
+    const struct ceduo_release *r = &scene->release;
+    struct ceduo_rock body;
+    assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
+    slow_ground_of(slope, body.radius, &g);
+    memset(t, 0, sizeof *t);
+    struct slow_context context = {t, scene->simulation.seed, rock, 0, change};
+    double x = nudge(r->x.mean, change);
+    double z = r->height.mean > 0 ? ceduo_slope_height(slope, x) + nudge(r->height.mean, change) : on_ground(slope, x);
+    struct slow_def def = {.vertices = slope->vertices,
+                           .x = slope->x,
+                           .z = slope->z,
+                           .rn = g.rn,
+                           .rt = g.rt,
+                           .theta_max_rad = g.theta,
+                           .friction = g.friction,
+                           .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
+                           .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
+                           .scale_rn = scene->simulation.scale_rn,
+                           .gravity = nudge(scene->simulation.gravity, change),
+                           .radius = nudge(body.radius, change),
+                           .k = body.k,
+                           .x0 = x,
+                           .z0 = z,
+                           .vx0 = nudge(r->vx.mean, change),
+                           .vz0 = nudge(r->vz.mean, change),
+                           .spin0 = nudge(r->spin.mean, change),
+                           .uniform = draw,
+                           .context = &context,
+                           .max_contacts = CONTACTS,
+                           .controls = scene->controls_count,
+                           .control_x = &scene->controls[0].x,
+                           .on_contact = note_contact};
+    struct slow_way way;
+    struct slow_crossing c;
+    slow_walk(&def, &way, &c);
+    static const int ends[] = {[SLOW_REST] = CEDUO_AT_REST, [SLOW_LEFT] = CEDUO_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};
+    t->end = ends[way.end];
+    t->contacts = t->end < 0 ? CONTACTS + 1 : way.contacts;
+    t->x = way.x;
+    t->z = way.z;
+    t->reached = c.reached;
+    memcpy(t->crossing, (double[4]){c.vx, c.vz, c.spin, c.height}, sizeof t->crossing);
+}
+
+/* ---- comparing ---- */
+
+struct sizes {
+    double length, speed, radius;
+};
+
+static double larger(double a, double b)
+{
+    return isnan(a) || isnan(b) ? INFINITY : fmax(a, b);
+}
+
+/* How far two states are apart, by the size of what they are made of. */
+static double apart(const struct state *a, const struct state *b, const struct sizes *s)
+{
+    double d = larger(fabs(a->v[0] - b->v[0]), fabs(a->v[1] - b->v[1])) / s->length;
+    if (!a->moves || !b->moves) /* the speed of a roll is not that of its contact */
+        return d;
+    for (int i = 2; i < 4; i++)
+        d = larger(d, fabs(a->v[i] - b->v[i]) / s->speed);
+    return larger(d, fabs(a->v[4] - b->v[4]) * s->radius / s->speed);
+}
+
+/* Contact at which two traces part by more than `limit`, and how far; contacts + 1 stands for the end and the control;
+ * 0 where they agree. A contact that only one of them has parts them wholly. */
+static uint64_t part(const struct trace *a, const struct trace *b, const struct sizes *s, double limit, double *by)
+{
+    uint64_t n = a->contacts < b->contacts ? a->contacts : b->contacts;
+    n = n < CONTACTS ? n : CONTACTS;
+    for (uint64_t i = 1; i <= n; i++) {
+        *by = a->after[i].known && b->after[i].known ? apart(&a->after[i], &b->after[i], s) : 0;
+        if (!(*by <= limit))
+            return i;
+    }
+    *by = INFINITY;
+    if (a->end < 0 && b->end < 0) /* cut short, each where it is */
+        return 0;
+    if (a->end != b->end || a->reached != b->reached || (a->end >= 0 && a->contacts != b->contacts))
+        return n + 1;
+    *by = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
+    if (a->reached) {
+        *by = larger(*by, larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
+        *by = larger(*by, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
+        *by = larger(*by, fabs(a->crossing[3] - b->crossing[3]) / s->length);
+    }
+    return *by <= limit ? 0 : n + 1;
+}
+
+/* Whether changes of rounding size part the slow walk from itself by then and by as much. */
+static bool excused(const struct ceduo_scene *scene, uint64_t rock, const struct sizes *s, uint64_t at, double by)
+{
+    struct line_random r = {.state = rock + 99};
+    for (int i = 0; i < OTHERS; i++) {
+        double d;
+        trace_slow(scene, rock, &r, &changed);
+        uint64_t parted = part(&slow, &changed, s, fmin(by / 10, 1e-3), &d);
+        if (parted != 0 && parted <= at)
+            return true;
+    }
+    return false;
+}
+
+/* The slow walk's last contact before they parted; NULL where none is. */
+static const struct state *last_before(uint64_t at)
+{
+    uint64_t i = at - 1 < CONTACTS ? at - 1 : CONTACTS;
+    while (i > 0 && !slow.after[i].known)
+        i--;
+    return i > 0 ? &slow.after[i] : NULL;
+}
+
+/* Whether the rock had hardly any energy left there. */
+static bool still(const struct ceduo_scene *scene, const struct sizes *s, uint64_t at)
+{
+    const struct state *last = last_before(at);
+    if (!last)
+        return false;
+    double u2 = last->v[2] * last->v[2] + last->v[3] * last->v[3] + last->v[4] * last->v[4] * s->radius * s->radius;
+    return u2 / 2 < STILL * scene->simulation.gravity * s->length;
+}
+
+/* Whether it left there along the normal of the ground, so that its roll begins with a speed of 0. */
+static bool aimless(const struct ceduo_scene *scene, uint64_t at)
+{
+    const struct state *last = last_before(at);
+    if (!last || last->v[4] != 0)
+        return false;
+    const struct ceduo_slope *p = &scene->slope;
+    size_t j = ceduo_slope_segment(p, last->v[0]);
+    double dx = p->x[j + 1] - p->x[j], dz = p->z[j + 1] - p->z[j];
+    double along = (last->v[2] * dx + last->v[3] * dz) / hypot(dx, dz);
+    return fabs(along) <= 1e-15 * hypot(last->v[2], last->v[3]);
+}
+
+static struct sizes sizes_of(const struct ceduo_scene *scene)
+{
+    const struct ceduo_slope *p = &scene->slope;
+    struct ceduo_rock body;
+    struct sizes s = {.length = 1};
+    assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
+    double low = 0, high = 0;
+    for (size_t i = 0; i < p->vertices; i++) {
+        s.length = fmax(s.length, fmax(p->x[i], fabs(p->z[i])));
+        low = fmin(low, p->z[i]);
+        high = fmax(high, p->z[i]);
+    }
+    const struct ceduo_release *r = &scene->release;
+    s.radius = body.radius;
+    s.speed = 1 + hypot(r->vx.mean, r->vz.mean) + fabs(r->spin.mean) * s.radius +
+              sqrt(2 * scene->simulation.gravity * (high - low + r->height.mean));
+    return s;
+}
+
+struct tally {
+    uint64_t rocks, same, excused, still, aimless, cut_short, contacts, first_apart;
+};
+
+static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally *tally)
+{
+    struct sizes s = sizes_of(scene);
+    double by;
+    trace_fast(scene, rock, &fast);
+    trace_slow(scene, rock, NULL, &slow);
+    tally->rocks++;
+    tally->contacts += slow.contacts;
+    tally->cut_short += slow.end < 0;
+    uint64_t at = part(&fast, &slow, &s, SAME, &by);
+    if (at == 0 && fast.after[1].known && slow.after[1].known && apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
+        at = 1;
+        by = SAME_FIRST;
+    }
+    if (at == 0) {
+        tally->same++;
+        return;
+    }
+    tally->first_apart += at == 1;
+    if (still(scene, &s, at)) {
+        tally->still++;
+        return;
+    }
+    if (aimless(scene, at)) {
+        tally->aimless++;
+        return;
+    }
+    if (!excused(scene, rock, &s, at, by))
+        fail_msg("seed %ju rock %ju: parts at contact %ju of %ju and %ju by %g", (uintmax_t)scene->simulation.seed,
+                 (uintmax_t)rock, (uintmax_t)at, (uintmax_t)fast.contacts, (uintmax_t)slow.contacts, by);
+    tally->excused++;
+}
+
+static void expect_agreement(const struct tally *t, const char *what)
+{
+    print_message("%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
+                  "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
+                  what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
+                  (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
+    assert_true(t->same + t->excused + t->still + t->aimless == t->rocks);
+    assert_true((double)t->same >= .99 * (double)t->rocks);
+    assert_true((double)t->first_apart <= .001 * (double)t->rocks);
+}
+
+static void eight_combinations_on_the_slope_of_table_3(void **state)
+{
+    (void)state;
+    static struct paper_site site;
+    for (int i = 0; i < 8; i++) {
+        paper_site_init(&site);
+        paper_site_read_theta(&site, i & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
+        site.scene.slope.facets = i & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        site.scene.simulation.law = i & 4 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        struct tally tally = {0};
+        for (uint64_t rock = 0; rock < 300; rock++)
+            compare(&site.scene, rock, &tally);
+        static const char *const names[] = {"lumped against angle", "lumped against height", "lumped both angle",
+                                            "lumped both height",   "crsp against angle",    "crsp against height",
+                                            "crsp both angle",      "crsp both height"};
+        expect_agreement(&tally, names[i]);
+    }
+}
+
+static void random_scenes(void **state)
+{
+    (void)state;
+    static struct line_scene scene;
+    struct tally tally = {0};
+    for (uint64_t number = 0; number < 3000; number++) {
+        line_scene_random(&scene, number, 0);
+        compare(&scene.scene, number % 7, &tally);
+    }
+    expect_agreement(&tally, "random scenes");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eight_combinations_on_the_slope_of_table_3),
+        cmocka_unit_test(random_scenes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
