@@ -58,13 +58,108 @@ $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(DEFINES) -c -o $@ $<
 
-# The program looks for its profiles where it was built and where it is installed.
-$(BUILD)/src/io/paths.o: DEFINES = -DCEDUO_SOURCE_PROFILES='"$(CURDIR)/profiles"' -DCEDUO_DATADIR='"$(DATADIR)"'
+# Where installed profiles are looked for, after those beside the program itself.
+$(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR='"$(DATADIR)"'
 
 -include $(shell find build -name '*.d' 2>/dev/null)
+
+# ---- a fresh machine ----
+
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux
+
+deps:
+	@missing=; for p in $(DEBIAN); do \
+	    dpkg-query -W -f '$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; \
+	done; \
+	[ -z "$$missing" ] && exit 0; \
+	if [ "$$(id -u)" != 0 ]; then echo "run as root: apt-get install$$missing"; exit 1; fi; \
+	apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
+
+# With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
+# asked for, and do their work in a make of their own.
+GOALS := run check check-all bench
+$(GOALS): $(filter deps,$(MAKECMDGOALS))
+	@+$(MAKE) --no-print-directory do-$@
+
+do-run: all
+	$(PROGRAM) --batch profiles/scenes/paper-site.yaml
+	@echo
+	@echo "More: ./ceduo --batch four-systems; ./ceduo --help; man man/ceduo.1"
+
+# ---- tests ----
+
+CORES := $(shell nproc 2>/dev/null || echo 1)
+T := $(BUILD)/tests
+UNIT := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/unit/test_*.c tests/physics/test_*.c))
+SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.py tests/physics/test_*.sh)
+TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
+SUPPORT := $(call object,$(filter-out tests/physics/test_%,$(wildcard tests/physics/*.c)))
+
+# One line at the end: N passed, N failed.
+do-check: all
+	@rm -rf $(TAPS)
+	@+$(MAKE) --no-print-directory -j$(CORES) $(TAPS)
+	@tests/summary $(TAPS)
+
+$(UNIT): $(T)/%: $(BUILD)/tests/%.o $(SUPPORT) $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ -lcmocka $(LIBS)
+
+$(UNIT:=.tap): %.tap: %
+	@tests/run $@ $<
+
+$(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
+	@CEDUO=$(CURDIR)/$(PROGRAM) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
+
+$(BUILD)/tests/%.o: DEFINES = -Itests
+.SECONDARY:
+
+do-check-all: do-check
+	@+$(MAKE) --no-print-directory VARIANT=asan do-check
+	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
+
+# Threads are exercised by these.
+do-check-threads: $(T)/physics/test_statistics_of_runs
+	$<
+
+BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
+$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+do-bench: all $(BENCH)
+	@for b in $(BENCH); do $$b || exit 1; done
+
+# ---- the manual ----
+
+PAGES := $(wildcard man/*.[157])
+TABLES := $(T)/tables
+$(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+# Writes the tables of parameters into the pages.
+man: $(TABLES)
+	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
+
+# ---- installing ----
+
+install: all
+	install -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(DATADIR) $(DESTDIR)$(MANDIR)/man1 $(DESTDIR)$(MANDIR)/man5 \
+	    $(DESTDIR)$(MANDIR)/man7
+	install -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)/ceduo
+	for k in scenes slopes stands; do \
+	    install -d $(DESTDIR)$(DATADIR)/$$k && install -m 644 profiles/$$k/*.yaml $(DESTDIR)$(DATADIR)/$$k/ || exit 1; \
+	done
+	for p in $(PAGES); do install -m 644 $$p $(DESTDIR)$(MANDIR)/man$${p##*.}/ || exit 1; done
+
+uninstall:
+	rm -f $(DESTDIR)$(BINDIR)/ceduo
+	rm -rf $(DESTDIR)$(DATADIR)
+	for p in $(notdir $(PAGES)); do rm -f $(DESTDIR)$(MANDIR)/man$${p##*.}/$$p; done
 
 clean:
 	rm -rf build ceduo
 
-.PHONY: all clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-check-threads man install uninstall clean
 .DELETE_ON_ERROR:

@@ -43,7 +43,8 @@ void ceduo_node_problem(struct problems *problems, const struct node *node, cons
 
 static const char *path_here(const struct binder *b)
 {
-    return b->path.bytes ? b->path.bytes + b->file_start : "";
+    const char *path = b->path.bytes ? b->path.bytes + b->file_start : "";
+    return path[0] == '.' ? path + 1 : path;
 }
 
 __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format,
@@ -69,7 +70,7 @@ __attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, c
 static size_t enter(struct binder *b, const char *key)
 {
     size_t before = b->path.length;
-    if (before > b->file_start)
+    if (before > 0)
         ceduo_text_char(&b->path, '.');
     ceduo_text_put(&b->path, key);
     return before;

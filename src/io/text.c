@@ -134,10 +134,16 @@ const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
         return strcpy(room, "null");
     if (value == 0)
         return strcpy(room, "0"); /* and never -0 */
-    for (int digits = 1; digits <= 17; digits++) {
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+    int digits = 1;
+    for (; digits <= 17; digits++) {
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
         if (strtod(room, NULL) == value)
             break;
+    }
+    int exponent = (int)strtol(strchr(room, 'e') + 1, NULL, 10);
+    if (exponent >= -5 && exponent < 17) { /* 50, not 5e+01 */
+        int decimals = digits - 1 - exponent;
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, value);
     }
     return room;
 }

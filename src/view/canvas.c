@@ -82,11 +82,11 @@ static struct ceduo_canvas_cell *cell_at(const struct ceduo_canvas *canvas, int 
 static int role_rank(unsigned role)
 {
     static const uint8_t ranks[CEDUO_ROLE_COUNT] = {
-        [CEDUO_ROLE_BLANK] = 0,     [CEDUO_ROLE_DIM] = 1,    [CEDUO_ROLE_AXIS] = 2,   [CEDUO_ROLE_CLOUD] = 3,
-        [CEDUO_ROLE_GROUND] = 4,    [CEDUO_ROLE_BELT] = 5,   [CEDUO_ROLE_STOOL] = 6,  [CEDUO_ROLE_STEM] = 7,
-        [CEDUO_ROLE_ENVELOPE] = 8,  [CEDUO_ROLE_BARE] = 9,   [CEDUO_ROLE_WOOD] = 10,  [CEDUO_ROLE_MEAN] = 11,
-        [CEDUO_ROLE_GOOD] = 12,     [CEDUO_ROLE_WARN] = 13,  [CEDUO_ROLE_BAD] = 14,   [CEDUO_ROLE_CONTROL] = 15,
-        [CEDUO_ROLE_WAY] = 16,      [CEDUO_ROLE_CURSOR] = 17, [CEDUO_ROLE_TITLE] = 18, [CEDUO_ROLE_TEXT] = 19,
+        [CEDUO_ROLE_BLANK] = 0,    [CEDUO_ROLE_DIM] = 1,     [CEDUO_ROLE_AXIS] = 2,   [CEDUO_ROLE_CLOUD] = 3,
+        [CEDUO_ROLE_GROUND] = 4,   [CEDUO_ROLE_BELT] = 5,    [CEDUO_ROLE_STOOL] = 6,  [CEDUO_ROLE_STEM] = 7,
+        [CEDUO_ROLE_ENVELOPE] = 8, [CEDUO_ROLE_BARE] = 9,    [CEDUO_ROLE_WOOD] = 10,  [CEDUO_ROLE_MEAN] = 11,
+        [CEDUO_ROLE_GOOD] = 12,    [CEDUO_ROLE_WARN] = 13,   [CEDUO_ROLE_BAD] = 14,   [CEDUO_ROLE_CONTROL] = 15,
+        [CEDUO_ROLE_WAY] = 16,     [CEDUO_ROLE_CURSOR] = 17, [CEDUO_ROLE_TITLE] = 18, [CEDUO_ROLE_TEXT] = 19,
     };
     assert(role < CEDUO_ROLE_COUNT);
     return ranks[role];
@@ -155,8 +155,7 @@ static struct raster raster_of(const struct ceduo_frame *frame, enum ceduo_chars
 {
     int across = ceduo_canvas_dots_x(charset);
     int down = ceduo_canvas_dots_y(charset);
-    return (struct raster){frame, frame->left * across, frame->top * down, frame->width * across,
-                           frame->height * down};
+    return (struct raster){frame, frame->left * across, frame->top * down, frame->width * across, frame->height * down};
 }
 
 /* False if the point is not finite, or too far off for its place to be. */
@@ -230,8 +229,8 @@ double ceduo_frame_exaggeration(const struct ceduo_frame *frame, enum ceduo_char
     return x_metres / y_metres;
 }
 
-bool ceduo_frame_cell(const struct ceduo_frame *frame, enum ceduo_charset charset, double x, double y,
-                      int *column, int *row)
+bool ceduo_frame_cell(const struct ceduo_frame *frame, enum ceduo_charset charset, double x, double y, int *column,
+                      int *row)
 {
     if (!frame_valid(frame)) {
         return false;
@@ -348,14 +347,14 @@ static void pen_polyline(struct pen *pen, size_t n, const double *x, const doubl
     }
 }
 
-void ceduo_canvas_point(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                        double x, double y)
+void ceduo_canvas_point(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
+                        double y)
 {
     ceduo_canvas_line(canvas, frame, role, x, y, x, y);
 }
 
-void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                       double ax, double ay, double bx, double by)
+void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax,
+                       double ay, double bx, double by)
 {
     if (!frame_valid(frame)) {
         return;
@@ -364,8 +363,8 @@ void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
     pen_line(&pen, ax, ay, bx, by);
 }
 
-void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                           size_t n, const double *x, const double *y)
+void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
+                           const double *x, const double *y)
 {
     if (!frame_valid(frame)) {
         return;
@@ -374,8 +373,8 @@ void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame
     pen_polyline(&pen, n, x, y);
 }
 
-void ceduo_canvas_steps(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                        size_t n, const double *x, const double *y)
+void ceduo_canvas_steps(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
+                        const double *x, const double *y)
 {
     if (!frame_valid(frame)) {
         return;
@@ -443,8 +442,7 @@ void ceduo_canvas_fill_below(struct ceduo_canvas *canvas, const struct ceduo_fra
     }
 }
 
-void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                         double y)
+void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double y)
 {
     if (!frame_valid(frame)) {
         return;
@@ -459,8 +457,7 @@ void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *
     }
 }
 
-void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                         double x)
+void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x)
 {
     if (!frame_valid(frame)) {
         return;
@@ -506,8 +503,8 @@ bool ceduo_canvas_density_start(struct ceduo_canvas *canvas)
     return canvas->density != NULL;
 }
 
-void ceduo_canvas_density_add_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double ax,
-                                   double ay, double bx, double by)
+void ceduo_canvas_density_add_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double ax, double ay,
+                                   double bx, double by)
 {
     const double x[] = {ax, bx};
     const double y[] = {ay, by};
@@ -545,7 +542,7 @@ static uint32_t density_level(const struct ceduo_canvas *canvas, double quantile
     if (all == 0) {
         return 0;
     }
-    double wanted = quantile > 0.0 ? fmin(quantile, 1.0) * (double)all : 0.0;
+    double wanted = quantile > 0.0 ? fmax(fmin(quantile, 1.0) * (double)all, 1.0) : 1.0;
     uint32_t lo = 1;
     uint32_t hi = UINT32_MAX;
     while (lo < hi) {
@@ -644,27 +641,27 @@ static const char *ascii_for(uint32_t code)
         uint16_t first, last;
         char text[4];
     } table[] = {
-        {0xA0, 0xA0, " "},       {0xAB, 0xAB, "\""},      {0xB0, 0xB0, " "},       {0xB1, 0xB1, "+-"},
-        {0xB2, 0xB2, "2"},       {0xB3, 0xB3, "3"},       {0xB5, 0xB5, "u"},       {0xB7, 0xB7, "."},
-        {0xBB, 0xBB, "\""},      {0xC0, 0xC3, "A"},       {0xC4, 0xC4, "Ae"},      {0xC5, 0xC5, "A"},
-        {0xC6, 0xC6, "AE"},      {0xC7, 0xC7, "C"},       {0xC8, 0xCB, "E"},       {0xCC, 0xCF, "I"},
-        {0xD1, 0xD1, "N"},       {0xD2, 0xD5, "O"},       {0xD6, 0xD6, "Oe"},      {0xD7, 0xD7, "x"},
-        {0xD8, 0xD8, "O"},       {0xD9, 0xDB, "U"},       {0xDC, 0xDC, "Ue"},      {0xDD, 0xDD, "Y"},
-        {0xDF, 0xDF, "ss"},      {0xE0, 0xE3, "a"},       {0xE4, 0xE4, "ae"},      {0xE5, 0xE5, "a"},
-        {0xE6, 0xE6, "ae"},      {0xE7, 0xE7, "c"},       {0xE8, 0xEB, "e"},       {0xEC, 0xEF, "i"},
-        {0xF1, 0xF1, "n"},       {0xF2, 0xF5, "o"},       {0xF6, 0xF6, "oe"},      {0xF7, 0xF7, "/"},
-        {0xF8, 0xF8, "o"},       {0xF9, 0xFB, "u"},       {0xFC, 0xFC, "ue"},      {0xFD, 0xFD, "y"},
-        {0xFF, 0xFF, "y"},       {0x2002, 0x200A, " "},   {0x2010, 0x2015, "-"},   {0x2018, 0x2019, "'"},
-        {0x201C, 0x201E, "\""},  {0x2022, 0x2022, "*"},   {0x2026, 0x2026, "..."}, {0x202F, 0x202F, " "},
-        {0x2032, 0x2032, "'"},   {0x2190, 0x2190, "<-"},  {0x2191, 0x2191, "^"},   {0x2192, 0x2192, "->"},
-        {0x2193, 0x2193, "v"},   {0x2205, 0x2205, "O"},   {0x2212, 0x2212, "-"},   {0x221E, 0x221E, "inf"},
-        {0x2248, 0x2248, "~"},   {0x2260, 0x2260, "!="},  {0x2264, 0x2264, "<="},  {0x2265, 0x2265, ">="},
-        {0x2500, 0x2501, "-"},   {0x2502, 0x2503, "|"},   {0x250C, 0x254B, "+"},   {0x2550, 0x2550, "="},
-        {0x2551, 0x2551, "|"},   {0x2552, 0x2570, "+"},   {0x2580, 0x2590, "#"},   {0x2591, 0x2591, "."},
-        {0x2592, 0x2592, ":"},   {0x2593, 0x2593, "#"},   {0x25A0, 0x25A0, "#"},   {0x25B2, 0x25B3, "^"},
-        {0x25B6, 0x25B8, ">"},   {0x25BC, 0x25BD, "v"},   {0x25C0, 0x25C2, "<"},   {0x25C6, 0x25C7, "*"},
-        {0x25CB, 0x25CB, "o"},   {0x25CF, 0x25CF, "o"},   {0x2660, 0x2660, "Y"},   {0x2663, 0x2663, "Y"},
-        {0x26A0, 0x26A0, "!"},   {0x2713, 0x2714, "+"},   {0x2717, 0x2718, "x"},
+        {0xA0, 0xA0, " "},      {0xAB, 0xAB, "\""},     {0xB0, 0xB0, " "},       {0xB1, 0xB1, "+-"},
+        {0xB2, 0xB2, "2"},      {0xB3, 0xB3, "3"},      {0xB5, 0xB5, "u"},       {0xB7, 0xB7, "."},
+        {0xBB, 0xBB, "\""},     {0xC0, 0xC3, "A"},      {0xC4, 0xC4, "Ae"},      {0xC5, 0xC5, "A"},
+        {0xC6, 0xC6, "AE"},     {0xC7, 0xC7, "C"},      {0xC8, 0xCB, "E"},       {0xCC, 0xCF, "I"},
+        {0xD1, 0xD1, "N"},      {0xD2, 0xD5, "O"},      {0xD6, 0xD6, "Oe"},      {0xD7, 0xD7, "x"},
+        {0xD8, 0xD8, "O"},      {0xD9, 0xDB, "U"},      {0xDC, 0xDC, "Ue"},      {0xDD, 0xDD, "Y"},
+        {0xDF, 0xDF, "ss"},     {0xE0, 0xE3, "a"},      {0xE4, 0xE4, "ae"},      {0xE5, 0xE5, "a"},
+        {0xE6, 0xE6, "ae"},     {0xE7, 0xE7, "c"},      {0xE8, 0xEB, "e"},       {0xEC, 0xEF, "i"},
+        {0xF1, 0xF1, "n"},      {0xF2, 0xF5, "o"},      {0xF6, 0xF6, "oe"},      {0xF7, 0xF7, "/"},
+        {0xF8, 0xF8, "o"},      {0xF9, 0xFB, "u"},      {0xFC, 0xFC, "ue"},      {0xFD, 0xFD, "y"},
+        {0xFF, 0xFF, "y"},      {0x2002, 0x200A, " "},  {0x2010, 0x2015, "-"},   {0x2018, 0x2019, "'"},
+        {0x201C, 0x201E, "\""}, {0x2022, 0x2022, "*"},  {0x2026, 0x2026, "..."}, {0x202F, 0x202F, " "},
+        {0x2032, 0x2032, "'"},  {0x2190, 0x2190, "<-"}, {0x2191, 0x2191, "^"},   {0x2192, 0x2192, "->"},
+        {0x2193, 0x2193, "v"},  {0x2205, 0x2205, "O"},  {0x2212, 0x2212, "-"},   {0x221E, 0x221E, "inf"},
+        {0x2248, 0x2248, "~"},  {0x2260, 0x2260, "!="}, {0x2264, 0x2264, "<="},  {0x2265, 0x2265, ">="},
+        {0x2500, 0x2501, "-"},  {0x2502, 0x2503, "|"},  {0x250C, 0x254B, "+"},   {0x2550, 0x2550, "="},
+        {0x2551, 0x2551, "|"},  {0x2552, 0x2570, "+"},  {0x2580, 0x2590, "#"},   {0x2591, 0x2591, "."},
+        {0x2592, 0x2592, ":"},  {0x2593, 0x2593, "#"},  {0x25A0, 0x25A0, "#"},   {0x25B2, 0x25B3, "^"},
+        {0x25B6, 0x25B8, ">"},  {0x25BC, 0x25BD, "v"},  {0x25C0, 0x25C2, "<"},   {0x25C6, 0x25C7, "*"},
+        {0x25CB, 0x25CB, "o"},  {0x25CF, 0x25CF, "o"},  {0x2660, 0x2660, "Y"},   {0x2663, 0x2663, "Y"},
+        {0x26A0, 0x26A0, "!"},  {0x2713, 0x2714, "+"},  {0x2717, 0x2718, "x"},
     };
     for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i) {
         if (code >= table[i].first && code <= table[i].last) {
@@ -715,8 +712,7 @@ int ceduo_canvas_label(struct ceduo_canvas *canvas, int column, int row, enum ce
     return cells;
 }
 
-int ceduo_canvas_label_right(struct ceduo_canvas *canvas, int column, int row, enum ceduo_role role,
-                             const char *text)
+int ceduo_canvas_label_right(struct ceduo_canvas *canvas, int column, int row, enum ceduo_role role, const char *text)
 {
     return ceduo_canvas_label(canvas, column + 1 - ceduo_canvas_label_width(canvas->charset, text), row, role, text);
 }
@@ -740,9 +736,6 @@ struct step {
 
 static double tick_value(double index, struct step step)
 {
-    if (index == 0.0) {
-        return 0.0; /* not -0 */
-    }
     double steps = index * step.mantissa;
     return step.exponent < 0 ? steps / pow(10.0, -step.exponent) : steps * pow(10.0, step.exponent);
 }
@@ -805,7 +798,7 @@ int ceduo_ticks(double lo, double hi, int max_count, double *out, double *step)
     }
     int n = (int)fmin(count, max_count);
     for (int i = 0; i < n; ++i) {
-        out[i] = tick_value(first + i, size);
+        out[i] = tick_value(first + i, size); /* ceil may have made first -0; -0 + 0 is 0 */
     }
     *step = tick_value(1.0, size);
     return n;
@@ -1089,7 +1082,7 @@ static uint32_t glyph_of(const struct ceduo_canvas_cell *cell, enum ceduo_charse
     case CEDUO_CHARSET_ASCII:
         break;
     }
-    return (uint32_t)" '.:"[cell->dots & 3U];
+    return (uint32_t) " '.:"[cell->dots & 3U];
 }
 
 uint32_t ceduo_canvas_glyph(const struct ceduo_canvas *canvas, int column, int row)

@@ -124,8 +124,8 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, enum ceduo_charset charse
 double ceduo_frame_exaggeration(const struct ceduo_frame *frame, enum ceduo_charset charset);
 
 /* The cell in which the data point (x, y) is drawn. False, and nothing written, if outside the frame. */
-bool ceduo_frame_cell(const struct ceduo_frame *frame, enum ceduo_charset charset, double x, double y,
-                      int *column, int *row);
+bool ceduo_frame_cell(const struct ceduo_frame *frame, enum ceduo_charset charset, double x, double y, int *column,
+                      int *row);
 
 /*
  * Columns that ceduo_canvas_axis_left takes to the left of this frame: the widest label and the line.
@@ -136,23 +136,23 @@ int ceduo_frame_axis_width(const struct ceduo_frame *frame, enum ceduo_charset c
 
 /* ---- Drawing data: every function cuts at the edges of the frame ---- */
 
-void ceduo_canvas_point(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                        double x, double y);
+void ceduo_canvas_point(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
+                        double y);
 
 /* The straight line from (ax, ay) to (bx, by); drawn too where it only crosses the frame. */
-void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                       double ax, double ay, double bx, double by);
+void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax,
+                       double ay, double bx, double by);
 
 /* Straight lines through n points. One that is not finite breaks the line; one left alone is a dot. */
-void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                           size_t n, const double *x, const double *y);
+void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
+                           const double *x, const double *y);
 
 /*
  * A step line: y[i] holds from x[i] to x[i + 1], where the line goes upright to y[i + 1]. The last
  * point ends it. One that is not finite breaks the line.
  */
-void ceduo_canvas_steps(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                        size_t n, const double *x, const double *y);
+void ceduo_canvas_steps(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
+                        const double *x, const double *y);
 
 /*
  * Fill from the polyline through n points (n >= 2) down to the lower edge of the frame; for y0 > y1
@@ -162,10 +162,8 @@ void ceduo_canvas_fill_below(struct ceduo_canvas *canvas, const struct ceduo_fra
                              size_t n, const double *x, const double *y);
 
 /* A dotted line across the frame at height y, or up it at x: every second dot. */
-void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                         double y);
-void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                         double x);
+void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double y);
+void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x);
 
 /*
  * A horizontal bar, `fraction` (0..1) of `width` cells long, to an eighth of a cell, in ASCII to a cell.
@@ -183,8 +181,8 @@ void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int widt
 bool ceduo_canvas_density_start(struct ceduo_canvas *canvas);
 
 /* Count one way, a line or the lines through n points, in the dots it passes. Draws nothing. */
-void ceduo_canvas_density_add_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double ax,
-                                   double ay, double bx, double by);
+void ceduo_canvas_density_add_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double ax, double ay,
+                                   double bx, double by);
 void ceduo_canvas_density_add_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, size_t n,
                                        const double *x, const double *y);
 
@@ -206,8 +204,7 @@ uint32_t ceduo_canvas_density_show(struct ceduo_canvas *canvas, double quantile)
 int ceduo_canvas_label(struct ceduo_canvas *canvas, int column, int row, enum ceduo_role role, const char *text);
 
 /* The same, with the last character in cell `column`. */
-int ceduo_canvas_label_right(struct ceduo_canvas *canvas, int column, int row, enum ceduo_role role,
-                             const char *text);
+int ceduo_canvas_label_right(struct ceduo_canvas *canvas, int column, int row, enum ceduo_role role, const char *text);
 
 /* The number of cells a text takes in a character set. */
 int ceduo_canvas_label_width(enum ceduo_charset charset, const char *text);

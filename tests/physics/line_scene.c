@@ -100,7 +100,7 @@ static size_t random_profile(struct line_scene *s, struct line_random *r)
 
 static double random_share(struct line_random *r, double lo, double hi)
 {
-    return line_chance(r, 0.1) ? 0 : line_uniform(r, lo, hi);
+    return line_chance(r, 0.04) ? 0 : line_uniform(r, lo, hi);
 }
 
 static void random_segment(struct ceduo_segment *to, struct line_random *r, double radius, double rough)

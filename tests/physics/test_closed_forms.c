@@ -123,6 +123,20 @@ static void an_oblique_impact_on_the_flat(void **state)
     assert_true(way.pieces[0].vx == -1 && way.pieces[0].vz == 2);
 }
 
+static void a_bounce_without_loss_is_given_up_and_said_so(void **state)
+{
+    (void)state;
+    straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 500, 1, 0, 0, 0);
+    follow();
+    assert_true(way.way.end == CEDUO_UNFINISHED && way.way.contacts == CEDUO_CONTACTS_MOST && way.way.x == 500);
+    straight(0, (struct line_ground){0, 1, 0}, 1e-4, CEDUO_LAW_CRSP); /* rolls, 100 m in 10^6 radii */
+    line_scene_release(&scene, 500, 0, 1, 0, 1e4);
+    follow();
+    assert_true(way.way.end == CEDUO_UNFINISHED && way.way.contacts == CEDUO_CONTACTS_MOST);
+    expect_near(way.way.x, 600, 1e-9);
+}
+
 static void a_release_that_leaves_the_ground_has_no_contact(void **state)
 {
     (void)state;
@@ -197,6 +211,44 @@ static void spin_and_speed_share_their_momentum_in_a_roll(void **state)
     /* f = 1, SF = 1 at Rt = 1: the energy of the spin becomes that of a roll */
     expect_near(way.pieces[0].vx, sqrt(.4 * 16 / 1.4), 1e-15);
     expect_near(way.pieces[0].spin * .5, way.pieces[0].vx, 1e-15);
+}
+
+/* Rolling, Vn is 0 and there is no slip: each contact leaves Rt·f of the energy, f = Rt + (1 - Rt)/1.2, whatever Rn. */
+static void a_contact_in_a_roll_costs_the_same_for_any_rn(void **state)
+{
+    (void)state;
+    static const double shares[] = {0, 1e-12, .3, 1};
+    const double rt = .9;
+    for (size_t i = 0; i < LENGTH(shares); i++)
+        for (int slope = 0; slope < 60; slope++) {
+            straight(-.025 * slope, (struct line_ground){shares[i], rt, 0}, .34, CEDUO_LAW_CRSP);
+            line_scene_release(&scene, 1, 0, 3, -.025 * slope * 3, 3 / .34 * sqrt(1 + pow(.025 * slope, 2)));
+            follow();
+            for (size_t j = 1; j < way.count && j < 40; j++) {
+                const struct ceduo_piece *before = &way.pieces[j - 1], *p = &way.pieces[j];
+                double u2 = before->vx1 * before->vx1 + before->vz1 * before->vz1;
+                assert_true(p->rolls);
+                expect_near(p->vx * p->vx + p->vz * p->vz, rt * (rt + (1 - rt) / 1.2) * u2, 1e-9);
+            }
+            assert_true(way.count >= 40);
+        }
+}
+
+/* Rt = 0 leaves no speed along the ground: each roll goes downhill from 0, one contact for each radius. */
+static void without_tangential_restitution_each_roll_begins_downhill(void **state)
+{
+    (void)state;
+    for (int slope = 1; slope < 60; slope++)
+        for (int dir = -1; dir <= 1; dir += 2) {
+            straight(.025 * slope * dir, (struct line_ground){.3, 0, 0}, 1, CEDUO_LAW_LUMPED);
+            line_scene_release(&scene, 500, 0, 1, -1 - .025 * slope, 0);
+            follow();
+            for (size_t j = 0; j < way.count; j++) {
+                assert_true(way.pieces[j].rolls);
+                assert_true(dir * way.pieces[j].vx <= 0 && dir * way.pieces[j].vx1 < 0);
+            }
+            assert_int_equal(way.way.contacts, ceil(500 * sqrt(1 + pow(.025 * slope, 2))));
+        }
 }
 
 static void a_concave_vertex_takes_the_part_into_the_ground(void **state)
@@ -700,10 +752,13 @@ int main(void)
         cmocka_unit_test(a_control_sees_the_flight_over_it),
         cmocka_unit_test(a_vertical_drop_rebounds_to_rn2_h),
         cmocka_unit_test(an_oblique_impact_on_the_flat),
+        cmocka_unit_test(a_bounce_without_loss_is_given_up_and_said_so),
         cmocka_unit_test(a_release_that_leaves_the_ground_has_no_contact),
         cmocka_unit_test(a_roll_on_the_flat_stops_by_friction),
         cmocka_unit_test(a_roll_down_a_slope),
         cmocka_unit_test(spin_and_speed_share_their_momentum_in_a_roll),
+        cmocka_unit_test(a_contact_in_a_roll_costs_the_same_for_any_rn),
+        cmocka_unit_test(without_tangential_restitution_each_roll_begins_downhill),
         cmocka_unit_test(a_concave_vertex_takes_the_part_into_the_ground),
         cmocka_unit_test(over_a_convex_vertex_it_rolls_or_flies),
         cmocka_unit_test(at_rest_it_goes_where_it_is_steeper_than_friction),

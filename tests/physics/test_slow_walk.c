@@ -27,9 +27,10 @@
 #define CHANGE 1e-13
 #define STILL 1e-14    /* of g × length: less energy than this per kilogram is lost in the rounding of the height */
 
-/* What a rock has after a contact: where it is and, where known, how it leaves. */
+/* What a rock has after a contact: where it is and how it leaves; the program tells the speed of the roll where one
+ * begins. */
 struct state {
-    bool known, moves;
+    bool known, rolls;
     double v[5]; /* x, z, vx, vz, spin */
 };
 
@@ -52,7 +53,7 @@ static void note_piece(void *context, const struct ceduo_piece *p)
     struct trace *t = context;
     if (p->contacts == 0 || p->contacts > CONTACTS || t->after[p->contacts].known)
         return;
-    t->after[p->contacts] = (struct state){true, !p->rolls, {p->x, p->z, p->vx, p->vz, p->spin}};
+    t->after[p->contacts] = (struct state){true, p->rolls, {p->x, p->z, p->vx, p->vz, p->spin}};
 }
 
 static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct trace *t)
@@ -93,7 +94,7 @@ static void note_contact(void *context, double x, double z, double vx, double vz
 {
     struct slow_context *c = context;
     if (c->contact + 1 <= CONTACTS)
-        c->t->after[c->contact + 1] = (struct state){true, true, {x, z, vx, vz, spin}};
+        c->t->after[c->contact + 1] = (struct state){true, false, {x, z, vx, vz, spin}};
 }
 
 /* The height that rounds to that of the ground at x, where the rock lies on it. */
@@ -170,7 +171,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
 /* ---- comparing ---- */
 
 struct sizes {
-    double length, speed, radius;
+    double length, speed, radius, k;
 };
 
 static double larger(double a, double b)
@@ -178,12 +179,23 @@ static double larger(double a, double b)
     return isnan(a) || isnan(b) ? INFINITY : fmax(a, b);
 }
 
-/* How far two states are apart, by the size of what they are made of. */
+/* The speed with which a contact that left with b begins a roll, against that of the roll a. */
+static double roll_apart(const struct state *a, const struct state *b, const struct sizes *s)
+{
+    double u = hypot(a->v[2], a->v[3]);
+    if (!(u > 0))
+        return 0;
+    double along = (b->v[2] * a->v[2] + b->v[3] * a->v[3]) / u;
+    double spin = (a->v[2] > 0 ? 1 : -1) * s->k * b->v[4] * s->radius;
+    return fabs(u - (along + spin) / (1 + s->k));
+}
+
+/* How far two states are apart, by the size of what they are made of; only the first may be a roll. */
 static double apart(const struct state *a, const struct state *b, const struct sizes *s)
 {
     double d = larger(fabs(a->v[0] - b->v[0]), fabs(a->v[1] - b->v[1])) / s->length;
-    if (!a->moves || !b->moves) /* the speed of a roll is not that of its contact */
-        return d;
+    if (a->rolls)
+        return larger(d, roll_apart(a, b, s) / s->speed);
     for (int i = 2; i < 4; i++)
         d = larger(d, fabs(a->v[i] - b->v[i]) / s->speed);
     return larger(d, fabs(a->v[4] - b->v[4]) * s->radius / s->speed);
@@ -274,6 +286,7 @@ static struct sizes sizes_of(const struct ceduo_scene *scene)
     }
     const struct ceduo_release *r = &scene->release;
     s.radius = body.radius;
+    s.k = scene->simulation.law == CEDUO_LAW_CRSP ? body.k : 0;
     s.speed = 1 + hypot(r->vx.mean, r->vz.mean) + fabs(r->spin.mean) * s.radius +
               sqrt(2 * scene->simulation.gravity * (high - low + r->height.mean));
     return s;

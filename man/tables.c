@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the table of parameters into a manual page, between its two marks: tables scene|slope|stand PAGE */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/schema.h"
+
+#define BEGIN ".\\\" begin parameters\n"
+#define END ".\\\" end parameters\n"
+
+/* Text of a page: what troff would read as a request or an escape is hidden. */
+static void put(FILE *out, const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '\\')
+            fputs("\\e", out);
+        else if ((unsigned char)*text == 0xe2 && strncmp(text, "\xe2\x80\xa6", 3) == 0) {
+            fputs(" to ", out);
+            text += 2;
+        } else
+            fputc(*text, out);
+    }
+}
+
+static void put_parameter(void *context, const char *path, const struct field *f)
+{
+    FILE *out = context;
+    char range[96];
+    if (f->type == FIELD_TAG || strncmp(path, "options[].forest", 16) == 0 || strncmp(path, "forest[].stand.", 15) == 0 ||
+        strncmp(path, "slope.", 6) == 0)
+        return;
+    bool limited = ceduo_schema_range_text(f, range, sizeof range);
+    fprintf(out, ".It Va %s\n%s", path, f->meaning);
+    if (f->unit[0])
+        fprintf(out, "; %s", f->unit);
+    if (limited) {
+        fputs("; ", out);
+        put(out, range);
+    }
+    for (size_t i = 0; f->choices && i < f->choices->n; i++)
+        fprintf(out, "%s%s", i ? ", " : "; one of ", f->choices->names[i]);
+    if (f->value)
+        fprintf(out, "; default %s", f->value);
+    fputs(f->type == FIELD_SPREAD || f->type == FIELD_SPREADS ? "; may have a spread.\n" : ".\n", out);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 3)
+        return 2;
+    static char page[1 << 20];
+    FILE *in = fopen(argv[2], "r");
+    size_t n = in ? fread(page, 1, sizeof page - 1, in) : 0;
+    char *begin = strstr(page, BEGIN), *end = strstr(page, END);
+    if (!in || n == 0 || !begin || !end)
+        return 1;
+    fclose(in);
+    const struct object *object = strcmp(argv[1], "stand") == 0   ? ceduo_schema_stand()
+                                  : strcmp(argv[1], "slope") == 0 ? ceduo_schema_slope()
+                                                                  : ceduo_schema_scene();
+    FILE *out = fopen(argv[2], "w");
+    if (!out)
+        return 1;
+    fwrite(page, 1, (size_t)(begin - page) + strlen(BEGIN), out);
+    fputs(".Bl -tag -width Ds\n", out);
+    ceduo_schema_visit(object, "", put_parameter, out);
+    fputs(".El\n", out);
+    fputs(end, out);
+    return fclose(out) == 0 ? 0 : 1;
+}

@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "arguments.h"
+
+#include <getopt.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "ceduo/scene.h"
+#include "io/intl.h"
+
+#define THREADS_MOST 1024
+
+/* One table: parsing and help. */
+enum { OPTION_ROWS = 256, OPTION_SEED, OPTION_ONLY, OPTION_CHECK, OPTION_PARAMETERS, OPTION_PROFILES, OPTION_HELP, OPTION_VERSION };
+
+static const struct row {
+    const char *name;
+    int letter; /* a character, or one of the above */
+    const char *value;
+    const char *help;
+} rows[] = {
+    {"batch", 'b', NULL, N_("compute the scenes and print the result; no terminal is touched")},
+    {"format", 'f', "table|csv|json", N_("how to print it (table)")},
+    {"output", 'o', "FILE", N_("where to; a regular file is written whole or not at all")},
+    {"set", 's', "PATH=VALUE", N_("change a parameter of the scene; may be repeated")},
+    {"rocks", 'n', "N", N_("rocks simulated; with --tolerance the most")},
+    {"tolerance", 'e', "REL", N_("go on until mean energies are known to REL of themselves (95 %)")},
+    {"rows", OPTION_ROWS, "controls|stands", N_("what a row of CSV is (controls)")},
+    {"seed", OPTION_SEED, "N", N_("seed of the random numbers, 0 to 2^53")},
+    {"threads", 'j', "N", N_("threads; the result does not depend on them (all cores)")},
+    {"option", OPTION_ONLY, "NAME", N_("only this option of the scene; may be repeated")},
+    {"check", OPTION_CHECK, NULL, N_("read the scenes and print every problem; compute nothing")},
+    {"list-parameters", OPTION_PARAMETERS, NULL, N_("path, type, unit, range, default and meaning of each")},
+    {"list-profiles", OPTION_PROFILES, NULL, N_("scenes, slopes and stands that are found by name")},
+    {"quiet", 'q', NULL, N_("no progress")},
+    {"help", OPTION_HELP, NULL, N_("this page")},
+    {"version", OPTION_VERSION, NULL, N_("the version")},
+};
+
+#define ROWS (sizeof rows / sizeof rows[0])
+
+void ceduo_arguments_help(struct text *text)
+{
+    ceduo_text_put(text, _("ceduo: does this coppice stop the rocks?\n\n"
+                           "usage: ceduo --batch [OPTION...] SCENE.yaml...\n"
+                           "       ceduo --check SCENE.yaml...\n"
+                           "       ceduo --list-parameters | --list-profiles\n\n"
+                           "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
+    for (size_t i = 0; i < ROWS; i++) {
+        char head[64];
+        int n = snprintf(head, sizeof head, "  %c%c%s --%s%s%s", rows[i].letter < 256 ? '-' : ' ',
+                         rows[i].letter < 256 ? rows[i].letter : ' ', rows[i].letter < 256 ? "," : " ", rows[i].name,
+                         rows[i].value ? " " : "", rows[i].value ? rows[i].value : "");
+        ceduo_text_format(text, "%-30s%s%s\n", head, n >= 30 ? "\n                              " : "", _(rows[i].help));
+    }
+    ceduo_text_put(text, _("\nexample: ceduo --batch -s 'forest[0].stand.stools.per_ha=2000' paper-site\n"
+                           "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed; see man ceduo\n"));
+}
+
+__attribute__((format(printf, 1, 2))) static enum exit_status usage(const char *format, ...)
+{
+    struct text message = {0}, safe = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&message, format, args);
+    va_end(args);
+    ceduo_text_safe(&safe, message.bytes ? message.bytes : "");
+    fprintf(stderr, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes ? safe.bytes : "");
+    ceduo_text_free(&message);
+    ceduo_text_free(&safe);
+    return EXIT_USAGE;
+}
+
+static enum exit_status read_count(const char *name, const char *value, double lo, double hi, uint64_t *to)
+{
+    double number;
+    if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD || number != floor(number))
+        return usage(_("--%s: '%s' is no whole number"), name, value);
+    if (number < lo || number > hi)
+        return usage(_("--%s: %s lies outside %.0f to %.0f"), name, value, lo, hi);
+    *to = (uint64_t)number;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_tolerance(struct arguments *a, const char *value)
+{
+    double number;
+    if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
+        return usage(_("--tolerance: '%s' is no number"), value);
+    if (!(number > 0) || !(number < 1))
+        return usage(_("--tolerance: %s lies outside 0 to 1"), value);
+    a->tolerance = number;
+    return EXIT_DONE;
+}
+
+/* Index of a word, -1 where it is none of them. */
+static int word_of(const char *value, const char *const *words, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (strcmp(words[i], value) == 0)
+            return i;
+    return -1;
+}
+
+static enum exit_status read_format(struct arguments *a, const char *value)
+{
+    static const char *const words[] = {"table", "csv", "json"};
+    int i = word_of(value, words, 3);
+    if (i < 0)
+        return usage(_("--format: '%s' is unknown; one of table, csv, json"), value);
+    a->format = (enum ceduo_format)i;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_rows(struct arguments *a, const char *value)
+{
+    static const char *const words[] = {"controls", "stands"};
+    int i = word_of(value, words, 2);
+    if (i < 0)
+        return usage(_("--rows: '%s' is unknown; one of controls, stands"), value);
+    a->stands = i == 1;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_seed(struct arguments *a, const char *value)
+{
+    uint64_t seed;
+    enum exit_status status = read_count("seed", value, 0, 9007199254740992.0, &seed);
+    if (status != EXIT_DONE)
+        return status;
+    snprintf(a->seed, sizeof a->seed, "simulation.seed=%llu", (unsigned long long)seed);
+    a->sets[a->sets_count++] = a->seed;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_threads(struct arguments *a, const char *value)
+{
+    uint64_t n;
+    enum exit_status status = read_count("threads", value, 1, THREADS_MOST, &n);
+    if (status == EXIT_DONE)
+        a->threads = (unsigned)n;
+    return status;
+}
+
+static void set_mode(struct arguments *a, enum mode mode)
+{
+    if (a->mode < MODE_HELP && (a->mode < MODE_CHECK || mode >= MODE_HELP))
+        a->mode = mode;
+}
+
+static enum exit_status read_option(struct arguments *a, int letter, char *value)
+{
+    switch (letter) {
+    case 'b':
+        if (a->mode == MODE_TERMINAL)
+            a->mode = MODE_BATCH;
+        return EXIT_DONE;
+    case 'f':
+        return read_format(a, value);
+    case 'o':
+        a->output = value;
+        return EXIT_DONE;
+    case 's':
+        a->sets[a->sets_count++] = value;
+        return EXIT_DONE;
+    case 'n':
+        return read_count("rocks", value, 1, CEDUO_ROCKS_MOST, &a->rocks);
+    case 'e':
+        return read_tolerance(a, value);
+    case 'j':
+        return read_threads(a, value);
+    case 'q':
+        a->quiet = true;
+        return EXIT_DONE;
+    case OPTION_ROWS:
+        return read_rows(a, value);
+    case OPTION_SEED:
+        return read_seed(a, value);
+    case OPTION_ONLY:
+        a->options[a->options_count++] = value;
+        return EXIT_DONE;
+    case OPTION_CHECK:
+        set_mode(a, MODE_CHECK);
+        return EXIT_DONE;
+    case OPTION_PARAMETERS:
+        set_mode(a, MODE_PARAMETERS);
+        return EXIT_DONE;
+    case OPTION_PROFILES:
+        set_mode(a, MODE_PROFILES);
+        return EXIT_DONE;
+    case OPTION_HELP:
+        set_mode(a, MODE_HELP);
+        return EXIT_DONE;
+    default:
+        set_mode(a, MODE_VERSION);
+        return EXIT_DONE;
+    }
+}
+
+static void fill_getopt(struct option *longs, char *shorts)
+{
+    *shorts++ = ':';
+    for (size_t i = 0; i < ROWS; i++) {
+        longs[i] = (struct option){rows[i].name, rows[i].value ? required_argument : no_argument, NULL, rows[i].letter};
+        if (rows[i].letter < 256) {
+            *shorts++ = (char)rows[i].letter;
+            if (rows[i].value)
+                *shorts++ = ':';
+        }
+    }
+    longs[ROWS] = (struct option){0};
+    *shorts = '\0';
+}
+
+static enum exit_status check_together(const struct arguments *a)
+{
+    bool wants_scene = a->mode == MODE_BATCH || a->mode == MODE_CHECK;
+    if (wants_scene && a->scenes_count == 0)
+        return usage(_("no scene; name a file, '-' for standard input, or a shipped scene such as 'paper-site'"));
+    if (!wants_scene && a->mode != MODE_TERMINAL && a->scenes_count > 0 && a->mode < MODE_HELP)
+        return usage(_("a list takes no scene: '%s'"), a->scenes[0]);
+    size_t standard = 0;
+    for (size_t i = 0; i < a->scenes_count; i++)
+        standard += strcmp(a->scenes[i], "-") == 0;
+    if (standard > 1)
+        return usage(_("standard input can be read only once"));
+    return EXIT_DONE;
+}
+
+static unsigned cores(void)
+{
+    long n = sysconf(_SC_NPROCESSORS_ONLN);
+    return n > 0 && n <= THREADS_MOST ? (unsigned)n : 1;
+}
+
+enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv)
+{
+    struct option longs[ROWS + 1];
+    char shorts[2 * ROWS + 2];
+    fill_getopt(longs, shorts);
+    size_t most = (size_t)argc + 1;
+    *a = (struct arguments){.threads = cores(),
+                            .sets = calloc(most, sizeof *a->sets),
+                            .options = calloc(most, sizeof *a->options)};
+    if (!a->sets || !a->options)
+        return usage(_("out of memory"));
+    opterr = 0;
+    for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
+        const char *word = argv[optind - 1];
+        if (letter == ':')
+            return usage(_("'%s' needs a value"), word);
+        if (letter == '?' && optopt && optopt < 256)
+            return usage(_("unknown option '-%c'"), optopt);
+        if (letter == '?')
+            return usage(_("unknown option '%s'"), word);
+        enum exit_status status = read_option(a, letter, optarg);
+        if (status != EXIT_DONE)
+            return status;
+    }
+    a->scenes = argv + optind;
+    a->scenes_count = (size_t)(argc - optind);
+    return check_together(a);
+}
+
+void ceduo_arguments_free(struct arguments *a)
+{
+    free(a->sets);
+    free(a->options);
+}

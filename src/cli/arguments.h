@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ARGUMENTS_H
+#define CEDUO_ARGUMENTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "view/report.h"
+
+/* Exit statuses, as the manual has them. */
+enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
+
+enum mode { MODE_TERMINAL, MODE_BATCH, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_HELP, MODE_VERSION };
+
+struct arguments {
+    enum mode mode;
+    enum ceduo_format format;
+    const char *output; /* NULL: standard output */
+    bool stands;        /* CSV rows are stands */
+    bool quiet;
+    uint64_t rocks;     /* 0: the scene's */
+    double tolerance;   /* 0: none */
+    unsigned threads;
+    const char **sets;  /* PATH=VALUE, in their order, --seed among them */
+    size_t sets_count;
+    const char **options;
+    size_t options_count;
+    char **scenes;
+    size_t scenes_count;
+    char seed[64];
+};
+
+/* EXIT_DONE, or EXIT_USAGE with the reason on standard error. */
+enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
+void ceduo_arguments_free(struct arguments *arguments);
+
+void ceduo_arguments_help(struct text *text);
+
+#endif

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "batch.h"
+
+#include <errno.h>
+#include <langinfo.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "interrupt.h"
+#include "io/file.h"
+#include "io/intl.h"
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void complain(const char *what, const char *why)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, what);
+    fprintf(stderr, "%s: %s\n", safe.bytes ? safe.bytes : "ceduo", why);
+    ceduo_text_free(&safe);
+}
+
+static enum exit_status worse(enum exit_status a, enum exit_status b)
+{
+    return a > b ? a : b;
+}
+
+/* ---- writing ---- */
+
+static bool is_utf8(void)
+{
+    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+}
+
+/* For a terminal that knows ASCII alone: what it cannot show becomes a question mark. */
+static void make_plain(struct text *text)
+{
+    size_t to = 0;
+    for (size_t i = 0; i < text->length; i++) {
+        unsigned char c = (unsigned char)text->bytes[i];
+        if (c < 0x80)
+            text->bytes[to++] = text->bytes[i];
+        else if ((c & 0xc0) != 0x80)
+            text->bytes[to++] = '?';
+    }
+    text->length = to;
+    if (text->bytes)
+        text->bytes[to] = '\0';
+}
+
+static bool write_stdout(const char *bytes, size_t n)
+{
+    while (n > 0) {
+        ssize_t done = write(STDOUT_FILENO, bytes, n);
+        if (done < 0 && errno == EINTR && !atomic_load(ceduo_interrupt_flag()))
+            continue;
+        if (done < 0)
+            return false;
+        bytes += done;
+        n -= (size_t)done;
+    }
+    return true;
+}
+
+enum exit_status ceduo_batch_write(const struct arguments *a, const struct text *text)
+{
+    if (text->failed) {
+        complain("ceduo", _("out of memory"));
+        return EXIT_RUN;
+    }
+    const char *bytes = text->bytes ? text->bytes : "";
+    bool good = a->output ? ceduo_file_write(a->output, bytes, text->length) : write_stdout(bytes, text->length);
+    if (good)
+        return EXIT_DONE;
+    complain(a->output ? a->output : _("standard output"), strerror(errno));
+    return EXIT_OUTPUT;
+}
+
+/* ---- progress ---- */
+
+struct progress {
+    double start, shown;
+    uint64_t most;
+    bool wanted, open;
+};
+
+static void show_progress(void *context, uint64_t rocks)
+{
+    struct progress *p = context;
+    double t = now();
+    if (!p->wanted || t - p->start < 1 || t - p->shown < 0.2)
+        return;
+    fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)rocks, t - p->start);
+    p->shown = t;
+    p->open = true;
+}
+
+static void end_progress(const struct progress *p)
+{
+    if (p->open)
+        fputs("\r                              \r", stderr);
+}
+
+/* ---- one scene ---- */
+
+/* Keeps only the options that were asked for, in the scene's order. */
+static enum exit_status choose_options(const struct arguments *a, struct scene_file *file)
+{
+    struct ceduo_scene *scene = &file->scene;
+    for (size_t i = 0; i < a->options_count; i++) {
+        bool found = false;
+        for (size_t k = 0; k < scene->options_count; k++)
+            found |= strcmp(scene->options[k].name, a->options[i]) == 0;
+        if (!found) {
+            struct text message = {0};
+            ceduo_text_format(&message, _("--option: no option '%s' in %s"), a->options[i], file->path);
+            complain("ceduo", message.bytes ? message.bytes : "");
+            ceduo_text_free(&message);
+            return EXIT_USAGE;
+        }
+    }
+    size_t kept = 0;
+    for (size_t k = 0; k < scene->options_count && a->options_count > 0; k++) {
+        bool wanted = false;
+        for (size_t i = 0; i < a->options_count; i++)
+            wanted |= strcmp(scene->options[k].name, a->options[i]) == 0;
+        if (wanted)
+            scene->options[kept++] = scene->options[k];
+    }
+    if (a->options_count > 0)
+        scene->options_count = kept;
+    return EXIT_DONE;
+}
+
+/* Reads a scene with the changes of the command line; what is wrong with it goes to standard error. */
+static enum exit_status read_scene(const struct arguments *a, const char *path, struct scene_file *file)
+{
+    struct problems problems = {0};
+    bool good = ceduo_scene_read(file, path, a->sets, a->sets_count, &problems);
+    ceduo_problems_close(&problems);
+    if (problems.text.bytes)
+        fputs(problems.text.bytes, stderr);
+    enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
+    ceduo_problems_free(&problems);
+    return status;
+}
+
+static enum exit_status write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
+{
+    if (a->format == CEDUO_JSON) {
+        ceduo_report_json(out, report);
+        return EXIT_DONE;
+    }
+    if (a->format == CEDUO_CSV) {
+        ceduo_report_csv(out, report, a->stands);
+        return EXIT_DONE;
+    }
+    struct text page = {0};
+    bool plain = !is_utf8();
+    ceduo_report_table(&page, report, plain);
+    if (plain)
+        make_plain(&page);
+    if (page.bytes)
+        ceduo_text_add(out, page.bytes, page.length);
+    out->failed |= page.failed;
+    ceduo_text_free(&page);
+    return EXIT_DONE;
+}
+
+static enum exit_status report_run(const struct arguments *a, const struct scene_file *file, const struct ceduo_run *run,
+                                   struct ceduo_report *report, double start, struct text *out)
+{
+    struct ceduo_result *result;
+    if (ceduo_result_create(&file->scene, run, &result) != CEDUO_OK) {
+        complain(file->path, _("out of memory"));
+        return EXIT_RUN;
+    }
+    report->result = result;
+    report->seconds = now() - start;
+    enum exit_status status = write_report(a, report, out);
+    if (result->ends.count[CEDUO_UNFINISHED] * 1000 > result->rocks)
+        status = worse(status, EXIT_RUN);
+    ceduo_result_free(result);
+    return status;
+}
+
+/* -n, or with a tolerance alone as many as may be, or the scene's. */
+static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file *file)
+{
+    if (a->rocks > 0)
+        return a->rocks;
+    return a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
+}
+
+static enum exit_status run_scene(const struct arguments *a, const struct scene_file *file, struct text *out)
+{
+    struct progress progress = {.start = now(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
+    struct ceduo_run_def def = ceduo_run_def_default(&file->scene);
+    def.threads = a->threads;
+    def.rocks_most = rocks_wanted(a, file);
+    def.cancel = ceduo_interrupt_flag();
+    def.progress = show_progress;
+    def.context = &progress;
+    struct ceduo_report report = {
+        .file = file, .remarks = {.tolerance = a->tolerance, .ground_assumed = file->ground_assumed}};
+    struct ceduo_run *run;
+    enum ceduo_status status = ceduo_run_create(&def, &run);
+    if (status == CEDUO_OK && a->tolerance > 0)
+        status = ceduo_run_until(run, file->scene.controls_count, a->tolerance, def.rocks_most,
+                                 &report.remarks.tolerance_met);
+    else if (status == CEDUO_OK)
+        status = ceduo_run_extend(run, def.rocks_most);
+    end_progress(&progress);
+    enum exit_status done = EXIT_RUN;
+    if (status == CEDUO_OK)
+        done = report_run(a, file, run, &report, progress.start, out);
+    else if (status != CEDUO_CANCELLED)
+        complain(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
+    ceduo_run_free(run);
+    return done;
+}
+
+static enum exit_status batch_scene(const struct arguments *a, const char *path, struct text *out)
+{
+    struct scene_file file;
+    enum exit_status status = read_scene(a, path, &file);
+    if (status == EXIT_DONE)
+        status = choose_options(a, &file);
+    if (status == EXIT_DONE) {
+        ceduo_interrupt_catch();
+        status = run_scene(a, &file, out);
+    }
+    ceduo_scene_release(&file);
+    return status;
+}
+
+/* ---- modes ---- */
+
+enum exit_status ceduo_batch_run(const struct arguments *a)
+{
+    struct text out = {0};
+    enum exit_status status = EXIT_DONE;
+    if (a->format == CEDUO_CSV)
+        ceduo_report_csv_header(&out, a->stands);
+    size_t header = out.length;
+    bool printed = false;
+    for (size_t i = 0; i < a->scenes_count; i++) {
+        size_t before = out.length;
+        if (a->format == CEDUO_TABLE && printed)
+            ceduo_text_put(&out, "\n");
+        size_t start = out.length;
+        enum exit_status one = batch_scene(a, a->scenes[i], &out);
+        status = worse(status, one);
+        if (out.length == start && out.bytes) {
+            out.length = before; /* nothing came of it, not even the line between */
+            out.bytes[before] = '\0';
+        } else {
+            printed = true;
+        }
+        if (!a->output && printed && out.length > 0 && !atomic_load(ceduo_interrupt_flag())) {
+            enum exit_status written = ceduo_batch_write(a, &out);
+            status = worse(status, written);
+            out.length = header = 0;
+            if (written != EXIT_DONE)
+                break;
+        }
+        ceduo_interrupt_release();
+    }
+    if (a->output && out.length > header)
+        status = worse(status, ceduo_batch_write(a, &out));
+    ceduo_text_free(&out);
+    return status;
+}
+
+enum exit_status ceduo_batch_check(const struct arguments *a)
+{
+    enum exit_status status = EXIT_DONE;
+    for (size_t i = 0; i < a->scenes_count; i++) {
+        struct scene_file file;
+        enum exit_status one = read_scene(a, a->scenes[i], &file);
+        if (one == EXIT_DONE)
+            one = choose_options(a, &file);
+        ceduo_scene_release(&file);
+        status = worse(status, one);
+    }
+    return status;
+}

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_BATCH_H
+#define CEDUO_BATCH_H
+
+#include "arguments.h"
+
+/* Each prints to standard output or to --output and returns the exit status. */
+enum exit_status ceduo_batch_run(const struct arguments *arguments);
+enum exit_status ceduo_batch_check(const struct arguments *arguments);
+enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
+enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
+
+/* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
+enum exit_status ceduo_batch_write(const struct arguments *arguments, const struct text *text);
+
+#endif

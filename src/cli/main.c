@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <fcntl.h>
+#include <gsl/gsl_errno.h>
+#include <locale.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "batch.h"
+#include "ceduo/version.h"
+#include "io/intl.h"
+
+#ifndef CEDUO_LOCALEDIR
+#define CEDUO_LOCALEDIR "/usr/local/share/locale"
+#endif
+
+/* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
+ * it should: /dev/null is opened the wrong way round. */
+static void keep_standard_streams(void)
+{
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
+}
+
+/* Numbers have a dot in every locale: LC_NUMERIC stays that of C. */
+static void set_locale(void)
+{
+    setlocale(LC_CTYPE, "");
+    setlocale(LC_MESSAGES, "");
+    bindtextdomain("ceduo", CEDUO_LOCALEDIR);
+    textdomain("ceduo");
+}
+
+static enum exit_status print(const struct arguments *a, void (*fill)(struct text *text))
+{
+    struct text text = {0};
+    fill(&text);
+    enum exit_status status = ceduo_batch_write(a, &text);
+    ceduo_text_free(&text);
+    return status;
+}
+
+static void fill_version(struct text *text)
+{
+    ceduo_text_format(text, "ceduo %s\n", CEDUO_VERSION);
+}
+
+static enum exit_status no_terminal(void)
+{
+    fputs(_("ceduo: use 'ceduo --batch SCENE.yaml'; try 'ceduo --help'\n"), stderr);
+    return EXIT_USAGE;
+}
+
+static enum exit_status act(const struct arguments *a)
+{
+    switch (a->mode) {
+    case MODE_BATCH:
+        return ceduo_batch_run(a);
+    case MODE_CHECK:
+        return ceduo_batch_check(a);
+    case MODE_PARAMETERS:
+        return ceduo_batch_parameters(a);
+    case MODE_PROFILES:
+        return ceduo_batch_profiles(a);
+    case MODE_HELP:
+        return print(a, ceduo_arguments_help);
+    case MODE_VERSION:
+        return print(a, fill_version);
+    default:
+        return no_terminal();
+    }
+}
+
+int main(int argc, char **argv)
+{
+    keep_standard_streams();
+    set_locale();
+    gsl_set_error_handler_off(); /* its own would abort */
+    struct arguments arguments;
+    enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);
+    if (status == EXIT_DONE)
+        status = act(&arguments);
+    ceduo_arguments_free(&arguments);
+    return (int)status;
+}

@@ -1,0 +1,520 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+
+#include "io/forms.h"
+#include "io/intl.h"
+#include "report.h"
+
+#define KILO 1e-3
+#define WIDTH 80
+
+struct page {
+    struct text *text;
+    const struct ceduo_report *report;
+    bool plain; /* ASCII alone */
+};
+
+/* ---- small parts ---- */
+
+static void put_number(struct page *p, double value, int digits)
+{
+    ceduo_words_number(p->text, value, digits);
+}
+
+/* A string padded to so many columns; cut with … where it is longer. Negative: aligned to the right. */
+static void put_padded(struct page *p, const char *string, int width)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, string);
+    size_t want = (size_t)(width < 0 ? -width : width), have = ceduo_text_columns(safe.bytes ? safe.bytes : "");
+    const char *bytes = safe.bytes ? safe.bytes : "";
+    for (size_t i = have; width < 0 && i < want; i++)
+        ceduo_text_char(p->text, ' ');
+    if (have <= want) {
+        ceduo_text_put(p->text, bytes);
+    } else {
+        const char *mark = p->plain ? "~" : "\xe2\x80\xa6";
+        size_t columns = 0, n = 0;
+        while (bytes[n] && (columns < want - 1 || ((unsigned char)bytes[n] & 0xc0) == 0x80))
+            columns += ((unsigned char)bytes[n++] & 0xc0) != 0x80 ? 1 : 0;
+        ceduo_text_add(p->text, bytes, n);
+        ceduo_text_put(p->text, mark);
+    }
+    for (size_t i = have; width > 0 && i < want; i++)
+        ceduo_text_char(p->text, ' ');
+    ceduo_text_free(&safe);
+}
+
+static void put_cell(struct page *p, double value, int digits, int width)
+{
+    struct text cell = {0};
+    ceduo_words_number(&cell, value, digits);
+    put_padded(p, cell.bytes ? cell.bytes : "", -width);
+    ceduo_text_free(&cell);
+}
+
+static const char *plus_minus(const struct page *p)
+{
+    return p->plain ? "+-" : "\xc2\xb1";
+}
+
+static const char *dash(const struct page *p)
+{
+    return p->plain ? "-" : "\xe2\x80\x93";
+}
+
+/* A paragraph, wrapped, its lines after the first indented by `indent`. */
+static void put_wrapped(struct page *p, const char *first, size_t indent, const char *sentence)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, sentence);
+    ceduo_text_put(p->text, first);
+    size_t column = ceduo_text_columns(first);
+    const char *at = safe.bytes ? safe.bytes : "";
+    bool start = true;
+    while (*at) {
+        size_t n = strcspn(at, " "), width = 0;
+        for (size_t i = 0; i < n; i++)
+            width += ((unsigned char)at[i] & 0xc0) != 0x80;
+        if (!start && column + 1 + width > WIDTH) {
+            ceduo_text_char(p->text, '\n');
+            for (column = 0; column < indent; column++)
+                ceduo_text_char(p->text, ' ');
+            start = true;
+        }
+        if (!start) {
+            ceduo_text_char(p->text, ' ');
+            column++;
+        }
+        ceduo_text_add(p->text, at, n);
+        column += width;
+        start = false;
+        at += n;
+        while (*at == ' ')
+            at++;
+    }
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&safe);
+}
+
+/* "991 (984–995)": of 1000 rocks, with the 95 % interval. */
+static void put_of_1000(struct page *p, double probability, double lo, double hi)
+{
+    ceduo_text_format(p->text, "%.0f (%.0f%s%.0f)", probability * 1000, floor(lo * 1000), dash(p), ceil(hi * 1000));
+}
+
+/* ---- head ---- */
+
+static const char *assumed_mark(const struct page *p, const char *path)
+{
+    return ceduo_scene_assumes(p->report->file, path) ? "*" : "";
+}
+
+static void put_rock(struct page *p)
+{
+    const struct ceduo_result *r = p->report->result;
+    ceduo_text_format(p->text, _("Rock     %s, "), ceduo_words_shape(r->scene->rock.shape));
+    put_number(p, r->rock.mass, 4);
+    ceduo_text_put(p->text, _(" kg, mean diameter "));
+    put_number(p, r->rock.mean_diameter, 3);
+    ceduo_text_format(p->text, " m%s%s\n", ceduo_rock_varies(&r->scene->rock) ? _(" (means of its spread)") : "",
+                      assumed_mark(p, "rock"));
+}
+
+static void put_slope(struct page *p)
+{
+    const struct ceduo_scene *s = p->report->result->scene;
+    const struct ceduo_slope *slope = &s->slope;
+    double low = 0, high = 0;
+    for (size_t i = 0; i < slope->vertices; i++) {
+        low = fmin(low, slope->z[i]);
+        high = fmax(high, slope->z[i]);
+    }
+    ceduo_text_put(p->text, _("Slope    "));
+    put_number(p, slope->x[slope->vertices - 1], 4);
+    ceduo_text_put(p->text, _(" m long, "));
+    put_number(p, high - low, 4);
+    ceduo_text_format(p->text, _(" m high, %zu segments; law %s, facets %s%s\n"), slope->vertices - 1,
+                      ceduo_words_law(s->simulation.law), ceduo_facets_names[slope->facets], assumed_mark(p, "slope"));
+}
+
+static void put_head(struct page *p)
+{
+    const struct ceduo_result *r = p->report->result;
+    put_wrapped(p, "", 0, r->scene->title);
+    put_rock(p);
+    put_slope(p);
+    ceduo_text_format(p->text, _("Rocks    %llu, seed %llu\n"), (unsigned long long)r->rocks,
+                      (unsigned long long)r->scene->simulation.seed);
+}
+
+/* ---- arrivals ---- */
+
+static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    struct text place = {0};
+    ceduo_text_format(&place, _("At %s m"), ceduo_number_shortest(c->x_given, room));
+    if (c->name)
+        ceduo_text_format(&place, ", %s", c->name);
+    struct text where = {0};
+    ceduo_text_format(&where, "controls[%zu]", i);
+    if (!isnan(c->accepted))
+        ceduo_text_format(&place, _(", bears %s kJ%s"), ceduo_number_shortest(c->accepted * KILO, room),
+                          where.bytes ? assumed_mark(p, where.bytes) : "");
+    put_wrapped(p, "  ", 4, place.bytes ? place.bytes : "");
+    ceduo_text_free(&where);
+    ceduo_text_free(&place);
+}
+
+static void put_arrivals(struct page *p, const struct ceduo_arrivals *a)
+{
+    ceduo_text_put(p->text, _("    Without forest, of 1000 rocks released: "));
+    put_of_1000(p, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_text_put(p->text, _(" reach it"));
+    if (!isnan(a->exceed_probability)) {
+        ceduo_text_put(p->text, ",\n    ");
+        put_of_1000(p, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_text_put(p->text, _(" with more than it bears"));
+    }
+    ceduo_text_put(p->text, ".\n");
+    if (a->reached == 0) {
+        ceduo_text_format(p->text, _("    No rock arrives: no energy to show (of 1000, below %.1f with 95 %%).\n"),
+                          a->reach_hi * 1000);
+        return;
+    }
+    ceduo_text_put(p->text, _("    Without forest, energy of those: mean "));
+    put_number(p, a->energy.mean * KILO, 4);
+    ceduo_text_format(p->text, " %s ", plus_minus(p));
+    put_number(p, a->energy.se * CEDUO_Z95 * KILO, 2);
+    ceduo_text_put(p->text, _(" kJ, 95 % below "));
+    put_number(p, a->energy.p95 * KILO, 3);
+    ceduo_text_put(p->text, _(" kJ;\n    speed "));
+    put_number(p, a->speed.mean, 3);
+    ceduo_text_put(p->text, _(" m/s, 95 % jump below "));
+    put_number(p, a->height.p95, 2);
+    ceduo_text_put(p->text, " m.\n");
+}
+
+/* ---- forest ---- */
+
+static void put_belt(struct page *p, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
+{
+    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
+    struct text range = {0}, name = {0}, share = {0};
+    ceduo_text_format(&range, "%s%s%s", ceduo_number_shortest(b->from_given, from), dash(p),
+                      ceduo_number_shortest(b->to_given, to));
+    ceduo_text_format(&name, "%s%s", b->name, b->assumed ? "*" : "");
+    ceduo_text_put(p->text, "    ");
+    ceduo_text_put(p->text, range.bytes ? range.bytes : "");
+    for (size_t i = ceduo_text_columns(range.bytes ? range.bytes : ""); i < 9; i++)
+        ceduo_text_char(p->text, ' ');
+    ceduo_text_char(p->text, ' ');
+    put_padded(p, name.bytes ? name.bytes : "", 27);
+    put_cell(p, s->adc_m, 3, 7);
+    ceduo_text_format(p->text, " %-6s", s->passes_threshold ? _("yes") : _("NO"));
+    ceduo_text_format(&share, "%.1f %%", s->free_run_probability * 100);
+    put_padded(p, share.bytes ? share.bytes : "", -9);
+    put_cell(p, s->dissipated * KILO, 3, 7);
+    put_cell(p, s->dissipated / s->length * 100 * KILO, 3, 9);
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&range);
+    ceduo_text_free(&name);
+    ceduo_text_free(&share);
+}
+
+/* The rule that was applied in all belts, or a word that says that it differs. */
+static const char *rule_of(const struct ceduo_option *o, const struct ceduo_option_result *found)
+{
+    const char *rule = NULL;
+    for (size_t i = 0; i < o->belts_count; i++) {
+        if (found->stands[i].bare)
+            continue;
+        const char *here = ceduo_words_rule(found->stands[i].rule);
+        if (rule && strcmp(rule, here) != 0)
+            return _("each belt's own rule");
+        rule = here;
+    }
+    return rule ? rule : _("no rule");
+}
+
+static void put_other_forms(struct page *p, const struct ceduo_option *o, const struct ceduo_option_result *found)
+{
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const struct ceduo_stand_result *s = &found->stands[i];
+        if (s->bare)
+            continue;
+        struct text line = {0};
+        const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION, CEDUO_CROFTON};
+        ceduo_text_format(&line, _("%s by %s; other forms:"), o->belts[i].name, ceduo_words_rule(s->rule));
+        for (size_t k = 0, n = 0; k < 4; k++) {
+            if (rules[k] == s->rule)
+                continue;
+            ceduo_text_format(&line, "%s %s ", n++ ? "," : "", ceduo_words_rule(rules[k]));
+            ceduo_words_number(&line, ceduo_adc_value(&s->adc, rules[k]), 3);
+            ceduo_text_put(&line, " m");
+        }
+        put_wrapped(p, "      ", 8, line.bytes ? line.bytes : "");
+        ceduo_text_free(&line);
+    }
+}
+
+static void put_contact_verdict(struct page *p, const struct ceduo_index *s)
+{
+    double limit = p->report->result->scene->simulation.threshold;
+    char room[CEDUO_NUMBER_ROOM];
+    struct text line = {0};
+    const char *t = ceduo_number_shortest(limit, room);
+    if (s->contact == CEDUO_PASS)
+        ceduo_text_format(&line, _("Contact: passes. Every belt has an ADC below %s m and no gap is longer."), t);
+    else if (!(s->length > 0))
+        ceduo_text_put(&line, _("Contact: FAILS. There is no forest on the way."));
+    else if (s->longest_gap > limit)
+        ceduo_text_format(&line, _("Contact: FAILS. A gap of %.3g m has no forest; a rock reaches full speed in %s m."),
+                          s->longest_gap, t);
+    else
+        ceduo_text_format(&line, _("Contact: FAILS. A belt has an ADC of %s m or more: a rock reaches full speed there."),
+                          t);
+    put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
+    struct text run = {0};
+    if (s->length > 0)
+        ceduo_text_format(&run, _("Free run: %s. Chance of %s m without a contact at worst %.1f %% (10 %% is allowed)."),
+                          s->free_run == CEDUO_PASS ? _("passes") : _("FAILS"), t, s->worst_free_run * 100);
+    else
+        ceduo_text_format(&run, _("Free run: FAILS. No stem stands on the way."));
+    put_wrapped(p, "    ", 6, run.bytes ? run.bytes : "");
+    ceduo_text_free(&run);
+    ceduo_text_free(&line);
+}
+
+static void put_residual(struct page *p, const struct ceduo_control *c, const struct ceduo_arrivals *a,
+                         const struct ceduo_index *index, const char *rule)
+{
+    struct text line = {0};
+    ceduo_text_format(&line, _("By the index (Eq. 4, %s) stems could take "), rule);
+    ceduo_words_number(&line, index->dissipated * KILO, 3);
+    ceduo_text_put(&line, " kJ");
+    if (index->length > 0) {
+        ceduo_text_put(&line, ", ");
+        ceduo_words_number(&line, index->dissipated / index->length * 100 * KILO, 3);
+        ceduo_text_format(&line, _(" kJ per 100 m (%s)"), rule);
+    }
+    if (a->reached == 0) {
+        ceduo_text_put(&line, _("; no rock arrives, nothing is left to compare."));
+    } else if (index->exhausted) {
+        ceduo_text_put(&line, _(", more than the mean rock brings: used up on average. Some rocks still pass."));
+    } else {
+        ceduo_text_put(&line, _("; left (Eq. 5): "));
+        ceduo_words_number(&line, a->energy.mean * KILO, 4);
+        ceduo_text_format(&line, " %s ", p->plain ? "-" : "\xe2\x88\x92");
+        ceduo_words_number(&line, index->dissipated * KILO, 3);
+        ceduo_text_put(&line, " = ");
+        ceduo_words_number(&line, index->residual * KILO, 3);
+        ceduo_text_put(&line, " kJ.");
+    }
+    put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+    if (isnan(index->measured))
+        return;
+    struct text seen = {0};
+    ceduo_text_put(&seen, _("Measured here on one rock: "));
+    ceduo_words_number(&seen, index->measured * KILO, 3);
+    ceduo_text_format(&seen, _(" kJ (%g m/s). One rock is no validation."), c->measured_speed);
+    put_wrapped(p, "    ", 6, seen.bytes ? seen.bytes : "");
+    ceduo_text_free(&seen);
+}
+
+static void put_belts(struct page *p, const struct ceduo_option *o, const struct ceduo_option_result *found)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    if (o->belts_count == 0)
+        return;
+    ceduo_text_put(p->text, "    ");
+    put_padded(p, _("m"), 10);
+    put_padded(p, _("stand"), 27);
+    struct text limit = {0};
+    ceduo_text_format(&limit, "<%s m", ceduo_number_shortest(p->report->result->scene->simulation.threshold, room));
+    put_padded(p, _("ADC m"), -7);
+    ceduo_text_char(p->text, ' ');
+    put_padded(p, limit.bytes ? limit.bytes : "", 6);
+    put_padded(p, _("free run"), -9);
+    put_padded(p, _("kJ"), -7);
+    put_padded(p, _("kJ/100 m"), -9);
+    ceduo_text_char(p->text, '\n');
+    for (size_t i = 0; i < o->belts_count; i++)
+        put_belt(p, &o->belts[i], &found->stands[i]);
+    put_other_forms(p, o, found);
+    ceduo_text_free(&limit);
+}
+
+static void say_warning(void *context, const char *sentence)
+{
+    put_wrapped(context, "    ! ", 6, sentence);
+}
+
+static void put_option(struct page *p, size_t i)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_option *o = &r->scene->options[i];
+    const struct ceduo_option_result *found = &r->options[i];
+    ceduo_text_char(p->text, '\n');
+    put_wrapped(p, "", 2, o->name);
+    const char *rule = rule_of(o, found);
+    for (size_t k = 0; k < r->scene->controls_count; k++) {
+        put_place(p, &r->scene->controls[k], k);
+        put_arrivals(p, &r->bare[k]);
+        if (k == 0)
+            put_belts(p, o, found);
+        put_contact_verdict(p, &found->controls[k]);
+        put_residual(p, &r->scene->controls[k], &r->bare[k], &found->controls[k], rule);
+    }
+    for (size_t k = 0; k < o->belts_count; k++)
+        ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], say_warning, p);
+}
+
+/* ---- side by side ---- */
+
+static void put_comparison_row(struct page *p, size_t i)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_option *o = &r->scene->options[i];
+    const struct ceduo_option_result *found = &r->options[i];
+    const struct ceduo_index *s = &found->controls[r->last_control];
+    double worst = o->belts_count > 0 ? 0 : INFINITY;
+    for (size_t k = 0; k < o->belts_count; k++)
+        worst = fmax(worst, found->stands[k].adc_m);
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, o->name, 32);
+    put_cell(p, worst, 3, 7);
+    ceduo_text_format(p->text, " %-8s", s->contact == CEDUO_PASS ? _("passes") : _("FAILS"));
+    struct text share = {0};
+    ceduo_text_format(&share, "%.1f %%", s->worst_free_run * 100);
+    put_padded(p, share.bytes ? share.bytes : "", -8);
+    ceduo_text_free(&share);
+    ceduo_text_format(p->text, " %-7s", s->free_run == CEDUO_PASS ? _("passes") : _("FAILS"));
+    put_cell(p, s->length > 0 ? s->dissipated / s->length * 100 * KILO : 0, 3, 8);
+    if (s->exhausted)
+        put_padded(p, _("used up"), -8);
+    else
+        put_cell(p, s->residual * KILO, 3, 8);
+    ceduo_text_char(p->text, '\n');
+}
+
+/* How many options pass one of the lights. */
+static size_t passing(const struct ceduo_result *r, bool free_run)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < r->scene->options_count; i++) {
+        const struct ceduo_index *s = &r->options[i].controls[r->last_control];
+        n += (free_run ? s->free_run : s->contact) == CEDUO_PASS;
+    }
+    return n;
+}
+
+static void say_separation(struct page *p, const char *test, size_t pass)
+{
+    size_t n = p->report->result->scene->options_count;
+    struct text line = {0};
+    if (pass == n)
+        ceduo_text_format(&line, _("All options pass the test of %s: it does not separate them."), test);
+    else if (pass == 0)
+        ceduo_text_format(&line, _("No option passes the test of %s: it does not separate them."), test);
+    if (line.bytes)
+        put_wrapped(p, "  ", 2, line.bytes);
+    ceduo_text_free(&line);
+}
+
+static void put_comparison(struct page *p)
+{
+    const struct ceduo_result *r = p->report->result;
+    if (r->scene->options_count < 2)
+        return;
+    char room[CEDUO_NUMBER_ROOM];
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    ceduo_text_format(p->text, _("\nSide by side, up to %s m (kJ per 100 m and left: by the rule named above)\n"),
+                      ceduo_number_shortest(c->x_given, room));
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, _("option"), 32);
+    put_padded(p, _("ADC m"), -7);
+    ceduo_text_char(p->text, ' ');
+    put_padded(p, _("contact"), 8);
+    put_padded(p, _("free run"), 16);
+    put_padded(p, _("kJ/100 m"), -8);
+    put_padded(p, _("left kJ"), -8);
+    ceduo_text_char(p->text, '\n');
+    for (size_t i = 0; i < r->scene->options_count; i++)
+        put_comparison_row(p, i);
+    say_separation(p, _("contact"), passing(r, false));
+    say_separation(p, _("free run"), passing(r, true));
+    put_wrapped(p, "  ", 2,
+                _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
+                  "says what stems could take, not what a rock loses; no column decides alone."));
+}
+
+/* ---- foot ---- */
+
+static bool any_assumed(const struct scene_file *file)
+{
+    for (const struct source_note *n = file->notes; n; n = n->before)
+        if (strcmp(n->kind, "assumed") == 0)
+            return true;
+    return false;
+}
+
+/* How many notes before `note` (that is, in the files behind it) say the same. */
+static bool said_after(const struct source_note *last, const struct source_note *note, size_t *times)
+{
+    bool first = true;
+    *times = 0;
+    for (const struct source_note *n = last; n; n = n->before) {
+        if (strcmp(n->kind, "assumed") != 0 || strcmp(n->text, note->text) != 0)
+            continue;
+        ++*times;
+        first = n == note; /* the last one seen is the first of the files */
+    }
+    return !first;
+}
+
+/* Each assumption once, with the first place that makes it. The notes are kept last first. */
+static void put_assumed(struct page *p, const struct source_note *note)
+{
+    if (!note)
+        return;
+    put_assumed(p, note->before);
+    size_t times;
+    if (strcmp(note->kind, "assumed") != 0 || said_after(p->report->file->notes, note, &times))
+        return;
+    struct text line = {0};
+    ceduo_text_format(&line, "%s (%s", note->text, note->path[0] ? note->path : _("the scene"));
+    if (times > 1)
+        ceduo_text_format(&line, ngettext(" and %zu more", " and %zu more", times - 1), times - 1);
+    ceduo_text_char(&line, ')');
+    put_wrapped(p, "  ", 4, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+}
+
+static void put_foot(struct page *p)
+{
+    size_t before = p->text->length;
+    ceduo_text_char(p->text, '\n');
+    ceduo_words_run_warnings(p->report->result, &p->report->remarks, say_warning, p);
+    if (p->text->length == before + 1 && p->text->bytes) {
+        p->text->length = before;
+        p->text->bytes[before] = '\0';
+    }
+    if (!any_assumed(p->report->file))
+        return;
+    ceduo_text_put(p->text, _("\n* Assumed, not measured:\n"));
+    put_assumed(p, p->report->file->notes);
+}
+
+void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
+{
+    struct page p = {text, report, plain};
+    put_head(&p);
+    for (size_t i = 0; i < report->result->scene->options_count; i++)
+        put_option(&p, i);
+    put_comparison(&p);
+    put_foot(&p);
+}

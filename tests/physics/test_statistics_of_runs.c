@@ -1,0 +1,717 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs of many rocks: their means beside those of independent implementations, and that nothing but the scene moves
+ * them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+static struct paper_site site;
+
+static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
+    assert_int_equal(ceduo_run_rocks(run), rocks);
+    return run;
+}
+
+/* A run of `scene` of so many rocks on as many threads. */
+static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, unsigned threads)
+{
+    scene->simulation.rocks = rocks;
+    struct ceduo_run_def def = ceduo_run_def_default(scene);
+    def.threads = threads;
+    return run_of(&def, rocks);
+}
+
+static struct ceduo_arrivals arrivals_of(const struct ceduo_run *run, size_t control)
+{
+    struct ceduo_arrivals a;
+    memset(&a, 0, sizeof a); /* its padding too: it is compared as bytes */
+    assert_int_equal(ceduo_run_arrivals(run, control, &a), CEDUO_OK);
+    return a;
+}
+
+/* Within four combined standard errors, and half of the last digit of what is printed. */
+static void expect_mean(const char *what, double value, double se, double expected, double expected_se, double digit)
+{
+    double most = 4 * hypot(se, expected_se) + digit / 2;
+    if (!(fabs(value - expected) <= most))
+        fail_msg("%s: %.6g ± %.3g is not %.6g ± %.3g", what, value, se, expected, expected_se);
+}
+
+/* ---- beside Table 5 ---- */
+
+/* Means at x = 135 of 2·10^5 rocks (the first of 10^6) by independent implementations of the same model. The paper's
+ * Table 5 has 20.94 m/s and 122 kJ. */
+struct combination {
+    enum ceduo_law law;
+    enum ceduo_facets facets;
+    enum paper_theta theta;
+    uint64_t rocks;
+    double speed, speed_se, speed_digit, energy, energy_se, energy_digit, pass, pass_se, pass_digit;
+};
+
+static const struct combination combinations[] = {
+    {CEDUO_LAW_LUMPED, CEDUO_AGAINST, PAPER_ANGLE, 200000, 20.612, .005, .001, 114.69, .05, .01, 99.13, .009, .01},
+    {CEDUO_LAW_LUMPED, CEDUO_AGAINST, PAPER_HEIGHT, 200000, 24.441, .007, .001, 155.56, .09, .01, 100, 0, .01},
+    {CEDUO_LAW_LUMPED, CEDUO_BOTH, PAPER_HEIGHT, 100000, 17.383, .018, .001, 89.40, .15, .01, 75.5, .1, .1},
+    {CEDUO_LAW_LUMPED, CEDUO_BOTH, PAPER_ANGLE, 60000, 14.10, .02, .01, 65.8, .1, .1, 7.79, .02, .01},
+    {CEDUO_LAW_CRSP, CEDUO_AGAINST, PAPER_HEIGHT, 200000, 10.926, .003, .001, 42.92, .02, .01, 100, 0, .01},
+    {CEDUO_LAW_CRSP, CEDUO_AGAINST, PAPER_ANGLE, 100000, 6.670, .006, .001, 18.86, .03, .01, 88.1, .07, .1},
+    {CEDUO_LAW_CRSP, CEDUO_BOTH, PAPER_HEIGHT, 100000, 5.946, .009, .001, 15.84, .04, .01, 59.2, .11, .1},
+};
+
+static void choose(const struct combination *c)
+{
+    paper_site_init(&site);
+    paper_site_read_theta(&site, c->theta);
+    site.scene.slope.facets = c->facets;
+    site.scene.simulation.law = c->law;
+}
+
+static void means_of_the_combinations_beside_table_5(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < LENGTH(combinations); i++) {
+        const struct combination *c = &combinations[i];
+        choose(c);
+        struct ceduo_run *run = run_scene(&site.scene, c->rocks, 2);
+        struct ceduo_arrivals a = arrivals_of(run, 0);
+        double p = a.reach_probability, n = (double)c->rocks;
+        expect_mean("mean speed", a.speed.mean, a.speed.se, c->speed, c->speed_se, c->speed_digit);
+        expect_mean("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, c->energy, c->energy_se, c->energy_digit);
+        expect_mean("share that passes", 100 * p, 100 * sqrt(p * (1 - p) / n), c->pass, c->pass_se, c->pass_digit);
+        if (i == 0)
+            expect_mean("sd of speed", a.speed.sd, a.speed.sd / sqrt(2 * n), 4.78, 4.78 / sqrt(2e6), .01);
+        assert_true(a.released == c->rocks && a.unfinished == 0 && a.exact);
+        ceduo_run_free(run);
+    }
+}
+
+static void almost_nothing_passes_crsp_with_angles_to_both_sides(void **state)
+{
+    (void)state;
+    choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
+    struct ceduo_run *run = run_scene(&site.scene, 20000, 2);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    assert_true(a.reached <= 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
+    assert_true(a.reach_lo <= 1e-5 && a.reach_hi >= 1e-5);
+    ceduo_run_free(run);
+}
+
+static void figures_of_an_arrival_fit_together(void **state)
+{
+    (void)state;
+    choose(&combinations[3]);
+    struct ceduo_run *run = run_scene(&site.scene, 5000, 2);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    static double energies[5000];
+    size_t n = ceduo_run_energies(run, 0, energies, LENGTH(energies)), exceeded = 0;
+    assert_int_equal(n, a.reached);
+    double sum = 0, largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        sum += energies[i];
+        largest = fmax(largest, energies[i]);
+        exceeded += energies[i] > 50e3;
+    }
+    assert_true(fabs(a.energy.mean / (sum / (double)n) - 1) < 1e-12 && fabs(a.energy.max / largest - 1) < 1e-15);
+    assert_int_equal(exceeded, a.exceeded);
+    assert_true(a.exceed_probability == (double)a.exceeded / 5000);
+    assert_true(fabs(a.energy_per_released / (sum / 5000) - 1) < 1e-12);
+    double squares = 0;
+    for (size_t i = 0; i < n; i++)
+        squares += energies[i] * energies[i];
+    double variance = (squares - sum * sum / 5000) / 4999;
+    assert_true(fabs(a.energy_per_released_se / sqrt(variance / 5000) - 1) < 1e-9);
+    double lo, hi;
+    ceduo_wilson(a.reached, 5000, &lo, &hi);
+    assert_true(a.reach_lo == lo && a.reach_hi == hi);
+    ceduo_wilson(a.exceeded, 5000, &lo, &hi);
+    assert_true(a.exceed_lo == lo && a.exceed_hi == hi);
+    assert_true(a.energy.p50 <= a.energy.p95_lo && a.energy.p95_lo <= a.energy.p95 && a.energy.p95 <= a.energy.p95_hi &&
+                a.energy.p95 <= a.energy.p99 && a.energy.p99 <= a.energy.max);
+    assert_true(a.translation.mean == a.energy.mean); /* lumped: no spin */
+    uint64_t reached;
+    double mean, se;
+    ceduo_run_energy(run, 0, &reached, &mean, &se);
+    assert_true(reached == a.reached && mean == a.energy.mean && se == a.energy.se);
+    struct ceduo_ends ends;
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
+    assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
+    assert_true(ends.stop_p50 <= ends.stop_p95 && ends.stop_p95 <= ends.stop_max && ends.stop_max == ends.stop_x.max);
+    ceduo_run_free(run);
+}
+
+static void a_run_flies_the_rocks_that_can_be_followed(void **state)
+{
+    (void)state;
+    choose(&combinations[5]);
+    struct ceduo_run *run = run_scene(&site.scene, 1500, 2);
+    struct ceduo_moments energy = {0}, speed = {0}, height = {0};
+    uint64_t contacts = 0;
+    for (uint64_t rock = 0; rock < 1500; rock++) {
+        struct ceduo_way way;
+        struct ceduo_crossing c;
+        assert_int_equal(ceduo_way_follow(&site.scene, rock, NULL, NULL, &way, &c), CEDUO_OK);
+        contacts += way.contacts;
+        if (!c.reached)
+            continue;
+        double v2 = c.vx * c.vx + c.vz * c.vz;
+        ceduo_moments_add(&energy, (way.rock.mass * v2 + way.rock.moment * c.spin * c.spin) / 2);
+        ceduo_moments_add(&speed, sqrt(v2));
+        ceduo_moments_add(&height, c.height);
+    }
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    assert_int_equal(ceduo_run_contacts(run), contacts);
+    assert_int_equal(a.reached, energy.n);
+    assert_true(fabs(a.energy.mean / energy.mean - 1) < 1e-12 && fabs(a.energy.max / energy.max - 1) < 1e-15);
+    assert_true(a.speed.max == speed.max && a.height.max == height.max);
+    assert_true(fabs(a.height.mean / height.mean - 1) < 1e-12);
+    ceduo_run_free(run);
+}
+
+/* ---- the same bits ---- */
+
+static void expect_same_run(const struct ceduo_run *a, const struct ceduo_run *b, size_t cells)
+{
+    struct ceduo_arrivals x = arrivals_of(a, 0), y = arrivals_of(b, 0);
+    assert_memory_equal(&x, &y, sizeof x);
+    struct ceduo_ends p, q;
+    memset(&p, 0, sizeof p);
+    memset(&q, 0, sizeof q);
+    assert_int_equal(ceduo_run_ends(a, &p), CEDUO_OK);
+    assert_int_equal(ceduo_run_ends(b, &q), CEDUO_OK);
+    assert_memory_equal(&p, &q, sizeof p);
+    assert_int_equal(ceduo_run_contacts(a), ceduo_run_contacts(b));
+    for (size_t i = 0; i < cells; i++) {
+        struct ceduo_envelope e, f;
+        memset(&e, 0, sizeof e);
+        memset(&f, 0, sizeof f);
+        ceduo_run_envelope(a, i, &e);
+        ceduo_run_envelope(b, i, &f);
+        assert_memory_equal(&e, &f, sizeof e);
+    }
+}
+
+static const double cells[] = {1, 20, 70, 134.5, 135, 150};
+
+static struct ceduo_run_def def_with_cells(unsigned threads, size_t exact_bytes)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.threads = threads;
+    def.cells = LENGTH(cells);
+    def.cell_x = cells;
+    def.exact_bytes = exact_bytes;
+    return def;
+}
+
+static void the_same_bits_with_any_number_of_threads_and_steps(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 20000;
+    static const size_t rows[] = {0, 3, 5};
+    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 1000};
+    for (size_t r = 0; r < LENGTH(rows); r++)
+        for (size_t e = 0; e < LENGTH(bytes); e++) {
+            choose(&combinations[rows[r]]);
+            site.scene.simulation.rocks = rocks;
+            struct ceduo_run_def def = def_with_cells(1, bytes[e]);
+            struct ceduo_run *one = run_of(&def, rocks);
+            static const unsigned threads[] = {2, 16};
+            for (size_t t = 0; t < LENGTH(threads); t++) {
+                def = def_with_cells(threads[t], bytes[e]);
+                struct ceduo_run *many = run_of(&def, rocks);
+                expect_same_run(one, many, LENGTH(cells));
+                ceduo_run_free(many);
+            }
+            def = def_with_cells(3, bytes[e]);
+            struct ceduo_run *steps = run_of(&def, 100);
+            static const uint64_t to[] = {999, 1024, 5000, 5000, 12288, 20000};
+            for (size_t i = 0; i < LENGTH(to); i++)
+                assert_int_equal(ceduo_run_extend(steps, to[i]), CEDUO_OK);
+            expect_same_run(one, steps, LENGTH(cells));
+            ceduo_run_free(steps);
+            ceduo_run_free(one);
+        }
+}
+
+static void a_run_is_no_longer_than_asked_for(void **state)
+{
+    (void)state;
+    choose(&combinations[0]);
+    site.scene.simulation.rocks = 500;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run *run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_extend(run, 100), CEDUO_OK); /* nothing to do */
+    assert_int_equal(ceduo_run_rocks(run), 300);
+    assert_int_equal(ceduo_run_extend(run, 9999), CEDUO_OK);
+    assert_int_equal(ceduo_run_rocks(run), 500);
+    ceduo_run_free(run);
+    ceduo_run_free(NULL);
+}
+
+static void other_seeds_are_other_rocks(void **state)
+{
+    (void)state;
+    choose(&combinations[0]);
+    struct ceduo_run *one = run_scene(&site.scene, 50000, 2);
+    struct ceduo_arrivals a = arrivals_of(one, 0);
+    site.scene.simulation.seed = 2;
+    struct ceduo_run *two = run_scene(&site.scene, 50000, 2);
+    struct ceduo_arrivals b = arrivals_of(two, 0);
+    assert_true(a.speed.mean != b.speed.mean);
+    expect_mean("mean speed", a.speed.mean, a.speed.se, b.speed.mean, b.speed.se, 0);
+    ceduo_run_free(one);
+    ceduo_run_free(two);
+}
+
+/* ---- histograms ---- */
+
+static void expect_within(double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fabs(expected)))
+        fail_msg("%.9g is not %.9g within %g", value, expected, relative);
+}
+
+static void expect_distribution_within(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
+{
+    assert_true(a->mean == b->mean && a->sd == b->sd && a->se == b->se && a->max == b->max);
+    expect_within(a->p50, b->p50, 1e-4);
+    expect_within(a->p95, b->p95, 1e-4);
+    expect_within(a->p95_lo, b->p95_lo, 1e-4);
+    expect_within(a->p95_hi, b->p95_hi, 1e-4);
+    expect_within(a->p99, b->p99, 1e-4);
+}
+
+static void percentiles_of_histograms_are_those_of_all_samples(void **state)
+{
+    (void)state;
+    static const size_t rows[] = {0, 5}; /* without and with spin */
+    for (size_t r = 0; r < LENGTH(rows); r++) {
+        choose(&combinations[rows[r]]);
+        site.scene.simulation.rocks = 50000;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.threads = 2;
+        struct ceduo_run *all = run_of(&def, 50000);
+        def.exact_bytes = 100000; /* from the first thousands on */
+        struct ceduo_run *some = run_of(&def, 1000);
+        assert_true(arrivals_of(some, 0).exact);
+        assert_int_equal(ceduo_run_extend(some, 50000), CEDUO_OK);
+        struct ceduo_arrivals a = arrivals_of(some, 0), b = arrivals_of(all, 0);
+        assert_true(!a.exact && b.exact);
+        expect_distribution_within(&a.speed, &b.speed);
+        expect_distribution_within(&a.energy, &b.energy);
+        expect_distribution_within(&a.translation, &b.translation);
+        expect_distribution_within(&a.height, &b.height);
+        double none[1];
+        assert_int_equal(ceduo_run_energies(some, 0, none, 1), 0);
+        struct ceduo_ends p, q;
+        assert_int_equal(ceduo_run_ends(some, &p), CEDUO_OK);
+        assert_int_equal(ceduo_run_ends(all, &q), CEDUO_OK);
+        expect_within(p.stop_p50, q.stop_p50, 1e-4);
+        expect_within(p.stop_p95, q.stop_p95, 1e-4);
+        assert_true(p.stop_max == q.stop_max);
+        ceduo_run_free(some);
+        ceduo_run_free(all);
+    }
+}
+
+/* ---- a slope cut more finely ---- */
+
+/* The site's slope, every segment in `parts` collinear pieces. */
+static void cut_slope(struct ceduo_slope *to, size_t parts)
+{
+    const struct ceduo_slope *from = &site.scene.slope;
+    size_t n = (from->vertices - 1) * parts;
+    *to = *from;
+    to->vertices = n + 1;
+    to->x = malloc((n + 1) * sizeof *to->x);
+    to->z = malloc((n + 1) * sizeof *to->z);
+    to->segments = malloc(n * sizeof *to->segments);
+    assert_true(to->x && to->z && to->segments);
+    for (size_t i = 0; i <= n; i++) {
+        size_t j = i / parts, k = j + 1 < from->vertices ? j + 1 : j;
+        double part = (double)(i % parts) / (double)parts;
+        to->x[i] = from->x[j] + part * (from->x[k] - from->x[j]);
+        to->z[i] = from->z[j] + part * (from->z[k] - from->z[j]);
+        if (i < n)
+            to->segments[i] = from->segments[j];
+    }
+}
+
+static void free_slope(struct ceduo_slope *slope)
+{
+    free(slope->x);
+    free(slope->z);
+    free(slope->segments);
+}
+
+static void cutting_segments_into_collinear_pieces_moves_no_statistic(void **state)
+{
+    (void)state;
+    static const size_t parts[] = {10, 1000};
+    const uint64_t rocks = 20000, looked_at = 200;
+    for (size_t i = 0; i < LENGTH(combinations); i++)
+        for (size_t p = 0; p < LENGTH(parts); p++) {
+            choose(&combinations[i]);
+            struct ceduo_run *whole = run_scene(&site.scene, rocks, 2);
+            struct ceduo_arrivals a = arrivals_of(whole, 0);
+            struct ceduo_scene cut = site.scene;
+            cut_slope(&cut.slope, parts[p]);
+            struct ceduo_run *pieces = run_scene(&cut, rocks, 2);
+            struct ceduo_arrivals b = arrivals_of(pieces, 0);
+            double share = sqrt(a.reach_probability * (1 - a.reach_probability) / (double)rocks);
+            /* the same rocks: rounding turns few ways into others, so far less than the error of the means */
+            expect_mean("mean speed", b.speed.mean, b.speed.se / 20, a.speed.mean, 0, 0);
+            expect_mean("mean energy", b.energy.mean, b.energy.se / 20, a.energy.mean, 0, 0);
+            expect_mean("mean height", b.height.mean, b.height.se / 20, a.height.mean, 0, 0);
+            expect_mean("share that passes", b.reach_probability, share / 20, a.reach_probability, 0, 0);
+            uint64_t same = 0;
+            for (uint64_t rock = 0; rock < looked_at; rock++) {
+                struct ceduo_way v, w;
+                assert_int_equal(ceduo_way_follow(&site.scene, rock, NULL, NULL, &v, NULL), CEDUO_OK);
+                assert_int_equal(ceduo_way_follow(&cut, rock, NULL, NULL, &w, NULL), CEDUO_OK);
+                same += v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6;
+            }
+            if (same < looked_at * 98 / 100)
+                fail_msg("row %zu in %zu pieces: only %ju of %ju ways the same", i, parts[p], (uintmax_t)same,
+                         (uintmax_t)looked_at);
+            free_slope(&cut.slope);
+            ceduo_run_free(pieces);
+            ceduo_run_free(whole);
+        }
+}
+
+/* ---- envelopes ---- */
+
+static void expect_spread(const struct ceduo_spread_of_cell *s)
+{
+    assert_true(s->p5 >= 0 && s->p5 <= s->p50 && s->p50 <= s->p95 && s->p95 <= s->max);
+}
+
+static void envelopes_agree_with_the_control_at_the_same_place(void **state)
+{
+    (void)state;
+    choose(&combinations[5]);
+    site.scene.simulation.rocks = 20000;
+    struct ceduo_run_def def = def_with_cells(2, CEDUO_EXACT_BYTES);
+    struct ceduo_run *run = run_of(&def, 20000);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    uint64_t before = 20000;
+    for (size_t i = 0; i < LENGTH(cells); i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        assert_true(e.passed <= before); /* it goes down here */
+        before = e.passed;
+        expect_spread(&e.speed);
+        expect_spread(&e.height);
+        expect_spread(&e.energy);
+        if (cells[i] != 135)
+            continue;
+        assert_int_equal(e.passed, a.reached);
+        expect_within(e.mean_energy, a.energy.mean, 1. / 64);
+        expect_within(e.energy.p50, a.energy.p50, 1. / 64);
+        expect_within(e.energy.p95, a.energy.p95, 1. / 64);
+        expect_within(e.speed.p50, a.speed.p50, 1. / 64);
+        expect_within(e.speed.p95, a.speed.p95, 1. / 64);
+        expect_within(e.height.p95, a.height.p95, 1. / 64);
+        assert_true(e.energy.max == a.energy.max && e.speed.max == a.speed.max && e.height.max == a.height.max);
+    }
+    ceduo_run_free(run);
+}
+
+/* ---- cancelling ---- */
+
+struct canceller {
+    atomic_bool flag;
+    uint64_t last, calls;
+};
+
+static void raise_flag(void *context, uint64_t rocks)
+{
+    struct canceller *c = context;
+    c->last = rocks;
+    c->calls++;
+    atomic_store(&c->flag, true);
+}
+
+static void a_raised_flag_ends_the_run_which_can_go_on_later(void **state)
+{
+    (void)state;
+    static struct canceller c;
+    choose(&combinations[1]);
+    site.scene.simulation.rocks = 600000;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.threads = 2;
+    def.cancel = &c.flag;
+    def.progress = raise_flag;
+    def.context = &c;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED);
+    uint64_t done = ceduo_run_rocks(run);
+    assert_true(c.calls >= 1 && done >= c.last && done < 600000);
+    assert_int_equal(arrivals_of(run, 0).released, done);
+    assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* still raised */
+    assert_int_equal(ceduo_run_rocks(run), done);
+    struct ceduo_run_def plain = ceduo_run_def_default(&site.scene);
+    plain.threads = 2;
+    struct ceduo_run *other = run_of(&plain, done);
+    expect_same_run(run, other, 0);
+    atomic_store(&c.flag, false);
+    assert_int_equal(ceduo_run_extend(run, done + 3000), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(other, done + 3000), CEDUO_OK);
+    expect_same_run(run, other, 0);
+    ceduo_run_free(run);
+    ceduo_run_free(other);
+}
+
+/* ---- spreads ---- */
+
+struct drawn {
+    struct ceduo_moments x, height, vx, vz, spin, radius, mass;
+};
+
+static struct drawn draw_releases(const struct ceduo_scene *scene, uint64_t rocks)
+{
+    struct drawn d = {0};
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        struct ceduo_way w;
+        assert_int_equal(ceduo_way_follow(scene, rock, NULL, NULL, &w, NULL), CEDUO_OK);
+        ceduo_moments_add(&d.x, w.x0);
+        ceduo_moments_add(&d.height, w.z0 - ceduo_slope_height(&scene->slope, w.x0));
+        ceduo_moments_add(&d.vx, w.vx0);
+        ceduo_moments_add(&d.vz, w.vz0);
+        ceduo_moments_add(&d.spin, w.spin0);
+        ceduo_moments_add(&d.radius, w.rock.radius);
+        ceduo_moments_add(&d.mass, w.rock.mass);
+    }
+    return d;
+}
+
+static void expect_moments(const char *what, const struct ceduo_moments *m, double mean, double sd)
+{
+    expect_mean(what, m->mean, ceduo_moments_se(m), mean, 0, 0);
+    expect_mean(what, ceduo_moments_sd(m), sd / sqrt(2 * (double)m->n), sd, 0, 0);
+}
+
+#define CUT_SD 0.98657839 /* sd of the normal law cut at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
+
+static void releases_and_rocks_are_drawn_as_they_are_spread(void **state)
+{
+    (void)state;
+    choose(&combinations[4]);
+    struct ceduo_scene *s = &site.scene;
+    s->release.x = (struct ceduo_number){2, 1.5, CEDUO_UNIFORM};
+    s->release.height = (struct ceduo_number){1, .3, CEDUO_NORMAL};
+    s->release.vx = (struct ceduo_number){1, .5, CEDUO_NORMAL};
+    s->release.vz = (struct ceduo_number){-1, .5, CEDUO_UNIFORM};
+    s->release.spin = (struct ceduo_number){2, 3, CEDUO_NORMAL};
+    s->rock = ceduo_rock_def_default();
+    s->rock.diameter = (struct ceduo_number){.68, .1, CEDUO_NORMAL};
+    assert_int_equal(ceduo_scene_check(s, NULL), CEDUO_OK);
+    struct drawn d = draw_releases(s, 20000);
+    const double even = 1 / sqrt(3);
+    expect_moments("x", &d.x, 2, 1.5 * even);
+    expect_moments("height", &d.height, 1, .3 * CUT_SD);
+    expect_moments("vx", &d.vx, 1, .5 * CUT_SD);
+    expect_moments("vz", &d.vz, -1, .5 * even);
+    expect_moments("spin", &d.spin, 2, 3 * CUT_SD);
+    expect_moments("radius", &d.radius, .34, .05 * CUT_SD);
+    /* the mean of the cube: m3 + 3 m sd2 */
+    double cube = pow(.68, 3) + 3 * .68 * .01 * CUT_SD * CUT_SD;
+    expect_mean("mass", d.mass.mean, ceduo_moments_se(&d.mass), 2600 * acos(-1) / 6 * cube, 0, 0);
+    struct ceduo_run *run = run_scene(s, 5000, 2), *again = run_scene(s, 5000, 16);
+    expect_same_run(run, again, 0);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    assert_true(a.reached > 4000 && a.translation.mean < a.energy.mean);
+    ceduo_run_free(run);
+    ceduo_run_free(again);
+}
+
+static void a_lumped_rock_of_many_masses_has_energies_of_its_own(void **state)
+{
+    (void)state;
+    choose(&combinations[0]);
+    site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
+    struct ceduo_run *run = run_scene(&site.scene, 50000, 2);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    /* the way does not depend on the mass */
+    expect_mean("mean speed", a.speed.mean, a.speed.se, 20.612, .005, .001);
+    expect_mean("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, 114.69, .05, .01);
+    expect_within(a.energy.mean, a.translation.mean, 1e-12);
+    ceduo_run_free(run);
+}
+
+/* On the flat a rock that drops with vx leaves its first contact with Rt·vx and Rn·vz. */
+struct first_contact {
+    struct ceduo_moments rn, rt;
+    double vz;
+    bool seen;
+};
+
+static void look_at_first_contact(void *context, const struct ceduo_piece *p)
+{
+    struct first_contact *f = context;
+    if (p->contacts == 0)
+        f->vz = p->vz1;
+    if (p->contacts != 1 || f->seen)
+        return;
+    f->seen = true;
+    ceduo_moments_add(&f->rn, p->vz / -f->vz);
+    ceduo_moments_add(&f->rt, p->vx / 4);
+}
+
+static void grounds_are_drawn_as_they_are_spread(void **state)
+{
+    (void)state;
+    static struct line_scene flat;
+    const double x[] = {0, 1000}, z[] = {0, 0};
+    line_scene_init(&flat, 2, x, z, (struct line_ground){.3, .8, .5}, .01, CEDUO_LAW_LUMPED);
+    flat.segments[0].rn = (struct ceduo_number){.3, .05, CEDUO_NORMAL};
+    flat.segments[0].rt = (struct ceduo_number){.8, .1, CEDUO_UNIFORM};
+    line_scene_release(&flat, 500, 10, 4, 0, 0);
+    struct first_contact f = {0};
+    for (uint64_t rock = 0; rock < 20000; rock++) {
+        struct ceduo_way w;
+        f.seen = false;
+        assert_int_equal(ceduo_way_follow(&flat.scene, rock, look_at_first_contact, &f, &w, NULL), CEDUO_OK);
+        assert_true(f.seen);
+    }
+    expect_moments("Rn", &f.rn, .3, .05 * CUT_SD);
+    expect_moments("Rt", &f.rt, .8, .1 / sqrt(3));
+    f = (struct first_contact){0};
+    flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* cut at 1 as well */
+    for (uint64_t rock = 0; rock < 20000; rock++) {
+        struct ceduo_way w;
+        f.seen = false;
+        assert_int_equal(ceduo_way_follow(&flat.scene, rock, look_at_first_contact, &f, &w, NULL), CEDUO_OK);
+    }
+    double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
+    double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;
+    expect_mean("cut Rn", f.rn.mean, ceduo_moments_se(&f.rn), .95 + .2 * shift, 0, 0);
+    assert_true(f.rn.max <= 1 + 1e-15);
+}
+
+static void a_spread_of_nothing_changes_nothing(void **state)
+{
+    (void)state;
+    choose(&combinations[5]);
+    struct ceduo_run *one = run_scene(&site.scene, 3000, 2);
+    for (size_t j = 0; j < PAPER_SEGMENTS; j++)
+        site.segments[j].rn.kind = site.segments[j].rt.kind = CEDUO_UNIFORM;
+    site.scene.release.x.kind = site.scene.release.vx.kind = site.scene.rock.diameter.kind = CEDUO_UNIFORM;
+    struct ceduo_run *two = run_scene(&site.scene, 3000, 2);
+    expect_same_run(one, two, 0);
+    ceduo_run_free(one);
+    ceduo_run_free(two);
+}
+
+/* ---- nobody there ---- */
+
+static bool nothing_known(const struct ceduo_distribution *d)
+{
+    return isnan(d->mean) && isnan(d->se) && isnan(d->sd) && isnan(d->p50) && isnan(d->p95) && isnan(d->p95_lo) &&
+           isnan(d->p95_hi) && isnan(d->p99) && isnan(d->max);
+}
+
+static void a_control_that_nobody_reaches(void **state)
+{
+    (void)state;
+    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 0};
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++)
+        for (size_t e = 0; e < LENGTH(bytes); e++) {
+            choose(&combinations[0]);
+            site.scene.simulation.law = (enum ceduo_law)law;
+            for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
+                site.segments[j].friction = 5;
+                site.segments[j].rt = ceduo_number(.1);
+            }
+            site.scene.simulation.rocks = 999;
+            struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+            def.exact_bytes = bytes[e];
+            struct ceduo_run *run = run_of(&def, 999);
+            struct ceduo_arrivals a = arrivals_of(run, 0);
+            assert_true(a.reached == 0 && a.reach_probability == 0 && a.reach_lo == 0);
+            assert_true(a.reach_hi > .0038 && a.reach_hi < .004 && a.exceed_hi == a.reach_hi);
+            assert_true(nothing_known(&a.speed) && nothing_known(&a.energy) && nothing_known(&a.translation) &&
+                        nothing_known(&a.height));
+            assert_true(a.energy_per_released == 0 && a.energy_per_released_se == 0);
+            uint64_t reached;
+            double mean, se, energy;
+            ceduo_run_energy(run, 0, &reached, &mean, &se);
+            assert_true(reached == 0 && isnan(mean) && isnan(se));
+            assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
+            ceduo_run_free(run);
+        }
+}
+
+static void a_control_without_an_accepted_energy(void **state)
+{
+    (void)state;
+    choose(&combinations[0]);
+    site.control.accepted = NAN;
+    struct ceduo_run *run = run_scene(&site.scene, 999, 1);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    assert_true(a.exceeded == 0 && isnan(a.exceed_probability) && isnan(a.exceed_lo) && isnan(a.exceed_hi));
+    ceduo_run_free(run);
+}
+
+static void unfinished_rocks_count_for_the_upper_bound(void **state)
+{
+    (void)state;
+    static struct line_scene flat;
+    const double x[] = {0, 1000}, z[] = {0, 0};
+    line_scene_init(&flat, 2, x, z, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
+    line_scene_release(&flat, 500, 1, 0, 0, 0);
+    flat.control = (struct ceduo_control){.x = 600, .accepted = 1, .measured_speed = NAN};
+    flat.scene.controls_count = 1;
+    struct ceduo_run *run = run_scene(&flat.scene, 5, 2);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    assert_true(a.unfinished == 5 && a.reached == 0 && a.reach_hi == 1 && a.reach_lo == 0 && a.exceed_hi == 1);
+    struct ceduo_ends ends;
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
+    assert_true(isnan(ends.stop_p50) && isnan(ends.stop_max));
+    ceduo_run_free(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(means_of_the_combinations_beside_table_5),
+        cmocka_unit_test(almost_nothing_passes_crsp_with_angles_to_both_sides),
+        cmocka_unit_test(figures_of_an_arrival_fit_together),
+        cmocka_unit_test(a_run_flies_the_rocks_that_can_be_followed),
+        cmocka_unit_test(the_same_bits_with_any_number_of_threads_and_steps),
+        cmocka_unit_test(a_run_is_no_longer_than_asked_for),
+        cmocka_unit_test(other_seeds_are_other_rocks),
+        cmocka_unit_test(percentiles_of_histograms_are_those_of_all_samples),
+        cmocka_unit_test(cutting_segments_into_collinear_pieces_moves_no_statistic),
+        cmocka_unit_test(envelopes_agree_with_the_control_at_the_same_place),
+        cmocka_unit_test(a_raised_flag_ends_the_run_which_can_go_on_later),
+        cmocka_unit_test(releases_and_rocks_are_drawn_as_they_are_spread),
+        cmocka_unit_test(a_lumped_rock_of_many_masses_has_energies_of_its_own),
+        cmocka_unit_test(grounds_are_drawn_as_they_are_spread),
+        cmocka_unit_test(a_spread_of_nothing_changes_nothing),
+        cmocka_unit_test(a_control_that_nobody_reaches),
+        cmocka_unit_test(a_control_without_an_accepted_energy),
+        cmocka_unit_test(unfinished_rocks_count_for_the_upper_bound),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
