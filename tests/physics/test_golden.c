@@ -8,7 +8,6 @@
 #include <cmocka.h>
 
 #include <math.h>
-#include <string.h>
 
 #include "line_scene.h"
 #include "paper_site.h"

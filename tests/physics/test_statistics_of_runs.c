@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "line_scene.h"
 #include "paper_site.h"
@@ -40,7 +39,6 @@ static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, un
 static struct ceduo_arrivals arrivals_of(const struct ceduo_run *run, size_t control)
 {
     struct ceduo_arrivals a;
-    memset(&a, 0, sizeof a); /* its padding too: it is compared as bytes */
     assert_int_equal(ceduo_run_arrivals(run, control, &a), CEDUO_OK);
     return a;
 }
@@ -190,18 +188,15 @@ static void a_run_flies_the_rocks_that_can_be_followed(void **state)
 static void expect_same_run(const struct ceduo_run *a, const struct ceduo_run *b, size_t cells)
 {
     struct ceduo_arrivals x = arrivals_of(a, 0), y = arrivals_of(b, 0);
-    assert_memory_equal(&x, &y, sizeof x);
+    assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
+    assert_true(x.exact == y.exact);
     struct ceduo_ends p, q;
-    memset(&p, 0, sizeof p);
-    memset(&q, 0, sizeof q);
     assert_int_equal(ceduo_run_ends(a, &p), CEDUO_OK);
     assert_int_equal(ceduo_run_ends(b, &q), CEDUO_OK);
     assert_memory_equal(&p, &q, sizeof p);
     assert_int_equal(ceduo_run_contacts(a), ceduo_run_contacts(b));
     for (size_t i = 0; i < cells; i++) {
         struct ceduo_envelope e, f;
-        memset(&e, 0, sizeof e);
-        memset(&f, 0, sizeof f);
         ceduo_run_envelope(a, i, &e);
         ceduo_run_envelope(b, i, &f);
         assert_memory_equal(&e, &f, sizeof e);
@@ -510,7 +505,7 @@ static void expect_moments(const char *what, const struct ceduo_moments *m, doub
     expect_mean(what, ceduo_moments_sd(m), sd / sqrt(2 * (double)m->n), sd, 0, 0);
 }
 
-#define CUT_SD 0.98657839 /* sd of the normal law cut at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
+#define CUT_SD 0.98657839256 /* sd of the normal law cut at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
 
 static void releases_and_rocks_are_drawn_as_they_are_spread(void **state)
 {
