@@ -24,7 +24,7 @@ OPTIMISE_tsan := -O1 -g -fsanitize=thread
 OPTIMISE_cov := -O0 -g --coverage
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: a fused multiply-add would give other bits on other machines.
-ALL_CFLAGS = -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
+ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
 LIBS = -lyaml -lgsl -lgslcblas -lm
 

@@ -94,8 +94,11 @@ static inline struct landing land_beyond(const struct ground *g, const struct fl
     for (;;) {
         if (p == (dir > 0 ? g->n : 0)) {
             double t = (g->x[p] - f->x) * inv;
-            return (struct landing){
-                .t = t, .x = g->x[p], .z = g->z[p] + h, .segment = dir > 0 ? p - 1 : p, .left = true};
+            return (struct landing){.t = t,
+                                    .x = g->x[p],
+                                    .z = f->z + (f->vz - g->half_g * t) * t,
+                                    .segment = dir > 0 ? p - 1 : p,
+                                    .left = true};
         }
         while (level < g->top && block_at(g, p, dir, span * GROUND_BLOCK, &block) &&
                h >= g->levels[level + 1][block]) {

@@ -45,8 +45,24 @@ static void complete_block(const struct sizes *s, struct ceduo_rock *rock)
     rock->k = squares / (12 * radius * radius);
 }
 
+/* What is given is above 0, what the shape needs is given. */
+static bool good_sizes(enum ceduo_shape shape, const struct sizes *s)
+{
+    const double all[] = {s->diameter, s->height, s->volume, s->mass, s->density, s->axes[0], s->axes[1], s->axes[2]};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i] <= 0 || isinf(all[i]))
+            return false;
+    if (shape == CEDUO_SPHERE)
+        return !isnan(s->diameter) || !isnan(s->volume) || !isnan(s->mass);
+    if (shape == CEDUO_CYLINDER)
+        return !isnan(s->diameter) && !isnan(s->height);
+    return !isnan(s->axes[0]) && !isnan(s->axes[1]) && !isnan(s->axes[2]);
+}
+
 static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, struct sizes *s, struct ceduo_rock *rock)
 {
+    if (!good_sizes(shape, s))
+        return CEDUO_BAD_ROCK;
     switch (shape) {
     case CEDUO_SPHERE:
         complete_sphere(s, rock);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "walk.h"
 
+#include <float.h>
+
 #include "law_crsp.h"
 #include "law_lumped.h"
 
@@ -51,6 +53,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
                             .segment = segment,
                             .on_ground = !(height > 0)};
     w->contacts = 0;
+    w->rolls = false;
     w->facets_of = UINT64_MAX;
     w->next_mark = 0;
     while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
@@ -104,6 +107,7 @@ static inline void fly(struct walker *w, const struct landing *l)
     w->at.vz = vz;
     w->at.segment = l->segment;
     w->at.on_ground = true;
+    w->rolls = false;
 }
 
 /* ---- contact ---- */
@@ -140,12 +144,12 @@ static inline struct ceduo_ground_point ground_point(const struct walker *w)
     return p;
 }
 
-/* The tangent of the facet that the rock strikes. */
-static inline void strike_facet(struct walker *w, double *tx, double *tz)
+/* The facet that the rock strikes, as sine and cosine of its turn from the segment. (along, off) is the velocity in the
+ * segment's axes. */
+static inline void facet_turn(struct walker *w, double along, double off, double *sine, double *cosine)
 {
-    const struct ground_segment *s = &w->g->segments[w->at.segment];
-    *tx = s->c;
-    *tz = s->s;
+    *sine = 0;
+    *cosine = 1;
     double largest = largest_facet(w);
     if (!(largest > 0))
         return;
@@ -153,25 +157,27 @@ static inline void strike_facet(struct walker *w, double *tx, double *tz)
     if (w->g->facets == CEDUO_BOTH)
         angle = largest * (2 * u - 1);
     else
-        angle = w->at.vx * s->c + w->at.vz * s->s >= 0 ? largest * u : -(largest * u);
-    double sine, cosine;
-    sincos_quarter(angle, &sine, &cosine);
-    double fx = s->c * cosine - s->s * sine, fz = s->s * cosine + s->c * sine;
-    if (w->at.vz * fx - w->at.vx * fz > 0) /* the rock is leaving this facet */
+        angle = along >= 0 ? largest * u : -(largest * u);
+    double s, c;
+    sincos_quarter(angle, &s, &c);
+    if (off * c - along * s > 0) /* the rock is leaving this facet */
         return;
-    *tx = fx;
-    *tz = fz;
+    *sine = s;
+    *cosine = c;
 }
 
+/* A contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly. */
 static inline __attribute__((always_inline)) void strike(struct walker *w, enum ceduo_law law)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
-    double tx, tz;
-    strike_facet(w, &tx, &tz);
+    double along = w->rolls ? w->along : w->at.vx * s->c + w->at.vz * s->s;
+    double off = w->rolls ? 0 : w->at.vz * s->c - w->at.vx * s->s;
+    double sine, cosine;
+    facet_turn(w, along, off, &sine, &cosine);
     struct ceduo_ground_point point = ground_point(w);
-    double inward = w->at.vx * tz - w->at.vz * tx;
+    double inward = along * sine - off * cosine;
     struct ceduo_impact in = {
-        .vn = inward > 0 ? inward : 0, .vt = w->at.vx * tx + w->at.vz * tz, .spin = w->spin};
+        .vn = inward > 0 ? inward : 0, .vt = along * cosine + off * sine, .spin = w->spin};
     struct ceduo_impact out;
     switch (law) {
 #define X(NAME, name)            \
@@ -183,29 +189,27 @@ static inline __attribute__((always_inline)) void strike(struct walker *w, enum 
     default:
         return;
     }
-    double vx = out.vt * tx - out.vn * tz, vz = out.vt * tz + out.vn * tx;
-    double leaving = vz * s->c - vx * s->s;
-    if (leaving < 0) { /* into the segment: that part is lost */
-        vx += leaving * s->s;
-        vz -= leaving * s->c;
-    }
-    w->at.vx = vx;
-    w->at.vz = vz;
+    along = out.vt * cosine - out.vn * sine;
+    off = out.vt * sine + out.vn * cosine;
+    if (!(off > 0)) /* into the segment: that part is lost */
+        off = 0;
+    w->along = along;
+    w->off = off;
+    w->at.vx = along * s->c - off * s->s;
+    w->at.vz = along * s->s + off * s->c;
     w->spin = out.spin;
 }
 
 /* ---- rolling ---- */
 
 /* Whether a free flight that ends at `l` is so short and flat that the rock rolls: less than R along the ground, and
- * less than R above the segment it starts from. */
-static inline bool is_roll(const struct walker *w, const struct flight *f, const struct landing *l)
+ * less than R above the segment it starts from, which it leaves with speed `off`. */
+static inline bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
 {
     double r = w->rock.radius;
     if (l->left || fabs(l->x - f->x) >= r)
         return false;
-    const struct ground_segment *s = &w->g->segments[f->segment];
-    double vn = f->vz * s->c - f->vx * s->s;
-    if (!(vn * vn < r * (2 * w->g->gravity * s->c)))
+    if (!(off * off < r * (2 * w->g->gravity * w->g->segments[f->segment].c)))
         return false;
     return ceduo_ground_between(w->g, f->segment, f->x, f->z, l->segment, l->x, l->z) < r;
 }
@@ -220,6 +224,8 @@ static inline void set_rolling_speed(struct walker *w, const struct roll *r)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double u = r->dir * sqrt(r->u2);
+    w->rolls = true;
+    w->along = u;
     w->at.vx = u * s->c;
     w->at.vz = u * s->s;
     w->spin = w->k > 0 ? u / w->rock.radius : 0;
@@ -291,7 +297,7 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
         struct flight off = {
             .x = w->at.x, .z = w->at.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
         *l = next_landing(g, &off);
-        if (!is_roll(w, &off, l)) {
+        if (!is_roll(w, &off, off.vz * b->c - off.vx * b->s, l)) {
             w->at = off;
             return TOOK_OFF;
         }
@@ -314,6 +320,8 @@ static enum after_roll roll_on(struct walker *w, double u, struct landing *l)
         double u2 = r.u2 + rate * ds;
         if (ds > 0 && rate <= 0 && !(u2 > 0)) {
             double stop = rate < 0 ? -r.u2 / rate : 0;
+            if (stop <= 4 * DBL_EPSILON * (fabs(w->at.x) + fabs(w->at.z)))
+                stop = 0; /* not a place of its own: rounding must not lift the rock */
             roll_piece(w, &r, stop < ds ? stop : ds, 0, false);
             return STANDS;
         }
@@ -327,10 +335,10 @@ static enum after_roll roll_on(struct walker *w, double u, struct landing *l)
     }
 }
 
+/* Speed along the ground once the rock rolls without slip. */
 static inline double roll_speed(const struct walker *w)
 {
-    const struct ground_segment *s = &w->g->segments[w->at.segment];
-    return (w->at.vx * s->c + w->at.vz * s->s + w->k * w->spin * w->rock.radius) / (1 + w->k);
+    return (w->along + w->k * w->spin * w->rock.radius) / (1 + w->k);
 }
 
 /* ---- resting ---- */
@@ -409,7 +417,7 @@ static inline __attribute__((always_inline)) enum contact_then touch(struct walk
         w->contacts++;
         w->at.on_ground = true;
         *l = next_landing(w->g, &w->at);
-        if (!is_roll(w, &w->at, l))
+        if (!is_roll(w, &w->at, w->off, l))
             return CONTACT_FLIES;
         double u = roll_speed(w);
         if (u == 0 && rests(w))

@@ -20,6 +20,8 @@ struct walker {
     double k; /* 0 where the law knows no spin */
     double rn_u, rt_u; /* quantiles of this rock's ground */
     struct flight at; /* where it is now */
+    bool rolls;        /* it came here along the ground, with speed `along` */
+    double along, off; /* after a contact: velocity in the segment's axes */
     double spin;
     uint64_t contacts;
     size_t next_mark;

@@ -29,8 +29,15 @@ static struct node *copy_shell(struct arena *arena, const struct node *node, siz
     *copy = *node;
     copy->items = *items;
     copy->n = n;
-    copy->written = NULL;
+    copy->written = copy->followed = NULL;
     return copy;
+}
+
+void ceduo_node_keep_written(const struct node *made, const struct node *from)
+{
+    struct node *node = (struct node *)(uintptr_t)made; /* nobody else has seen it yet */
+    node->written = from->written;
+    node->followed = from->followed;
 }
 
 const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i,
@@ -121,8 +128,11 @@ bool ceduo_node_equal(const struct node *a, const struct node *b)
         return false;
     if ((a->key != NULL) != (b->key != NULL) || (a->key && strcmp(a->key, b->key) != 0))
         return false;
-    if (a->kind == NODE_SCALAR)
-        return a->quoted == b->quoted && strcmp(a->text, b->text) == 0;
+    if (a->kind == NODE_SCALAR) {
+        double number; /* quotes matter only where they make a text of a number */
+        bool numeric = ceduo_number_read(a->text, &number) == CEDUO_NUMBER_GOOD;
+        return strcmp(a->text, b->text) == 0 && (a->quoted == b->quoted || !numeric);
+    }
     for (size_t i = 0; i < a->n; i++)
         if (!ceduo_node_equal(a->items[i], b->items[i]))
             return false;

@@ -15,6 +15,7 @@ struct node {
     enum node_kind kind;
     bool quoted;                      /* a scalar in quotes: text, never a number */
     uint32_t line, column;            /* of the value, from 1 */
+    uint32_t end_line, end_column;    /* of a scalar: just after it */
     uint32_t key_line, key_column;    /* of its key; 0: none */
     const struct source *source;
     const char *key;                  /* in a mapping */
@@ -22,6 +23,7 @@ struct node {
     const struct node *const *items;  /* of a mapping or list */
     size_t n;
     const struct node *written;       /* what is written here where a file was followed: its path, or base and changes */
+    const struct node *followed;      /* and what that led to, before any edit */
 };
 
 /* Reads one YAML document. NULL where it is not well-formed; what is wrong is in `problems`. Aliases, anchors, tags,
@@ -52,6 +54,9 @@ const struct node *ceduo_node_removed(struct arena *arena, const struct node *no
 
 /* The same value under another key (NULL: none). */
 const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key);
+
+/* Notes that a node made just now is an edit of `from`, which may have been followed from a file. */
+void ceduo_node_keep_written(const struct node *made, const struct node *from);
 
 /* A scalar that stands nowhere yet. */
 const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted);

@@ -28,6 +28,7 @@ static const struct node *in_place_of(struct arena *arena, const struct node *fo
     copy->key_line = place->key_line;
     copy->key_column = place->key_column;
     copy->written = place->written ? place->written : place;
+    copy->followed = copy;
     return copy;
 }
 
@@ -105,6 +106,7 @@ static const struct node *merge_base(struct arena *arena, const struct object *o
     copy->key_line = node->key_line;
     copy->key_column = node->key_column;
     copy->written = node;
+    copy->followed = copy;
     return copy;
 }
 
@@ -174,13 +176,12 @@ static const struct node *resolve_map(struct arena *arena, const struct object *
         if (!entry && problems->count == before && !problems->memory)
             ceduo_problem_memory(problems);
         if (entry && entry != map->items[i]) {
-            const struct node *written = map->written;
-            struct node *replaced = (struct node *)(uintptr_t)ceduo_node_replaced(arena, map, i, entry);
+            const struct node *replaced = ceduo_node_replaced(arena, map, i, entry);
             if (!replaced) {
                 ceduo_problem_memory(problems);
                 return NULL;
             }
-            replaced->written = written; /* the same thing, only followed further */
+            ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
             map = replaced;
         }
     }
@@ -260,11 +261,12 @@ static bool find_item(const struct node *list, const struct step *step, size_t *
     return false;
 }
 
-const struct node *ceduo_resolve_find(const struct node *root, const char *path, const char **within)
+const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used)
 {
     size_t at = 0, length = strlen(path);
     struct step step;
     *within = path;
+    *used = 0;
     while (next_step(path, length, &at, &step)) {
         const struct node *next = NULL;
         size_t i;
@@ -276,6 +278,7 @@ const struct node *ceduo_resolve_find(const struct node *root, const char *path,
         if (!next)
             break;
         root = next;
+        *used = at;
         if (root->kind == NODE_MAP && root->written && root->written->kind == NODE_SCALAR)
             *within = path[at] == '.' ? path + at + 1 : path + at;
     }
@@ -385,9 +388,8 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
         step.bracket ? set_item(s, f, node, &step, at) : set_entry(s, object, node, &step, at);
     if (!changed)
         return NULL;
-    struct node *copy = (struct node *)(uintptr_t)changed; /* made just now */
-    copy->written = node->written;
-    return copy;
+    ceduo_node_keep_written(changed, node);
+    return changed;
 }
 
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,

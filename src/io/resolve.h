@@ -16,7 +16,8 @@ const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *r
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
                                      size_t path_length, const struct node *value, struct problems *problems);
 
-/* The deepest node on the way along `path` that there is; `*within` is the part of the path from its file's root on. */
-const struct node *ceduo_resolve_find(const struct node *root, const char *path, const char **within);
+/* The deepest node on the way along `path` that there is; `*within` is the part of the path from its file's root on,
+ * `*used` how many bytes of the path led to it. */
+const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used);
 
 #endif

@@ -28,7 +28,8 @@ __attribute__((format(printf, 3, 4))) static void complain(struct maker *m, cons
     ceduo_text_vformat(&message, format, args);
     va_end(args);
     const char *within;
-    const struct node *node = ceduo_resolve_find(m->file->root, path, &within);
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(m->file->root, path, &within, &used);
     ceduo_node_problem(m->problems, node, within, "%s", message.bytes ? message.bytes : "");
     ceduo_text_free(&message);
 }
@@ -431,7 +432,8 @@ static const char *stand_name(struct maker *m, const char *path, const struct st
     if (f->name)
         return f->name;
     const char *within;
-    const struct node *node = ceduo_resolve_find(m->file->root, path, &within);
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(m->file->root, path, &within, &used);
     if (node->written && node->written->kind == NODE_SCALAR)
         return node->written->text;
     return f->shoots.n + f->trees.n > 0 ? _("stand") : _("bare");
@@ -563,15 +565,12 @@ static const char *scene_path(struct scene_file *file, const char *path)
     return found ? found : path;
 }
 
-bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
-                      struct problems *problems)
+/* From the text of a scene to the scene. */
+static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets,
+                        size_t sets_count, struct problems *problems)
 {
-    *file = (struct scene_file){.path = path};
-    const struct source *source = ceduo_file_read(&file->arena, scene_path(file, path), YAML_BYTES_MOST, problems);
-    if (!source)
-        return false;
     file->path = source->name;
-    file->root = ceduo_yaml_read(&file->arena, source, problems);
+    file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
     if (!file->root)
         return false;
     if (file->root->kind != NODE_MAP) {
@@ -589,6 +588,27 @@ bool ceduo_scene_read(struct scene_file *file, const char *path, const char *con
     return ceduo_scene_bind(file, problems);
 }
 
+bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
+                      struct problems *problems)
+{
+    *file = (struct scene_file){.path = path};
+    const struct source *source = ceduo_file_read(&file->arena, scene_path(file, path), YAML_BYTES_MOST, problems);
+    return source && read_source(file, source, sets, sets_count, problems);
+}
+
+bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
+{
+    *file = (struct scene_file){.path = name};
+    struct source *source = ceduo_arena_take(&file->arena, sizeof *source);
+    char *own_name = ceduo_arena_string(&file->arena, name), *copy = ceduo_arena_string(&file->arena, text);
+    if (!source || !own_name || !copy) {
+        ceduo_problem_memory(problems);
+        return false;
+    }
+    *source = (struct source){.name = own_name, .bytes = copy, .length = strlen(copy)};
+    return read_source(file, source, NULL, 0, problems);
+}
+
 void ceduo_scene_release(struct scene_file *file)
 {
     ceduo_arena_free(&file->arena);
@@ -603,4 +623,26 @@ bool ceduo_scene_assumes(const struct scene_file *file, const char *path)
             strcmp(note->kind, "assumed") == 0)
             return true;
     return false;
+}
+
+/* Whether `outer` is `path` or leads to it. */
+static bool leads_to(const char *outer, const char *path)
+{
+    size_t n = strlen(outer);
+    return n == 0 || (strncmp(path, outer, n) == 0 && (path[n] == '\0' || path[n] == '.' || path[n] == '['));
+}
+
+const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path)
+{
+    const struct source_note *best = NULL;
+    for (const struct source_note *note = file->notes; note; note = note->before)
+        if (leads_to(note->path, path) && (!best || strlen(note->path) > strlen(best->path)))
+            best = note;
+    return best;
+}
+
+bool ceduo_scene_assumes_value(const struct scene_file *file, const char *path)
+{
+    const struct source_note *note = ceduo_scene_note(file, path);
+    return note && strcmp(note->kind, "assumed") == 0;
 }

@@ -9,6 +9,7 @@
 struct scene_file {
     struct arena arena;
     const char *path;        /* as it was given */
+    const struct node *raw;  /* as it is written in its file */
     const struct node *root; /* the scene, with what it refers to in place */
     struct ceduo_scene scene;
     const struct source_note *notes; /* where values come from, last first */
@@ -20,6 +21,8 @@ struct scene_file {
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems);
+/* The same from text in memory. */
+bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);
 
 /* The scene of a document that was read before: sets `file->scene` from `file->root`. */
@@ -30,5 +33,11 @@ bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *
 
 /* True where some value below `path` is marked as an assumption. */
 bool ceduo_scene_assumes(const struct scene_file *file, const char *path);
+
+/* The note of the innermost mapping on the way to a value; NULL where nothing is said. */
+const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path);
+
+/* True where that note calls it an assumption. */
+bool ceduo_scene_assumes_value(const struct scene_file *file, const char *path);
 
 #endif

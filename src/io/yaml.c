@@ -111,6 +111,8 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
         STOP(r, event->start_mark, _("a NUL character in a text; take it out"));
         return NULL;
     }
+    node->end_line = (uint32_t)line_of(event->end_mark);
+    node->end_column = (uint32_t)column_of(r, event->end_mark);
     node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->text = ceduo_arena_copy(r->arena, value, length);
     if (!node->text)

@@ -163,8 +163,8 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
         at = s->x[(size_t)line_uniform(r, 0, (double)scene->slope.vertices - 1)];
     line_scene_release(s, at, line_chance(r, 0.3) ? 0 : line_log_uniform(r, 1e-3, 20), random_speed(r),
                        random_speed(r) - 2, line_chance(r, 0.3) ? 0 : line_uniform(r, -20, 20));
-    s->control = (struct ceduo_control){
-        .x = at + (end - at) * line_uniform(r, 0.01, 1), .accepted = NAN, .measured_speed = NAN};
+    s->control =
+        (struct ceduo_control){.x = at + (end - at) * line_uniform(r, 0.01, 1), .accepted = NAN, .measured_speed = NAN};
     scene->controls_count = 1;
 }
 

@@ -6,7 +6,7 @@
 
 /* A small scene in one piece of memory: a sphere on a polyline, one control. It points into itself: never copy it. */
 #define LINE_SEGMENTS_MOST 200
-#define LINE_PIECES_MOST 20000
+#define LINE_PIECES_MOST   20000
 
 struct line_scene {
     struct ceduo_scene scene;

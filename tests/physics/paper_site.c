@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-const double paper_x[PAPER_VERTICES] = {0,     10,    13,    26.95, 42.8,   48.11,  56.36,
+const double paper_x[PAPER_VERTICES] = {0,     10,    13,    26.95,  42.8,   48.11,  56.36,
                                         70.69, 84.66, 97.43, 115.42, 134.59, 144.33, 152.68};
 const double paper_y[PAPER_VERTICES] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26, 16, 6, 2, 0};
 
@@ -19,10 +19,8 @@ void paper_plot_init(struct paper_plot *plot, int number)
 {
     bool one = number == 1;
     double all = one ? 9076 : 4641, single = one ? 750 : 542;
-    struct ceduo_stems mean = {.dbh = one ? 0.061 : 0.047,
-                               .height = one ? 6 : 4,
-                               .volume = one ? 0.0107 : 0.0059,
-                               .age = NAN};
+    struct ceduo_stems mean = {
+        .dbh = one ? 0.061 : 0.047, .height = one ? 6 : 4, .volume = one ? 0.0107 : 0.0059, .age = NAN};
     plot->shoots = plot->trees = mean;
     plot->shoots.per_ha = all - single;
     plot->trees.per_ha = single;

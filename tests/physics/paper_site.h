@@ -8,9 +8,9 @@
  * ADS 2, 67.5 m of each), one control at x = 135 m where 15.6 m/s were measured. */
 #define PAPER_VERTICES 14
 #define PAPER_SEGMENTS (PAPER_VERTICES - 1)
-#define PAPER_TOP 126.0 /* y of the first vertex */
-#define PAPER_U 102800.0
-#define PAPER_B 0.68
+#define PAPER_TOP      126.0 /* y of the first vertex */
+#define PAPER_U        102800.0
+#define PAPER_B        0.68
 
 enum paper_theta { PAPER_ANGLE, PAPER_HEIGHT }; /* how Table 3's column theta is read: radians, or metres over R */
 

@@ -49,8 +49,8 @@ static void rock_of_table_2(void **state)
     expect_exact(rock.radius, 0.34);
     expect_exact(rock.k, 0.5);
     expect_exact(rock.moment, 0.5 * rock.mass * 0.34 * 0.34);
-    expect_decimals(0.5 * rock.mass * 20.94 * 20.94 / 1e3, 112.319, 3); /* Table 5's mean speed */
-    expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);    /* the speed seen by video */
+    expect_decimals(0.5 * rock.mass * 20.94 * 20.94 / 1e3, 112.319, 3);              /* Table 5's mean speed */
+    expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);                 /* the speed seen by video */
     expect_decimals(0.5 * rock.mass * (20.94 * 20.94 - 15.6 * 15.6) / 1e3, 50.0, 1); /* like for like */
 }
 
@@ -325,8 +325,8 @@ static void reserves_after_a_cut(void **state)
 {
     (void)state;
     struct ceduo_stems reserves = {.per_ha = 60, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves,
-                                .u = NAN};
+    struct ceduo_stand stand = {
+        .system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves, .u = NAN};
     struct ceduo_adc adc = ceduo_adc(&stand, PAPER_B);
     expect_decimals(adc.gsteiger_stems, 189.394, 3);
     assert_true(adc.gsteiger_stools == adc.gsteiger_stems && adc.interception == adc.gsteiger_stems &&
@@ -343,8 +343,8 @@ static void the_threshold_in_a_belt(void **state)
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_stems reserves = {.per_ha = 378, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_belt belt = {.from = 0, .to = 135, .stand = {.species = -1, .trees_count = 1, .trees = &reserves,
-                                                              .u = NAN}};
+    struct ceduo_belt belt = {
+        .from = 0, .to = 135, .stand = {.species = -1, .trees_count = 1, .trees = &reserves, .u = NAN}};
     assert_false(ceduo_assess_stand(&site.scene, &belt).passes_threshold);
     reserves.per_ha = 379;
     struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &belt);
@@ -498,8 +498,14 @@ static void each_stratum_takes_its_own_energy(void **state)
                                     {.per_ha = 1000, .dbh = .10, .height = 9, .volume = .04, .age = NAN}};
     struct ceduo_stems trees[2] = {{.per_ha = 100, .dbh = .20, .height = 14, .volume = .2, .age = NAN},
                                    {.per_ha = 20, .dbh = .40, .height = 20, .volume = 1, .age = NAN}};
-    struct ceduo_stand stand = {.species = -1, .stools_per_ha = 2000, .spacing = .3, .shoots_count = 2,
-                                .trees_count = 2, .shoots = shoots, .trees = trees, .u = 1e5};
+    struct ceduo_stand stand = {.species = -1,
+                                .stools_per_ha = 2000,
+                                .spacing = .3,
+                                .shoots_count = 2,
+                                .trees_count = 2,
+                                .shoots = shoots,
+                                .trees = trees,
+                                .u = 1e5};
     const double b = .7, a = 1e4, dc = .0625, wc = 1e5 * .0175;
     const double d = (150 + 100 + 20 + 8) / 4120., t = (100 * .9 * 2e4 + 20 * 1.1 * 1e5) / a;
     expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t);
@@ -642,8 +648,8 @@ static void a_young_coppice_passes_thirty_metres_and_stops_nothing(void **state)
 {
     (void)state;
     struct ceduo_stems shoots = {.per_ha = 12000, .dbh = .02, .height = 3, .volume = NAN, .age = 5};
-    struct ceduo_stand stand = {.species = -1, .stools_per_ha = 3000, .spacing = .2, .shoots_count = 1,
-                                .shoots = &shoots, .u = NAN};
+    struct ceduo_stand stand = {
+        .species = -1, .stools_per_ha = 3000, .spacing = .2, .shoots_count = 1, .shoots = &shoots, .u = NAN};
     assert_true(ceduo_adc(&stand, PAPER_B).interception < CEDUO_THRESHOLD_M);
     assert_true(100 * ceduo_energy_per_metre(&stand, PAPER_B, CEDUO_RULE_AUTO) < 2e3);
 }

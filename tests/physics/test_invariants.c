@@ -12,11 +12,11 @@
 
 #include "line_scene.h"
 
-#define SCENES 100000
+#define SCENES        100000
 #define LASTING_EVERY 5000 /* scenes of which one may go on for ever */
-#define ENERGY 1e-12
-#define UNDER 1e-9      /* m below the ground, or */
-#define UNDER_SIZE 1e-13 /* of the largest coordinate of the way, whichever is larger */
+#define ENERGY        1e-12
+#define UNDER         1e-9  /* m below the ground, or */
+#define UNDER_SIZE    1e-13 /* of the largest coordinate of the way, whichever is larger */
 
 struct watch {
     const struct line_scene *scene;
@@ -25,7 +25,7 @@ struct watch {
     bool smooth;
     struct ceduo_piece last;
     uint64_t pieces, flights, impacts;
-    uint64_t in_crack; /* the last so many pieces flew from wall to wall */
+    uint64_t in_crack;                               /* the last so many pieces flew from wall to wall */
     double size, under, energy_off, gain, crsp_gain; /* largest so far */
     bool bad;                                        /* not a number, or a gap between pieces */
 };
@@ -225,11 +225,12 @@ static void invariants_hold_over_random_scenes(void **state)
         line_scene_random(&scene, number, LASTING_EVERY);
         look_at_scene(&scene, number, &t);
     }
-    print_message("%d scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack); %ju contacts, %ju pieces, %ju "
+    print_message("%d scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack); %ju contacts, "
+                  "%ju pieces, %ju "
                   "flights, %ju smooth impacts of crsp, %ju crossings\n",
                   SCENES, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
-                  (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks,
-                  (uintmax_t)t.contacts, (uintmax_t)t.pieces, (uintmax_t)t.flights, (uintmax_t)t.impacts, (uintmax_t)t.crossed);
+                  (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
+                  (uintmax_t)t.pieces, (uintmax_t)t.flights, (uintmax_t)t.impacts, (uintmax_t)t.crossed);
     assert_true(t.flights > 10 * SCENES / 2 && t.impacts > SCENES); /* the scenes are worth looking at */
     assert_true(t.ends[CEDUO_AT_REST] > SCENES / 10 && t.ends[CEDUO_LEFT_SLOPE] > SCENES / 10);
     assert_true(t.crossed > SCENES / 10 && t.cracks <= SCENES / 20000);

@@ -20,12 +20,12 @@
 #include "paper_site.h"
 #include "slow_walk.h"
 
-#define CONTACTS 3000  /* of a way are compared; a longer one is not followed to its end */
-#define SAME 1e-6      /* relative: the same */
+#define CONTACTS   3000 /* of a way are compared; a longer one is not followed to its end */
+#define SAME       1e-6 /* relative: the same */
 #define SAME_FIRST 1e-9 /* relative, at the first contact */
-#define OTHERS 24      /* changed slow walks */
-#define CHANGE 1e-13
-#define STILL 1e-14    /* of g × length: less energy than this per kilogram is lost in the rounding of the height */
+#define OTHERS     24   /* changed slow walks */
+#define CHANGE     1e-13
+#define STILL      1e-14 /* of g × length: less energy than this per kilogram is lost in the rounding of the height */
 
 /* What a rock has after a contact: where it is and how it leaves; the program tells the speed of the roll where one
  * begins. */
@@ -219,7 +219,8 @@ static uint64_t part(const struct trace *a, const struct trace *b, const struct 
         return n + 1;
     *by = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
     if (a->reached) {
-        *by = larger(*by, larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
+        *by = larger(*by,
+                     larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
         *by = larger(*by, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
         *by = larger(*by, fabs(a->crossing[3] - b->crossing[3]) / s->length);
     }
@@ -306,7 +307,8 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
     tally->contacts += slow.contacts;
     tally->cut_short += slow.end < 0;
     uint64_t at = part(&fast, &slow, &s, SAME, &by);
-    if (at == 0 && fast.after[1].known && slow.after[1].known && apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
+    if (at == 0 && fast.after[1].known && slow.after[1].known &&
+        apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
         at = 1;
         by = SAME_FIRST;
     }
@@ -331,10 +333,11 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
 
 static void expect_agreement(const struct tally *t, const char *what)
 {
-    print_message("%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
-                  "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
-                  what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
-                  (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
+    print_message(
+        "%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
+        "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
+        what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
+        (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
     assert_true(t->same + t->excused + t->still + t->aimless == t->rocks);
     assert_true((double)t->same >= .99 * (double)t->rocks);
     assert_true((double)t->first_apart <= .001 * (double)t->rocks);

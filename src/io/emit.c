@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "emit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FLOW_MOST 100 /* columns of a mapping or list on one line */
+
+/* ---- scalars ---- */
+
+static bool is_plain(const char *s)
+{
+    static const char *const words[] = {"true", "false", "null", "yes", "no", "on", "off", "~", "y", "n"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(s, words[i]) == 0)
+            return false;
+    size_t n = strlen(s);
+    if (n == 0 || s[0] == ' ' || s[n - 1] == ' ')
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        char c = s[i];
+        bool word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (!word && !strchr("_./+ ", c) && !(c == '-' && (i > 0 || n > 1)))
+            return false;
+    }
+    return !(s[0] == '-' && s[1] == ' ');
+}
+
+static void put_quoted(struct text *text, const char *s)
+{
+    ceduo_text_char(text, '"');
+    for (; *s; s++) {
+        unsigned char c = (unsigned char)*s;
+        if (c == '"' || c == '\\')
+            ceduo_text_format(text, "\\%c", c);
+        else if (c == '\n')
+            ceduo_text_put(text, "\\n");
+        else if (c < 0x20 || c == 0x7f)
+            ceduo_text_format(text, "\\x%02x", c);
+        else
+            ceduo_text_char(text, *s);
+    }
+    ceduo_text_char(text, '"');
+}
+
+void ceduo_emit_scalar(struct text *text, const char *value, bool quoted)
+{
+    double number;
+    bool numeric = ceduo_number_read(value, &number) == CEDUO_NUMBER_GOOD;
+    if (quoted ? numeric || !is_plain(value) : !numeric && !is_plain(value) && strcmp(value, "true") != 0 &&
+                                                   strcmp(value, "false") != 0)
+        put_quoted(text, value);
+    else
+        ceduo_text_put(text, value);
+}
+
+/* ---- trees ---- */
+
+static void put_flow(struct text *text, const struct node *node)
+{
+    if (node->kind == NODE_SCALAR) {
+        ceduo_emit_scalar(text, node->text, node->quoted);
+        return;
+    }
+    ceduo_text_char(text, node->kind == NODE_MAP ? '{' : '[');
+    for (size_t i = 0; i < node->n; i++) {
+        if (i > 0)
+            ceduo_text_put(text, ", ");
+        if (node->kind == NODE_MAP)
+            ceduo_text_format(text, "%s: ", node->items[i]->key);
+        put_flow(text, node->items[i]);
+    }
+    ceduo_text_char(text, node->kind == NODE_MAP ? '}' : ']');
+}
+
+static bool fits_flow(const struct node *node, size_t indent)
+{
+    struct text line = {0};
+    put_flow(&line, node);
+    bool fits = !line.failed && line.length + indent <= FLOW_MOST;
+    ceduo_text_free(&line);
+    return fits;
+}
+
+static void put_indent(struct text *text, size_t indent)
+{
+    for (size_t i = 0; i < indent; i++)
+        ceduo_text_char(text, ' ');
+}
+
+static void put_block(struct text *text, const struct node *node, size_t indent);
+
+static void put_entry(struct text *text, const struct node *value, size_t indent)
+{
+    if (value->kind == NODE_SCALAR || value->n == 0 || fits_flow(value, indent + 20)) {
+        ceduo_text_char(text, ' ');
+        put_flow(text, value);
+        ceduo_text_char(text, '\n');
+        return;
+    }
+    ceduo_text_char(text, '\n');
+    put_block(text, value, indent + 2);
+}
+
+static void put_block(struct text *text, const struct node *node, size_t indent)
+{
+    for (size_t i = 0; i < node->n; i++) {
+        const struct node *item = node->items[i];
+        if (node->kind == NODE_MAP) {
+            put_indent(text, indent);
+            ceduo_text_format(text, "%s:", item->key);
+            put_entry(text, item, indent);
+            continue;
+        }
+        put_indent(text, indent);
+        if (item->kind == NODE_SCALAR || item->n == 0 || fits_flow(item, indent + 2)) {
+            ceduo_text_put(text, "- ");
+            put_flow(text, item);
+            ceduo_text_char(text, '\n');
+            continue;
+        }
+        /* the first line of the item follows the dash */
+        size_t at = text->length;
+        put_block(text, item, indent + 2);
+        if (!text->failed)
+            text->bytes[at + indent] = '-';
+    }
+}
+
+void ceduo_emit(struct text *text, const struct node *root)
+{
+    if (root->kind == NODE_SCALAR) {
+        put_flow(text, root);
+        ceduo_text_char(text, '\n');
+        return;
+    }
+    put_block(text, root, 0);
+}
+
+/* ---- back to files ---- */
+
+/* The entries of `now` that differ from `base`, which nothing was taken from. False where one is gone. */
+static const struct node *difference(struct arena *arena, const struct node *base, const struct node *now)
+{
+    struct node *empty = ceduo_arena_take(arena, sizeof *empty);
+    if (!empty)
+        return NULL;
+    *empty = (struct node){.kind = NODE_MAP};
+    const struct node *out = empty;
+    for (size_t i = 0; i < base->n; i++)
+        if (!ceduo_node_get(now, base->items[i]->key))
+            return NULL;
+    for (size_t i = 0; out && i < now->n; i++) {
+        const struct node *entry = now->items[i], *old = ceduo_node_get(base, entry->key);
+        if (old && ceduo_node_equal(old, entry))
+            continue;
+        if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP) {
+            const struct node *inner = difference(arena, old, entry);
+            entry = inner ? inner : entry;
+            if (!inner)
+                return NULL;
+        }
+        out = ceduo_node_with(arena, out, now->items[i]->key, entry);
+    }
+    return out;
+}
+
+static const struct node *key_of(struct arena *arena, const struct node *value, const struct node *place)
+{
+    return ceduo_node_renamed(arena, value, place->key);
+}
+
+/* A stand as `base` and what differs; NULL where that cannot say it. */
+static const struct node *as_base(struct arena *arena, const struct node *now, const struct node *loaded)
+{
+    const struct node *w = now->written;
+    const struct node *path = w->kind == NODE_SCALAR ? w : ceduo_node_get(w, "base");
+    if (!path || path->kind != NODE_SCALAR || !loaded || strcmp(path->text, "") == 0)
+        return NULL;
+    const struct node *changes = difference(arena, loaded, now);
+    if (!changes)
+        return NULL;
+    const struct node *start = w->kind == NODE_SCALAR ? NULL : w;
+    if (!start) {
+        struct node *empty = ceduo_arena_take(arena, sizeof *empty);
+        if (!empty)
+            return NULL;
+        *empty = (struct node){.kind = NODE_MAP};
+        start = ceduo_node_with(arena, empty, "base", path);
+    }
+    for (size_t i = 0; start && i < changes->n; i++)
+        start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(now, changes->items[i]->key));
+    return start ? key_of(arena, start, now) : NULL;
+}
+
+const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
+{
+    const struct node *was = node->followed;
+    if (node->written && was) {
+        bool same = was->n == node->n && was->kind == node->kind;
+        for (size_t i = 0; same && i < was->n; i++)
+            same = ceduo_node_equal(was->items[i], node->items[i]);
+        if (same)
+            return key_of(arena, node->written, node);
+        const struct node *base = node->key && strcmp(node->key, "stand") == 0 ? as_base(arena, node, was) : NULL;
+        if (base)
+            return base;
+    }
+    if (node->kind == NODE_SCALAR)
+        return node;
+    const struct node *out = node;
+    for (size_t i = 0; out && i < node->n; i++) {
+        const struct node *item = ceduo_emit_unresolve(arena, node->items[i]);
+        if (item != node->items[i])
+            out = item ? ceduo_node_replaced(arena, out, i, item) : NULL;
+    }
+    return out;
+}
+
+/* ---- patching ---- */
+
+/* Byte of line and column, both from 1, columns in characters. */
+static size_t byte_of(const struct source *s, uint32_t line, uint32_t column)
+{
+    size_t at = 0;
+    for (uint32_t l = 1; l < line; l++) {
+        const char *end = memchr(s->bytes + at, '\n', s->length - at);
+        if (!end)
+            return s->length;
+        at = (size_t)(end - s->bytes) + 1;
+    }
+    if (line == 1 && s->length >= 3 && memcmp(s->bytes, "\xef\xbb\xbf", 3) == 0)
+        at = 3;
+    for (uint32_t c = 1; c < column && at < s->length; c++)
+        do
+            at++;
+        while (at < s->length && ((unsigned char)s->bytes[at] & 0xc0) == 0x80);
+    return at;
+}
+
+struct patcher {
+    struct text *text;
+    const struct source *source;
+    size_t done; /* bytes of the source that are written */
+};
+
+static bool patch(struct patcher *p, const struct node *old, const struct node *now)
+{
+    if (old == now || (old->kind == NODE_SCALAR && now->kind == NODE_SCALAR && strcmp(old->text, now->text) == 0))
+        return true;
+    if (old->kind != now->kind || old->n != now->n || old->source != p->source)
+        return false;
+    if (old->kind == NODE_SCALAR) {
+        size_t from = byte_of(p->source, old->line, old->column);
+        size_t to = byte_of(p->source, old->end_line, old->end_column);
+        if (from < p->done || to < from)
+            return false;
+        ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);
+        ceduo_emit_scalar(p->text, now->text, now->quoted);
+        p->done = to;
+        return true;
+    }
+    for (size_t i = 0; i < old->n; i++) {
+        const struct node *a = old->items[i], *b = now->items[i];
+        if (old->kind == NODE_MAP && strcmp(a->key, b->key) != 0)
+            return false;
+        if (!patch(p, a, b))
+            return false;
+    }
+    return true;
+}
+
+/* Whether a text reads back as the tree. */
+static bool reads_back(const struct text *text, const struct node *root)
+{
+    struct arena arena = {0};
+    struct problems problems = {0};
+    struct source source = {.name = "", .bytes = text->bytes, .length = text->length};
+    const struct node *again = text->failed ? NULL : ceduo_yaml_read(&arena, &source, &problems);
+    bool same = again && ceduo_node_equal(again, root);
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+    return same;
+}
+
+bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old,
+                        const struct node *root)
+{
+    struct text out = {0};
+    struct patcher p = {&out, source, 0};
+    bool good = patch(&p, old, root);
+    if (good) {
+        ceduo_text_add(&out, source->bytes + p.done, source->length - p.done);
+        good = reads_back(&out, root);
+    }
+    if (good)
+        ceduo_text_add(text, out.bytes, out.length);
+    ceduo_text_free(&out);
+    return good;
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_EMIT_H
+#define CEDUO_EMIT_H
+
+#include "node.h"
+
+/* A tree as YAML text. */
+void ceduo_emit(struct text *text, const struct node *root);
+
+/* The tree as it is to be written to the scene's own file: what came from another file and is unchanged is its path
+ * again, a changed stand starts from its file by `base`, a changed slope is written out. NULL without memory. */
+const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *root);
+
+/* Writes `root` (unresolved) as the text of `source`, whose tree is `old`, with the changed values alone put in place, so
+ * that comments and layout stay. False where more than values has changed: then nothing is added. */
+bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old,
+                        const struct node *root);
+
+/* One scalar as it is written in YAML. */
+void ceduo_emit_scalar(struct text *text, const char *value, bool quoted);
+
+#endif

@@ -1,0 +1,451 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "document.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/intl.h"
+#include "io/resolve.h"
+#include "recovery.h"
+
+/* ---- states ---- */
+
+static bool push_state(struct document *d, const struct node *root, const char *what)
+{
+    if (d->at + 1 < d->count && d->saved > d->at && d->saved < d->count)
+        d->saved = SIZE_MAX; /* the state on disk can no longer be reached by redo */
+    if (d->count > 0)
+        d->count = d->at + 1;
+    if (d->count == d->room) {
+        size_t room = d->room ? 2 * d->room : 64;
+        struct document_state *states = realloc(d->states, room * sizeof *states);
+        if (!states)
+            return false;
+        d->states = states;
+        d->room = room;
+    }
+    d->states[d->count] = (struct document_state){root, what};
+    d->at = d->count++;
+    return true;
+}
+
+/* History may grow to DOCUMENT_HISTORY_BYTES: beyond that the older half of it is forgotten. What memory it took is given
+ * back only when the document closes, so the limit is on states, measured by what the arena has grown. */
+static void trim_history(struct document *d)
+{
+    if (d->file.arena.bytes < DOCUMENT_HISTORY_BYTES || d->count < 4)
+        return;
+    size_t drop = d->at / 2;
+    memmove(d->states, d->states + drop, (d->count - drop) * sizeof *d->states);
+    d->count -= drop;
+    d->at -= drop;
+    d->saved = d->saved >= drop && d->saved != SIZE_MAX ? d->saved - drop : SIZE_MAX;
+}
+
+/* Makes `root` the scene, if it is one; otherwise everything stays. */
+static bool adopt(struct document *d, const struct node *root, struct problems *problems)
+{
+    struct scene_file before = d->file;
+    const struct node *resolved = ceduo_resolve_scene(&d->file.arena, root, problems);
+    bool good = false;
+    if (resolved && problems->count == 0) {
+        d->file.root = resolved;
+        good = ceduo_scene_bind(&d->file, problems);
+    }
+    if (!good) {
+        struct arena arena = d->file.arena; /* it has grown */
+        d->file = before;
+        d->file.arena = arena;
+    }
+    return good;
+}
+
+static bool commit(struct document *d, const struct node *root, const char *what, struct problems *problems)
+{
+    if (!root) {
+        if (problems->count == 0)
+            ceduo_problem_memory(problems);
+        return false;
+    }
+    const struct node *before = d->file.root;
+    if (!adopt(d, root, problems))
+        return false;
+    if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
+        d->file.root = before;
+        return true;
+    }
+    const char *kept = ceduo_arena_string(&d->file.arena, what);
+    if (!kept || !push_state(d, d->file.root, kept)) {
+        ceduo_problem_memory(problems);
+        return false;
+    }
+    trim_history(d);
+    ceduo_document_keep(d);
+    return true;
+}
+
+/* ---- opening ---- */
+
+static bool is_shipped(struct document *d)
+{
+    const char *const *folders = ceduo_file_folders(&d->file.arena);
+    char *real = realpath(d->path, NULL);
+    bool shipped = false;
+    const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
+    for (size_t i = 0; real && folders && folders[i] && !shipped; i++) {
+        char *folder = realpath(folders[i], NULL);
+        size_t n = folder ? strlen(folder) : 0;
+        bool own = (data && data[0] == '/' && strncmp(folders[i], data, strlen(data)) == 0) ||
+                   (home && strstr(folders[i], "/.local/share/ceduo") && strncmp(folders[i], home, strlen(home)) == 0);
+        shipped = folder && !own && strncmp(real, folder, n) == 0 && real[n] == '/';
+        free(folder);
+    }
+    free(real);
+    return shipped;
+}
+
+static void note_disk(struct document *d)
+{
+    struct stat st;
+    if (d->path && stat(d->path, &st) == 0) {
+        d->modified = st.st_mtim;
+        d->size = st.st_size;
+    }
+}
+
+bool ceduo_document_open(struct document *d, const char *path, struct problems *problems)
+{
+    *d = (struct document){0};
+    if (!ceduo_scene_read(&d->file, path, NULL, 0, problems)) {
+        ceduo_document_close(d);
+        return false;
+    }
+    d->raw = d->file.raw;
+    d->path = strcmp(path, "-") == 0 ? NULL : strdup(d->file.path);
+    d->shipped = d->path && is_shipped(d);
+    note_disk(d);
+    d->recovery = ceduo_recovery_path(d->path);
+    if (!push_state(d, d->file.root, "")) {
+        ceduo_problem_memory(problems);
+        return false;
+    }
+    return true;
+}
+
+bool ceduo_document_new(struct document *d, const char *text, struct problems *problems)
+{
+    *d = (struct document){.saved = SIZE_MAX};
+    if (!ceduo_scene_read_text(&d->file, _("new scene"), text, problems) || !push_state(d, d->file.root, "")) {
+        ceduo_document_close(d);
+        return false;
+    }
+    d->raw = NULL;
+    d->recovery = ceduo_recovery_path(NULL);
+    ceduo_document_keep(d);
+    return true;
+}
+
+void ceduo_document_close(struct document *d)
+{
+    ceduo_scene_release(&d->file);
+    free(d->states);
+    free(d->path);
+    free(d->recovery);
+    *d = (struct document){0};
+}
+
+/* ---- editing ---- */
+
+const struct node *ceduo_document_node(const struct document *d, const char *path)
+{
+    const char *within;
+    size_t used = 0;
+    const struct node *node = ceduo_resolve_walk(d->file.root, path, &within, &used);
+    return used == strlen(path) ? node : NULL;
+}
+
+/* root with the node at path replaced. */
+static const struct node *put(struct document *d, const struct node *root, const char *path, const struct node *value,
+                              struct problems *problems)
+{
+    struct source *source = ceduo_arena_take(&d->file.arena, sizeof *source);
+    char *copy = ceduo_arena_string(&d->file.arena, path);
+    if (!source || !copy || !value)
+        return NULL;
+    *source = (struct source){.name = copy, .bytes = copy, .length = strlen(copy), .is_option = true};
+    return ceduo_resolve_set(&d->file.arena, root, source, strlen(copy), value, problems);
+}
+
+static const struct node *parse(struct document *d, const char *name, const char *text, struct problems *problems)
+{
+    struct source *source = ceduo_arena_take(&d->file.arena, sizeof *source);
+    char *copy = ceduo_arena_string(&d->file.arena, text);
+    char *title = ceduo_arena_string(&d->file.arena, name);
+    if (!source || !copy || !title)
+        return NULL;
+    *source = (struct source){.name = title, .bytes = copy, .length = strlen(copy), .is_option = true};
+    return ceduo_yaml_read(&d->file.arena, source, problems);
+}
+
+bool ceduo_document_set(struct document *d, const char *path, const char *value, struct problems *problems)
+{
+    const struct node *node = parse(d, path, value, problems);
+    return node && commit(d, put(d, d->file.root, path, node, problems), path, problems);
+}
+
+bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t n, const char *what,
+                            struct problems *problems)
+{
+    const struct node *root = d->file.root;
+    for (size_t i = 0; root && i < n; i++) {
+        const char *equals = strchr(sets[i], '=');
+        char *path = equals ? ceduo_arena_copy(&d->file.arena, sets[i], (size_t)(equals - sets[i])) : NULL;
+        const struct node *value = path ? parse(d, path, equals + 1, problems) : NULL;
+        root = value ? put(d, root, path, value, problems) : NULL;
+    }
+    return commit(d, root, what, problems);
+}
+
+/* Splits "a.b[3]" or "a.b" before its last step; false where it has only one. */
+static bool split_path(struct document *d, const char *path, char **parent, char **last)
+{
+    const char *dot = strrchr(path, '.'), *bracket = strrchr(path, '[');
+    const char *cut = bracket && (!dot || bracket > dot) ? bracket : dot;
+    *parent = ceduo_arena_copy(&d->file.arena, path, cut ? (size_t)(cut - path) : 0);
+    *last = ceduo_arena_string(&d->file.arena, cut ? cut + 1 : path);
+    if (*last && cut == bracket && bracket)
+        (*last)[strcspn(*last, "]")] = '\0';
+    return *parent && *last;
+}
+
+bool ceduo_document_delete(struct document *d, const char *path, struct problems *problems)
+{
+    char *parent, *last;
+    if (!split_path(d, path, &parent, &last))
+        return commit(d, NULL, path, problems);
+    const struct node *holder = parent[0] ? ceduo_document_node(d, parent) : d->file.root;
+    const struct node *less = NULL;
+    if (holder && holder->kind == NODE_LIST) {
+        size_t i = (size_t)strtoul(last, NULL, 10);
+        less = i < holder->n ? ceduo_node_removed(&d->file.arena, holder, i) : NULL;
+    } else if (holder && holder->kind == NODE_MAP) {
+        less = ceduo_node_without(&d->file.arena, holder, last);
+    }
+    if (!less)
+        return commit(d, NULL, path, problems);
+    /* a list that is empty now is taken out whole, unless it is the list of options or belts */
+    if (less->kind == NODE_LIST && less->n == 0 && strcmp(parent, "options") != 0)
+        return ceduo_document_delete(d, parent, problems);
+    ceduo_node_keep_written(less, holder);
+    return commit(d, parent[0] ? put(d, d->file.root, parent, less, problems) : less, path, problems);
+}
+
+static bool insert_node(struct document *d, const char *list, size_t index, const struct node *item,
+                        struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    if (!holder) {
+        holder = parse(d, list, "[]", problems);
+        index = 0;
+    }
+    if (!holder || holder->kind != NODE_LIST || !item)
+        return commit(d, NULL, list, problems);
+    const struct node *plain = ceduo_node_renamed(&d->file.arena, item, NULL);
+    const struct node *more =
+        plain ? ceduo_node_inserted(&d->file.arena, holder, index > holder->n ? holder->n : index, plain) : NULL;
+    return commit(d, more ? put(d, d->file.root, list, more, problems) : NULL, list, problems);
+}
+
+bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text,
+                           struct problems *problems)
+{
+    const struct node *item = parse(d, list, text, problems);
+    return item && insert_node(d, list, index, item, problems);
+}
+
+/* A copy gets a name of its own where names must differ. */
+static const struct node *with_new_name(struct document *d, const struct node *list, const struct node *item)
+{
+    const char *name = ceduo_node_text(item, "name");
+    if (!name)
+        return item;
+    for (unsigned i = 2; i < 1000; i++) {
+        struct text text = {0};
+        ceduo_text_format(&text, "%s (%u)", name, i);
+        bool taken = false;
+        for (size_t k = 0; text.bytes && k < list->n; k++) {
+            const char *other = ceduo_node_text(list->items[k], "name");
+            taken |= other && strcmp(other, text.bytes) == 0;
+        }
+        const struct node *scalar =
+            taken || !text.bytes ? NULL : ceduo_node_scalar(&d->file.arena, item->source, text.bytes, true);
+        ceduo_text_free(&text);
+        if (!taken)
+            return scalar ? ceduo_node_with(&d->file.arena, item, "name", scalar) : NULL;
+    }
+    return NULL;
+}
+
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    if (!holder || holder->kind != NODE_LIST || index >= holder->n)
+        return commit(d, NULL, list, problems);
+    const struct node *item = holder->items[index];
+    if (strcmp(list, "options") == 0)
+        item = with_new_name(d, holder, item);
+    return item && insert_node(d, list, index + 1, item, problems);
+}
+
+bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to, struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    if (!holder || holder->kind != NODE_LIST || from >= holder->n || to >= holder->n || from == to)
+        return true;
+    const struct node *less = ceduo_node_removed(&d->file.arena, holder, from);
+    const struct node *moved = less ? ceduo_node_inserted(&d->file.arena, less, to, holder->items[from]) : NULL;
+    return commit(d, moved ? put(d, d->file.root, list, moved, problems) : NULL, list, problems);
+}
+
+/* ---- undo ---- */
+
+static bool go_to(struct document *d, size_t state)
+{
+    struct problems problems = {0};
+    bool good = adopt(d, d->states[state].root, &problems);
+    if (good)
+        d->at = state;
+    ceduo_problems_free(&problems);
+    if (ceduo_document_unsaved(d))
+        ceduo_document_keep(d);
+    else
+        ceduo_document_forget(d);
+    return good;
+}
+
+bool ceduo_document_undo(struct document *d)
+{
+    return d->at > 0 && go_to(d, d->at - 1);
+}
+
+bool ceduo_document_redo(struct document *d)
+{
+    return d->at + 1 < d->count && go_to(d, d->at + 1);
+}
+
+bool ceduo_document_unsaved(const struct document *d)
+{
+    return d->count > 0 && d->at != d->saved;
+}
+
+/* ---- saving ---- */
+
+static bool fill_text(struct document *d, struct text *text, bool *laid_out_anew)
+{
+    const struct node *root = ceduo_emit_unresolve(&d->file.arena, d->file.root);
+    *laid_out_anew = false;
+    if (!root)
+        return false;
+    if (d->raw && ceduo_emit_patched(text, d->raw->source, d->raw, root))
+        return true;
+    *laid_out_anew = d->raw != NULL;
+    ceduo_emit(text, root);
+    return !text->failed;
+}
+
+void ceduo_document_text(struct document *d, struct text *text)
+{
+    bool anew;
+    if (!fill_text(d, text, &anew))
+        text->failed = true;
+}
+
+bool ceduo_document_changed_on_disk(const struct document *d)
+{
+    struct stat st;
+    if (!d->path || d->modified.tv_sec == 0)
+        return false;
+    if (stat(d->path, &st) != 0)
+        return errno == ENOENT;
+    return st.st_size != d->size || st.st_mtim.tv_sec != d->modified.tv_sec ||
+           st.st_mtim.tv_nsec != d->modified.tv_nsec;
+}
+
+static bool keep_backup(const struct document *d, const char *path)
+{
+    struct text backup = {0};
+    ceduo_text_format(&backup, "%s.bak", path);
+    bool good = !backup.failed && ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length);
+    ceduo_text_free(&backup);
+    return good;
+}
+
+bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
+{
+    struct text text = {0};
+    bool good = fill_text(d, &text, laid_out_anew);
+    if (!good)
+        errno = ENOMEM;
+    bool same = d->path && strcmp(path, d->path) == 0;
+    if (good && *laid_out_anew && same)
+        good = keep_backup(d, path);
+    good = good && ceduo_file_write(path, text.bytes, text.length);
+    int why = errno;
+    if (good) {
+        /* from now on this text is what lies on disk */
+        struct problems problems = {0};
+        char *copy = strdup(path);
+        const struct node *raw = parse(d, path, text.bytes, &problems);
+        if (raw && copy) {
+            free(d->path);
+            d->path = copy;
+            d->raw = raw;
+                    d->shipped = false;
+        } else {
+            free(copy);
+        }
+        ceduo_problems_free(&problems);
+        d->saved = d->at;
+        note_disk(d);
+        ceduo_document_forget(d);
+    }
+    ceduo_text_free(&text);
+    errno = why;
+    return good;
+}
+
+/* ---- recovery ---- */
+
+void ceduo_document_keep(struct document *d)
+{
+    struct text text = {0};
+    if (!d->recovery)
+        return;
+    ceduo_document_text(d, &text);
+    if (!text.failed && text.bytes)
+        ceduo_recovery_write(d->recovery, d->path, text.bytes, text.length);
+    ceduo_text_free(&text);
+}
+
+void ceduo_document_forget(struct document *d)
+{
+    if (d->recovery)
+        unlink(d->recovery);
+}
+
+char *ceduo_document_left_behind(const char *path)
+{
+    return ceduo_recovery_find(path);
+}
+
+bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)
+{
+    const struct node *root = parse(d, d->path ? d->path : "recovered", text, problems);
+    return root && commit(d, root, _("recovered work"), problems);
+}

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_DOCUMENT_H
+#define CEDUO_DOCUMENT_H
+
+#include <sys/types.h>
+#include <time.h>
+
+#include "io/scene_file.h"
+
+/* The document that a person edits: a scene, every state that it was in, and what is on disk. */
+
+#define DOCUMENT_HISTORY_BYTES ((size_t)64 * 1024 * 1024)
+
+/* One state of the document. Trees share what they have in common. */
+struct document_state {
+    const struct node *root;
+    const char *what; /* the edit that led here, for the undo line */
+};
+
+struct document {
+    struct scene_file file;      /* as it is now; always a scene that can be computed */
+    const struct node *raw;      /* the tree on disk, before references are followed; NULL for a new scene */
+    struct document_state *states;
+    size_t count, room, at;      /* states; the one shown */
+    size_t saved;                /* the one on disk; count + 1: none */
+    char *path;                  /* where it is saved; NULL: nowhere yet */
+    bool shipped;                /* the file belongs to the program: never written */
+    struct timespec modified;    /* of the file when it was read */
+    off_t size;
+    char *recovery;              /* path of the copy that survives a crash; NULL: none can be kept */
+};
+
+/* Opens a scene (as ceduo_scene_read()). False with the reason in `problems`. */
+bool ceduo_document_open(struct document *document, const char *path, struct problems *problems);
+
+/* A new scene from text that was never on disk; `path` may be NULL. */
+bool ceduo_document_new(struct document *document, const char *text, struct problems *problems);
+void ceduo_document_close(struct document *document);
+
+/* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set. */
+bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
+bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
+/* A copy of item `list[index]` after it, or a first item from `text` (YAML) where the list is empty or missing. */
+bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, struct problems *problems);
+bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
+                           struct problems *problems);
+bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to,
+                         struct problems *problems);
+/* Several changes as one state: PATH=VALUE each. */
+bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
+                            struct problems *problems);
+
+bool ceduo_document_undo(struct document *document);
+bool ceduo_document_redo(struct document *document);
+bool ceduo_document_unsaved(const struct document *document);
+
+/* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (a copy
+ * of the old file is then kept as PATH.bak). False with errno set. */
+bool ceduo_document_save(struct document *document, const char *path, bool *laid_out_anew);
+
+/* Whether the file on disk is no longer the one that was read. */
+bool ceduo_document_changed_on_disk(const struct document *document);
+
+/* The document as YAML text. */
+void ceduo_document_text(struct document *document, struct text *text);
+
+/* Recovery: a copy of unsaved work, kept while there is some. */
+void ceduo_document_keep(struct document *document);
+void ceduo_document_forget(struct document *document);
+/* Text of a copy left behind for `path` by a program that ended without saving; NULL: none. To be freed. */
+char *ceduo_document_left_behind(const char *path);
+/* Puts such a text in place, as one state that can be undone. */
+bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
+
+/* Node at a path, NULL where there is none. */
+const struct node *ceduo_document_node(const struct document *document, const char *path);
+
+#endif

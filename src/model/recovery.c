@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "recovery.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/file.h"
+
+/* Makes every folder of a path. */
+static bool make_folders(char *path)
+{
+    for (char *p = path + 1;; p++) {
+        if (*p != '/' && *p != '\0')
+            continue;
+        char c = *p;
+        *p = '\0';
+        bool good = mkdir(path, 0700) == 0 || errno == EEXIST;
+        *p = c;
+        if (!good || c == '\0')
+            return good;
+    }
+}
+
+static bool state_folder(struct text *folder)
+{
+    const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+    if (state && state[0] == '/')
+        ceduo_text_format(folder, "%s/ceduo", state);
+    else if (home && home[0] == '/')
+        ceduo_text_format(folder, "%s/.local/state/ceduo", home);
+    return !folder->failed && folder->bytes && make_folders(folder->bytes);
+}
+
+/* A number for a scene's place: FNV-1a of its whole path. */
+static uint64_t number_of(const char *path)
+{
+    char *real = path ? realpath(path, NULL) : NULL;
+    uint64_t h = 14695981039346656037u;
+    for (const char *p = real ? real : path ? path : ""; *p; p++)
+        h = (h ^ (unsigned char)*p) * 1099511628211u;
+    free(real);
+    return h;
+}
+
+char *ceduo_recovery_path(const char *path)
+{
+    struct text name = {0};
+    if (!state_folder(&name)) {
+        ceduo_text_free(&name);
+        return NULL;
+    }
+    ceduo_text_format(&name, "/%016llx-%ld.yaml", (unsigned long long)number_of(path), (long)getpid());
+    if (name.failed)
+        ceduo_text_free(&name);
+    return name.bytes;
+}
+
+bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n)
+{
+    struct text text = {0};
+    char *real = path ? realpath(path, NULL) : NULL;
+    ceduo_text_format(&text, "# unsaved work on ");
+    ceduo_text_safe(&text, real ? real : "a new scene");
+    ceduo_text_char(&text, '\n');
+    ceduo_text_add(&text, bytes, n);
+    bool good = !text.failed && ceduo_file_write(recovery, text.bytes, text.length);
+    free(real);
+    ceduo_text_free(&text);
+    return good;
+}
+
+static char *read_and_remove(const char *path)
+{
+    struct arena arena = {0};
+    struct problems problems = {0};
+    const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
+    char *copy = source ? strdup(source->bytes) : NULL;
+    if (copy)
+        unlink(path);
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+    return copy;
+}
+
+char *ceduo_recovery_find(const char *path)
+{
+    struct text folder = {0};
+    char *found = NULL;
+    DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
+    for (struct dirent *e; dir && !found && (e = readdir(dir));) {
+        unsigned long long number;
+        long process;
+        if (sscanf(e->d_name, "%16llx-%ld.yaml", &number, &process) != 2 || number != number_of(path))
+            continue;
+        if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM)
+            continue; /* its program still runs */
+        struct text name = {0};
+        ceduo_text_format(&name, "%s/%s", folder.bytes, e->d_name);
+        found = name.bytes ? read_and_remove(name.bytes) : NULL;
+        ceduo_text_free(&name);
+    }
+    if (dir)
+        closedir(dir);
+    ceduo_text_free(&folder);
+    return found;
+}

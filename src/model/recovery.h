@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RECOVERY_H
+#define CEDUO_RECOVERY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Copies of unsaved work in the user's state folder ($XDG_STATE_HOME/ceduo, ~/.local/state/ceduo): one for each process
+ * and scene, the process in the name, so that one left behind by a program that is gone is known. */
+
+/* Where this process keeps its copy for a scene; path NULL: a scene without a file. NULL where there is no folder. To
+ * be freed. */
+char *ceduo_recovery_path(const char *path);
+
+/* Writes it, the scene's path in a first comment line. */
+bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n);
+
+/* Text of a copy for `path` whose process has ended; it is taken off the disk. NULL: none. To be freed. */
+char *ceduo_recovery_find(const char *path);
+
+#endif

@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the command-line tests share: running the program, scenes to run it on, TAP lines.
+
+The program is the one that the environment's CEDUO names, or ./ceduo of this source tree.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+
+ROOT = Path(__file__).resolve().parents[2]
+PROFILES = ROOT / "profiles"
+CEDUO = str(Path(os.environ.get("CEDUO") or ROOT / "ceduo").resolve())
+
+DONE, RUN, USAGE, INPUT, OUTPUT = range(5)  # exit statuses
+
+
+class Failure(AssertionError):
+    """An expectation that was not met; its text becomes the '# detail' lines."""
+
+
+class Skip(Exception):
+    """This machine lacks what the test needs."""
+
+
+def expect(condition, *details):
+    if not condition:
+        raise Failure("\n".join(str(d) for d in details))
+
+
+def expect_equal(found, wanted, what=""):
+    expect(found == wanted, f"{what}: found {found!r}, wanted {wanted!r}")
+
+
+def expect_near(found, wanted, tolerance, what=""):
+    expect(found is not None and abs(found - wanted) <= tolerance,
+           f"{what}: found {found!r}, wanted {wanted!r} within {tolerance!r}")
+
+
+def expect_in(part, whole, what=""):
+    expect(part in whole, f"{what}: {part!r} is missing in:", whole)
+
+
+# ---- running the program ----
+
+class Result:
+    def __init__(self, arguments, status, out, err, seconds):
+        self.arguments, self.status, self.seconds = arguments, status, seconds
+        self.out_bytes, self.err_bytes = out, err
+        self.out = out.decode("utf-8", "replace")
+        self.err = err.decode("utf-8", "replace")
+
+    def __str__(self):
+        return (f"ceduo {' '.join(map(str, self.arguments))}\nstatus {self.status} after {self.seconds:.2f} s\n"
+                f"stdout: {self.out[:2000]}\nstderr: {self.err[:2000]}")
+
+    def json(self):
+        return [json.loads(line, parse_constant=no_constant) for line in self.out.splitlines()]
+
+
+def no_constant(word):
+    raise Failure(f"{word} in JSON")
+
+
+def environment(**changes):
+    """That of the caller without what would change the output; None takes a variable out."""
+    env = dict(os.environ)
+    for name in list(env):
+        if name.startswith("LC_") or name in ("LANG", "LANGUAGE", "NO_COLOR", "XDG_DATA_HOME", "XDG_DATA_DIRS"):
+            del env[name]
+    env.update({"LC_ALL": "C.UTF-8", "TERM": "xterm-256color", "HOME": "/nonexistent"})
+    for name, value in changes.items():
+        if value is None:
+            env.pop(name, None)
+        else:
+            env[name] = value
+    return env
+
+
+def only_text(data, what):
+    """No control characters but line ends: no escape sequence can hide in it."""
+    bad = sorted({b for b in data if b < 0x20 and b != 0x0a} | ({0x7f} if 0x7f in data else set()))
+    expect(not bad, f"{what} holds control characters {bad}:", repr(data[:2000]))
+
+
+def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, timeout=30, **options):
+    """Runs the program to its end. A crash, a hang or a control character in its output is a failure everywhere."""
+    command = [CEDUO, *map(str, arguments)]
+    start = time.monotonic()
+    try:
+        done = subprocess.run(command, input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=cwd,
+                              env=environment(**(env or {})), timeout=timeout, check=False, **options)
+    except subprocess.TimeoutExpired as late:
+        raise Failure(f"ceduo {' '.join(map(str, arguments))}", f"not ended after {timeout} s") from late
+    result = Result(arguments, done.returncode, done.stdout, done.stderr, time.monotonic() - start)
+    expect(0 <= result.status <= 4, result)
+    only_text(result.out_bytes, "stdout")
+    only_text(result.err_bytes, "stderr")
+    return result
+
+
+def good(*arguments, **options):
+    """Runs the program: status 0 and nothing on standard error."""
+    result = ceduo(*arguments, **options)
+    expect(result.status == DONE and result.err == "", result)
+    return result
+
+
+def results(*arguments, **options):
+    """The JSON of a good batch run, one object a scene."""
+    return good("--batch", "-f", "json", *arguments, **options).json()
+
+
+def result(*arguments, **options):
+    return results(*arguments, **options)[0]
+
+
+# ---- files ----
+
+class Folder:
+    """A temporary folder; `with Folder() as f:`."""
+
+    def __enter__(self):
+        self.path = Path(tempfile.mkdtemp(prefix="ceduo-test-"))
+        return self
+
+    def __exit__(self, *_):
+        shutil.rmtree(self.path, ignore_errors=True)
+
+    def write(self, name, content):
+        path = self.path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if isinstance(content, dict):
+            content = json.dumps(content)  # flow YAML is a superset of it
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return path
+
+    def profiles(self):
+        """A copy of the shipped profiles, to be changed."""
+        shutil.copytree(PROFILES, self.path / "profiles")
+        return self.path / "profiles"
+
+    def names(self):
+        return sorted(p.name for p in self.path.iterdir())
+
+
+def scene(**changes):
+    """A small scene as a mapping: a straight slope of 100 m whose rocks all come down."""
+    mapping = {
+        "ceduo": "scene/1",
+        "title": "small",
+        "rock": {"shape": "sphere", "diameter_m": 0.5},
+        "release": {"vx_m_s": 1},
+        "slope": {"vertices_m": [[0, 64], [100, 0]],
+                  "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.125, "friction": 0.5}]},
+        "controls": [{"x_m": 75}],
+        "simulation": {"rocks": 200},
+    }
+    mapping.update(changes)
+    return {key: value for key, value in mapping.items() if value is not None}
+
+
+def stand(**changes):
+    mapping = {"name": "coppice", "species": "ostrya-carpinifolia",
+               "stools": {"per_ha": 2000, "spacing_m": 0.25},
+               "shoots": [{"per_ha": 5000, "dbh_m": 0.0625, "height_m": 6, "volume_m3": 0.01}],
+               "trees": [{"per_ha": 100, "dbh_m": 0.25, "height_m": 12, "volume_m3": 0.3}],
+               "energy": {"model": "brauner", "u_J_m3": 100000}}
+    mapping.update(changes)
+    return {key: value for key, value in mapping.items() if value is not None}
+
+
+# ---- TAP ----
+
+class Suite:
+    def __init__(self):
+        self.count = self.failed = 0
+        self.start = time.monotonic()
+
+    def check(self, name, function, *arguments):
+        self.count += 1
+        details, word, note = "", "ok", ""
+        try:
+            function(*arguments)
+        except Skip as skip:
+            note = f" # SKIP {skip}"
+        except Failure as failure:
+            word, details = "not ok", str(failure)
+        except Exception:  # a broken test must not hide those after it
+            word, details = "not ok", traceback.format_exc()
+        self.failed += word != "ok"
+        print(f"{word} {self.count} - {name.replace('#', '')}{note}", flush=True)
+        for line in details.splitlines()[:60]:
+            print("#", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line))
+
+    def run(self, functions):
+        """Each function is a test; its name is the first line of its docstring."""
+        for function in functions:
+            self.check(function.__doc__.strip().splitlines()[0].rstrip("."), function)
+
+    def end(self):
+        print(f"1..{self.count}")
+        print(f"# {self.count - self.failed} of {self.count} passed in {time.monotonic() - self.start:.1f} s")
+        sys.exit(1 if self.failed else 0)
+
+
+def tests_of(module):
+    """The functions test_… of a module in the order of their source."""
+    found = [f for name, f in vars(module).items() if name.startswith("test_") and callable(f)]
+    return sorted(found, key=lambda f: f.__code__.co_firstlineno)

@@ -1,0 +1,1288 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What ceduo --batch prints and how it ends: table, CSV, JSON, options, files, streams, signals."""
+import csv
+import io
+import math
+import os
+import pty
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, ceduo,
+                     environment, expect, expect_equal, expect_in, expect_near, good, only_text, result, results,
+                     scene, stand, tests_of)
+
+PAPER = PROFILES / "scenes" / "paper-site.yaml"
+FOUR = PROFILES / "scenes" / "four-systems.yaml"
+
+# ---- the JSON of a run ----
+
+NUMBER, MAYBE, TEXT, TEXT_OR_NULL, FLAG, FLAG_OR_NULL, COUNT, NULL, LIGHT = (
+    "number", "number or null", "text", "text or null", "flag", "flag or null", "count", "null", "light")
+SPREAD = {k: MAYBE for k in ("mean", "se", "sd", "p50", "p95", "p95_lo", "p95_hi", "p99", "max")}
+PAIR = {"mean": MAYBE, "se": MAYBE}
+ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
+            "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
+            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR}
+INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
+CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": NULL,
+           "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT}}
+STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
+         "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
+         "adc": {"rule": TEXT_OR_NULL, "adc_m": MAYBE, "gsteiger_stools_m": MAYBE, "gsteiger_stems_m": MAYBE,
+                 "interception_m": MAYBE, "crofton_m": MAYBE},
+         "passes_threshold": FLAG, "free_run_probability": NUMBER, "contacts": NUMBER, "energy_per_contact_J": MAYBE,
+         "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": NUMBER, "warnings": [TEXT]}
+SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contacts": NUMBER,
+           "meet_nothing_probability": NUMBER, "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": MAYBE,
+           "passes_threshold": FLAG}
+STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
+RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed": COUNT, "rocks": COUNT, "law": TEXT,
+          "rock": {"mass_kg": NUMBER, "mean_diameter_m": NUMBER, "moment_kg_m2": NUMBER}, "threshold_m": NUMBER,
+          "warnings": [TEXT],
+          "options": [{"name": TEXT, "stands": [STAND], "summary": SUMMARY, "controls": [CONTROL],
+                       "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
+                                "unfinished": COUNT},
+                       "stop_x_m": STOPS}],
+          "differences": [],
+          "work": {"rocks_flown": COUNT, "contacts": COUNT, "stems_drawn": COUNT, "runs": COUNT, "runs_reused": COUNT,
+                   "seconds": NUMBER}}
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+KINDS = {NUMBER: is_number, MAYBE: lambda v: v is None or is_number(v),
+         TEXT: lambda v: isinstance(v, str), TEXT_OR_NULL: lambda v: v is None or isinstance(v, str),
+         FLAG: lambda v: isinstance(v, bool), FLAG_OR_NULL: lambda v: v is None or isinstance(v, bool),
+         COUNT: lambda v: isinstance(v, int) and not isinstance(v, bool) and v >= 0, NULL: lambda v: v is None,
+         LIGHT: lambda v: v in ("pass", "fail", "unknown")}
+
+
+def expect_shape(value, shape, path="$"):
+    """Exactly the keys and types of a shape."""
+    if isinstance(shape, str):
+        expect(KINDS[shape](value), f"{path}: {value!r} is no {shape}")
+    elif isinstance(shape, list):
+        expect(isinstance(value, list), f"{path}: {value!r} is no list")
+        expect(shape or not value, f"{path}: {value!r} is not empty")
+        for i, item in enumerate(value):
+            expect_shape(item, shape[0], f"{path}[{i}]")
+    elif shape is STOPS and value is None:
+        return
+    else:
+        expect(isinstance(value, dict), f"{path}: {value!r} is no object")
+        allowed = set(shape) | ({"measured_kJ"} if shape is INDEX else set())
+        expect(set(shape) <= set(value) <= allowed,
+               f"{path}: missing {sorted(set(shape) - set(value))}, too many {sorted(set(value) - allowed)}")
+        for key in shape:
+            expect_shape(value[key], shape[key], f"{path}.{key}")
+
+
+def wilson(k, n):
+    z = 1.959963984540054
+    middle, half = k / n + z * z / (2 * n), z * math.sqrt(k / n * (1 - k / n) / n + z * z / (4 * n * n))
+    return (middle - half) / (1 + z * z / n), (middle + half) / (1 + z * z / n)
+
+
+def without_seconds(text):
+    return re.sub(r'"seconds": [^}]*', "", text)
+
+
+def test_json_shape():
+    """JSON of the paper's site has exactly the promised keys and types"""
+    done = good("--batch", "-f", "json", PAPER)
+    expect(done.out.count("\n") == 1 and done.out.endswith("\n"), "one line a scene", done)
+    run = done.json()[0]
+    expect_shape(run, RESULT)
+    expect_equal(run["format"], "ceduo-result-1")
+    expect_equal(run["scene"], str(PAPER))
+    expect_equal((run["title"], run["seed"], run["rocks"], run["law"], run["threshold_m"]),
+                 ("Test site of Ciabocco et al. 2009", 1, 999, "lumped", 30))
+    control = run["options"][0]["controls"][0]
+    expect_equal((control["x_m"], control["name"], control["accepted_kJ"]), (135, "end of the forest", 50))
+    expect_equal(control["lights"], {"contact": "pass", "free_run": "pass", "energy": "unknown"})
+    expect("measured_kJ" in control["index"], control["index"])
+    expect_equal([s["name"] for s in run["options"][0]["stands"]], ["ADS 1", "ADS 2"])
+
+
+def test_json_shape_everywhere():
+    """JSON keeps its shape on every shipped scene, and without measured speed there is no measured_kJ"""
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        run = result(path, "-n", 50)
+        expect_shape(run, RESULT)
+    run = result(FOUR, "-n", 50)
+    expect_equal(len(run["options"]), 8)
+    expect(all("measured_kJ" not in c["index"] for o in run["options"] for c in o["controls"]), "measured_kJ")
+    expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (1, 50))
+
+
+def test_json_numbers_shortest():
+    """JSON numbers are the shortest that read back"""
+    text = good("--batch", "-f", "json", PAPER).out
+    for word in re.findall(r"[:\[] (-?[0-9][^,}\]]*)", text):
+        digits = len(re.sub(r"e.*|[^0-9]", "", word).strip("0"))
+        expect(digits <= len(re.sub(r"e.*|[^0-9]", "", repr(float(word))).strip("0")),
+               f"{word} is longer than {float(word)!r}")
+
+
+def test_golden_rock():
+    """Rock of the paper's site: 512.3058 kg, 0.68 m, k = 1/2 (Ciabocco, Boccia and Ripa 2009, Table 2)"""
+    rock = result(PAPER, "-n", 1)["rock"]
+    expect_near(rock["mass_kg"], 512.3058, 5e-5, "mass_kg")
+    expect_near(rock["mean_diameter_m"], 0.68, 1e-12, "mean_diameter_m")
+    expect_near(rock["moment_kg_m2"], 0.5 * rock["mass_kg"] * 0.34 ** 2, 1e-9, "moment_kg_m2")
+
+
+def test_golden_adc():
+    """ADC of both plots by four forms (Ciabocco, Boccia and Ripa 2009, Eq. 1 and 6)"""
+    first, second = result(PAPER, "-n", 1)["options"][0]["stands"]
+    for found, wanted in ((first, (3.0408464743513717, 1.4869189789743706, 1.9483462242414016, 2.16747)),
+                          (second, (4.1072434112628, 2.9638349890797495, 2.6053723298516003, 3.51373))):
+        adc = found["adc"]
+        expect_equal(adc["rule"], "interception")
+        expect_equal(adc["adc_m"], adc["interception_m"])
+        for key, value in zip(("gsteiger_stools_m", "gsteiger_stems_m", "interception_m"), wanted):
+            expect_near(adc[key], value, 1e-12 * value, f"{found['name']} {key}")
+        expect_near(adc["crofton_m"], wanted[3], 5e-6, f"{found['name']} crofton_m")
+        expect(found["passes_threshold"] is True, found)
+        expect_near(found["free_run_probability"], math.exp(-30 / adc["crofton_m"]), 1e-12, "free run")
+        expect_near(found["contacts"], 67.5 / adc["adc_m"], 1e-9, "contacts (Eq. 2)")
+
+
+def test_golden_plots():
+    """Stems and basal areas of both plots (Ciabocco, Boccia and Ripa 2009, Table 1: 26.52 and 8.05 m2/ha)"""
+    first, second = result(PAPER, "-n", 1)["options"][0]["stands"]
+    expect_equal([(s["stems_per_ha"], s["stools_per_ha"], s["trees_per_ha"], s["length_m"]) for s in (first, second)],
+                 [(9076, 3688, 750, 67.5), (4641, 2807, 542, 67.5)])
+    expect_near(first["basal_area_m2_ha"], 9076 * math.pi * 0.061 ** 2 / 4, 1e-9, "ADS 1")
+    expect_near(second["basal_area_m2_ha"], 4641 * math.pi * 0.047 ** 2 / 4, 1e-9, "ADS 2")
+    expect_near(first["basal_area_m2_ha"], 26.52, 0.005, "ADS 1")
+    expect_near(second["basal_area_m2_ha"], 8.05, 0.005, "ADS 2")
+    expect_equal(first["warnings"], [])
+    expect(len(second["warnings"]) == 1 and "Eq. 6" in second["warnings"][0], second["warnings"])
+
+
+def test_golden_energy():
+    """Energy taken: 34.3844, 53.8216, 63.7469 kJ, 39.87 kJ per 100 m (Ciabocco, Boccia and Ripa 2009, Eq. 3 and 4)"""
+    for rule, wanted in (("auto", 53.8216), ("interception", 53.8216), ("gsteiger-stools", 34.3844),
+                         ("gsteiger-stems", 63.7469)):
+        option = result(PAPER, "-n", 1, "-s", f"simulation.rule={rule}")["options"][0]
+        expect_near(option["summary"]["dissipated_kJ"], wanted, 5e-5, rule)
+        expect_near(sum(s["dissipated_kJ"] for s in option["stands"]), wanted, 5e-5, rule)
+        expect_equal(option["controls"][0]["index"]["dissipated_kJ"], option["summary"]["dissipated_kJ"], rule)
+    option = result(PAPER, "-n", 1)["options"][0]
+    expect_near(option["summary"]["dissipated_kJ_per_100m"], 39.87, 0.005, "per 100 m")
+    expect_near(option["stands"][0]["energy_per_contact_J"], 0.0107 * 102800, 1e-9, "V U")
+    expect_near(option["stands"][1]["energy_per_contact_J"], 0.0059 * 102800, 1e-9, "V U")
+    expect_equal((option["summary"]["length_m"], option["summary"]["longest_gap_m"]), (135, 0))
+    expect_near(option["summary"]["adc_m"], 135 / option["summary"]["contacts"], 1e-12, "adc_m")
+
+
+def test_golden_residual():
+    """Residual energy beside the measured 62.337 kJ (Ciabocco, Boccia and Ripa 2009, Eq. 5)"""
+    control = result(PAPER)["options"][0]["controls"][0]
+    index, bare = control["index"], control["bare"]
+    expect_near(index["measured_kJ"], 62.337, 5e-4, "measured_kJ")
+    expect_near(index["residual_kJ"], bare["energy_kJ"]["mean"] - index["dissipated_kJ"], 1e-9, "residual_kJ")
+    expect(index["exhausted"] is False, index)
+    control = result(PAPER, "-s", "controls[0].x_m=14")["options"][0]["controls"][0]
+    more = result(PAPER, "-s", "controls[0].x_m=14", "-s", "forest[0].stand.shoots[0].volume_m3=1")
+    index = more["options"][0]["controls"][0]["index"]
+    expect_equal((index["residual_kJ"], index["exhausted"]), (0, True), "used up")
+
+
+def test_golden_reserves():
+    """60 reserves stand 189.39 m apart, 379 pass 30 m and 378 fail (Ciabocco, Boccia and Ripa 2009, section 4.2)"""
+    for per_ha, light in ((60, "fail"), (378, "fail"), (379, "pass")):
+        run = result(FOUR, "-n", 1, "--option", "simple coppice, just cut", "-s",
+                     f"options[simple coppice, just cut].forest[0].stand.trees[0].per_ha={per_ha}")
+        option = run["options"][0]
+        expect_equal(option["controls"][0]["lights"]["contact"], light, f"{per_ha} a hectare")
+        expect_equal(option["stands"][0]["passes_threshold"], light == "pass", f"{per_ha} a hectare")
+        if per_ha == 60:
+            expect_near(option["stands"][0]["adc"]["adc_m"], 189.394, 5e-4, "ADC")
+            expect_equal(option["stands"][0]["adc"]["rule"], "gsteiger-stems")
+
+
+def test_golden_speed():
+    """Mean speed without forest beside the paper's Table 5 (Ciabocco, Boccia and Ripa 2009), 10^5 rocks"""
+    bare = result(PAPER, "-n", 100000)["options"][0]["controls"][0]["bare"]
+    speed, energy = bare["speed_m_s"], bare["energy_kJ"]
+    expect_near(speed["mean"], 20.612, 4 * math.hypot(speed["se"], 0.005), "mean speed")
+    expect_near(speed["sd"], 4.78, 0.05, "sd")
+    expect_near(energy["mean"], 114.69, 4 * math.hypot(energy["se"], 0.05), "mean energy")
+    expect_near(bare["reach_probability"], 0.9913, 0.002, "reach")
+    expect_equal(bare["energy_kJ"], bare["translation_kJ"], "the law lumped knows no spin")
+
+
+def test_statistics():
+    """Intervals are Wilson's, percentiles rise, means over the released and over those that reached agree"""
+    for law in ("lumped", "crsp"):
+        run = result(PAPER, "-s", f"simulation.law={law}", "-s", "controls[0].x_m=60")
+        bare, n = run["options"][0]["controls"][0]["bare"], run["rocks"]
+        expect_equal(bare["reach_probability"], bare["rocks_reached"] / n, "reach_probability")
+        for key, value in zip(("reach_lo", "reach_hi"), wilson(bare["rocks_reached"], n)):
+            expect_near(bare[key], value, 1e-12, key)
+        exceeded = round(bare["exceed_probability"] * n)
+        for key, value in zip(("exceed_lo", "exceed_hi"), wilson(exceeded, n)):
+            expect_near(bare[key], value, 1e-12, key)
+        for name in ("speed_m_s", "energy_kJ", "translation_kJ", "height_m"):
+            d = bare[name]
+            expect(d["p50"] <= d["p95_lo"] <= d["p95"] <= d["p95_hi"] <= d["max"] and d["p95"] <= d["p99"] <= d["max"],
+                   name, d)
+            expect_near(d["se"], d["sd"] / math.sqrt(bare["rocks_reached"]), 1e-12 + 1e-9 * d["sd"], f"{name}.se")
+        expect_near(bare["energy_per_released_kJ"]["mean"], bare["energy_kJ"]["mean"] * bare["reach_probability"], 1e-9,
+                    "energy_per_released_kJ")
+        expect((law == "lumped") == (bare["energy_kJ"] == bare["translation_kJ"]), "rotation", bare)
+        ends = run["options"][0]["ends"]
+        expect_near(ends["stopped_by_stems"] + ends["came_to_rest"] + ends["left_slope"], 1, 1e-12, "ends")
+
+
+# ---- CSV ----
+
+def flat(prefix, shape):
+    """Names of the cells of an object."""
+    names = []
+    for key, inner in shape.items():
+        names += flat(f"{prefix}{key}.", inner) if isinstance(inner, dict) else [prefix + key]
+    return names
+
+
+SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
+               "threshold_m", "option"]
+CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
+                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", ARRIVALS) +
+                 ["wooded.contacts.mean", "wooded.contacts.se", "lights.contact", "lights.free_run", "lights.energy",
+                  "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
+                 flat("stop_x_m.", STOPS) +
+                 flat("difference.", {k: PAIR for k in ("reach_probability", "exceed_probability",
+                                                        "energy_per_released_kJ")}) + ["warnings"])
+STAND_CELLS = SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"]
+
+
+def read_csv(text):
+    rows = list(csv.reader(io.StringIO(text), strict=True))
+    expect(all(len(row) == len(rows[0]) for row in rows), "rows of different length", [len(r) for r in rows])
+    return rows[0], [dict(zip(rows[0], row)) for row in rows[1:]]
+
+
+def look_up(mapping, name):
+    for key in name.split("."):
+        if mapping is None:
+            return None
+        mapping = mapping.get(key)
+    return mapping
+
+
+def expect_cell(cell, value, name):
+    if value is None:
+        expect_equal(cell, "", name)
+    elif isinstance(value, bool):
+        expect_equal(cell, "true" if value else "false", name)
+    elif isinstance(value, str):
+        expect_equal(cell, value, name)
+    else:
+        expect(cell != "" and float(cell) == value, f"{name}: found {cell!r}, wanted {value!r}")
+
+
+def expect_rows(rows, runs, inner):
+    """CSV rows hold what the JSON of the same runs holds. inner: 'controls' or 'stands'."""
+    wanted = [(run, option, item) for run in runs for option in run["options"] for item in option[inner]]
+    expect_equal(len(rows), len(wanted), "rows")
+    for row, (run, option, item) in zip(rows, wanted):
+        for name, cell in row.items():
+            if name == "option":
+                value = option["name"]
+            elif name == "warnings":
+                stands = option["stands"] if inner == "controls" else [item]
+                value = "; ".join((run["warnings"] if inner == "controls" else []) +
+                                  [w for s in stands for w in s["warnings"]])
+            elif name in SCENE_CELLS:
+                value = look_up(run, name)
+            elif name.split(".")[0] in ("summary", "ends", "stop_x_m"):
+                value = look_up(option, name)
+            else:
+                value = look_up(item, name)
+            expect_cell(cell, value, f"{option['name']} {name}")
+
+
+def test_csv_controls():
+    """CSV: one header, a row each scene, option and control, values equal to JSON's"""
+    more = ["-s", "controls=[{x_m: 40, name: 'a \"b\", c'}, {x_m: 152, accepted_kJ: 50}]", "-n", "300"]
+    header, rows = read_csv(good("--batch", "-f", "csv", PAPER, FOUR, *more).out)
+    expect_equal(header, CONTROL_CELLS)
+    expect_equal(len(rows), 2 + 8 * 2)
+    expect_rows(rows, results(PAPER, FOUR, *more), "controls")
+    header, rows = read_csv(good("--batch", "-f", "csv", PAPER).out)
+    expect_rows(rows, results(PAPER), "controls")
+    expect(float(rows[0]["index.measured_kJ"]) > 62.33, rows[0]["index.measured_kJ"])
+    expect(all(cell == "" for name, cell in rows[0].items() if name.startswith(("wooded.", "difference."))), rows[0])
+    expect_in("Eq. 6", rows[0]["warnings"], "warnings")
+
+
+def test_csv_stands():
+    """CSV --rows stands: a row a stand, values equal to JSON's"""
+    header, rows = read_csv(good("--batch", "-f", "csv", "--rows", "stands", PAPER, FOUR, "-n", "10").out)
+    expect_equal(sorted(header), sorted(STAND_CELLS))
+    expect_equal(len(rows), 2 + 8)
+    expect_rows(rows, results(PAPER, FOUR, "-n", "10"), "stands")
+    expect_equal(good("--batch", "-f", "csv", "--rows", "controls", PAPER).out,
+                 good("--batch", "-f", "csv", PAPER).out, "--rows controls is the default")
+
+
+# ---- the table ----
+
+def expect_order(text, *parts):
+    """The parts stand in the text in this order. Runs of blanks count as one."""
+    plain, at = re.sub(r"\s+", " ", text), 0
+    for part in parts:
+        found = re.search(part, plain[at:])
+        expect(found, f"/{part}/ is missing, or stands too early, in:", text)
+        at += found.end()
+
+
+def expect_width(text):
+    long = [line for line in text.splitlines() if len(line) > 80]
+    expect(not long, "lines of more than 80 columns:", *[f"{len(line)}: {line}" for line in long])
+
+
+def test_table_order():
+    """Table of the paper's site: statements in their order, labelled without forest, verdicts in words"""
+    text = good("--batch", PAPER).out
+    expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m",
+                 "(?i)without forest, of 1000 rocks released: 992", "reach", "896", "more than it bears",
+                 "(?i)without forest, energy", "mean 113.2", "kJ", "ADS 1", "1.95 yes", "ADS 2", "2.61 yes",
+                 "interception", "gsteiger-stools 3.04 m", "gsteiger-stems 1.49 m", "crofton 2.17 m",
+                 "Contact: passes", "30 m", "Free run: passes", "53.8 kJ", "39.9 kJ per 100 m \\(interception\\)",
+                 "Eq. 5", "59.4 kJ", "62.3 kJ", "(?i)one rock", "Eq. 6 gives 2.61 m", "Assumed")
+    expect_in("*", text, "mark of the assumed")
+    expect_in("bears 50 kJ*", text, "mark of the assumed accepted energy")
+    expect_width(text)
+
+
+def test_table_width():
+    """Tables of all shipped scenes and of long names stay within 80 columns"""
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        for law in ("lumped", "crsp"):
+            expect_width(good("--batch", "-n", 200, "-s", f"simulation.law={law}", path).out)
+    words = "a very long name that says all there is to say about it and then a little more, so that it must be cut "
+    text = good("--batch", "-n", 50, FOUR, "-s", f"title={words * 2}", "-s", f"options[0].name={words * 2}", "-s",
+                f"controls[0].name={words}", "-s", f"options[1].forest[0].stand.name={words}", "-s",
+                "simulation.threshold_m=12.345").out
+    expect_width(text)
+
+
+def test_table_width_survey():
+    """Table in survey coordinates stays within 80 columns"""
+    far = scene(slope={"vertices_m": [[480000, 64], [480100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]},
+                release={"vx_m_s": 1}, controls=[{"x_m": 480075.125, "accepted_kJ": 20, "name": "road"}],
+                forest=[{"from_m": 480010.125, "to_m": 480070.375, "stand": stand(name="an old coppice of hornbeam")}])
+    with Folder() as f:
+        expect_width(good("--batch", f.write("far.yaml", far)).out)
+
+
+def test_table_options():
+    """Table of the four systems: each option, then side by side, what does not separate them said, no winner named"""
+    text = good("--batch", "-n", 500, FOUR).out
+    names = [o["name"] for o in result(FOUR, "-n", 1)["options"]]
+    expect_order(text, *[re.escape(n) for n in names], "(?i)side by side", *[re.escape(n) for n in names],
+                 "(?i)does not separate")
+    side = text[text.lower().index("side by side"):]
+    for name, word in (("simple coppice, just cut", "FAILS"), ("simple coppice, 25 years", "passes"),
+                       ("large reserves, just cut", "FAILS")):
+        row = next(line for line in side.splitlines() if line.strip().startswith(name))
+        expect_in(word, row, name)
+    expect(not re.search(r"(?i)\b(winner|best|recommended|worst option|rank)\b", text), "a winner is named:", text)
+    head = next(line for line in side.splitlines() if line.strip().startswith("option"))
+    expect(re.search(r"kJ/100 m +left kJ", head), "heads run into one another:", head)
+    same = good("--batch", "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out
+    expect_order(same, "(?i)all options pass the test of contact: it does not separate")
+
+
+def test_table_verdicts():
+    """Table says failed tests and used up energy in words, never 0 kJ left"""
+    text = good("--batch", PAPER, "-s", "forest[0].to_m=30", "-s", "forest[1].from_m=90").out
+    expect_order(text, "Contact: FAILS", "(?i)gap", "60 m")
+    text = good("--batch", PAPER, "-s", "forest[0].stand.shoots[0].volume_m3=1").out
+    expect_order(text, "(?i)used up on average", "(?i)some rocks still pass")
+    expect(not re.search(r"= 0(\.0*)? kJ", text), text)
+
+
+def test_table_assumed():
+    """Table marks what is assumed, and only that"""
+    with Folder() as f:
+        plain = scene(controls=[{"x_m": 75, "accepted_kJ": 50}])
+        text = good("--batch", f.write("plain.yaml", plain)).out
+        expect("*" not in text and "ssumed" not in text, text)
+        note = {"kind": "assumed", "text": "guessed by eye"}
+        marked = scene(rock={"diameter_m": 0.5, "source": note}, controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}],
+                       forest=[{"from_m": 10, "to_m": 60, "stand": stand(source=note)}])
+        text = good("--batch", f.write("marked.yaml", marked)).out
+        expect_order(text, r"Rock[^*]*m\*", r"50 kJ\*", r"coppice\*", r"\* Assumed", "guessed by eye")
+
+
+def test_table_talus():
+    """A bare CSV slope takes talus and says that it is assumed"""
+    with Folder() as f:
+        f.write("line.csv", "distance,elevation\n0,64\n50,30\n100,0\n")
+        path = f.write("csv.yaml", scene(slope="line.csv"))
+        expect_in("talus is assumed", good("--batch", path).out.replace("\n", " "), "table")
+        expect_in("talus", result(path)["warnings"][0], "JSON warnings")
+        mapping = f.write("map.yaml", scene(slope={"csv": "line.csv", "materials": [
+            {"from_m": 0, "to_m": 100, "material": "talus"}]}))
+        run, other = result(path), result(mapping)
+        expect_equal(other["warnings"], [])
+        expect_equal(run["options"], other["options"], "talus")
+
+
+# ---- overriding ----
+
+def test_set_rock_and_order():
+    """-s goes left to right and is checked like the file"""
+    expect_near(result(PAPER, "-n", 1, "-s", "rock.diameter_m=1")["rock"]["mean_diameter_m"], 0.9, 1e-12, "B")
+    run = result(PAPER, "-n", 1, "-s", "rock.diameter_m=1", "-s", "rock.diameter_m=0.56", "--seed", 7, "-s",
+                 "simulation.seed=8")
+    expect_equal((run["rock"]["mean_diameter_m"], run["seed"]), (0.68, 8))
+    expect_equal(result(PAPER, "-n", 1, "-s", "simulation.seed=8", "--seed", 7)["seed"], 7)
+    expect_equal(result(PAPER, "-s", "simulation.rocks=5")["rocks"], 5)
+    expect_equal(result(PAPER, "-s", "title='x: y'", "-n", 1)["title"], "x: y")
+    controls = result(PAPER, "-n", 1, "-s", "controls=[{x_m: 100}, {x_m: 20}]")["options"][0]["controls"]
+    expect_equal([c["x_m"] for c in controls], [100, 20], "controls in the order given")
+
+
+def test_set_through_files():
+    """-s goes through file references, by [i] and by [name], and changes that place only"""
+    def stools(*arguments):
+        return [[s["stools_per_ha"] for s in o["stands"]] for o in result(*arguments, "-n", 1)["options"]]
+    before = {p: p.read_bytes() for p in PROFILES.rglob("*.yaml")}
+    expect_equal(stools(PAPER, "-s", "forest[0].stand.stools.per_ha=2000"), [[2000, 2807]])
+    expect_equal(stools(PAPER, "-s", "forest[ADS 2].stand.stools.per_ha=2000"), [[3688, 2000]])
+    expect_equal(stools(PAPER, "-s", "forest[ADS 2].stand.stools.per_ha=2000", "-s",
+                        "forest[ADS 1].stand.stools.per_ha=1000"), [[1000, 2000]])
+    expect_equal(stools(PAPER, "-s", "forest[1].stand=../stands/ads-1.yaml"), [[3688, 3688]])
+    stands = result(PAPER, "-n", 1, "-s", "forest[0].stand.trees[0].per_ha=120")["options"][0]["stands"]
+    expect_equal([s["trees_per_ha"] for s in stands], [120, 542])
+    run = result(PROFILES / "scenes/selection-or-standards.yaml", "-n", 1, "-s",
+                 "options[standards, all just cut].forest[0].stand.trees[0].per_ha=333")
+    found = [[s["trees_per_ha"] for s in o["stands"]] for o in run["options"]]
+    expect(found[0][0] > 300 and found[1][0] < 300, "the second option starts from the same file", found)
+    expect_equal(before, {p: p.read_bytes() for p in PROFILES.rglob("*.yaml")}, "files")
+    speed = [result(PAPER, "-s", f"slope.segments[5].rn={rn}")["options"][0]["controls"][0]["bare"]["speed_m_s"]["mean"]
+             for rn in (0.31, 0.9)]
+    expect(speed[0] != speed[1] and speed[0] == result(PAPER)["options"][0]["controls"][0]["bare"]["speed_m_s"]["mean"],
+           speed)
+
+
+def test_set_spreads():
+    """-s makes a number a spread, whole or by its parts"""
+    whole = result(PAPER, "-s", "rock.diameter_m={mean: 0.56, spread: 0.1, kind: uniform}")
+    parts = result(PAPER, "-s", "rock.diameter_m.spread=0.1", "-s", "rock.diameter_m.kind=uniform")
+    expect_equal(whole["options"], parts["options"])
+    expect(whole["options"] != result(PAPER)["options"], "the spread changes nothing")
+    expect_near(whole["rock"]["mean_diameter_m"], 0.68, 1e-12, "rock holds the means")
+    expect_equal(result(PAPER, "-s", "rock.diameter_m.spread=0")["options"], result(PAPER)["options"], "spread 0")
+    for path in ("release.vx_m_s", "release.vz_m_s", "slope.segments[2].rn", "slope.segments[2].rt"):
+        expect(result(PAPER, "-s", f"{path}.spread=0.1")["options"] != result(PAPER)["options"], path)
+    expect_in("means", good("--batch", PAPER, "-s", "rock.diameter_m.spread=0.05").out, "table")
+
+
+def test_set_base():
+    """-s reaches into a stand that starts from another; mappings merge, lists are replaced"""
+    with Folder() as f:
+        f.write("base.yaml", stand(ceduo="stand/1", name="base"))
+        built = {"base": "base.yaml", "stools": {"per_ha": 1500}}
+        path = f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 60, "stand": built}]))
+        def one(*sets):
+            return result(path, "-n", 1, *[a for s in sets for a in ("-s", s)])["options"][0]["stands"][0]
+        expect_equal((one()["stools_per_ha"], one()["stems_per_ha"], one()["name"]), (1500, 5100, "base"))
+        expect_equal(one("forest[0].stand.stools.per_ha=1800")["stools_per_ha"], 1800)
+        expect_equal(one("forest[base].stand.shoots[0].per_ha=4000")["stems_per_ha"], 4100)
+        expect_equal(one("forest[0].stand.trees=[]")["trees_per_ha"], 0)
+
+
+BAD_SETS = [
+    ("rock.diameter_m=-1", "-1 is below 0 m"), ("rock.diameter_m=0", "0 is not above 0 m"),
+    ("rock.diametre_m=1", "unknown key"), ("nope=1", "unknown key"), ("rock.diameter_m", "PATH=VALUE"),
+    ("=1", "PATH=VALUE"), ("", "PATH=VALUE"), ("forest[9].to_m=1", "no such item"), ("forest[ADS 3].to_m=1", "no such item"),
+    ("forest[-1].to_m=1", "no such item"), ("forest[99999999999999999999].to_m=1", "no such item"),
+    ("rock..x=1", "malformed path"), ("forest[0=1", "malformed path"), ("forest[].to_m=1", "malformed path"),
+    (".rock=1", "malformed path"), ("rock[0]=1", "no list"), ("forest.to_m=1", "no mapping"),
+    ("rock.diameter_m=", "no value"), ("rock.diameter_m=abc", "'abc' is no number"), ("rock.diameter_m='1'", "in quotes"),
+    ("rock.diameter_m=1,5", "write a dot"), ("rock.diameter_m=nan", "'nan' is no number"),
+    ("rock.diameter_m=1e999", "too large"), ("rock={", "malformed YAML"), ("rock.diameter_m=*x", "alias"),
+    ("rock.diameter_m=&x 1", "anchor"), ("rock.diameter_m=!!int 1", "tag"), ("simulation.law=bounce", "unknown"),
+    ("simulation.contact_model=pinball", "unknown"), ("simulation.rocks=1.5", "whole number"),
+    ("controls[0].x_m=500", "beyond the slope"), ("release.x_m=-5", "beyond the slope"),
+    ("simulation.scale_rn=yes", "true or false"), ("title=[1]", "a text is wanted"), ("rock.diameter_m=\x1b[31m", "control"),
+    ("rock.\x1b[31m=1", "unknown key"),
+]
+
+
+def bad_set(value, words):
+    for mode in ("--batch", "--check"):
+        done = ceduo(mode, "-s", value, PAPER)
+        expect_equal(done.status, USAGE, value)
+        expect_equal(done.out, "")
+        expect_in(words, done.err, value)
+        expect_in("--set", done.err.splitlines()[0], value)
+        expect("paper-site.yaml" not in done.err.splitlines()[0], "the fault is not the file's", done)
+
+
+def test_set_place():
+    """-s shows its own text with a caret under the fault"""
+    done = ceduo("--batch", "-s", "rock.diameter_m=-1", PAPER)
+    expect_equal(done.err, "--set:1:17: rock.diameter_m: -1 is below 0 m\n  rock.diameter_m=-1\n" + " " * 18 + "^\n")
+
+
+# ---- rocks, seed, threads, tolerance, options ----
+
+def test_rocks_and_seed():
+    """-n and --seed: reported, the same seed gives the same bytes, another others; the first rocks stay the same"""
+    runs = [without_seconds(good("--batch", "-f", "json", "-n", 500, "--seed", s, PAPER).out) for s in (1, 1, 2)]
+    expect(runs[0] == runs[1] != runs[2], "seeds")
+    run = result("-n", 500, "--seed", 9007199254740992, PAPER)
+    expect_equal((run["rocks"], run["seed"], run["work"]["rocks_flown"]), (500, 9007199254740992, 500))
+    expect_equal(result("-n", 1, "--seed", 0, PAPER)["seed"], 0)
+
+
+def test_seed_beyond():
+    """--seed and simulation.seed beyond 2^53 are refused, not rounded"""
+    for arguments in (("--seed", "9007199254740993"), ("-s", "simulation.seed=9007199254740993")):
+        expect_equal(ceduo("--batch", "-n", 1, *arguments, PAPER).status, USAGE, " ".join(arguments))
+
+
+def test_threads():
+    """-j 1, 2, 16 and 1024 give the same bytes but for work.seconds"""
+    for extra in ((), ("-s", "simulation.law=crsp", "-s", "rock.diameter_m.spread=0.05")):
+        runs = {j: without_seconds(good("--batch", "-f", "json", "-n", 30000, "-j", j, *extra, PAPER).out)
+                for j in (1, 2, 16, 1024)}
+        expect(len(set(runs.values())) == 1, *[f"-j {j}: {hash(r)}" for j, r in runs.items()])
+    for form in ("table", "csv"):
+        expect_equal(good("--batch", "-f", form, "-n", 3000, "-j", 1, PAPER).out,
+                     good("--batch", "-f", form, "-n", 3000, "-j", 16, PAPER).out, form)
+
+
+def half_width(bare):
+    return 1.959963984540054 * bare["energy_kJ"]["se"] / bare["energy_kJ"]["mean"]
+
+
+def test_tolerance_met():
+    """-e goes on until every mean energy is known so well, the same with any number of threads"""
+    two = ["-s", "controls=[{x_m: 60}, {x_m: 135}]"]
+    run = result("-e", 0.01, *two, PAPER)
+    expect_equal(run["warnings"], [])
+    expect(all(half_width(c["bare"]) < 0.01 for c in run["options"][0]["controls"]), run["options"][0]["controls"])
+    expect(1000 < run["rocks"] < 100000, run["rocks"])
+    expect_equal(run["options"], result("-e", 0.01, "-n", 1000000, "-j", 16, *two, PAPER)["options"])
+
+
+def test_tolerance_not_met():
+    """-e with -n too small: a warning that names the tolerance, status 0"""
+    run = result("-e", 0.001, "-n", 2000, PAPER)
+    expect_equal(run["rocks"], 2000)
+    expect(len(run["warnings"]) == 1 and "0.001" in run["warnings"][0] and "not met" in run["warnings"][0], run["warnings"])
+    expect_in("not met", good("--batch", "-e", 0.001, "-n", 2000, PAPER).out, "table")
+    _, rows = read_csv(good("--batch", "-f", "csv", "-e", 0.001, "-n", 2000, PAPER).out)
+    expect_in("not met", rows[0]["warnings"], "CSV")
+
+
+def test_tolerance_few():
+    """-e leaves out a control that under 100 rocks reach, and names it"""
+    with Folder() as f:
+        # rocks that come to rest: few reach the end
+        few = scene(slope={"vertices_m": [[0, 20], [30, 0], [200, 0]],
+                           "segments": [{"rn": 0.3, "rt": 0.8, "roughness_rad": 0.3, "friction": 0.5}]},
+                    controls=[{"x_m": 25}, {"x_m": 199}])
+        run = result("-e", 0.05, "-n", 20000, f.write("few.yaml", few))
+        near, far = run["options"][0]["controls"]
+        expect(far["bare"]["rocks_reached"] < 100, far["bare"])
+        expect(half_width(near["bare"]) < 0.05, near["bare"])
+        expect(any("199 m" in w for w in run["warnings"]), run["warnings"])
+        expect(not any("not met" in w or "25 m" in w for w in run["warnings"]), run["warnings"])
+
+
+def test_option():
+    """--option keeps those asked for, in the scene's order; an unknown name is status 2"""
+    names = ["large reserves", "simple coppice, 25 years"]
+    run = result(FOUR, "-n", 20, "--option", names[0], "--option", names[1])
+    expect_equal([o["name"] for o in run["options"]], names[::-1])
+    whole = result(FOUR, "-n", 20)
+    expect_equal(run["options"], [o for o in whole["options"] if o["name"] in names])
+    expect_equal(result(PAPER, "-n", 1, "--option", "current")["options"][0]["name"], "current")
+    done = ceduo("--batch", FOUR, "--option", "nope")
+    expect(done.status == USAGE and done.out == "" and "'nope'" in done.err, done)
+    done = ceduo("--check", FOUR, "--option", "nope")
+    expect(done.status == USAGE, done)
+
+
+# ---- several scenes, streams, files ----
+
+def test_several_scenes():
+    """Several scenes: a bad one is reported, the good ones printed, status 3"""
+    with Folder() as f:
+        bad = f.write("bad.yaml", "ceduo: scene/1\nrock: {diameter_m: -1}\n")
+        done = ceduo("--batch", "-f", "json", "-n", 10, PAPER, bad, FOUR, f.path / "missing.yaml")
+        expect_equal(done.status, INPUT)
+        expect_equal([r["scene"] for r in done.json()], [str(PAPER), str(FOUR)])
+        expect(f"{bad}:2:20: " in done.err and "missing.yaml" in done.err, done)
+        done = ceduo("--batch", "-n", 10, bad, PAPER)
+        expect_equal(done.status, INPUT)
+        expect(done.out == good("--batch", "-n", 10, PAPER).out, "a bad scene before it changes the table:", repr(done.out[:80]))
+        done = ceduo("--batch", "-f", "csv", "-n", 10, PAPER, bad)
+        expect_equal((done.status, done.out), (INPUT, good("--batch", "-f", "csv", "-n", 10, PAPER).out), "CSV")
+        target = f.path / "out.csv"
+        done = ceduo("--batch", "-f", "csv", "-n", 10, "-o", target, bad, PAPER)
+        expect_equal((done.status, len(target.read_text().splitlines())), (INPUT, 2), "-o")
+        done = ceduo("--batch", "-f", "csv", bad)
+        expect_equal((done.status, done.out), (INPUT, ""), "nothing good: not even a header")
+        done = ceduo("--check", PAPER, bad, FOUR)
+        expect(done.status == INPUT and done.out == "", done)
+
+
+def test_highest_status():
+    """Several scenes: the highest status counts"""
+    with Folder() as f:
+        endless = f.write("endless.yaml", ENDLESS)
+        bad = f.write("bad.yaml", "x")
+        expect_equal(ceduo("--batch", "-n", 1, endless, PAPER).status, RUN)
+        expect_equal(ceduo("--batch", "-n", 1, endless, bad, PAPER).status, INPUT)
+        expect_equal(ceduo("--batch", "-n", 1, bad, PAPER, "--option", "nope").status, INPUT)
+        expect_equal(ceduo("--batch", "-n", 1, bad, PAPER, "-o", "/dev/full").status, OUTPUT)
+
+
+def test_stdin():
+    """'-' reads a scene from standard input, with profiles by their relative paths; only once"""
+    text = PAPER.read_bytes()
+    run = result("-", stdin=text, cwd="/")
+    wanted = result(PAPER)
+    expect_equal({k: v for k, v in run.items() if k not in ("scene", "work")},
+                 {k: v for k, v in wanted.items() if k not in ("scene", "work")})
+    expect_equal(ceduo("--batch", "-", "-").status, USAGE)
+    done = ceduo("--batch", "-", stdin=b"rock: 5\n")
+    expect(done.status == INPUT and re.match(r"(-|standard input|<stdin>):1:\d+: ", done.err), done)
+    done = ceduo("--batch", "-", stdin=b"")
+    expect(done.status == INPUT and done.out == "" and done.err, done)
+    expect_equal(ceduo("--check", "-", stdin=text).status, DONE)
+
+
+def test_stdin_closed():
+    """A closed standard input: no matter for files, an error for '-'"""
+    shell = ["sh", "-c", '"$0" "$@" <&-', CEDUO, "--batch", "-n", "10"]
+    done = subprocess.run([*shell, str(PAPER)], env=environment(), capture_output=True, timeout=20, check=False)
+    expect(done.returncode == DONE and done.stdout and not done.stderr, done)
+    done = subprocess.run([*shell, "-"], env=environment(), capture_output=True, timeout=20, check=False)
+    expect(done.returncode == INPUT and not done.stdout and done.stderr, done)
+
+
+def test_output_file():
+    """-o writes the file whole, as standard output would have it, and leaves nothing beside it"""
+    with Folder() as f:
+        for form in ("table", "csv"):
+            target = f.path / f"out.{form}"
+            done = good("--batch", "-f", form, "-o", target, PAPER, FOUR, "-n", 50)
+            expect_equal(done.out, "")
+            expect_equal(target.read_text(), good("--batch", "-f", form, PAPER, FOUR, "-n", 50).out, form)
+            expect_equal(target.stat().st_mode & 0o777, 0o666 & ~umask(), "mode")
+        expect_equal(f.names(), ["out.csv", "out.table"])
+        good("--batch", "-o", "relative.txt", PAPER, "-n", 5, cwd=f.path)
+        expect_in("relative.txt", f.names(), "relative path")
+        for mode in ("--help", "--version", "--list-parameters", "--list-profiles"):
+            done = good(mode, "-o", f.path / "list")
+            expect(done.out == "" and (f.path / "list").read_text() == good(mode).out, mode)
+
+
+def umask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def test_output_existing():
+    """-o keeps an existing file's mode, a link stays a link, a failed run leaves the old file"""
+    with Folder() as f:
+        target = f.write("out.txt", "old")
+        target.chmod(0o640)
+        link = f.path / "link.txt"
+        link.symlink_to("out.txt")
+        wanted = good("--batch", "-n", 5, PAPER).out
+        good("--batch", "-n", 5, "-o", target, PAPER)
+        expect_equal((target.read_text() == wanted, target.stat().st_mode & 0o7777), (True, 0o640), "mode")
+        target.write_text("old")
+        good("--batch", "-n", 5, "-o", link, PAPER)
+        expect(link.is_symlink() and target.read_text() == wanted, "the link was replaced")
+        expect_equal(target.stat().st_mode & 0o7777, 0o640, "mode through a link")
+        target.write_text("old")
+        bad = f.write("bad.yaml", "x")
+        expect_equal(ceduo("--batch", "-o", target, bad).status, INPUT)
+        expect_equal(target.read_text(), "old", "a bad scene")
+        expect_equal(ceduo("--batch", "-o", f.path / "new.txt", bad).status, INPUT)
+        expect_equal(f.names(), ["bad.yaml", "link.txt", "out.txt"])
+
+
+def test_output_dangling():
+    """-o through a link that points to nothing writes there; the link stays"""
+    with Folder() as f:
+        link = f.path / "link.txt"
+        link.symlink_to("target.txt")
+        done = ceduo("--batch", "-n", 5, "-o", link, PAPER)
+        expect(link.is_symlink(), "the link was replaced", done)
+        expect(done.status == OUTPUT or (f.path / "target.txt").exists(), done)
+
+
+def test_output_devices():
+    """-o to a device goes straight: /dev/null is good, /dev/full is status 4, a FIFO's reader gets it"""
+    expect_equal(good("--batch", "-n", 5, "-o", "/dev/null", PAPER).out, "")
+    expect(not Path("/dev/null").is_file(), "/dev/null was replaced")
+    done = ceduo("--batch", "-n", 5, "-o", "/dev/full", PAPER)
+    expect(done.status == OUTPUT and "/dev/full: " in done.err and done.out == "", done)
+    with Folder() as f:
+        fifo = f.path / "fifo"
+        os.mkfifo(fifo)
+        with subprocess.Popen(["cat", str(fifo)], stdout=subprocess.PIPE) as cat:
+            try:
+                good("--batch", "-n", 5, "-o", fifo, PAPER)
+                expect_equal(cat.communicate(timeout=10)[0].decode(), good("--batch", "-n", 5, PAPER).out, "FIFO")
+            finally:
+                cat.kill()
+
+
+def test_output_impossible():
+    """-o to a folder, into a missing folder, or to nothing: status 4, named, nothing left behind"""
+    with Folder() as f:
+        for target in (f.path, f.path / "no" / "out.txt", "", PAPER / "out.txt", f.path / ("x" * 300)):
+            done = ceduo("--batch", "-n", 5, "-o", target, PAPER)
+            expect(done.status == OUTPUT and done.err and done.out == "", done)
+        expect_equal(f.names(), [])
+
+
+def test_output_forbidden():
+    """-o into a read-only folder or over a read-only file: status 4, the old file stays"""
+    with Folder() as f:
+        who = {}
+        if os.geteuid() == 0:
+            who = {"user": 65534, "group": 65534, "extra_groups": []}
+            f.path.chmod(0o755)
+            try:
+                subprocess.run([CEDUO, "--version"], check=True, capture_output=True, **who)
+            except (OSError, subprocess.SubprocessError) as why:
+                raise Skip("root may write anywhere, and another user cannot run the program") from why
+        folder = f.path / "locked"
+        folder.mkdir()
+        target = f.write("locked/out.txt", "old")
+        target.chmod(0o666)
+        folder.chmod(0o555)
+        done = ceduo("--batch", "-n", 5, "-o", folder / "new.txt", "-", stdin=INLINE, cwd="/", **who)
+        expect(done.status == OUTPUT and "new.txt: " in done.err, done)
+        folder.chmod(0o777)
+        target.chmod(0o444)
+        done = ceduo("--batch", "-n", 5, "-o", target, "-", stdin=INLINE, cwd="/", **who)
+        expect(done.status == OUTPUT and target.read_text() == "old", done)
+        expect_equal([p.name for p in folder.iterdir()], ["out.txt"])
+
+
+INLINE = b"""ceduo: scene/1
+rock: {diameter_m: 0.5}
+slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.35, rt: 0.875}]}
+controls_m: [75]
+"""
+
+MODES = (("--batch", "-n", "5", str(PAPER)), ("--batch", "-f", "csv", "-n", "5", str(PAPER)), ("--help",), ("--version",),
+         ("--list-parameters",), ("--list-profiles",))
+
+
+def test_stdout_closed():
+    """A closed standard output is status 4 in every mode that prints"""
+    for mode in MODES:
+        done = subprocess.run(["sh", "-c", '"$0" "$@" >&-', CEDUO, *mode], env=environment(), capture_output=True,
+                              timeout=20, check=False)
+        expect(done.returncode == OUTPUT and done.stderr, mode, done)
+    with Folder() as f:  # what is opened later must not become standard output or error
+        done = subprocess.run(["sh", "-c", '"$0" "$@" >&- 2>&-', CEDUO, "--batch", "-n", "5", "-o",
+                               str(f.path / "out.txt"), str(PAPER)], env=environment(), timeout=20, check=False)
+        expect_equal(done.returncode, DONE, "only the file is written")
+        expect_equal((f.path / "out.txt").read_text(), good("--batch", "-n", 5, PAPER).out)
+
+
+def test_stdout_full():
+    """A full disk behind standard output is status 4 in every mode that prints"""
+    for mode in MODES:
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([CEDUO, *mode], stdout=full, stderr=subprocess.PIPE, env=environment(), timeout=20,
+                                  check=False)
+        expect(done.returncode == OUTPUT and done.stderr, mode, done)
+
+
+def test_closed_pipe():
+    """A reader that goes away ends the program without noise"""
+    for mode in MODES:
+        read, write = os.pipe()
+        os.close(read)
+        with subprocess.Popen([CEDUO, *mode], stdout=write, stderr=subprocess.PIPE, env=environment()) as p:
+            os.close(write)
+            noise = p.communicate(timeout=20)[1]
+        expect(p.returncode in (-signal.SIGPIPE, DONE) and noise == b"", mode, p.returncode, noise)
+
+
+# ---- locales, terminals ----
+
+def test_plain_ascii():
+    """LC_ALL=C: all output and every message is pure ASCII, with the same numbers"""
+    def ascii_only(done):
+        for data in (done.out_bytes, done.err_bytes):
+            bad = [line for line in data.splitlines() if any(b >= 0x80 for b in line)]
+            expect(not bad, "not ASCII:", *bad[:5])
+        return done
+    plain = {"LC_ALL": "C"}
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        text = ascii_only(good("--batch", "-n", 100, path, env=plain)).out
+        wide = good("--batch", "-n", 100, path).out
+        expect_equal(re.findall(r"\d+\.\d+", text), re.findall(r"\d+\.\d+", wide), "numbers")
+        expect_width(text)
+    ascii_only(good("--batch", "-n", 5, PAPER, "-s", "title=Überraschung — 𝄞", env=plain))
+
+
+def test_plain_ascii_lists():
+    """LC_ALL=C: lists and messages on standard error are pure ASCII"""
+    plain = {"LC_ALL": "C"}
+    cases = [good(mode, env=plain) for mode in ("--help", "--version", "--list-parameters", "--list-profiles")]
+    cases += [ceduo("--batch", PAPER, "-s", value, env=plain)
+              for value in ("forest[0].stand={shoots: [{per_ha: 1, dbh_m: 1, height_m: 1}]}", "title=[ü]", "rock.ü=1")]
+    bad = [line for done in cases for line in (done.out_bytes + done.err_bytes).splitlines()
+           if any(b >= 0x80 for b in line)]
+    expect(not bad, "not ASCII:", *bad[:6])
+
+
+def comma_locale(folder):
+    """Environment of a locale that writes a comma, made where the machine has none."""
+    installed = subprocess.run(["locale", "-a"], capture_output=True, text=True, check=False).stdout.split()
+    for name in installed:
+        if re.match(r"(de|it|fr|es)_.*utf-?8$", name, re.I):
+            return {"LC_ALL": name}
+    if not shutil.which("localedef") or not Path("/usr/share/i18n/locales/de_DE").exists():
+        raise Skip("no locale with a comma, nor localedef to make one")
+    subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(folder / "de_DE.UTF-8")], capture_output=True,
+                   check=False)
+    return {"LC_ALL": "de_DE.UTF-8", "LOCPATH": str(folder)}
+
+
+def test_comma_locale():
+    """A locale with a decimal comma: numbers are read and written with a dot"""
+    with Folder() as f:
+        env = comma_locale(f.path)
+        probe = subprocess.run(["sh", "-c", "printf '%.1f' 0,5"], env={**os.environ, **env}, capture_output=True,
+                               check=False)
+        if shutil.which("locale"):
+            point = subprocess.run(["locale", "decimal_point"], env={**os.environ, **env}, capture_output=True, text=True,
+                                   check=False).stdout.strip()
+            expect_equal(point, ",", f"the locale {env} ({probe.stdout})")
+        for form in ("table", "csv", "json"):
+            found, wanted = [without_seconds(good("--batch", "-f", form, PAPER, "-s", "rock.diameter_m=0.75", env=e).out)
+                             for e in (env, {})]
+            expect_equal(found, wanted, form)
+        expect_equal(good("--list-parameters", env=env).out, good("--list-parameters").out)
+
+
+def test_plain_environment():
+    """NO_COLOR, TERM=dumb, no TERM, no HOME, unknown locales change nothing"""
+    wanted = good("--batch", "-n", 50, FOUR).out
+    for env in ({"NO_COLOR": "1"}, {"TERM": "dumb"}, {"TERM": None}, {"HOME": None}, {"HOME": ""}, {"XDG_DATA_HOME": ""},
+                {"XDG_DATA_HOME": "relative"}):
+        expect_equal(good("--batch", "-n", 50, FOUR, env=env).out, wanted, str(env))
+    good("--batch", "-n", 50, FOUR, env={"LC_ALL": "xx_YY.UTF-8"})
+
+
+def on_terminal(arguments, stop, which):
+    """What the program writes to a terminal that is its stdout or stderr, until stop(text, seconds); and its status."""
+    master, slave = pty.openpty()
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, which: slave}
+    with subprocess.Popen([CEDUO, *map(str, arguments)], stdin=subprocess.DEVNULL, env=environment(), **streams) as p:
+        os.close(slave)
+        os.set_blocking(master, False)
+        text, start, sent = b"", time.monotonic(), False
+        while time.monotonic() - start < 30:
+            try:
+                text += os.read(master, 65536)
+            except BlockingIOError:
+                time.sleep(0.02)
+            except OSError:
+                break
+            if not sent and stop(text, time.monotonic() - start):
+                p.send_signal(signal.SIGINT)
+                sent = True
+        p.kill()
+        p.communicate()
+    os.close(master)
+    return text, p.returncode
+
+
+def test_terminal():
+    """On a terminal: no escape bytes on standard output; progress on standard error after a second, none with -q"""
+    text, status = on_terminal(["--batch", "-n", "50", FOUR], lambda *_: False, "stdout")
+    expect_equal(status, DONE)
+    only_text(text.replace(b"\r\n", b"\n"), "stdout")
+    with Folder() as f:
+        endless = f.write("endless.yaml", ENDLESS)
+        run = ["--batch", "-n", "1000000", "-o", "/dev/null"]
+        text, status = on_terminal([*run, endless], lambda t, s: s > 1.3, "stderr")
+        expect_equal(status, -signal.SIGINT)
+        expect(b"\x1b" not in text, text)
+        text, status = on_terminal(["--batch", "-n", "10000000", "-j", "1", "-s", "simulation.law=crsp", "-o", "/dev/null",
+                                    PAPER], lambda t, s: b"rocks" in t or s > 15, "stderr")
+        expect(b"rocks" in text and b"\x1b" not in text, text)
+        expect_equal(status, -signal.SIGINT)
+        text, status = on_terminal(["--batch", "-q", "-n", "10000000", "-j", "1", "-o", "/dev/null", PAPER],
+                                   lambda t, s: t or s > 1.6, "stderr")
+        expect_equal(text, b"", "-q")
+        text, status = on_terminal(["--batch", "-n", "10", "-o", "/dev/null", PAPER], lambda *_: False, "stderr")
+        expect_equal((text, status), (b"", DONE), "short work")
+
+
+# ---- help and lists ----
+
+def test_help():
+    """--help names every option within 80 columns; --version is one line"""
+    text = good("--help").out
+    for word in ("-b, --batch", "-f, --format", "-o, --output", "-s, --set", "-n, --rocks", "-e, --tolerance", "--rows",
+                 "--seed", "-j, --threads", "--option", "--check", "--list-parameters", "--list-profiles", "-q, --quiet",
+                 "--help", "--version"):
+        expect_in(word, text, "help")
+    expect(all(len(line) <= 100 for line in text.splitlines()), text)
+    version = good("--version").out
+    expect(re.fullmatch(r"ceduo \d+\.\d+\.\d+\n", version), version)
+    expect_equal(result(PAPER, "-n", 1)["version"], version.split()[1])
+    expect_equal(good("--batch", "--help", "nothing.yaml").out, text, "--help wins")
+
+
+def test_list_parameters():
+    """--list-parameters has path, type, unit, range, default and meaning of every key of the shipped scenes"""
+    lines = good("--list-parameters").out.splitlines()
+    expect_equal(lines[0].split(), ["path", "type", "unit", "range", "default", "meaning"])
+    table = {line.split()[0]: line for line in lines[1:] if line}
+    for path, words in (("rock.diameter_m", "m"), ("release.vx_m_s", "m/s 0"), ("slope.segments[].friction", "0.5"),
+                        ("slope.vertices_m", "m"), ("controls[].accepted_kJ", "kJ"), ("forest[].stand.stools.per_ha", "1/ha"),
+                        ("forest[].stand.trees[].dbh_m", "m"), ("forest[].stand.energy.u_J_m3", "J/m3"),
+                        ("options[].name", "text"), ("simulation.threshold_m", "m 30"), ("simulation.rocks", "count"),
+                        ("simulation.contact_model", "index"), ("simulation.scale_rn", "false"),
+                        ("simulation.law", "lumped|crsp"), ("simulation.gravity_m_s2", "9.81")):
+        expect(path in table, f"{path} is missing")
+        for word in words.split():
+            expect_in(word, table[path].split(), path)
+
+
+def test_list_profiles():
+    """--list-profiles shows file, kind and title; one's own come from the XDG data folder and run by name"""
+    text = good("--list-profiles").out
+    expect_equal(text.split("\n")[0].split(), ["file", "kind", "title"])
+    for name, kind, title in (("paper-site", "scene", "Test site of Ciabocco et al. 2009"), ("ads-1", "stand", "ADS 1"),
+                              ("paper", "slope", "Slope of Ciabocco et al. 2009"), ("four-systems", "scene", "Four systems"),
+                              ("ads-2", "stand", "ADS 2"), ("bare", "stand", "bare")):
+        expect(re.search(rf"/{name}\.yaml +{kind} +{title}", text), f"{name} is missing", text)
+    expect_equal(len(text.splitlines()) - 1, len(list(PROFILES.rglob("*.yaml"))), "rows")
+    with Folder() as f:
+        f.write("ceduo/scenes/mine.yaml", scene(title="my \x07 own"))
+        f.write("ceduo/scenes/broken.yaml", "{")
+        f.write("ceduo/stands/ads-1.yaml", stand(ceduo="stand/1", name="other"))
+        env = {"XDG_DATA_HOME": str(f.path)}
+        expect_in("mine.yaml", good("--list-profiles", env=env).out, "own profile")
+        expect_equal(result("mine", "-n", 1, env=env, cwd="/")["title"], "my \x07 own")
+    expect_equal(result("paper-site", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
+    expect_equal(result("paper-site.yaml", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
+
+
+def test_check_good():
+    """--check of the shipped scenes prints nothing, status 0"""
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        expect_equal(good("--check", path).out, "")
+
+
+BAD_USAGE = [
+    (), ("--batch",), ("--check",), ("--nope",), ("--batch", "--nope", PAPER), ("-z", PAPER), ("--batch", "-n"),
+    ("--batch", "-n", "0", PAPER), ("--batch", "-n", "-5", PAPER), ("--batch", "-n", "1.5", PAPER),
+    ("--batch", "-n", "10000001", PAPER), ("--batch", "-n", "x", PAPER), ("--batch", "-n", "", PAPER),
+    ("--batch", "-n", "5 ", PAPER), ("--batch", "-n", "0x10", PAPER), ("--batch", "-n", "1e999", PAPER),
+    ("--batch", "-f", "xml", PAPER), ("--batch", "-f", "", PAPER), ("--batch", "--rows", "trees", PAPER),
+    ("--batch", "--seed", "-1", PAPER), ("--batch", "--seed", "1.5", PAPER), ("--batch", "--seed", "9007199254740994", PAPER),
+    ("--batch", "--seed", "nan", PAPER), ("--batch", "-j", "0", PAPER), ("--batch", "-j", "99999", PAPER),
+    ("--batch", "-j", "two", PAPER), ("--batch", "-e", "0", PAPER), ("--batch", "-e", "-0.1", PAPER),
+    ("--batch", "-e", "1", PAPER), ("--batch", "-e", "x", PAPER), ("--batch", "-e", "nan", PAPER),
+    ("--batch", "-e", "0,1", PAPER), ("--batch", "-", "-"), ("--list-profiles", PAPER), ("--list-parameters", "x"),
+    ("--batch=yes", PAPER), ("--format",), ("--batch", "--\x1b[31m", PAPER), ("--batch", "-n", "\x1b[31m", PAPER),
+]
+
+
+def bad_usage(*arguments):
+    done = ceduo(*arguments)
+    expect(done.status == USAGE and done.out == "", done)
+    lines = done.err.splitlines()
+    expect(1 <= len(lines) <= 2 and "try 'ceduo --help'" in lines[-1] and lines[0].startswith("ceduo: "), done)
+
+
+def test_no_terminal():
+    """Without --batch and without a terminal: status 2 and --batch named"""
+    for arguments in ((), (PAPER,)):
+        done = ceduo(*arguments)
+        expect(done.status == USAGE and "--batch" in done.err, done)
+
+
+# ---- signals ----
+
+# Nothing takes energy from these rocks: each makes as many contacts as are allowed.
+ENDLESS = scene(title="endless", release={"x_m": 5, "height_m": 3},
+                slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 1, "rt": 1, "roughness_rad": 0, "friction": 0}]},
+                controls=[{"x_m": 30, "accepted_kJ": 1}])
+
+
+def interrupted(number, path, most):
+    with Folder() as f:
+        old = f.write("old.txt", "old")
+        for target in (None, f.path / "new.txt", old):
+            where = ["-o", str(target)] if target else []
+            with subprocess.Popen([CEDUO, "--batch", "-n", "10000000", *where, str(path)], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, env=environment()) as p:
+                time.sleep(0.25)
+                expect(p.poll() is None, "it ended before the signal", p.returncode)
+                p.send_signal(number)
+                start = time.monotonic()
+                try:
+                    out, err = p.communicate(timeout=20)
+                except subprocess.TimeoutExpired as late:
+                    p.kill()
+                    raise Failure("it goes on after the signal") from late
+            expect_equal(p.returncode, -number, "status")
+            expect_equal((out, err), (b"", b""))
+            expect(time.monotonic() - start < most, f"ended {time.monotonic() - start:.1f} s after the signal")
+            expect_equal(f.names(), ["old.txt"])
+            expect_equal(old.read_text(), "old")
+
+
+def test_interrupt():
+    """SIGINT in a long run ends by that signal, no file written"""
+    interrupted(signal.SIGINT, PAPER, 2)
+
+
+def test_terminate():
+    """SIGTERM in a long run ends by that signal, no file written"""
+    interrupted(signal.SIGTERM, PAPER, 2)
+
+
+def test_hang_up():
+    """SIGHUP in a long run ends by that signal, no file written"""
+    interrupted(signal.SIGHUP, PAPER, 2)
+
+
+def test_interrupt_endless():
+    """SIGINT where rocks never come to rest ends the program within a second"""
+    with Folder() as f:
+        interrupted(signal.SIGINT, f.write("endless.yaml", ENDLESS), 1)
+
+
+def test_nohup():
+    """A signal that the caller switched off stays off"""
+    old = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with subprocess.Popen([CEDUO, "--batch", "-n", "300000", str(PAPER)], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, env=environment()) as p:
+            time.sleep(0.1)
+            p.send_signal(signal.SIGHUP)
+            out, err = p.communicate(timeout=20)
+    finally:
+        signal.signal(signal.SIGHUP, old)
+    expect(p.returncode == DONE and b"300000" in out and err == b"", p.returncode, out, err)
+
+
+def test_interrupt_between():
+    """A signal during the second scene leaves the first one's result and prints nothing half"""
+    with subprocess.Popen([CEDUO, "--batch", "-f", "json", str(FOUR), "-", "-n", "10000000"], stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment()) as p:
+        time.sleep(0.2)
+        p.send_signal(signal.SIGINT)
+        out, _ = p.communicate(timeout=20)
+    expect_equal((p.returncode, out), (-signal.SIGINT, b""))
+
+
+# ---- edges of the model ----
+
+def test_unfinished():
+    """Rocks from which nothing takes energy are counted as unfinished, warned of, status 1"""
+    with Folder() as f:
+        path = f.write("endless.yaml", ENDLESS)
+        done = ceduo("--batch", "-f", "json", "-n", 3, path)
+        expect(done.status == RUN and done.err == "", done)
+        run = done.json()[0]
+        expect_shape(run, RESULT)
+        option = run["options"][0]
+        expect_equal(option["ends"], {"stopped_by_stems": 0, "came_to_rest": 0, "left_slope": 0, "unfinished": 3})
+        expect_equal(option["stop_x_m"], None)
+        bare = option["controls"][0]["bare"]
+        expect_equal((bare["rocks_reached"], bare["reach_probability"]), (0, 0))
+        expect_near(bare["reach_hi"], wilson(3, 3)[1], 1e-12, "in reach_hi as reached")
+        expect(any("unfinished" in w for w in run["warnings"]), run["warnings"])
+        done = ceduo("--batch", "-n", 3, path)
+        expect(done.status == RUN and "unfinished" in done.out, done)
+
+
+def expect_unreached(control):
+    bare = control["bare"]
+    expect_equal((bare["rocks_reached"], bare["reach_probability"], bare["reach_lo"]), (0, 0, 0))
+    for name in ("speed_m_s", "energy_kJ", "translation_kJ", "height_m"):
+        expect(all(v is None for v in bare[name].values()), name, bare[name])
+    expect_equal(bare["energy_per_released_kJ"]["mean"], 0)
+    expect_equal((control["index"]["residual_kJ"], control["index"]["exhausted"]), (None, None))
+
+
+def test_nobody_reaches():
+    """A control nobody reaches: nulls in JSON, empty in CSV, 'below' with its bound in the table"""
+    with Folder() as f:
+        path = f.write("pit.yaml", scene(slope={"vertices_m": [[0, 10], [10, 0], [20, 10], [40, 10]],
+                                                "segments": [{"rn": 0.3, "rt": 0.8}]},
+                                         controls=[{"x_m": 8}, {"x_m": 39, "accepted_kJ": 5, "measured_speed_m_s": 4}],
+                                         simulation={"rocks": 999}))
+        run = result(path)
+        expect_shape(run, RESULT)
+        near, far = run["options"][0]["controls"]
+        expect(near["bare"]["rocks_reached"] > 0, near)
+        expect_unreached(far)
+        expect_near(far["bare"]["reach_hi"], 0.0038306, 1e-6, "Wilson's bound of 0 of 999")
+        text = good("--batch", path).out
+        expect_order(text, "39 m", "0 \\(0", "(?i)below 3\\.8|below 0\\.4 %")
+        expect("nan" not in text.lower() and "null" not in text, text)
+        _, rows = read_csv(good("--batch", "-f", "csv", path).out)
+        expect_rows(rows, [run], "controls")
+
+
+def test_at_rest():
+    """A rock released at rest: lies still on the flat, goes where it is steep"""
+    with Folder() as f:
+        flat = scene(release={"x_m": 5}, slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]})
+        run = result(f.write("flat.yaml", flat))
+        expect_unreached(run["options"][0]["controls"][0])
+        expect_equal(run["options"][0]["ends"]["came_to_rest"], 1)
+        expect_equal(run["options"][0]["stop_x_m"], {"p50": 5, "p95": 5, "max": 5})
+        steep = result(f.write("steep.yaml", scene(release={"x_m": 5})))
+        expect_equal(steep["options"][0]["controls"][0]["bare"]["reach_probability"], 1)
+        none = result(f.write("none.yaml", scene(release=None)))
+        expect_equal(none["options"][0]["controls"][0]["bare"]["reach_probability"], 1, "no release given")
+
+
+def test_no_forest():
+    """No forest: one option 'current', no stands, nulls where nothing is, the contact test fails"""
+    with Folder() as f:
+        for name, change in (("omitted", {}), ("empty", {"forest": []})):
+            path = f.write(f"{name}.yaml", scene(**change))
+            run = result(path)
+            expect_shape(run, RESULT)
+            option = run["options"][0]
+            expect_equal((option["name"], option["stands"], len(run["options"])), ("current", [], 1))
+            expect_equal(option["summary"], {"length_m": 0, "longest_gap_m": 75, "adc_m": None, "contacts": 0,
+                                             "meet_nothing_probability": 1, "dissipated_kJ": 0,
+                                             "dissipated_kJ_per_100m": None, "passes_threshold": False})
+            control = option["controls"][0]
+            expect_near(control["index"]["residual_kJ"], control["bare"]["energy_kJ"]["mean"], 1e-12, "residual")
+            expect_equal((control["lights"]["contact"], control["lights"]["energy"]), ("fail", "unknown"))
+            expect_order(good("--batch", path).out, "FAILS", "(?i)no forest")
+
+
+def test_no_stands_csv():
+    """No forest: --rows stands is a header without rows, on standard output and in a file"""
+    with Folder() as f:
+        path, target = f.write("s.yaml", scene()), f.path / "out.csv"
+        text = good("--batch", "-f", "csv", "--rows", "stands", path).out
+        expect(text, "nothing is printed, not even the header")
+        header, rows = read_csv(text)
+        expect_equal((len(header), rows), (len(STAND_CELLS), []))
+        good("--batch", "-f", "csv", "--rows", "stands", "-o", target, path)
+        expect_equal(target.read_text(), text)
+
+
+def test_no_stems():
+    """A stand without stems: null ADC and rule, no contacts, free run certain"""
+    with Folder() as f:
+        shipped = scene(forest=[{"from_m": 10, "to_m": 70, "stand": "../stands/bare.yaml"}])
+        for name, path in (("empty", f.write("a.yaml", scene(forest=[{"from_m": 10, "to_m": 70, "stand": {"name": "e"}}]))),
+                           ("bare", f.write("b.yaml", shipped))):
+            run = result(path)
+            expect_shape(run, RESULT)
+            found = run["options"][0]["stands"][0]
+            expect(all(v is None for v in found["adc"].values()), name, found["adc"])
+            expect_equal((found["contacts"], found["energy_per_contact_J"], found["passes_threshold"],
+                          found["free_run_probability"], found["dissipated_kJ"], found["basal_area_m2_ha"]),
+                         (0, None, False, 1, 0, 0), name)
+            expect_equal(run["options"][0]["controls"][0]["lights"]["contact"], "fail", name)
+            text = good("--batch", path).out
+            expect("nan" not in text.lower() and " inf" not in text.lower(), text)
+
+
+def test_wall():
+    """A slope that ends in a wall stops the rocks there, and nothing is unfinished"""
+    with Folder() as f:
+        walled = scene(slope={"vertices_m": [[0, 64], [100, 0], [100.01, 200]],
+                              "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.125}]},
+                       controls=[{"x_m": 99}, {"x_m": 100.005}])
+        run = result(f.write("wall.yaml", walled))
+        expect_shape(run, RESULT)
+        ends = run["options"][0]["ends"]
+        expect_equal((ends["came_to_rest"], ends["unfinished"]), (1, 0))
+        expect(run["options"][0]["stop_x_m"]["max"] <= 100.01, run["options"][0]["stop_x_m"])
+        expect(run["options"][0]["controls"][0]["bare"]["rocks_reached"] > 0, "the wall stands behind the control")
+
+
+def shifted(by, up):
+    """The same scene at another place; every coordinate is a multiple of 2^-6, so that no bit is lost."""
+    points = [[0, 64], [10.5, 50.25], [30.125, 40], [52.75, 22.5], [80, 8.125], [110.25, 0], [300, 0]]
+    belts = [{"from_m": 0, "to_m": 40.25, "stand": stand()}, {"from_m": 45.5, "to_m": 90, "stand": stand(name="second")}]
+    return scene(release={"x_m": 2.5 + by, "vx_m_s": {"mean": 2, "spread": 0.5}},
+                 slope={"vertices_m": [[x + by, z + up] for x, z in points],
+                        "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.25, "friction": 0.5}]},
+                 controls=[{"x_m": 60.5 + by, "accepted_kJ": 20, "measured_speed_m_s": 9}, {"x_m": 100 + by}],
+                 forest=[{**b, "from_m": b["from_m"] + by, "to_m": b["to_m"] + by} for b in belts])
+
+
+def test_survey_coordinates():
+    """Survey coordinates give the same numbers, bit by bit, and are printed as given"""
+    with Folder() as f:
+        near, far = (f.write("s.yaml", shifted(by, up)) and result(f.path / "s.yaml", "-n", 3000)
+                     for by, up in ((0, 0), (480000, 4096)))
+        for a, b in zip(near["options"], far["options"]):
+            expect_equal(a["summary"], b["summary"], "summary")
+            expect_equal(a["ends"], b["ends"], "ends")
+            for c, d in zip(a["controls"], b["controls"]):
+                expect_equal(c["x_m"] + 480000, d["x_m"], "x_m")
+                expect_equal({k: v for k, v in c.items() if k != "x_m"}, {k: v for k, v in d.items() if k != "x_m"})
+            for c, d in zip(a["stands"], b["stands"]):
+                expect_equal((c["from_m"] + 480000, c["to_m"] + 480000), (d["from_m"], d["to_m"]), "belt")
+                expect_equal(c["adc"], d["adc"])
+            expect(a["stop_x_m"] is not None, "no rock stops: this compares nothing")
+            for key in ("p50", "p95", "max"):
+                expect_near(b["stop_x_m"][key], a["stop_x_m"][key] + 480000, 1e-9, f"stop_x_m.{key}")
+
+
+def test_spread_uses_nothing_else():
+    """All options of a scene fly the same rocks, and adding an option changes no number of another"""
+    run = result(FOUR, "-n", 300)
+    expect(all(o["controls"][0]["bare"] == run["options"][0]["controls"][0]["bare"] for o in run["options"]), "bare")
+    one = result(FOUR, "-n", 300, "--option", "large reserves")["options"][0]
+    expect_equal([o for o in run["options"] if o["name"] == "large reserves"], [one])
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    for value, words in BAD_SETS:
+        suite.check(f"-s {ascii(value)}: status 2, {words}", bad_set, value, words)
+    for arguments in BAD_USAGE:
+        shown = " ".join(ascii(str(a))[1:-1] if a != PAPER else a.name for a in arguments)
+        suite.check(f"ceduo {shown}: status 2, one line and where the help is", bad_usage, *arguments)
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
