@@ -15,6 +15,8 @@ static void put(FILE *out, const char *text)
     for (; *text; text++) {
         if (*text == '\\')
             fputs("\\e", out);
+        else if (*text == '-')
+            fputs("\\-", out);
         else if ((unsigned char)*text == 0xe2 && strncmp(text, "\xe2\x80\xa6", 3) == 0) {
             fputs(" to ", out);
             text += 2;
@@ -39,7 +41,10 @@ static void put_parameter(void *context, const char *path, const struct field *f
         put(out, range);
     }
     for (size_t i = 0; f->choices && i < f->choices->n; i++)
-        fprintf(out, "%s%s", i ? ", " : "; one of ", f->choices->names[i]);
+        {
+        fputs(i ? ", " : "; one of ", out);
+        put(out, f->choices->names[i]);
+    }
     if (f->value)
         fprintf(out, "; default %s", f->value);
     fputs(f->type == FIELD_SPREAD || f->type == FIELD_SPREADS ? "; may have a spread.\n" : ".\n", out);

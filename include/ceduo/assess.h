@@ -31,6 +31,7 @@ struct ceduo_index {
     double length;          /* wooded metres */
     double longest_gap;     /* m without forest, from the release to the control */
     double contacts, dissipated, meet_nothing_probability;
+    double worst_adc;       /* m, the largest of the belts; infinite where no belt is, or one without stems */
     double worst_free_run;  /* the largest of the belts; 1 where no belt is */
     bool contact_passes;    /* every belt under the threshold and no gap longer than it, over what is wooded */
     double residual;        /* Eq. 5: max(0, bare mean - dissipated); NaN where no rock reaches */

@@ -19,12 +19,18 @@ struct ceduo_result {
     struct ceduo_arrivals *bare; /* one for each control: without forest, the same for all options */
     struct ceduo_ends ends;
     size_t last_control;         /* the one farthest along x */
+    size_t options_count;
     struct ceduo_option_result *options;
 };
 
 /* Reads a run and assesses every option. The scene and the run must outlive the call, the scene the result.
  * CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_run *run,
+                                      struct ceduo_result **result);
+
+/* The same from figures that were read from a run before: `bare` has one entry for each control of the scene. */
+enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, uint64_t rocks, uint64_t contacts,
+                                      const struct ceduo_arrivals *bare, const struct ceduo_ends *ends,
                                       struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 

@@ -77,13 +77,14 @@ __attribute__((format(printf, 1, 2))) static enum exit_status usage(const char *
 
 static enum exit_status read_count(const char *name, const char *value, double lo, double hi, uint64_t *to)
 {
-    double number;
-    if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD || number != floor(number))
-        return usage(_("--%s: '%s' is no whole number"), name, value);
-    if (number < lo || number > hi)
+    switch (ceduo_count_read(value, lo, hi, to)) {
+    case CEDUO_NUMBER_GOOD:
+        return EXIT_DONE;
+    case CEDUO_NUMBER_TOO_LARGE:
         return usage(_("--%s: %s lies outside %.0f to %.0f"), name, value, lo, hi);
-    *to = (uint64_t)number;
-    return EXIT_DONE;
+    default:
+        return usage(_("--%s: '%s' is no whole number"), name, value);
+    }
 }
 
 static enum exit_status read_tolerance(struct arguments *a, const char *value)
@@ -253,10 +254,12 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
         const char *word = argv[optind - 1];
         if (letter == ':')
             return usage(_("'%s' needs a value"), word);
+        if (letter == '?' && word[0] == '-' && word[1] == '-' && optopt)
+            return usage(_("'%s': this option takes no value"), word);
         if (letter == '?' && optopt && optopt < 256)
             return usage(_("unknown option '-%c'"), optopt);
         if (letter == '?')
-            return usage(_("unknown option '%s'"), word);
+            return usage(_("no such option, or not one alone: '%s'"), word);
         enum exit_status status = read_option(a, letter, optarg);
         if (status != EXIT_DONE)
             return status;

@@ -20,12 +20,54 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static bool is_utf8(void)
+{
+    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+}
+
+/* For a terminal that knows ASCII alone: what it cannot show becomes a question mark, three dots an ellipsis. */
+static void make_plain(struct text *text)
+{
+    size_t to = 0;
+    for (size_t i = 0; i < text->length; i++) {
+        unsigned char c = (unsigned char)text->bytes[i];
+        if (strncmp(text->bytes + i, "\xe2\x80\xa6", 3) == 0) {
+            memcpy(text->bytes + to, "...", 3);
+            to += 3;
+            i += 2;
+        } else if (c < 0x80) {
+            text->bytes[to++] = text->bytes[i];
+        } else if ((c & 0xc0) != 0x80) {
+            text->bytes[to++] = '?';
+        }
+    }
+    text->length = to;
+    if (text->bytes)
+        text->bytes[to] = '\0';
+}
+
+void ceduo_batch_localise(struct text *text)
+{
+    if (!is_utf8())
+        make_plain(text);
+}
+
+void ceduo_batch_say(struct text *text)
+{
+    ceduo_batch_localise(text);
+    if (text->bytes)
+        fputs(text->bytes, stderr);
+}
+
 static void complain(const char *what, const char *why)
 {
-    struct text safe = {0};
-    ceduo_text_safe(&safe, what);
-    fprintf(stderr, "%s: %s\n", safe.bytes ? safe.bytes : "ceduo", why);
-    ceduo_text_free(&safe);
+    struct text line = {0};
+    ceduo_text_safe(&line, what);
+    ceduo_text_put(&line, ": ");
+    ceduo_text_safe(&line, why);
+    ceduo_text_char(&line, '\n');
+    ceduo_batch_say(&line);
+    ceduo_text_free(&line);
 }
 
 static enum exit_status worse(enum exit_status a, enum exit_status b)
@@ -34,27 +76,6 @@ static enum exit_status worse(enum exit_status a, enum exit_status b)
 }
 
 /* ---- writing ---- */
-
-static bool is_utf8(void)
-{
-    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
-}
-
-/* For a terminal that knows ASCII alone: what it cannot show becomes a question mark. */
-static void make_plain(struct text *text)
-{
-    size_t to = 0;
-    for (size_t i = 0; i < text->length; i++) {
-        unsigned char c = (unsigned char)text->bytes[i];
-        if (c < 0x80)
-            text->bytes[to++] = text->bytes[i];
-        else if ((c & 0xc0) != 0x80)
-            text->bytes[to++] = '?';
-    }
-    text->length = to;
-    if (text->bytes)
-        text->bytes[to] = '\0';
-}
 
 static bool write_stdout(const char *bytes, size_t n)
 {
@@ -111,14 +132,21 @@ static void end_progress(const struct progress *p)
 
 /* ---- one scene ---- */
 
+static bool is_wanted(const struct arguments *a, const char *name)
+{
+    for (size_t i = 0; name && i < a->options_count; i++)
+        if (strcmp(a->options[i], name) == 0)
+            return true;
+    return false;
+}
+
 /* Keeps only the options that were asked for, in the scene's order. */
 static enum exit_status choose_options(const struct arguments *a, struct scene_file *file)
 {
-    struct ceduo_scene *scene = &file->scene;
     for (size_t i = 0; i < a->options_count; i++) {
         bool found = false;
-        for (size_t k = 0; k < scene->options_count; k++)
-            found |= strcmp(scene->options[k].name, a->options[i]) == 0;
+        for (size_t k = 0; k < file->scene.options_count; k++)
+            found |= strcmp(file->scene.options[k].name, a->options[i]) == 0;
         if (!found) {
             struct text message = {0};
             ceduo_text_format(&message, _("--option: no option '%s' in %s"), a->options[i], file->path);
@@ -127,17 +155,18 @@ static enum exit_status choose_options(const struct arguments *a, struct scene_f
             return EXIT_USAGE;
         }
     }
-    size_t kept = 0;
-    for (size_t k = 0; k < scene->options_count && a->options_count > 0; k++) {
-        bool wanted = false;
-        for (size_t i = 0; i < a->options_count; i++)
-            wanted |= strcmp(scene->options[k].name, a->options[i]) == 0;
-        if (wanted)
-            scene->options[kept++] = scene->options[k];
-    }
-    if (a->options_count > 0)
-        scene->options_count = kept;
-    return EXIT_DONE;
+    const struct node *list = ceduo_node_get(file->root, "options");
+    if (a->options_count == 0 || !list)
+        return EXIT_DONE;
+    for (size_t k = list->n; list && k-- > 0;)
+        if (!is_wanted(a, ceduo_node_text(list->items[k], "name")))
+            list = ceduo_node_removed(&file->arena, list, k);
+    const struct node *root = list ? ceduo_node_with(&file->arena, file->root, "options", list) : NULL;
+    struct problems problems = {0};
+    file->root = root;
+    bool good = root && ceduo_scene_bind(file, &problems);
+    ceduo_problems_free(&problems);
+    return good ? EXIT_DONE : EXIT_RUN;
 }
 
 /* Reads a scene with the changes of the command line; what is wrong with it goes to standard error. */
@@ -146,8 +175,7 @@ static enum exit_status read_scene(const struct arguments *a, const char *path, 
     struct problems problems = {0};
     bool good = ceduo_scene_read(file, path, a->sets, a->sets_count, &problems);
     ceduo_problems_close(&problems);
-    if (problems.text.bytes)
-        fputs(problems.text.bytes, stderr);
+    ceduo_batch_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
     ceduo_problems_free(&problems);
     return status;
@@ -160,6 +188,7 @@ static enum exit_status write_report(const struct arguments *a, const struct ced
         return EXIT_DONE;
     }
     if (a->format == CEDUO_CSV) {
+        ceduo_text_put(out, ""); /* without stands no row, but the header */
         ceduo_report_csv(out, report, a->stands);
         return EXIT_DONE;
     }
@@ -248,33 +277,32 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
 {
     struct text out = {0};
     enum exit_status status = EXIT_DONE;
-    if (a->format == CEDUO_CSV)
-        ceduo_report_csv_header(&out, a->stands);
-    size_t header = out.length;
-    bool printed = false;
+    bool first = true;
     for (size_t i = 0; i < a->scenes_count; i++) {
-        size_t before = out.length;
-        if (a->format == CEDUO_TABLE && printed)
-            ceduo_text_put(&out, "\n");
-        size_t start = out.length;
-        enum exit_status one = batch_scene(a, a->scenes[i], &out);
-        status = worse(status, one);
-        if (out.length == start && out.bytes) {
-            out.length = before; /* nothing came of it, not even the line between */
-            out.bytes[before] = '\0';
-        } else {
-            printed = true;
+        struct text one = {0};
+        enum exit_status result = batch_scene(a, a->scenes[i], &one);
+        status = worse(status, result);
+        bool interrupted = atomic_load(ceduo_interrupt_flag());
+        if (result <= EXIT_RUN && one.bytes && !interrupted) {
+            if (first && a->format == CEDUO_CSV)
+                ceduo_report_csv_header(&out, a->stands);
+            else if (!first && a->format == CEDUO_TABLE)
+                ceduo_text_char(&out, '\n');
+            ceduo_text_add(&out, one.bytes, one.length);
+            first = false;
         }
-        if (!a->output && printed && out.length > 0 && !atomic_load(ceduo_interrupt_flag())) {
+        out.failed |= one.failed;
+        ceduo_text_free(&one);
+        if (!a->output && out.length > 0 && !interrupted) {
             enum exit_status written = ceduo_batch_write(a, &out);
             status = worse(status, written);
-            out.length = header = 0;
+            out.length = 0;
             if (written != EXIT_DONE)
                 break;
         }
         ceduo_interrupt_release();
     }
-    if (a->output && out.length > header)
+    if (a->output && !first)
         status = worse(status, ceduo_batch_write(a, &out));
     ceduo_text_free(&out);
     return status;

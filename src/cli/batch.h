@@ -13,4 +13,10 @@ enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
 /* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
 enum exit_status ceduo_batch_write(const struct arguments *arguments, const struct text *text);
 
+/* Prints to standard error, as ASCII where the terminal knows no more. */
+void ceduo_batch_say(struct text *text);
+
+/* Makes a text for people plain ASCII where the terminal knows no more. */
+void ceduo_batch_localise(struct text *text);
+
 #endif

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <dirent.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "batch.h"
@@ -100,6 +98,7 @@ enum exit_status ceduo_batch_parameters(const struct arguments *a)
         align(&table, rows.bytes);
     ceduo_text_put(&table, _("\nnumber~: also {mean: ..., spread: ..., kind: normal|uniform}, drawn for each rock\n"
                              "options[].forest[] holds what forest[] holds; any mapping may hold source: {kind, text}\n"));
+    ceduo_batch_localise(&table);
     enum exit_status status = ceduo_batch_write(a, &table);
     ceduo_text_free(&rows);
     ceduo_text_free(&table);
@@ -107,11 +106,6 @@ enum exit_status ceduo_batch_parameters(const struct arguments *a)
 }
 
 /* ---- profiles ---- */
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
 
 static const char *title_of(struct arena *arena, const char *path)
 {
@@ -140,33 +134,10 @@ static void put_profile(struct arena *arena, struct text *rows, const char *fold
 
 static void list_shelf(struct arena *arena, struct text *rows, const char *folder, const char *kind)
 {
-    struct text path = {0};
-    ceduo_text_format(&path, "%s/%s", folder, kind);
-    DIR *dir = path.bytes ? opendir(path.bytes) : NULL;
-    const char **names = NULL;
-    size_t n = 0, room = 0;
-    for (struct dirent *e; dir && (e = readdir(dir));) {
-        size_t length = strlen(e->d_name);
-        if (length < 6 || strcmp(e->d_name + length - 5, ".yaml") != 0 || e->d_name[0] == '.')
-            continue;
-        if (n == room) {
-            const char **more = realloc(names, (room = room ? 2 * room : 32) * sizeof *names);
-            if (!more)
-                break;
-            names = more;
-        }
-        if (!(names[n] = ceduo_arena_string(arena, e->d_name)))
-            break;
-        n++;
-    }
-    if (dir)
-        closedir(dir);
-    if (n > 0)
-        qsort(names, n, sizeof *names, by_name);
+    size_t n;
+    const char *const *names = ceduo_file_list(arena, folder, kind, &n);
     for (size_t i = 0; i < n; i++)
         put_profile(arena, rows, folder, kind, names[i]);
-    free(names);
-    ceduo_text_free(&path);
 }
 
 enum exit_status ceduo_batch_profiles(const struct arguments *a)
@@ -181,6 +152,7 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
             list_shelf(&arena, &rows, folders[i], kinds[k]);
     if (rows.bytes)
         align(&table, rows.bytes);
+    ceduo_batch_localise(&table);
     enum exit_status status = ceduo_batch_write(a, &table);
     ceduo_text_free(&rows);
     ceduo_text_free(&table);

@@ -46,7 +46,8 @@ static void add_belt(const struct ceduo_scene *scene, const struct ceduo_belt *b
                      struct ceduo_index *index)
 {
     struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, b - a);
-    index->length += b - a;
+    index->length += r.bare ? 0 : b - a;
+    index->worst_adc = fmax(index->worst_adc, r.adc_m);
     index->contacts += r.contacts;
     index->dissipated += r.dissipated;
     index->meet_nothing_probability *= exp(-(b - a) / r.adc.crofton);
@@ -63,17 +64,20 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         double a = fmax(belt->from, start), b = fmin(belt->to, control->x);
-        if (!(b > a) || ceduo_stand_is_bare(&belt->stand))
+        if (!(b > a))
+            continue;
+        add_belt(scene, belt, a, b, &index);
+        belts++;
+        if (ceduo_stand_is_bare(&belt->stand))
             continue;
         index.longest_gap = fmax(index.longest_gap, a - at);
-        add_belt(scene, belt, a, b, &index);
         at = b;
-        belts++;
     }
     index.longest_gap = fmax(index.longest_gap, control->x - at);
     if (belts == 0) {
         index.contact_passes = false;
         index.worst_free_run = 1;
+        index.worst_adc = INFINITY;
     }
     index.contact_passes &= !(index.longest_gap > scene->simulation.threshold);
     index.contact = index.contact_passes ? CEDUO_PASS : CEDUO_FAIL;

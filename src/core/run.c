@@ -221,6 +221,8 @@ static void *work(void *argument)
             if (atomic_load_explicit(&chunk->stop, memory_order_relaxed))
                 return NULL;
             fly_rock(w, r);
+            if (w->walker.cancelled)
+                atomic_store(&chunk->stop, true);
         }
     }
     return NULL;
@@ -231,6 +233,7 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     *w = (struct worker){.run = run, .chunk = chunk};
     w->walker.cross = on_cross;
     w->walker.context = w;
+    w->walker.cancel = run->def.cancel;
     size_t bins = run->controls * (size_t)run->kept + 1;
     if (!run->exact && !(w->bins = calloc(bins, sizeof *w->bins)))
         return false;

@@ -53,7 +53,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
                             .segment = segment,
                             .on_ground = !(height > 0)};
     w->contacts = 0;
-    w->rolls = false;
+    w->rolls = w->cancelled = false;
     w->facets_of = UINT64_MAX;
     w->next_mark = 0;
     while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
@@ -404,6 +404,15 @@ static bool rests(const struct walker *w)
 
 /* ---- the whole way ---- */
 
+/* Looks at the flag once in so many contacts: a rock may have a million before it. */
+static inline bool is_cancelled(struct walker *w)
+{
+    if ((w->contacts & 0xfff) != 0xfff || !w->cancel)
+        return false;
+    w->cancelled = atomic_load_explicit(w->cancel, memory_order_relaxed);
+    return w->cancelled;
+}
+
 enum contact_then { CONTACT_FLIES, CONTACT_RESTS, CONTACT_LEAVES, CONTACT_TOO_MANY };
 
 /* From a contact on the ground through all that follows on the ground, to the next flight or the end. */
@@ -411,7 +420,7 @@ static inline __attribute__((always_inline)) enum contact_then touch(struct walk
                                                                      enum ceduo_law law)
 {
     for (;;) {
-        if (w->contacts >= CEDUO_CONTACTS_MOST)
+        if (w->contacts >= CEDUO_CONTACTS_MOST || is_cancelled(w))
             return CONTACT_TOO_MANY;
         strike(w, law);
         w->contacts++;

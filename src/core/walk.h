@@ -2,6 +2,7 @@
 #ifndef CEDUO_WALK_H
 #define CEDUO_WALK_H
 
+#include <stdatomic.h>
 #include <stdint.h>
 
 #include "ceduo/way.h"
@@ -30,6 +31,8 @@ struct walker {
     void (*cross)(void *context, size_t mark, const struct ceduo_crossing *crossing);
     void (*visit)(void *context, const struct ceduo_piece *piece); /* NULL: nobody looks */
     void *context;
+    const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
+    bool cancelled;            /* it was raised: the way is not at its end */
 };
 
 /* Draws rock number `number` of the scene and puts it at its release. */

@@ -38,20 +38,28 @@ static struct span trim(struct span f)
     return f;
 }
 
+/* Where a field that begins at p ends: at the separator, but not at one in quotes. */
+static const char *field_end(const char *p, const char *end, char separator)
+{
+    bool quoted = false;
+    for (; p < end && (quoted || *p != separator); p++)
+        quoted ^= *p == '"';
+    return p;
+}
+
 /* Field number `which` of a line; false where it has fewer. */
 static bool field_of(struct span line, char separator, size_t which, struct span *field)
 {
+    const char *p = line.p, *end = line.p + line.n;
     for (size_t i = 0;; i++) {
-        const char *end = line.n > 0 ? memchr(line.p, separator, line.n) : NULL;
-        size_t n = end ? (size_t)(end - line.p) : line.n;
+        const char *stop = field_end(p, end, separator);
         if (i == which) {
-            *field = trim((struct span){line.p, n});
+            *field = trim((struct span){p, (size_t)(stop - p)});
             return true;
         }
-        if (!end)
+        if (stop == end)
             return false;
-        line.p += n + 1;
-        line.n -= n + 1;
+        p = stop + 1;
     }
 }
 
@@ -65,22 +73,33 @@ struct columns {
     size_t x, z;
 };
 
+/* The column of a name; the longer name goes before the short one. SIZE_MAX: none, SIZE_MAX - 1: two of them. */
+static size_t column_of(struct span line, char separator, const char *name, const char *short_name)
+{
+    const char *const names[] = {name, short_name};
+    for (int k = 0; k < 2; k++) {
+        size_t found = SIZE_MAX;
+        struct span f;
+        for (size_t i = 0; field_of(line, separator, i, &f); i++)
+            if (is_word(f, names[k]))
+                found = found == SIZE_MAX ? i : SIZE_MAX - 1;
+        if (found != SIZE_MAX)
+            return found;
+    }
+    return SIZE_MAX;
+}
+
 static bool read_header(const struct source *s, struct span line, struct columns *c, struct problems *problems)
 {
     c->separator = memchr(line.p, ';', line.n) ? ';' : memchr(line.p, '\t', line.n) ? '\t' : ',';
-    size_t found_x = SIZE_MAX, found_z = SIZE_MAX;
-    struct span f;
-    for (size_t i = 0; field_of(line, c->separator, i, &f); i++) {
-        if (is_word(f, "distance") || is_word(f, "x"))
-            found_x = i;
-        if (is_word(f, "elevation") || is_word(f, "z"))
-            found_z = i;
-    }
-    c->x = found_x;
-    c->z = found_z;
-    if (found_x != SIZE_MAX && found_z != SIZE_MAX)
+    c->x = column_of(line, c->separator, "distance", "x");
+    c->z = column_of(line, c->separator, "elevation", "z");
+    if (c->x < SIZE_MAX - 1 && c->z < SIZE_MAX - 1)
         return true;
-    ceduo_problem(problems, s, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
+    if (c->x == SIZE_MAX || c->z == SIZE_MAX)
+        ceduo_problem(problems, s, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
+    else
+        ceduo_problem(problems, s, 1, 1, _("a column is named twice; rename all but one"));
     return false;
 }
 

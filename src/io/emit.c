@@ -73,6 +73,11 @@ static void put_flow(struct text *text, const struct node *node)
     ceduo_text_char(text, node->kind == NODE_MAP ? '}' : ']');
 }
 
+void ceduo_emit_flow(struct text *text, const struct node *node)
+{
+    put_flow(text, node);
+}
+
 static bool fits_flow(const struct node *node, size_t indent)
 {
     struct text line = {0};
@@ -112,8 +117,8 @@ static void put_block(struct text *text, const struct node *node, size_t indent)
             put_entry(text, item, indent);
             continue;
         }
-        put_indent(text, indent);
         if (item->kind == NODE_SCALAR || item->n == 0 || fits_flow(item, indent + 2)) {
+            put_indent(text, indent);
             ceduo_text_put(text, "- ");
             put_flow(text, item);
             ceduo_text_char(text, '\n');

@@ -16,6 +16,9 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
 bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old,
                         const struct node *root);
 
+/* The same on one line. */
+void ceduo_emit_flow(struct text *text, const struct node *node);
+
 /* One scalar as it is written in YAML. */
 void ceduo_emit_scalar(struct text *text, const char *value, bool quoted);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -185,6 +186,46 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
     return NULL;
 }
 
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+static bool is_yaml(const char *name)
+{
+    size_t n = strlen(name);
+    return n > 5 && name[0] != '.' && strcmp(name + n - 5, ".yaml") == 0;
+}
+
+const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n)
+{
+    const char *path = join(arena, folder, strlen(folder), shelf);
+    DIR *dir = path ? opendir(path) : NULL;
+    const char **names = NULL;
+    size_t room = 0;
+    *n = 0;
+    for (struct dirent *e; dir && (e = readdir(dir));) {
+        if (!is_yaml(e->d_name))
+            continue;
+        if (*n == room) { /* what is outgrown stays in the arena until the end: shelves are short */
+            const char **more = ceduo_arena_take(arena, (room = room ? 2 * room : 32) * sizeof *more);
+            if (!more)
+                break;
+            if (names)
+                memcpy(more, names, *n * sizeof *more);
+            names = more;
+        }
+        if (!(names[*n] = ceduo_arena_string(arena, e->d_name)))
+            break;
+        ++*n;
+    }
+    if (dir)
+        closedir(dir);
+    if (*n > 0)
+        qsort(names, *n, sizeof *names, by_name);
+    return names;
+}
+
 /* ---- writing ---- */
 
 static bool write_all(int fd, const char *bytes, size_t n)
@@ -266,6 +307,29 @@ static mode_t usual_mode(void)
     return 0666 & ~mask;
 }
 
+/* Where a path that leads to nothing yet leads, through links. To be freed. */
+static char *follow_links(const char *path)
+{
+    char *at = strdup(path);
+    for (int i = 0; at && i < 16; i++) {
+        char to[PATH_MAX];
+        ssize_t n = readlink(at, to, sizeof to - 1);
+        if (n < 0)
+            return at;
+        to[n] = '\0';
+        struct text next = {0};
+        const char *slash = strrchr(at, '/');
+        if (to[0] != '/' && slash)
+            ceduo_text_add(&next, at, (size_t)(slash - at) + 1);
+        ceduo_text_put(&next, to);
+        free(at);
+        at = next.failed ? NULL : next.bytes;
+    }
+    free(at);
+    errno = ELOOP;
+    return NULL;
+}
+
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
     struct stat st;
@@ -274,7 +338,7 @@ bool ceduo_file_write(const char *path, const char *bytes, size_t n)
         return write_straight(path, bytes, n);
     if (exists && access(path, W_OK) != 0)
         return false;
-    char *target = exists ? realpath(path, NULL) : strdup(path); /* a link stays a link */
+    char *target = exists ? realpath(path, NULL) : follow_links(path); /* a link stays a link */
     if (!target)
         return false;
     bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), bytes, n);

@@ -20,6 +20,9 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
 /* The folders of profiles, best first, ended by NULL. */
 const char *const *ceduo_file_folders(struct arena *arena);
 
+/* Names of the .yaml files in `folder`/`shelf`, sorted; `*n` of them. */
+const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n);
+
 /* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else straight.
  * False with errno set. */
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);

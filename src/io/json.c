@@ -17,7 +17,8 @@ static void put_string(struct text *text, const char *string)
         } else if (code == '"' || code == '\\') {
             ceduo_text_char(text, '\\');
             ceduo_text_char(text, (char)code);
-        } else if (code < 0x20 || (code >= 0x7f && code < 0xa0)) {
+        } else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x2028 && code <= 0x202e) ||
+                   (code >= 0x2066 && code <= 0x2069)) {
             ceduo_text_format(text, "\\u%04x", (unsigned)code);
         } else {
             ceduo_text_add(text, string + i, length);

@@ -85,8 +85,8 @@ static const struct object rock_object = OBJECT("rock", struct rock_form, rock_f
 /* ---- release ---- */
 
 static const struct field release_fields[] = {
-    NUM("x_m", FIELD_SPREAD, AT(ceduo_release, x), "m", 1, -FAR, FAR, 0, "0",
-        N_("where the rock starts; in the slope's coordinates")),
+    NUM("x_m", FIELD_SPREAD, AT(ceduo_release, x), "m", 1, -FAR, FAR, FIELD_DEFAULTS, NULL,
+        N_("where the rock starts; in the slope's coordinates; without it at the first vertex")),
     NUM("height_m", FIELD_SPREAD, AT(ceduo_release, height), "m", 1, 0, 10000, 0, "0",
         N_("height of its underside above the ground")),
     NUM("vx_m_s", FIELD_SPREAD, AT(ceduo_release, vx), "m/s", 1, -1000, 1000, 0, "0",
@@ -100,7 +100,7 @@ static const struct field release_fields[] = {
 static void release_init(void *item)
 {
     struct ceduo_number zero = ceduo_number(0);
-    *(struct ceduo_release *)item = (struct ceduo_release){zero, zero, zero, zero, zero};
+    *(struct ceduo_release *)item = (struct ceduo_release){ceduo_number(NAN), zero, zero, zero, zero};
 }
 
 static const struct object release_object =
@@ -214,7 +214,7 @@ static const struct field stand_fields[] = {
     OTHER("name", FIELD_TEXT, AT(stand_form, name), 0, NULL, N_("name of the stand"), NULL),
     OTHER("base", FIELD_FILE, AT(stand_form, base), 0, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL),
-    WORD("system", AT(stand_form, system), 0, "bare", N_("silvicultural system; without it as the stems say"), &systems),
+    WORD("system", AT(stand_form, system), 0, NULL, N_("silvicultural system; without it as the stems say"), &systems),
     WORD("species", AT(stand_form, species), 0, NULL, N_("main species: volume of its stems and work of breaking"),
          &species),
     OTHER("stools", FIELD_GROUP, 0, 0, NULL, N_("stools"), &stools_object),

@@ -66,14 +66,12 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
                    const char *format, ...)
 {
     problems->usage |= source && source->is_option;
-    if (problems->count++ >= CEDUO_PROBLEMS_MOST)
-        return;
     struct text message = {0};
     va_list args;
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    struct text *out = &problems->text;
+    struct text one = {0}, *out = &one;
     if (source) {
         ceduo_text_safe(out, source->name);
         if (line > 0)
@@ -85,7 +83,12 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
     ceduo_text_char(out, '\n');
     if (source && line > 0)
         show_line(out, source, line, column);
-    problems->memory |= message.failed || out->failed;
+    /* a file that is used in two places has its faults once */
+    bool known = one.bytes && problems->text.bytes && strstr(problems->text.bytes, one.bytes);
+    if (!known && problems->count++ < CEDUO_PROBLEMS_MOST && one.bytes)
+        ceduo_text_add(&problems->text, one.bytes, one.length);
+    problems->memory |= message.failed || one.failed || problems->text.failed;
+    ceduo_text_free(&one);
     ceduo_text_free(&message);
 }
 

@@ -10,6 +10,7 @@ struct source {
     const char *bytes;
     size_t length;
     bool is_option;   /* a --set: what is wrong with it is a usage error */
+    const char *beside; /* of an option: the file that its paths are looked for beside */
 };
 
 #define CEDUO_PROBLEMS_MOST 20 /* printed in full */

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "file.h"
 #include "intl.h"
@@ -14,7 +15,7 @@
 static bool ends_in(const char *text, const char *end)
 {
     size_t n = strlen(text), m = strlen(end);
-    return n >= m && strcmp(text + n - m, end) == 0;
+    return n >= m && strcasecmp(text + n - m, end) == 0;
 }
 
 /* A copy of `found` that stands where `place` stood. */
@@ -34,7 +35,10 @@ static const struct node *in_place_of(struct arena *arena, const struct node *fo
 
 static const char *locate(struct arena *arena, const struct node *node, const char *folder, struct problems *problems)
 {
-    const char *path = ceduo_file_find(arena, node->text, node->source ? node->source->name : NULL, folder);
+    const struct source *s = node->source;
+    const char *path = ceduo_file_find(arena, node->text, s && s->is_option ? s->beside : s ? s->name : NULL, folder);
+    if (!path && s && s->is_option)
+        path = ceduo_file_find(arena, node->text, NULL, folder);
     if (!path && arena->failed)
         ceduo_problem_memory(problems);
     else if (!path)

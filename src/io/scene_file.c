@@ -67,6 +67,18 @@ static const char *shown(double value, char room[CEDUO_NUMBER_ROOM])
     return ceduo_number_shortest(value, room);
 }
 
+/* What the program itself assumes is listed with what the files say they assume. */
+static void assume(struct maker *m, const char *path, const char *text)
+{
+    struct source_note *note = ceduo_arena_take(&m->file->arena, sizeof *note);
+    if (!note) {
+        ceduo_problem_memory(m->problems);
+        return;
+    }
+    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = m->file->notes};
+    m->file->notes = note;
+}
+
 /* ---- rock ---- */
 
 static void want_only(struct maker *m, const char *shape, const char *const wanted[])
@@ -114,6 +126,9 @@ static void check_rock(struct maker *m)
                                                   .mass = f->mass,
                                                   .density = f->density,
                                                   .axes = {f->axes[0], f->axes[1], f->axes[2]}};
+    bool by_mass = shape != CEDUO_SPHERE && given(m, "rock", "mass_kg");
+    if (!given(m, "rock", "density_kg_m3") && !by_mass)
+        assume(m, "rock.density_kg_m3", _("density of limestone, 2600 kg/m3"));
     struct ceduo_rock rock;
     if (m->problems->count == 0 && ceduo_rock_of_means(&m->file->scene.rock, &rock) != CEDUO_OK)
         complain(m, "rock", _("too small or too large a rock to compute with"));
@@ -198,6 +213,12 @@ static bool make_segments(struct maker *m)
         if (isnan(g->roughness_m) && isnan(g->roughness_rad))
             g->roughness_rad = 0;
     }
+    const struct node *nodes = ceduo_node_get(ceduo_node_get(m->file->root, "slope"), "segments");
+    for (size_t i = 0; i < nodes->n; i++)
+        if (!ceduo_node_get(nodes->items[i], "friction")) {
+            assume(m, path_of(m, "slope.segments[%zu]", i), _("friction 0.5 of a rolling rock"));
+            break;
+        }
     for (size_t i = 0; i < n; i++)
         s->segments[i] = ((struct ceduo_segment *)given_segments->items)[given_segments->n == 1 ? 0 : i];
     return true;
@@ -263,6 +284,7 @@ static bool make_materials(struct maker *m)
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
     if (!s->segments)
         return false;
+    assume(m, "slope.materials", _("roughness and friction of the library's grounds, and all of its rows -v4"));
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
         while (row + 1 < n && s->x[j] >= rows[row + 1].from - m->origin)
             row++;
@@ -275,6 +297,7 @@ static bool make_talus(struct maker *m)
 {
     struct ceduo_slope *s = &m->file->scene.slope;
     m->file->ground_assumed = true;
+    assume(m, "slope", _("talus everywhere, its roughness and friction too"));
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
     for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
         s->segments[j] = segment_of(2);
@@ -313,7 +336,7 @@ static void make_release(struct maker *m)
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM], c[CEDUO_NUMBER_ROOM];
     struct ceduo_scene *scene = &m->file->scene;
     scene->release = m->form.release;
-    bool own_x = given(m, "release", "x_m");
+    bool own_x = !isnan(scene->release.x.mean);
     scene->release.x.mean = own_x ? scene->release.x.mean - m->origin : 0;
     double end = scene->slope.x[scene->slope.vertices - 1];
     double first = ceduo_number_lowest(scene->release.x), last = ceduo_number_highest(scene->release.x);
@@ -532,6 +555,18 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     return problems->count == before && !problems->memory;
 }
 
+/* The '=' that ends a path; one within brackets belongs to a name. */
+static const char *equals_of(const char *set)
+{
+    bool inside = false;
+    for (const char *p = set; *p; p++) {
+        inside = *p == '[' || (inside && *p != ']');
+        if (*p == '=' && !inside)
+            return p;
+    }
+    return strchr(set, '='); /* a bracket that is never closed */
+}
+
 bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *problems)
 {
     struct source *source = ceduo_arena_take(&file->arena, sizeof *source);
@@ -540,8 +575,9 @@ bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *
         ceduo_problem_memory(problems);
         return false;
     }
-    *source = (struct source){.name = "--set", .bytes = copy, .length = strlen(copy), .is_option = true};
-    const char *equals = strchr(copy, '=');
+    *source = (struct source){
+        .name = "--set", .bytes = copy, .length = strlen(copy), .is_option = true, .beside = file->path};
+    const char *equals = equals_of(copy);
     if (!equals || equals == copy) {
         ceduo_problem(problems, source, 1, 1, _("PATH=VALUE is wanted"));
         return false;

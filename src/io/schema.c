@@ -230,8 +230,8 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
         return;
     if (value != floor(value))
         report(b, node, _("'%s' is no whole number"), node->text);
-    else if (check_range(b, f, node, value))
-        *to = (uint64_t)value;
+    else if (check_range(b, f, node, value) && ceduo_count_read(node->text, f->lo, f->hi, to) != CEDUO_NUMBER_GOOD)
+        report(b, node, _("%s is above %.0f"), node->text, f->hi);
 }
 
 static void bind_choice(struct binder *b, const struct field *f, const struct node *node, int *to)
@@ -277,6 +277,8 @@ static void bind_tag(struct binder *b, const struct field *f, const struct node 
         report(b, node, _("'%s': '%s' is wanted here"), node->text, f->value);
 }
 
+static void bind_source(struct binder *b, const struct node *node);
+
 /* {mean: …, spread: …, kind: …} */
 static void bind_spread_map(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
@@ -298,12 +300,14 @@ static void bind_spread_map(struct binder *b, const struct field *f, const struc
         else if (strcmp(entry->key, "kind") == 0)
             bind_choice(b, &kind, entry, &k);
         else if (strcmp(entry->key, "source") != 0)
-            report_key(b, entry, _("unknown key; known here: mean, spread, kind"));
+            report_key(b, entry, _("unknown key; known here: mean, spread, kind, source"));
         if (strcmp(entry->key, "kind") == 0)
             to->kind = (enum ceduo_spread_kind)k;
         leave(b, before);
+        if (strcmp(entry->key, "source") == 0)
+            bind_source(b, entry);
     }
-    if (!has_mean)
+    if (!has_mean && isnan(to->mean) && !(f->flags & FIELD_DEFAULTS))
         report(b, node, _("'mean' is missing"));
 }
 
@@ -319,11 +323,9 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
     bool cut = f->lo == 0 && f->hi == 1;
     double lowest = ceduo_number_lowest(*to) / f->scale, highest = ceduo_number_highest(*to) / f->scale;
     bool below = f->flags & FIELD_ABOVE ? !(lowest > f->lo) : lowest < f->lo;
-    if (!cut && (below || highest > f->hi)) {
-        char low[CEDUO_NUMBER_ROOM], high[CEDUO_NUMBER_ROOM];
-        report(b, node, _("the spread reaches from %s to %s %s, beyond what is possible; make it smaller"),
-               ceduo_number_shortest(lowest, low), ceduo_number_shortest(highest, high), f->unit);
-    }
+    if (!cut && (below || highest > f->hi) && !isnan(to->mean))
+        report(b, node, _("the spread reaches from %.6g to %.6g %s, beyond what is possible; make it smaller"), lowest,
+               highest, f->unit);
 }
 
 static void bind_spreads(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
@@ -502,9 +504,12 @@ static void bind_map(struct binder *b, const struct object *object, const struct
     size_t outer = b->file_start;
     if (node->written && node->written->kind == NODE_SCALAR)
         b->file_start = b->path.length; /* a file of its own: paths begin anew */
+    size_t own = b->file_start;
     for (size_t i = 0; i < node->n; i++) {
         const struct node *entry = node->items[i];
         const struct field *f = ceduo_schema_field(object, entry->key);
+        bool other_file = node->written && entry->source != node->source && !entry->source->is_option && !node->source->is_option;
+        b->file_start = other_file ? b->path.length : own; /* from the file of a base */
         if (f) {
             size_t before = enter(b, entry->key);
             bind_field(b, f, entry, item);
@@ -515,6 +520,7 @@ static void bind_map(struct binder *b, const struct object *object, const struct
             report_unknown_key(b, object, entry);
         }
     }
+    b->file_start = own;
     report_missing(b, object, node);
     b->file_start = outer;
 }
@@ -534,8 +540,8 @@ bool ceduo_schema_range_text(const struct field *f, char *buffer, size_t size)
 {
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
     bool low = isfinite(f->lo), high = isfinite(f->hi);
-    ceduo_number_shortest(f->lo, lo);
-    ceduo_number_shortest(f->hi, hi);
+    snprintf(lo, sizeof lo, "%.5g", f->lo);
+    snprintf(hi, sizeof hi, f->hi > 1e15 ? "%.17g" : "%.5g", f->hi);
     if (!low && !high)
         snprintf(buffer, size, "%s", "");
     else if (!high)

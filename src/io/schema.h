@@ -43,6 +43,7 @@ enum field_flag {
     FIELD_REQUIRED = 1,
     FIELD_ABOVE = 2,  /* lo itself is outside */
     FIELD_UNDER = 4,  /* hi itself is outside */
+    FIELD_DEFAULTS = 16, /* a spread may leave its mean out */
     FIELD_FOLLOWS = 8 /* a group that may be a path to a file holding it */
 };
 

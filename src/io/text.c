@@ -182,3 +182,22 @@ enum ceduo_number_reading ceduo_number_read(const char *string, double *value)
     *value = strtod(string, NULL);
     return isfinite(*value) ? CEDUO_NUMBER_GOOD : CEDUO_NUMBER_TOO_LARGE;
 }
+
+enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value)
+{
+    double number;
+    enum ceduo_number_reading reading = ceduo_number_read(string, &number);
+    if (reading != CEDUO_NUMBER_GOOD)
+        return reading;
+    if (number != floor(number))
+        return CEDUO_NUMBER_NONE;
+    if (number < lo || number > hi)
+        return CEDUO_NUMBER_TOO_LARGE;
+    *value = (uint64_t)number;
+    if (string[strspn(string, "0123456789")] == '\0') { /* digits may say more than a double holds */
+        *value = strtoull(string, NULL, 10);
+        if (*value > (uint64_t)hi)
+            return CEDUO_NUMBER_TOO_LARGE;
+    }
+    return CEDUO_NUMBER_GOOD;
+}

@@ -41,4 +41,7 @@ enum ceduo_number_reading { CEDUO_NUMBER_GOOD, CEDUO_NUMBER_NONE, CEDUO_NUMBER_T
 /* Reads a decimal number with a dot: 12, -0.5, .5, 1e-3. Not: 1,5 1_000 0x10 010 inf nan, or anything after it. */
 enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
 
+/* Reads a whole number from lo to hi, exactly: CEDUO_NUMBER_TOO_LARGE where it lies outside. */
+enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value);
+
 #endif

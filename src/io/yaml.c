@@ -49,6 +49,29 @@ static yaml_mark_t mark_of_byte(const char *bytes, size_t length, size_t offset)
     return mark;
 }
 
+/* The end of the last line that has something, where a mark lies beyond it. */
+static yaml_mark_t within_text(const struct reader *r, yaml_mark_t mark)
+{
+    const char *bytes = r->source->bytes + r->skip;
+    size_t length = r->source->length - r->skip;
+    while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
+        length--;
+    yaml_mark_t end = mark_of_byte(bytes, length, length);
+    return mark.line > end.line ? end : mark;
+}
+
+static char byte_at(const struct reader *r, yaml_mark_t mark)
+{
+    const char *p = r->source->bytes + r->skip, *end = r->source->bytes + r->source->length;
+    for (size_t line = 0; line < mark.line && p < end; p++)
+        line += *p == '\n';
+    for (size_t i = 0; i < mark.column && p < end; i++)
+        do
+            p++;
+        while (p < end && ((unsigned char)*p & 0xc0) == 0x80);
+    return p < end ? *p : '\0';
+}
+
 static void syntax_problem(struct reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -58,16 +81,21 @@ static void syntax_problem(struct reader *r)
         return;
     }
     if (p->error == YAML_READER_ERROR) {
-        yaml_mark_t at = mark_of_byte(r->source->bytes + r->skip, r->source->length - r->skip, p->problem_offset);
+        const char *bytes = r->source->bytes + r->skip;
+        size_t length = r->source->length - r->skip, from = 0, n;
+        uint32_t code;
+        while (from < length && from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
+            from += n; /* libyaml may name a byte within the character */
+        yaml_mark_t at = mark_of_byte(bytes, length, from);
         if (p->problem_value >= 0 && strstr(p->problem, "control"))
             STOP(r, at, _("a control character (\\x%02x); take it out"), (unsigned)p->problem_value);
         else
             STOP(r, at, _("not UTF-8; save the file as UTF-8"));
         return;
     }
-    yaml_mark_t at = p->problem_mark;
+    yaml_mark_t at = within_text(r, p->problem_mark);
     const char *what = p->problem ? p->problem : "malformed YAML";
-    if (strstr(what, "tab"))
+    if (strstr(what, "tab") || byte_at(r, at) == '\t')
         STOP(r, at, _("a tab; indent with spaces"));
     else if (strstr(what, "cannot start any token"))
         STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));

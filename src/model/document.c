@@ -189,9 +189,13 @@ static const struct node *parse(struct document *d, const char *name, const char
     char *title = ceduo_arena_string(&d->file.arena, name);
     if (!source || !copy || !title)
         return NULL;
-    *source = (struct source){.name = title, .bytes = copy, .length = strlen(copy), .is_option = true};
+    *source = (struct source){
+        .name = title, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = d->path};
     return ceduo_yaml_read(&d->file.arena, source, problems);
 }
+
+static const struct node *with_set(struct document *d, const struct node *root, const char *set,
+                                   struct problems *problems);
 
 bool ceduo_document_set(struct document *d, const char *path, const char *value, struct problems *problems)
 {
@@ -203,12 +207,8 @@ bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t 
                             struct problems *problems)
 {
     const struct node *root = d->file.root;
-    for (size_t i = 0; root && i < n; i++) {
-        const char *equals = strchr(sets[i], '=');
-        char *path = equals ? ceduo_arena_copy(&d->file.arena, sets[i], (size_t)(equals - sets[i])) : NULL;
-        const struct node *value = path ? parse(d, path, equals + 1, problems) : NULL;
-        root = value ? put(d, root, path, value, problems) : NULL;
-    }
+    for (size_t i = 0; root && i < n; i++)
+        root = with_set(d, root, sets[i], problems);
     return commit(d, root, what, problems);
 }
 
@@ -275,9 +275,12 @@ static const struct node *with_new_name(struct document *d, const struct node *l
     const char *name = ceduo_node_text(item, "name");
     if (!name)
         return item;
-    for (unsigned i = 2; i < 1000; i++) {
+    for (unsigned i = 1; i < 1000; i++) {
         struct text text = {0};
-        ceduo_text_format(&text, "%s (%u)", name, i);
+        if (i == 1)
+            ceduo_text_put(&text, name);
+        else
+            ceduo_text_format(&text, "%s (%u)", name, i);
         bool taken = false;
         for (size_t k = 0; text.bytes && k < list->n; k++) {
             const char *other = ceduo_node_text(list->items[k], "name");
@@ -311,6 +314,105 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
     const struct node *less = ceduo_node_removed(&d->file.arena, holder, from);
     const struct node *moved = less ? ceduo_node_inserted(&d->file.arena, less, to, holder->items[from]) : NULL;
     return commit(d, moved ? put(d, d->file.root, list, moved, problems) : NULL, list, problems);
+}
+
+bool ceduo_document_delete_both(struct document *d, const char *map, const char *first, const char *second,
+                                struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, map);
+    const struct node *less = holder ? ceduo_node_without(&d->file.arena, holder, first) : NULL;
+    less = less ? ceduo_node_without(&d->file.arena, less, second) : NULL;
+    if (less && less != holder)
+        ceduo_node_keep_written(less, holder);
+    return commit(d, less ? put(d, d->file.root, map, less, problems) : NULL, map, problems);
+}
+
+/* root with an item put into a list. */
+static const struct node *with_item(struct document *d, const struct node *root, const char *list, size_t index,
+                                    const struct node *item, struct problems *problems)
+{
+    const char *within;
+    size_t used;
+    const struct node *holder = ceduo_resolve_walk(root, list, &within, &used);
+    if (used != strlen(list) || holder->kind != NODE_LIST || index > holder->n || !item)
+        return NULL;
+    const struct node *plain = ceduo_node_renamed(&d->file.arena, item, NULL);
+    return put(d, root, list, plain ? ceduo_node_inserted(&d->file.arena, holder, index, plain) : NULL, problems);
+}
+
+/* root with PATH=VALUE. */
+static const struct node *with_set(struct document *d, const struct node *root, const char *set,
+                                   struct problems *problems)
+{
+    const char *equals = strchr(set, '=');
+    char *path = equals ? ceduo_arena_copy(&d->file.arena, set, (size_t)(equals - set)) : NULL;
+    const struct node *value = path ? parse(d, path, equals + 1, problems) : NULL;
+    return value ? put(d, root, path, value, problems) : NULL;
+}
+
+bool ceduo_document_split(struct document *d, const char *list, size_t index, const char *first, const char *second,
+                          struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    const struct node *item = holder && index < holder->n ? holder->items[index] : NULL;
+    const struct node *root = with_item(d, d->file.root, list, index + 1, item, problems);
+    root = root ? with_set(d, root, first, problems) : NULL;
+    root = root ? with_set(d, root, second, problems) : NULL;
+    return commit(d, root, list, problems);
+}
+
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, struct problems *problems)
+{
+    const char *list = "slope.vertices_m", *ground = "slope.segments";
+    const struct node *root = with_item(d, d->file.root, list, index + 1, parse(d, list, vertex, problems), problems);
+    const struct node *segments = ceduo_document_node(d, ground);
+    if (root && segments && segments->n > 1)
+        root = with_item(d, root, ground, index + 1, segments->items[index], problems);
+    return commit(d, root, list, problems);
+}
+
+/* A scene whose forest is the one option "current". */
+static const struct node *with_options(struct document *d, const struct node *root, struct problems *problems)
+{
+    if (ceduo_node_get(root, "options"))
+        return root;
+    const struct node *options = parse(d, "options", "[{name: current}]", problems);
+    const struct node *forest = ceduo_node_get(root, "forest");
+    const struct node *item = options ? options->items[0] : NULL;
+    if (item && forest)
+        item = ceduo_node_with(&d->file.arena, item, "forest", forest);
+    options = item ? ceduo_node_replaced(&d->file.arena, options, 0, item) : NULL;
+    root = options ? ceduo_node_without(&d->file.arena, root, "forest") : NULL;
+    return root ? ceduo_node_with(&d->file.arena, root, "options", options) : NULL;
+}
+
+bool ceduo_document_add_option(struct document *d, const char *stand, struct problems *problems)
+{
+    const struct ceduo_option *first = &d->file.scene.options[0];
+    const struct ceduo_control *c = d->file.scene.controls;
+    struct text yaml = {0};
+    ceduo_text_format(&yaml, "{name: \"%s\", forest: [", stand);
+    for (size_t i = 0; i < first->belts_count; i++)
+        ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "",
+                          first->belts[i].from_given, first->belts[i].to_given, stand);
+    if (first->belts_count == 0)
+        ceduo_text_format(&yaml, "{from_m: %.10g, to_m: %.10g, stand: %s}", d->file.origin_x, c->x_given, stand);
+    ceduo_text_put(&yaml, "]}");
+    const struct node *item = yaml.bytes ? parse(d, "options", yaml.bytes, problems) : NULL;
+    const struct node *root = item ? with_options(d, d->file.root, problems) : NULL;
+    const struct node *list = root ? ceduo_node_get(root, "options") : NULL;
+    if (list)
+        item = with_new_name(d, list, item);
+    ceduo_text_free(&yaml);
+    return commit(d, list ? with_item(d, root, "options", list->n, item, problems) : NULL, stand, problems);
+}
+
+bool ceduo_document_copy_option(struct document *d, size_t index, struct problems *problems)
+{
+    const struct node *root = with_options(d, d->file.root, problems);
+    const struct node *list = root ? ceduo_node_get(root, "options") : NULL;
+    const struct node *item = list && index < list->n ? with_new_name(d, list, list->items[index]) : NULL;
+    return commit(d, item ? with_item(d, root, "options", index + 1, item, problems) : NULL, "options", problems);
 }
 
 /* ---- undo ---- */

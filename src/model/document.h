@@ -46,9 +46,26 @@ bool ceduo_document_insert(struct document *document, const char *list, size_t i
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to,
                          struct problems *problems);
+/* A new option after the last: the belts of the first with `stand` in each. A scene that has only a forest gets options
+ * first, "current" the first of them. */
+bool ceduo_document_add_option(struct document *document, const char *stand, struct problems *problems);
+
+/* A copy of an option after it. */
+bool ceduo_document_copy_option(struct document *document, size_t index, struct problems *problems);
+
 /* Several changes as one state: PATH=VALUE each. */
 bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
                             struct problems *problems);
+
+/* Two entries of a mapping at once. */
+bool ceduo_document_delete_both(struct document *document, const char *map, const char *first, const char *second,
+                                struct problems *problems);
+/* A copy of item `list[index]` after it, and a change (PATH=VALUE) to each of the two. */
+bool ceduo_document_split(struct document *document, const char *list, size_t index, const char *first,
+                          const char *second, struct problems *problems);
+/* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. */
+bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex,
+                                  struct problems *problems);
 
 bool ceduo_document_undo(struct document *document);
 bool ceduo_document_redo(struct document *document);

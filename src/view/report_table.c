@@ -135,8 +135,9 @@ static void put_slope(struct page *p)
     put_number(p, slope->x[slope->vertices - 1], 4);
     ceduo_text_put(p->text, _(" m long, "));
     put_number(p, high - low, 4);
-    ceduo_text_format(p->text, _(" m high, %zu segments; law %s, facets %s%s\n"), slope->vertices - 1,
-                      ceduo_words_law(s->simulation.law), ceduo_facets_names[slope->facets], assumed_mark(p, "slope"));
+    ceduo_text_format(p->text, ngettext(" m high, %zu segment; law %s, facets %s%s\n", " m high, %zu segments; law %s, facets %s%s\n",
+                                         slope->vertices - 1),
+                      slope->vertices - 1, ceduo_words_law(s->simulation.law), ceduo_facets_names[slope->facets], assumed_mark(p, "slope"));
 }
 
 static void put_head(struct page *p)
@@ -184,17 +185,20 @@ static void put_arrivals(struct page *p, const struct ceduo_arrivals *a)
                           a->reach_hi * 1000);
         return;
     }
-    ceduo_text_put(p->text, _("    Without forest, energy of those: mean "));
-    put_number(p, a->energy.mean * KILO, 4);
-    ceduo_text_format(p->text, " %s ", plus_minus(p));
-    put_number(p, a->energy.se * CEDUO_Z95 * KILO, 2);
-    ceduo_text_put(p->text, _(" kJ, 95 % below "));
-    put_number(p, a->energy.p95 * KILO, 3);
-    ceduo_text_put(p->text, _(" kJ;\n    speed "));
-    put_number(p, a->speed.mean, 3);
-    ceduo_text_put(p->text, _(" m/s, 95 % jump below "));
-    put_number(p, a->height.p95, 2);
-    ceduo_text_put(p->text, " m.\n");
+    struct text line = {0};
+    ceduo_text_put(&line, _("Without forest, energy of those: mean "));
+    ceduo_words_number(&line, a->energy.mean * KILO, 4);
+    ceduo_text_format(&line, " %s ", plus_minus(p));
+    ceduo_words_number(&line, a->energy.se * CEDUO_Z95 * KILO, 2);
+    ceduo_text_put(&line, _(" kJ, 95 % below "));
+    ceduo_words_number(&line, a->energy.p95 * KILO, 3);
+    ceduo_text_put(&line, _(" kJ; speed "));
+    ceduo_words_number(&line, a->speed.mean, 3);
+    ceduo_text_put(&line, _(" m/s, 95 % jump below "));
+    ceduo_words_number(&line, a->height.p95, 2);
+    ceduo_text_put(&line, " m.");
+    put_wrapped(p, "    ", 4, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
 }
 
 /* ---- forest ---- */
@@ -208,7 +212,12 @@ static void put_belt(struct page *p, const struct ceduo_belt *b, const struct ce
     ceduo_text_format(&name, "%s%s", b->name, b->assumed ? "*" : "");
     ceduo_text_put(p->text, "    ");
     ceduo_text_put(p->text, range.bytes ? range.bytes : "");
-    for (size_t i = ceduo_text_columns(range.bytes ? range.bytes : ""); i < 9; i++)
+    size_t columns = ceduo_text_columns(range.bytes ? range.bytes : "");
+    if (columns > 9) { /* survey coordinates: a line of their own */
+        ceduo_text_put(p->text, "\n    ");
+        columns = 0;
+    }
+    for (size_t i = columns; i < 9; i++)
         ceduo_text_char(p->text, ' ');
     ceduo_text_char(p->text, ' ');
     put_padded(p, name.bytes ? name.bytes : "", 27);
@@ -381,16 +390,13 @@ static void put_comparison_row(struct page *p, size_t i)
     const struct ceduo_option *o = &r->scene->options[i];
     const struct ceduo_option_result *found = &r->options[i];
     const struct ceduo_index *s = &found->controls[r->last_control];
-    double worst = o->belts_count > 0 ? 0 : INFINITY;
-    for (size_t k = 0; k < o->belts_count; k++)
-        worst = fmax(worst, found->stands[k].adc_m);
     ceduo_text_put(p->text, "  ");
     put_padded(p, o->name, 32);
-    put_cell(p, worst, 3, 7);
-    ceduo_text_format(p->text, " %-8s", s->contact == CEDUO_PASS ? _("passes") : _("FAILS"));
+    put_cell(p, s->worst_adc, 3, 7);
+    ceduo_text_format(p->text, " %-7s", s->contact == CEDUO_PASS ? _("passes") : _("FAILS"));
     struct text share = {0};
     ceduo_text_format(&share, "%.1f %%", s->worst_free_run * 100);
-    put_padded(p, share.bytes ? share.bytes : "", -8);
+    put_padded(p, share.bytes ? share.bytes : "", -7);
     ceduo_text_free(&share);
     ceduo_text_format(p->text, " %-7s", s->free_run == CEDUO_PASS ? _("passes") : _("FAILS"));
     put_cell(p, s->length > 0 ? s->dissipated / s->length * 100 * KILO : 0, 3, 8);
@@ -438,8 +444,9 @@ static void put_comparison(struct page *p)
     put_padded(p, _("option"), 32);
     put_padded(p, _("ADC m"), -7);
     ceduo_text_char(p->text, ' ');
-    put_padded(p, _("contact"), 8);
-    put_padded(p, _("free run"), 16);
+    put_padded(p, _("contact"), 7);
+    ceduo_text_char(p->text, ' ');
+    put_padded(p, _("free run"), 14);
     put_padded(p, _("kJ/100 m"), -8);
     put_padded(p, _("left kJ"), -8);
     ceduo_text_char(p->text, '\n');

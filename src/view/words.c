@@ -39,13 +39,17 @@ void ceduo_words_number(struct text *text, double value, int digits)
         ceduo_text_put(text, _("none"));
         return;
     }
+    if (value == 0) {
+        ceduo_text_put(text, "0");
+        return;
+    }
     double size = fabs(value);
-    int before = size >= 1 ? (int)floor(log10(size)) + 1 : size > 0 ? (int)floor(log10(size)) + 1 : 1;
+    int before = size >= 1 ? (int)floor(log10(size)) + 1 : (int)floor(log10(size)) + 1;
     int decimals = digits - before;
     if (decimals > 6 || size >= 1e9)
-        ceduo_text_format(text, "%.*g", digits, value == 0 ? 0.0 : value);
+        ceduo_text_format(text, "%.*g", digits, value);
     else
-        ceduo_text_format(text, "%.*f", decimals > 0 ? decimals : 0, value == 0 ? 0.0 : value);
+        ceduo_text_format(text, "%.*f", decimals > 0 ? decimals : 0, value);
 }
 
 __attribute__((format(printf, 3, 4))) static void say_format(say_function *say, void *context, const char *format, ...)

@@ -20,6 +20,7 @@
 #define CONTROL_X    135.0
 #define CELLS        200
 #define MANY_ROCKS   1000000
+#define ROCKS_LEAST  1000 /* fewer say nothing about agreement */
 #define REPEATS_MOST 99
 #define AGREE        4.0 /* combined standard errors */
 
@@ -272,19 +273,19 @@ static void measure_many(const struct site *site, size_t repeats)
     fprintf(stderr, "peak memory with %d rocks: %.1f MiB\n", MANY_ROCKS, (double)usage.ru_maxrss / 1024);
 }
 
-static uint64_t argument(const char *text, uint64_t most)
+static uint64_t argument(const char *text, uint64_t least, uint64_t most)
 {
     char *end;
     unsigned long long value = strtoull(text, &end, 10);
-    if (*end != '\0' || value < 1 || value > most)
+    if (*end != '\0' || value < least || value > most)
         fail("usage: bench_walk [REPEATS [ROCKS]]");
     return value;
 }
 
 int main(int argc, char **argv)
 {
-    size_t repeats = argc > 1 ? (size_t)argument(argv[1], REPEATS_MOST) : 7;
-    uint64_t rocks = argc > 2 ? argument(argv[2], MANY_ROCKS) : 100000;
+    size_t repeats = argc > 1 ? (size_t)argument(argv[1], 1, REPEATS_MOST) : 7;
+    uint64_t rocks = argc > 2 ? argument(argv[2], ROCKS_LEAST, MANY_ROCKS) : 100000;
     static struct site lumped, crsp;
     init_site(&lumped, CEDUO_LAW_LUMPED, false);
     init_site(&crsp, CEDUO_LAW_CRSP, true);

@@ -420,7 +420,7 @@ def test_table_verdicts():
 def test_table_assumed():
     """Table marks what is assumed, and only that"""
     with Folder() as f:
-        plain = scene(controls=[{"x_m": 75, "accepted_kJ": 50}])
+        plain = scene(controls=[{"x_m": 75, "accepted_kJ": 50}], rock={"diameter_m": 0.5, "density_kg_m3": 2600})
         text = good("--batch", f.write("plain.yaml", plain)).out
         expect("*" not in text and "ssumed" not in text, text)
         note = {"kind": "assumed", "text": "guessed by eye"}
@@ -759,7 +759,7 @@ def test_output_impossible():
     """-o to a folder, into a missing folder, or to nothing: status 4, named, nothing left behind"""
     with Folder() as f:
         for target in (f.path, f.path / "no" / "out.txt", "", PAPER / "out.txt", f.path / ("x" * 300)):
-            done = ceduo("--batch", "-n", 5, "-o", target, PAPER)
+            done = ceduo("--batch", "-n", 5, "-o", target, PAPER, cwd=f.path)
             expect(done.status == OUTPUT and done.err and done.out == "", done)
         expect_equal(f.names(), [])
 

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prints figures of a few runs to the last bit: bits THREADS. The same whatever the threads, the optimisation and the
+ * compiler are. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "ceduo/ceduo.h"
+#include "physics/paper_site.h"
+
+static void show(const char *what, const struct ceduo_distribution *d)
+{
+    printf("%s %a %a %a %a %a %a\n", what, d->mean, d->se, d->p50, d->p95, d->p99, d->max);
+}
+
+int main(int argc, char **argv)
+{
+    unsigned threads = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 1;
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+        struct paper_site site;
+        paper_site_init(&site);
+        site.scene.simulation.law = (enum ceduo_law)law;
+        site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.threads = threads;
+        def.rocks_most = 10000;
+        struct ceduo_run *run;
+        struct ceduo_arrivals a;
+        if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, 10000) != CEDUO_OK ||
+            ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
+            return 1;
+        printf("%llu %llu\n", (unsigned long long)a.reached, (unsigned long long)ceduo_run_contacts(run));
+        show("speed", &a.speed);
+        show("energy", &a.energy);
+        show("height", &a.height);
+        ceduo_run_free(run);
+    }
+    return 0;
+}

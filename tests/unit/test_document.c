@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants the four above first */
+#include <cmocka.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "io/file.h"
+#include "model/document.h"
+
+static const char scene[] = "# my comment\n"
+                            "ceduo: scene/1\n"
+                            "title: \"T\"   # a title\n"
+                            "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n"
+                            "slope:\n"
+                            "  vertices_m: [[0, 50], [40, 20], [100, 0]] # a profile\n"
+                            "  segments: [{rn: 0.3, rt: 0.8}, {rn: 0.35, rt: 0.85}]\n"
+                            "controls: [{x_m: 90, name: road, accepted_kJ: 50}]\n"
+                            "forest:\n"
+                            "  - {from_m: 10, to_m: 80, stand: stand.yaml}   # below the rock\n";
+
+static const char stand[] = "ceduo: stand/1\nname: S\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+                            "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
+
+static char folder[64], path[128];
+
+static void write_file(const char *name, const char *text)
+{
+    char whole[256];
+    snprintf(whole, sizeof whole, "%s/%s", folder, name);
+    assert_true(ceduo_file_write(whole, text, strlen(text)));
+}
+
+static char *read_file(const char *name)
+{
+    char whole[256];
+    static char text[65536];
+    snprintf(whole, sizeof whole, "%s/%s", folder, name);
+    FILE *f = fopen(whole, "r");
+    assert_non_null(f);
+    text[fread(text, 1, sizeof text - 1, f)] = '\0';
+    fclose(f);
+    return text;
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    setenv("XDG_STATE_HOME", folder, 1);
+    char share[128], *profiles = realpath("profiles", NULL); /* the shipped stands, as if they were installed */
+    snprintf(share, sizeof share, "%s/share", folder);
+    assert_int_equal(mkdir(share, 0700), 0);
+    setenv("XDG_DATA_HOME", share, 1);
+    snprintf(share, sizeof share, "%s/share/ceduo", folder);
+    assert_non_null(profiles);
+    assert_int_equal(symlink(profiles, share), 0);
+    free(profiles);
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    write_file("scene.yaml", scene);
+    write_file("stand.yaml", stand);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void open_scene(struct document *d)
+{
+    struct problems problems = {0};
+    bool good = ceduo_document_open(d, path, &problems);
+    if (!good)
+        print_error("%s", problems.text.bytes);
+    assert_true(good);
+    ceduo_problems_free(&problems);
+}
+
+static void set(struct document *d, const char *where, const char *value)
+{
+    struct problems problems = {0};
+    bool good = ceduo_document_set(d, where, value, &problems);
+    if (!good)
+        print_error("%s", problems.text.bytes);
+    assert_true(good);
+    ceduo_problems_free(&problems);
+}
+
+static void refuse(struct document *d, const char *where, const char *value, const char *why)
+{
+    struct problems problems = {0};
+    size_t before = d->at;
+    assert_false(ceduo_document_set(d, where, value, &problems));
+    assert_non_null(strstr(problems.text.bytes, why));
+    assert_int_equal(d->at, before);
+    ceduo_problems_free(&problems);
+}
+
+static void changed_values_keep_comments(void **state)
+{
+    (void)state;
+    struct document d;
+    bool anew;
+    open_scene(&d);
+    assert_false(ceduo_document_unsaved(&d));
+    set(&d, "rock.diameter_m", "0.75");
+    set(&d, "title", "\"Above: the mill\"");
+    assert_true(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_save(&d, path, &anew));
+    assert_false(anew);
+    assert_false(ceduo_document_unsaved(&d));
+    const char *text = read_file("scene.yaml");
+    assert_non_null(strstr(text, "# my comment\n"));
+    assert_non_null(strstr(text, "title: \"Above: the mill\"   # a title\n"));
+    assert_non_null(strstr(text, "rock: {diameter_m: 0.75, density_kg_m3: 2600}\n"));
+    assert_non_null(strstr(text, "stand: stand.yaml}   # below the rock\n"));
+    ceduo_document_close(&d);
+}
+
+static void a_changed_stand_starts_from_its_file(void **state)
+{
+    (void)state;
+    struct document d;
+    bool anew;
+    open_scene(&d);
+    set(&d, "forest[0].stand.stools.per_ha", "2500");
+    for (int i = 0; i < 2; i++) { /* saving twice says the same */
+        assert_true(ceduo_document_save(&d, path, &anew));
+        assert_int_equal(anew, i == 0);
+        const char *text = read_file("scene.yaml");
+        assert_non_null(strstr(text, "base: stand.yaml"));
+        assert_non_null(strstr(text, "2500"));
+        assert_null(strstr(text, "6000"));
+        set(&d, "rock.diameter_m", "0.6");
+    }
+    assert_string_equal(read_file("scene.yaml.bak"), scene);
+    assert_string_equal(read_file("stand.yaml"), stand);
+    ceduo_document_close(&d);
+    open_scene(&d);
+    assert_true(d.file.scene.options[0].belts[0].stand.stools_per_ha == 2500);
+    assert_true(d.file.scene.options[0].belts[0].stand.spacing == 0.4);
+    ceduo_document_close(&d);
+}
+
+static void what_is_wrong_changes_nothing(void **state)
+{
+    (void)state;
+    struct document d;
+    open_scene(&d);
+    refuse(&d, "rock.diameter_m", "-1", "-1 is below 0 m");
+    refuse(&d, "rock.diameter_m", "0,5", "'0,5' is no number");
+    refuse(&d, "forest[0].to_m", "400", "beyond the slope");
+    refuse(&d, "rock.size", "1", "unknown key");
+    assert_true(d.file.scene.rock.diameter.mean == 0.5);
+    assert_false(ceduo_document_unsaved(&d));
+    ceduo_document_close(&d);
+}
+
+static void undo_and_redo(void **state)
+{
+    (void)state;
+    struct document d;
+    open_scene(&d);
+    assert_false(ceduo_document_undo(&d));
+    for (int i = 1; i <= 100; i++) {
+        char value[16];
+        snprintf(value, sizeof value, "0.%03d", i);
+        set(&d, "rock.diameter_m", value);
+    }
+    for (int i = 99; i >= 1; i--) {
+        assert_true(ceduo_document_undo(&d));
+        assert_true(d.file.scene.rock.diameter.mean == (double)i / 1000);
+    }
+    assert_true(ceduo_document_undo(&d));
+    assert_false(ceduo_document_undo(&d));
+    assert_false(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_redo(&d));
+    assert_true(d.file.scene.rock.diameter.mean == 0.001);
+    set(&d, "rock.diameter_m", "0.9");
+    assert_false(ceduo_document_redo(&d));
+    ceduo_document_close(&d);
+}
+
+static void options_belts_and_segments(void **state)
+{
+    (void)state;
+    struct document d;
+    struct problems problems = {0};
+    bool anew;
+    open_scene(&d);
+    assert_true(ceduo_document_copy_option(&d, 0, &problems));
+    assert_int_equal(d.file.scene.options_count, 2);
+    assert_string_equal(d.file.scene.options[0].name, "current");
+    assert_string_equal(d.file.scene.options[1].name, "current (2)");
+    assert_true(ceduo_document_add_option(&d, "large-reserves-cut", &problems));
+    assert_string_equal(d.file.scene.options[2].name, "large-reserves-cut");
+    assert_true(d.file.scene.options[2].belts[0].to == 80);
+    assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
+    assert_string_equal(d.file.scene.options[0].name, "large-reserves-cut");
+    assert_true(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
+                                     "options[1].forest[1].from_m=45", &problems));
+    assert_int_equal(d.file.scene.options[1].belts_count, 2);
+    assert_true(ceduo_document_split_segment(&d, 0, "[20, 35]", &problems));
+    assert_int_equal(d.file.scene.slope.vertices, 4);
+    assert_true(d.file.scene.slope.segments[1].rn.mean == 0.3);
+    assert_true(ceduo_document_delete(&d, "options[2]", &problems));
+    assert_int_equal(d.file.scene.options_count, 2);
+    assert_true(ceduo_document_delete_both(&d, "options[1].forest[0].stand", "stools", "shoots", &problems));
+    assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
+    assert_true(ceduo_document_save(&d, path, &anew));
+    ceduo_document_close(&d);
+    open_scene(&d);
+    assert_int_equal(d.file.scene.options_count, 2);
+    assert_int_equal(d.file.scene.options[1].belts_count, 2);
+    assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
+    assert_int_equal(d.file.scene.options[1].belts[1].stand.shoots_count, 1);
+    assert_int_equal(d.file.scene.slope.vertices, 4);
+    ceduo_document_close(&d);
+    ceduo_problems_free(&problems);
+}
+
+static void unsaved_work_is_found_again(void **state)
+{
+    (void)state;
+    struct document d;
+    struct problems problems = {0};
+    assert_null(ceduo_document_left_behind(path));
+    pid_t child = fork();
+    if (child == 0) { /* a program that ends without a word */
+        open_scene(&d);
+        set(&d, "rock.diameter_m", "0.123");
+        _exit(0);
+    }
+    int status;
+    assert_true(waitpid(child, &status, 0) == child && status == 0);
+    char *text = ceduo_document_left_behind(path);
+    assert_non_null(text);
+    open_scene(&d);
+    assert_true(ceduo_document_recover(&d, text, &problems));
+    assert_true(d.file.scene.rock.diameter.mean == 0.123);
+    assert_true(ceduo_document_undo(&d));
+    assert_true(d.file.scene.rock.diameter.mean == 0.5);
+    free(text);
+    ceduo_document_close(&d);
+    ceduo_problems_free(&problems);
+}
+
+static void a_file_changed_on_disk_is_noticed(void **state)
+{
+    (void)state;
+    struct document d;
+    bool anew;
+    open_scene(&d);
+    assert_false(ceduo_document_changed_on_disk(&d));
+    write_file("scene.yaml", "# somebody else\n");
+    assert_true(ceduo_document_changed_on_disk(&d));
+    assert_true(ceduo_document_save(&d, path, &anew));
+    assert_false(ceduo_document_changed_on_disk(&d));
+    ceduo_document_close(&d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(changed_values_keep_comments, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_stand_starts_from_its_file, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(undo_and_redo, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
