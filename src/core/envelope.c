@@ -7,14 +7,14 @@
 /* Exponents of the smallest octave: speeds and heights from a millimetre, energies from 1/16 J. */
 static const int lowest[ENVELOPE_QUANTITIES] = {-10, -10, -4};
 
-static size_t bin_of(int quantity, double value)
+static uint16_t bin_of(int quantity, double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
     int64_t i = (int64_t)(bits >> 47) - ((int64_t)(1023 + lowest[quantity]) << 5);
     if (!(value > 0) || i < 0)
         return 0;
-    return i < ENVELOPE_BINS ? (size_t)i : ENVELOPE_BINS - 1;
+    return (uint16_t)(i < ENVELOPE_BINS ? i : ENVELOPE_BINS - 1);
 }
 
 static double middle_of(int quantity, size_t bin)
@@ -22,14 +22,24 @@ static double middle_of(int quantity, size_t bin)
     return bin == 0 ? 0 : ldexp(1 + ((double)(bin & 31) + 0.5) / 32, (int)(bin >> 5) + lowest[quantity]);
 }
 
+void ceduo_envelope_settle(struct envelope_cell *cell)
+{
+    for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
+        for (uint32_t i = 0; i < cell->waiting; i++)
+            cell->bins[q][cell->waits[i][q]]++;
+    cell->waiting = 0;
+}
+
 void ceduo_envelope_add(struct envelope_cell *cell, double speed, double height, double energy)
 {
     const double values[ENVELOPE_QUANTITIES] = {speed, height, energy};
     cell->passed++;
     for (int q = 0; q < ENVELOPE_QUANTITIES; q++) {
-        cell->bins[q][bin_of(q, values[q])]++;
+        cell->waits[cell->waiting][q] = bin_of(q, values[q]);
         cell->max[q] = values[q] > cell->max[q] ? values[q] : cell->max[q];
     }
+    if (++cell->waiting == ENVELOPE_WAITING)
+        ceduo_envelope_settle(cell);
 }
 
 void ceduo_envelope_merge(struct envelope_cell *into, const struct envelope_cell *from)

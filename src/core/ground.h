@@ -7,6 +7,10 @@
 
 #include "ceduo/slope.h"
 
+/* The walk is one body from contact to contact, so that a flight stays in registers; what happens seldom is called. */
+#define HOT static inline __attribute__((always_inline))
+#define SELDOM static __attribute__((noinline))
+
 /* A slope made ready for many rocks: what the walk needs at each segment, side by side. */
 struct ground_segment {
     double m;          /* dz/dx */
@@ -40,7 +44,7 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
 void ceduo_ground_release(struct ground *ground);
 
 /* Height of the ground at x on segment j. */
-static inline double ground_height(const struct ground *g, size_t j, double x)
+HOT double ground_height(const struct ground *g, size_t j, double x)
 {
     if (x >= g->x[j + 1])
         return g->z[j + 1];
@@ -48,7 +52,7 @@ static inline double ground_height(const struct ground *g, size_t j, double x)
 }
 
 /* Metres of ground between two points of one segment. */
-static inline double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
+HOT double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
 {
     double d = s->steep ? (z1 - z0) / s->s : (x1 - x0) / s->c;
     return d < 0 ? -d : d;

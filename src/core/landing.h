@@ -21,7 +21,7 @@ struct landing {
 };
 
 /* The later root of c + b t - g/2 t2, in the form that does not cancel; c >= 0 but for rounding. */
-static inline double later_root(double c, double b, double g)
+HOT double later_root(double c, double b, double g)
 {
     double d = b * b + 2 * g * c;
     double root = d > 0 ? sqrt(d) : 0;
@@ -30,14 +30,14 @@ static inline double later_root(double c, double b, double g)
     return c > 0 ? 2 * c / (root - b) : 0;
 }
 
-static inline double clamp(double v, double a, double b)
+HOT double clamp(double v, double a, double b)
 {
     double lo = a < b ? a : b, hi = a < b ? b : a;
     return v < lo ? lo : v > hi ? hi : v;
 }
 
 /* Puts a landing at time t on segment j. Steeper than 45 degrees z is kept and x follows, elsewhere the other way. */
-static inline struct landing land_at(const struct ground *g, const struct flight *f, size_t j, double t)
+HOT struct landing land_at(const struct ground *g, const struct flight *f, size_t j, double t)
 {
     const struct ground_segment *s = &g->segments[j];
     struct landing l = {.t = t, .segment = j, .left = false};
@@ -52,7 +52,7 @@ static inline struct landing land_at(const struct ground *g, const struct flight
 }
 
 /* The contact with segment j, which the flight meets before time t_most. */
-static inline struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_most)
+HOT struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_most)
 {
     const struct ground_segment *s = &g->segments[j];
     double c = f->on_ground && j == f->segment ? 0 : f->z - (g->z[j] + s->m * (f->x - g->x[j]));
@@ -61,7 +61,7 @@ static inline struct landing land_on(const struct ground *g, const struct flight
 }
 
 /* A flight without horizontal speed comes down where it went up. */
-static inline struct landing land_straight(const struct ground *g, const struct flight *f)
+HOT struct landing land_straight(const struct ground *g, const struct flight *f)
 {
     double z = ground_height(g, f->segment, f->x);
     double c = f->on_ground ? 0 : f->z - z;
@@ -70,7 +70,7 @@ static inline struct landing land_straight(const struct ground *g, const struct 
 }
 
 /* Index of the block of `span` segments that begins at vertex p in direction dir; false where none does. */
-static inline bool block_at(const struct ground *g, size_t p, int dir, size_t span, size_t *block)
+HOT bool block_at(const struct ground *g, size_t p, int dir, size_t span, size_t *block)
 {
     if (p % span != 0)
         return false;
@@ -86,8 +86,7 @@ static inline bool block_at(const struct ground *g, size_t p, int dir, size_t sp
  * under the ground. The parabola less a straight line is concave: where it is above both ends of a segment it touches
  * nothing between, and where it is higher above both ends of a block than the block rises over its chord, no segment of
  * the block. NaN is contact. */
-static inline struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, double h, int dir,
-                                         double inv)
+HOT struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, double h, int dir, double inv)
 {
     int level = 0;
     size_t span = 1, block;
@@ -127,7 +126,7 @@ static inline struct landing land_beyond(const struct ground *g, const struct fl
     }
 }
 
-static inline struct landing land_towards(const struct ground *g, const struct flight *f, int dir)
+HOT struct landing land_towards(const struct ground *g, const struct flight *f, int dir)
 {
     double inv = 1 / f->vx;
     size_t j = f->segment, q = dir > 0 ? j + 1 : j;
@@ -143,7 +142,7 @@ static inline struct landing land_towards(const struct ground *g, const struct f
 }
 
 /* The next contact of a flight with the ground. */
-static inline struct landing next_landing(const struct ground *g, const struct flight *f)
+HOT struct landing next_landing(const struct ground *g, const struct flight *f)
 {
     if (f->vx > 0)
         return land_towards(g, f, 1);

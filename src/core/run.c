@@ -256,8 +256,10 @@ static bool worker_merge(struct worker *w)
     for (size_t i = 0; w->bins && i < bins; i++)
         if (!ceduo_histogram_merge(&run->bins[i], &w->bins[i]))
             return false;
-    for (size_t i = 0; w->cells && i < run->def.cells; i++)
+    for (size_t i = 0; w->cells && i < run->def.cells; i++) {
+        ceduo_envelope_settle(&w->cells[i]);
         ceduo_envelope_merge(&run->cells[i], &w->cells[i]);
+    }
     return true;
 }
 

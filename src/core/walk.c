@@ -6,9 +6,17 @@
 #include "law_crsp.h"
 #include "law_lumped.h"
 
+#define PAUSE 4000 /* contacts; the most are a multiple of it */
+_Static_assert(CEDUO_CONTACTS_MOST % PAUSE == 0, "a way ends at a pause");
+
 enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT };
 
 /* ---- release ---- */
+
+static inline void set_next_x(struct walker *w)
+{
+    w->next_x = w->next_mark < w->marks->n ? w->marks->x[w->next_mark] : INFINITY;
+}
 
 static enum ceduo_status draw_rock(struct walker *w, const struct ceduo_scene *scene, const struct ceduo_rock *mean)
 {
@@ -53,66 +61,70 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
                             .segment = segment,
                             .on_ground = !(height > 0)};
     w->contacts = 0;
-    w->rolls = w->cancelled = false;
+    w->pause = PAUSE;
+    w->cancelled = false;
     w->facets_of = UINT64_MAX;
     w->next_mark = 0;
     while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
         w->next_mark++;
+    set_next_x(w);
     return CEDUO_OK;
 }
 
-/* ---- passing marks ---- */
+/* ---- flight ---- */
 
 static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)
 {
     struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0};
     w->cross(w->context, w->next_mark++, &c);
+    set_next_x(w);
 }
 
-static inline void pass_in_flight(struct walker *w, const struct landing *l)
+/* The marks that the flight from `at` to `l` passes. */
+SELDOM void pass_in_flight(struct walker *w, struct flight at, double x, double t_end)
 {
-    if (!(w->at.vx > 0))
-        return;
-    while (w->next_mark < w->marks->n && w->marks->x[w->next_mark] <= l->x) {
-        double t = (w->marks->x[w->next_mark] - w->at.x) / w->at.vx;
-        t = t < l->t ? t : l->t;
-        double z = w->at.z + (w->at.vz - w->g->half_g * t) * t;
-        pass_mark(w, w->at.vx, w->at.vz - w->g->gravity * t, w->spin, z - w->marks->z[w->next_mark]);
+    while (w->next_x <= x) {
+        double t = (w->next_x - at.x) / at.vx;
+        t = t < t_end ? t : t_end;
+        double z = at.z + (at.vz - w->g->half_g * t) * t;
+        pass_mark(w, at.vx, at.vz - w->g->gravity * t, w->spin, z - w->marks->z[w->next_mark]);
     }
 }
 
-/* ---- flight ---- */
-
-static inline void fly(struct walker *w, const struct landing *l)
+SELDOM void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
 {
-    pass_in_flight(w, l);
-    double vz = w->at.vz - w->g->gravity * l->t;
-    if (w->visit) {
-        struct ceduo_piece p = {.rolls = false,
-                                .x = w->at.x,
-                                .z = w->at.z,
-                                .vx = w->at.vx,
-                                .vz = w->at.vz,
-                                .x1 = l->x,
-                                .z1 = l->z,
-                                .vx1 = w->at.vx,
-                                .vz1 = vz,
-                                .spin = w->spin,
-                                .seconds = l->t,
-                                .contacts = w->contacts};
-        w->visit(w->context, &p);
-    }
-    w->at.x = l->x;
-    w->at.z = l->z;
-    w->at.vz = vz;
-    w->at.segment = l->segment;
-    w->at.on_ground = true;
-    w->rolls = false;
+    struct ceduo_piece p = {.rolls = false,
+                            .x = at.x,
+                            .z = at.z,
+                            .vx = at.vx,
+                            .vz = at.vz,
+                            .x1 = x1,
+                            .z1 = z1,
+                            .vx1 = at.vx,
+                            .vz1 = vz1,
+                            .spin = w->spin,
+                            .seconds = seconds,
+                            .contacts = w->contacts};
+    w->visit(w->context, &p);
+}
+
+HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
+{
+    double vz = at->vz - w->g->gravity * l->t;
+    if (w->next_x <= l->x && at->vx > 0)
+        pass_in_flight(w, *at, l->x, l->t);
+    if (w->visit)
+        show_flight(w, *at, l->x, l->z, vz, l->t);
+    at->x = l->x;
+    at->z = l->z;
+    at->vz = vz;
+    at->segment = l->segment;
+    at->on_ground = true;
 }
 
 /* ---- contact ---- */
 
-static inline double facet_draw(struct walker *w)
+HOT double facet_draw(struct walker *w)
 {
     uint64_t n = w->contacts;
     if (w->facets_of != n >> 1) {
@@ -122,62 +134,78 @@ static inline double facet_draw(struct walker *w)
     return w->facets.u[n & 1];
 }
 
-static inline double largest_facet(const struct walker *w)
+HOT double largest_facet(const struct walker *w, size_t j)
 {
-    size_t j = w->at.segment;
     if (!w->g->theta_varies)
         return w->g->segments[j].theta;
     const struct ceduo_segment *s = &w->g->slope->segments[j];
     return s->roughness_m > 0 ? atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
 }
 
-static inline struct ceduo_ground_point ground_point(const struct walker *w)
+HOT struct ceduo_ground_point ground_point(const struct walker *w, size_t j)
 {
-    const struct ground_segment *s = &w->g->segments[w->at.segment];
+    const struct ground_segment *s = &w->g->segments[j];
     struct ceduo_ground_point p = {
         .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn};
-    const struct ceduo_segment *from = &w->g->slope->segments[w->at.segment];
     if (w->g->rn_varies)
-        p.rn = ceduo_number_draw(from->rn, w->rn_u, 0, 1);
+        p.rn = ceduo_number_draw(w->g->slope->segments[j].rn, w->rn_u, 0, 1);
     if (w->g->rt_varies)
-        p.rt = ceduo_number_draw(from->rt, w->rt_u, 0, 1);
+        p.rt = ceduo_number_draw(w->g->slope->segments[j].rt, w->rt_u, 0, 1);
     return p;
 }
 
-/* The facet that the rock strikes, as sine and cosine of its turn from the segment. (along, off) is the velocity in the
- * segment's axes. */
-static inline void facet_turn(struct walker *w, double along, double off, double *sine, double *cosine)
+/* Velocity in the axes of the segment under the rock. */
+struct velocity {
+    double along, off;
+};
+
+HOT struct velocity velocity_on(const struct ground_segment *s, const struct flight *at)
 {
-    *sine = 0;
-    *cosine = 1;
-    double largest = largest_facet(w);
-    if (!(largest > 0))
-        return;
-    double u = facet_draw(w), angle;
-    if (w->g->facets == CEDUO_BOTH)
-        angle = largest * (2 * u - 1);
-    else
-        angle = along >= 0 ? largest * u : -(largest * u);
-    double s, c;
-    sincos_quarter(angle, &s, &c);
-    if (off * c - along * s > 0) /* the rock is leaving this facet */
-        return;
-    *sine = s;
-    *cosine = c;
+    return (struct velocity){.along = at->vx * s->c + at->vz * s->s, .off = at->vz * s->c - at->vx * s->s};
+}
+
+/* A facet: its turn from the segment, against a rock that goes along +x, or upwards with facets to both sides. */
+struct facet {
+    double angle, sine, cosine;
+};
+
+/* The facet of the next contact, if that is on segment j. Called before the flight to it as well, for the segment that
+ * the flight leaves: mostly that is as rough as the next, and all is ready when the rock comes down. */
+HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
+{
+    double largest = largest_facet(w, j), angle = 0;
+    if (largest > 0) {
+        double u = facet_draw(w);
+        angle = largest * (w->g->facets == CEDUO_BOTH ? 2 * u - 1 : u);
+    }
+    if (angle != f->angle) {
+        f->angle = angle;
+        sincos_quarter(angle, &f->sine, &f->cosine);
+    }
+}
+
+/* The facet that the rock strikes, as sine and cosine of its turn from the segment. */
+HOT void strike_facet(struct walker *w, size_t j, struct velocity v, struct facet *f, double *sine, double *cosine)
+{
+    turn_facet(w, j, f);
+    *cosine = f->cosine;
+    *sine = w->g->facets == CEDUO_AGAINST && !(v.along >= 0) ? -f->sine : f->sine;
+    if (v.off * *cosine - v.along * *sine > 0) { /* the rock is leaving this facet */
+        *sine = 0;
+        *cosine = 1;
+    }
 }
 
 /* A contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly. */
-static inline __attribute__((always_inline)) void strike(struct walker *w, enum ceduo_law law)
+HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet, enum ceduo_law law)
 {
-    const struct ground_segment *s = &w->g->segments[w->at.segment];
-    double along = w->rolls ? w->along : w->at.vx * s->c + w->at.vz * s->s;
-    double off = w->rolls ? 0 : w->at.vz * s->c - w->at.vx * s->s;
+    const struct ground_segment *s = &w->g->segments[at->segment];
     double sine, cosine;
-    facet_turn(w, along, off, &sine, &cosine);
-    struct ceduo_ground_point point = ground_point(w);
-    double inward = along * sine - off * cosine;
+    strike_facet(w, at->segment, *v, facet, &sine, &cosine);
+    struct ceduo_ground_point point = ground_point(w, at->segment);
+    double inward = v->along * sine - v->off * cosine;
     struct ceduo_impact in = {
-        .vn = inward > 0 ? inward : 0, .vt = along * cosine + off * sine, .spin = w->spin};
+        .vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
     struct ceduo_impact out;
     switch (law) {
 #define X(NAME, name)            \
@@ -189,14 +217,12 @@ static inline __attribute__((always_inline)) void strike(struct walker *w, enum 
     default:
         return;
     }
-    along = out.vt * cosine - out.vn * sine;
-    off = out.vt * sine + out.vn * cosine;
-    if (!(off > 0)) /* into the segment: that part is lost */
-        off = 0;
-    w->along = along;
-    w->off = off;
-    w->at.vx = along * s->c - off * s->s;
-    w->at.vz = along * s->s + off * s->c;
+    v->along = out.vt * cosine - out.vn * sine;
+    v->off = out.vt * sine + out.vn * cosine;
+    if (!(v->off > 0)) /* into the segment: that part is lost */
+        v->off = 0;
+    at->vx = v->along * s->c - v->off * s->s;
+    at->vz = v->along * s->s + v->off * s->c;
     w->spin = out.spin;
 }
 
@@ -204,7 +230,7 @@ static inline __attribute__((always_inline)) void strike(struct walker *w, enum 
 
 /* Whether a free flight that ends at `l` is so short and flat that the rock rolls: less than R along the ground, and
  * less than R above the segment it starts from, which it leaves with speed `off`. */
-static inline bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
+HOT bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
 {
     double r = w->rock.radius;
     if (l->left || fabs(l->x - f->x) >= r)
@@ -224,57 +250,74 @@ static inline void set_rolling_speed(struct walker *w, const struct roll *r)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double u = r->dir * sqrt(r->u2);
-    w->rolls = true;
     w->along = u;
     w->at.vx = u * s->c;
     w->at.vz = u * s->s;
     w->spin = w->k > 0 ? u / w->rock.radius : 0;
 }
 
-/* Moves along the segment by ds and notes what is passed; exactly onto its end where `to_end`. */
-static void roll_piece(struct walker *w, struct roll *r, double ds, double u2_end, bool to_end)
+/* Where the roll is after ds metres of its segment; exactly at its end where `to_end`. */
+static inline void roll_point(const struct walker *w, int dir, double ds, bool to_end, double *x, double *z)
 {
     const struct ground *g = w->g;
     size_t j = w->at.segment;
     const struct ground_segment *s = &g->segments[j];
-    set_rolling_speed(w, r);
-    struct ceduo_piece p = {.rolls = true,
-                            .x = w->at.x,
-                            .z = w->at.z,
-                            .vx = w->at.vx,
-                            .vz = w->at.vz,
-                            .spin = w->spin,
-                            .contacts = w->contacts};
-    double x, z;
-    size_t v = r->dir > 0 ? j + 1 : j;
     if (to_end) {
-        x = g->x[v];
-        z = g->z[v];
+        *x = g->x[dir > 0 ? j + 1 : j];
+        *z = g->z[dir > 0 ? j + 1 : j];
     } else if (s->steep) {
-        z = clamp(w->at.z + r->dir * s->s * ds, g->z[j], g->z[j + 1]);
-        x = clamp(g->x[j] + (z - g->z[j]) / s->m, g->x[j], g->x[j + 1]);
+        *z = clamp(w->at.z + dir * s->s * ds, g->z[j], g->z[j + 1]);
+        *x = clamp(g->x[j] + (*z - g->z[j]) / s->m, g->x[j], g->x[j + 1]);
     } else {
-        x = clamp(w->at.x + r->dir * s->c * ds, g->x[j], g->x[j + 1]);
-        z = ground_height(g, j, x);
+        *x = clamp(w->at.x + dir * s->c * ds, g->x[j], g->x[j + 1]);
+        *z = ground_height(g, j, *x);
     }
+}
+
+/* The marks that a roll of ds metres to x passes. */
+SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
+{
+    const struct ground_segment *s = &w->g->segments[w->at.segment];
     double rate = ds > 0 ? (u2_end - r->u2) / ds : 0;
-    while (r->dir > 0 && w->next_mark < w->marks->n && w->marks->x[w->next_mark] <= x) {
-        size_t m = w->next_mark;
-        double u2 = r->u2 + rate * ground_length(s, w->at.x, w->at.z, w->marks->x[m], w->marks->z[m]);
+    while (w->next_x <= x) {
+        double z = w->marks->z[w->next_mark];
+        double u2 = r->u2 + rate * ground_length(s, w->at.x, w->at.z, w->next_x, z);
         double u = u2 > 0 ? sqrt(u2) : 0;
         pass_mark(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
     }
+}
+
+SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)
+{
+    const struct ground_segment *s = &w->g->segments[w->at.segment];
+    double u = r->dir * sqrt(r->u2), u1 = r->dir * sqrt(u2_end);
+    struct ceduo_piece p = {.rolls = true,
+                            .x = w->at.x,
+                            .z = w->at.z,
+                            .vx = u * s->c,
+                            .vz = u * s->s,
+                            .x1 = x1,
+                            .z1 = z1,
+                            .vx1 = u1 * s->c,
+                            .vz1 = u1 * s->s,
+                            .spin = w->k > 0 ? u / w->rock.radius : 0,
+                            .contacts = w->contacts};
+    w->visit(w->context, &p);
+}
+
+/* Moves along the segment by ds and notes what is passed; exactly onto its end where `to_end`. */
+static void roll_piece(struct walker *w, struct roll *r, double ds, double u2_end, bool to_end)
+{
+    double x, z;
+    roll_point(w, r->dir, ds, to_end, &x, &z);
+    if (r->dir > 0 && w->next_x <= x)
+        pass_in_roll(w, r, ds, u2_end, x);
+    if (w->visit)
+        show_roll(w, r, u2_end, x, z);
     r->u2 = u2_end;
     w->at.x = x;
     w->at.z = z;
     set_rolling_speed(w, r);
-    if (w->visit) {
-        p.x1 = x;
-        p.z1 = z;
-        p.vx1 = w->at.vx;
-        p.vz1 = w->at.vz;
-        w->visit(w->context, &p);
-    }
 }
 
 /* At the end of the segment: onto the next one, off the profile, or into the air. `l` is set where it takes off. */
@@ -306,7 +349,7 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
 }
 
 /* Rolls for a length R along the ground from speed u; 0: downhill. */
-static enum after_roll roll_on(struct walker *w, double u, struct landing *l)
+SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
 {
     const struct ground *g = w->g;
     int downhill = g->segments[w->at.segment].m > 0 ? -1 : 1;
@@ -335,10 +378,10 @@ static enum after_roll roll_on(struct walker *w, double u, struct landing *l)
     }
 }
 
-/* Speed along the ground once the rock rolls without slip. */
-static inline double roll_speed(const struct walker *w)
+/* Speed along the ground once a rock that comes with speed `along` rolls without slip. */
+static inline double roll_speed(const struct walker *w, double along)
 {
-    return (w->along + w->k * w->spin * w->rock.radius) / (1 + w->k);
+    return (along + w->k * w->spin * w->rock.radius) / (1 + w->k);
 }
 
 /* ---- resting ---- */
@@ -404,71 +447,82 @@ static bool rests(const struct walker *w)
 
 /* ---- the whole way ---- */
 
-/* Looks at the flag once in so many contacts: a rock may have a million before it. */
-static inline bool is_cancelled(struct walker *w)
+/* Whether a long way is to end here: too many contacts, or nobody waits for it any more. */
+SELDOM bool has_enough(struct walker *w)
 {
-    if ((w->contacts & 0xfff) != 0xfff || !w->cancel)
-        return false;
-    w->cancelled = atomic_load_explicit(w->cancel, memory_order_relaxed);
-    return w->cancelled;
+    w->pause += PAUSE;
+    w->cancelled = w->cancel && atomic_load_explicit(w->cancel, memory_order_relaxed);
+    return w->cancelled || w->contacts >= CEDUO_CONTACTS_MOST;
 }
 
-enum contact_then { CONTACT_FLIES, CONTACT_RESTS, CONTACT_LEAVES, CONTACT_TOO_MANY };
+/* All that follows on the ground after a contact from which the rock rolls, to the next contact, flight or the end. */
+enum after_ground { GROUND_CONTACT, GROUND_FLIES, GROUND_RESTS, GROUND_LEAVES, GROUND_TOO_MANY };
 
-/* From a contact on the ground through all that follows on the ground, to the next flight or the end. */
-static inline __attribute__((always_inline)) enum contact_then touch(struct walker *w, struct landing *l,
-                                                                     enum ceduo_law law)
+SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct landing *l)
 {
-    for (;;) {
-        if (w->contacts >= CEDUO_CONTACTS_MOST || is_cancelled(w))
-            return CONTACT_TOO_MANY;
-        strike(w, law);
+    double u = roll_speed(w, along);
+    if (u == 0 && rests(w))
+        return GROUND_RESTS;
+    enum after_roll then = roll_on(w, u, l);
+    while (then == STANDS) {
+        if (rests(w))
+            return GROUND_RESTS;
+        if (w->contacts >= w->pause && has_enough(w))
+            return GROUND_TOO_MANY;
         w->contacts++;
-        w->at.on_ground = true;
-        *l = next_landing(w->g, &w->at);
-        if (!is_roll(w, &w->at, w->off, l))
-            return CONTACT_FLIES;
-        double u = roll_speed(w);
-        if (u == 0 && rests(w))
-            return CONTACT_RESTS;
-        enum after_roll then = roll_on(w, u, l);
-        while (then == STANDS) {
-            if (rests(w))
-                return CONTACT_RESTS;
-            if (w->contacts >= CEDUO_CONTACTS_MOST)
-                return CONTACT_TOO_MANY;
-            w->contacts++;
-            then = roll_on(w, 0, l);
-        }
-        if (then == TOOK_OFF)
-            return CONTACT_FLIES;
-        if (then == ROLLED_OUT)
-            return CONTACT_LEAVES;
+        then = roll_on(w, 0, l);
     }
+    return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
-static inline __attribute__((always_inline)) enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
+HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
 {
-    const struct ground_segment *s = &w->g->segments[w->at.segment];
-    bool flies = !w->at.on_ground || w->at.vz * s->c - w->at.vx * s->s > 0;
-    struct landing l = flies ? next_landing(w->g, &w->at) : (struct landing){0};
+    struct flight at = w->at; /* w->at is brought up to date for those who are called */
+    struct velocity v = velocity_on(&w->g->segments[at.segment], &at);
+    bool flies = !at.on_ground || v.off > 0;
+    struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
+    struct landing l;
+    if (flies)
+        l = next_landing(w->g, &at);
     for (;;) {
         if (flies) {
-            fly(w, &l);
-            if (l.left)
+            fly(w, &at, &l);
+            if (l.left) {
+                w->at = at;
                 return CEDUO_LEFT_SLOPE;
+            }
+            v = velocity_on(&w->g->segments[at.segment], &at);
         }
-        switch (touch(w, &l, law)) {
-        case CONTACT_FLIES:
-            flies = true;
-            break;
-        case CONTACT_RESTS:
-            return CEDUO_AT_REST;
-        case CONTACT_LEAVES:
-            return CEDUO_LEFT_SLOPE;
-        case CONTACT_TOO_MANY:
+        if (w->contacts >= w->pause && has_enough(w)) {
+            w->at = at;
             return CEDUO_UNFINISHED;
         }
+        strike(w, &at, &v, &facet, law);
+        w->contacts++;
+        turn_facet(w, at.segment, &facet);
+        at.on_ground = true;
+        l = next_landing(w->g, &at);
+        flies = !is_roll(w, &at, v.off, &l);
+        if (flies)
+            continue;
+        struct landing off;
+        w->at = at;
+        switch (go_on_ground(w, v.along, &off)) {
+        case GROUND_FLIES:
+            flies = true;
+            l = off;
+            break;
+        case GROUND_RESTS:
+            return CEDUO_AT_REST;
+        case GROUND_LEAVES:
+            return CEDUO_LEFT_SLOPE;
+        case GROUND_TOO_MANY:
+            return CEDUO_UNFINISHED;
+        case GROUND_CONTACT:
+            v = (struct velocity){.along = w->along, .off = 0};
+            break;
+        }
+        at = w->at;
     }
 }
 

@@ -21,11 +21,12 @@ struct walker {
     double k; /* 0 where the law knows no spin */
     double rn_u, rt_u; /* quantiles of this rock's ground */
     struct flight at; /* where it is now */
-    bool rolls;        /* it came here along the ground, with speed `along` */
-    double along, off; /* after a contact: velocity in the segment's axes */
+    double along;     /* after a roll: speed along the segment */
     double spin;
     uint64_t contacts;
+    uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
     size_t next_mark;
+    double next_x;    /* of that mark, infinite behind the last */
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     void (*cross)(void *context, size_t mark, const struct ceduo_crossing *crossing);
