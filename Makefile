@@ -28,7 +28,7 @@ CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: a fused multiply-add would give other bits on other machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
-LIBS = -lyaml -lgsl -lgslcblas -lm
+LIBS = -lncursesw -ltinfo -lyaml -lgsl -lgslcblas -lm
 
 CORE := $(wildcard src/core/*.c)
 REST := $(filter-out src/cli/main.c,$(wildcard src/io/*.c src/model/*.c src/view/*.c src/tui/*.c src/cli/*.c))

@@ -13,9 +13,24 @@
 #include "io/intl.h"
 
 #define THREADS_MOST 1024
+#define WIDTH_LEAST  20
+#define HEIGHT_LEAST 6
 
 /* One table: parsing and help. */
-enum { OPTION_ROWS = 256, OPTION_SEED, OPTION_ONLY, OPTION_CHECK, OPTION_PARAMETERS, OPTION_PROFILES, OPTION_HELP, OPTION_VERSION };
+enum {
+    OPTION_ROWS = 256,
+    OPTION_SEED,
+    OPTION_ONLY,
+    OPTION_PLOT,
+    OPTION_SIZE,
+    OPTION_CHARSET,
+    OPTION_SCRIPT,
+    OPTION_CHECK,
+    OPTION_PARAMETERS,
+    OPTION_PROFILES,
+    OPTION_HELP,
+    OPTION_VERSION
+};
 
 static const struct row {
     const char *name;
@@ -33,6 +48,10 @@ static const struct row {
     {"seed", OPTION_SEED, "N", N_("seed of the random numbers, 0 to 2^53")},
     {"threads", 'j', "N", N_("threads; the result does not depend on them (all cores)")},
     {"option", OPTION_ONLY, "NAME", N_("only this option of the scene; may be repeated")},
+    {"plot", OPTION_PLOT, "WHAT", N_("print a picture: profile, energy, height, histogram,\n                              adc, stand or compare")},
+    {"size", OPTION_SIZE, "WxH", N_("of a picture in columns and lines (80x24)")},
+    {"charset", OPTION_CHARSET, "braille|block|ascii", N_("what pictures are made of (the locale's)")},
+    {"script", OPTION_SCRIPT, "FILE", N_("feed keys and commands to the terminal program; needs no terminal")},
     {"check", OPTION_CHECK, NULL, N_("read the scenes and print every problem; compute nothing")},
     {"list-parameters", OPTION_PARAMETERS, NULL, N_("path, type, unit, range, default and meaning of each")},
     {"list-profiles", OPTION_PROFILES, NULL, N_("scenes, slopes and stands that are found by name")},
@@ -46,7 +65,9 @@ static const struct row {
 void ceduo_arguments_help(struct text *text)
 {
     ceduo_text_put(text, _("ceduo: does this coppice stop the rocks?\n\n"
-                           "usage: ceduo --batch [OPTION...] SCENE.yaml...\n"
+                           "usage: ceduo [SCENE.yaml]\n"
+                           "       ceduo --batch [OPTION...] SCENE.yaml...\n"
+                           "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
                            "       ceduo --check SCENE.yaml...\n"
                            "       ceduo --list-parameters | --list-profiles\n\n"
                            "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
@@ -127,6 +148,46 @@ static enum exit_status read_rows(struct arguments *a, const char *value)
     return EXIT_DONE;
 }
 
+static enum exit_status read_plot(struct arguments *a, const char *value)
+{
+    a->plot = ceduo_plot_find(value);
+    if (a->plot == CEDUO_PLOT_NONE)
+        return usage(_("--plot: '%s' is unknown; one of %s"), value, CEDUO_PLOT_NAMES);
+    if (a->mode == MODE_TERMINAL)
+        a->mode = MODE_BATCH;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_size(struct arguments *a, const char *value)
+{
+    char *width = strdup(value), *height = width ? strchr(width, 'x') : NULL;
+    double w = 0, h = 0;
+    if (height)
+        *height++ = '\0';
+    bool good = height && ceduo_number_read(width, &w) == CEDUO_NUMBER_GOOD &&
+                ceduo_number_read(height, &h) == CEDUO_NUMBER_GOOD && w == floor(w) && h == floor(h);
+    free(width);
+    if (!good)
+        return usage(_("--size: '%s' is no size; write columns x lines, as 80x24"), value);
+    if (w < WIDTH_LEAST || w > CEDUO_CANVAS_MAX_WIDTH || h < HEIGHT_LEAST || h > CEDUO_CANVAS_MAX_HEIGHT)
+        return usage(_("--size: %s lies outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
+                     CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+    a->plot_width = (int)w;
+    a->plot_height = (int)h;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_charset(struct arguments *a, const char *value)
+{
+    static const char *const words[] = {"braille", "block", "ascii"};
+    int i = word_of(value, words, 3);
+    if (i < 0)
+        return usage(_("--charset: '%s' is unknown; one of braille, block, ascii"), value);
+    a->charset = (enum ceduo_charset)i;
+    a->charset_given = true;
+    return EXIT_DONE;
+}
+
 static enum exit_status read_seed(struct arguments *a, const char *value)
 {
     uint64_t seed;
@@ -151,6 +212,23 @@ static void set_mode(struct arguments *a, enum mode mode)
 {
     if (a->mode < MODE_HELP && (a->mode < MODE_CHECK || mode >= MODE_HELP))
         a->mode = mode;
+}
+
+/* What an option that stands for itself asks for. */
+static enum mode mode_of(int letter)
+{
+    switch (letter) {
+    case OPTION_CHECK:
+        return MODE_CHECK;
+    case OPTION_PARAMETERS:
+        return MODE_PARAMETERS;
+    case OPTION_PROFILES:
+        return MODE_PROFILES;
+    case OPTION_HELP:
+        return MODE_HELP;
+    default:
+        return MODE_VERSION;
+    }
 }
 
 static enum exit_status read_option(struct arguments *a, int letter, char *value)
@@ -184,20 +262,17 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
     case OPTION_ONLY:
         a->options[a->options_count++] = value;
         return EXIT_DONE;
-    case OPTION_CHECK:
-        set_mode(a, MODE_CHECK);
+    case OPTION_PLOT:
+        return read_plot(a, value);
+    case OPTION_SIZE:
+        return read_size(a, value);
+    case OPTION_SCRIPT:
+        a->script = value;
         return EXIT_DONE;
-    case OPTION_PARAMETERS:
-        set_mode(a, MODE_PARAMETERS);
-        return EXIT_DONE;
-    case OPTION_PROFILES:
-        set_mode(a, MODE_PROFILES);
-        return EXIT_DONE;
-    case OPTION_HELP:
-        set_mode(a, MODE_HELP);
-        return EXIT_DONE;
+    case OPTION_CHARSET:
+        return read_charset(a, value);
     default:
-        set_mode(a, MODE_VERSION);
+        set_mode(a, mode_of(letter));
         return EXIT_DONE;
     }
 }
@@ -224,6 +299,10 @@ static enum exit_status check_together(const struct arguments *a)
         return usage(_("no scene; name a file, '-' for standard input, or a shipped scene such as 'paper-site'"));
     if (!wants_scene && a->mode != MODE_TERMINAL && a->scenes_count > 0 && a->mode < MODE_HELP)
         return usage(_("a list takes no scene: '%s'"), a->scenes[0]);
+    if (a->plot != CEDUO_PLOT_NONE && a->format != CEDUO_TABLE)
+        return usage(_("--plot prints a picture; it has no --format csv or json"));
+    if (a->plot_width > 0 && a->plot == CEDUO_PLOT_NONE)
+        return usage(_("--size goes with --plot"));
     size_t standard = 0;
     for (size_t i = 0; i < a->scenes_count; i++)
         standard += strcmp(a->scenes[i], "-") == 0;

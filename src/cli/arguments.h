@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "view/plot.h"
 #include "view/report.h"
 
 /* Exit statuses, as the manual has them. */
@@ -15,6 +16,11 @@ enum mode { MODE_TERMINAL, MODE_BATCH, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILE
 struct arguments {
     enum mode mode;
     enum ceduo_format format;
+    enum ceduo_plot plot;       /* a picture instead of the page */
+    int plot_width, plot_height; /* cells, title and all */
+    const char *script; /* keys and commands for the terminal program; NULL: none */
+    bool charset_given;
+    enum ceduo_charset charset;
     const char *output; /* NULL: standard output */
     bool stands;        /* CSV rows are stands */
     bool quiet;

@@ -229,6 +229,77 @@ static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file 
     return a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
 }
 
+/* ---- pictures ---- */
+
+#define PLOT_WIDTH  80
+#define PLOT_HEIGHT 24
+
+/* `start`: where this scene's pictures begin; a blank line stands between two. */
+static void add_plot(const struct arguments *a, const struct ceduo_picture *picture, size_t start, struct text *out)
+{
+    enum ceduo_charset charset = a->charset_given ? a->charset
+                                 : is_utf8()      ? CEDUO_CHARSET_BRAILLE
+                                                  : CEDUO_CHARSET_ASCII;
+    int width = a->plot_width > 0 ? a->plot_width : PLOT_WIDTH;
+    int height = a->plot_width > 0 ? a->plot_height : PLOT_HEIGHT;
+    struct ceduo_canvas *canvas = ceduo_canvas_create(width, height, charset);
+    struct ceduo_area area = {.top = 1, .width = width, .height = height - 1};
+    struct text title = {0};
+    ceduo_plot_title(&title, a->plot, picture);
+    char *rows = NULL;
+    if (canvas) {
+        ceduo_plot_draw(a->plot, canvas, &area, picture);
+        ceduo_canvas_label(canvas, 0, 0, CEDUO_ROLE_TITLE, title.bytes ? title.bytes : "");
+        rows = ceduo_canvas_dump(canvas);
+    }
+    if (out->length > start)
+        ceduo_text_char(out, '\n');
+    ceduo_text_put(out, rows ? rows : "");
+    out->failed |= !rows || title.failed;
+    free(rows);
+    ceduo_text_free(&title);
+    ceduo_canvas_free(canvas);
+}
+
+/* One picture for each option, belt or control that it depends on. */
+static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_outlook *outlook,
+                      struct text *out)
+{
+    struct ceduo_picture picture = {.scene = scene, .outlook = outlook, .control = ceduo_plot_last_control(scene)};
+    size_t start = out->length;
+    size_t options = ceduo_plot_by_option(a->plot) ? scene->options_count : 1;
+    size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
+    for (size_t c = 0; c < controls; c++) {
+        picture.control = c;
+        add_plot(a, &picture, start, out);
+    }
+    for (size_t o = 0; o < options && controls == 0; o++) {
+        size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
+        picture.option = o;
+        picture.belt = 0;
+        do
+            add_plot(a, &picture, start, out);
+        while (++picture.belt < belts);
+    }
+}
+
+static enum exit_status plot_run(const struct arguments *a, const struct scene_file *file, const struct ceduo_run *run,
+                                 const struct ceduo_run_def *def, struct text *out)
+{
+    struct ceduo_outlook *outlook;
+    size_t trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0;
+    if (ceduo_outlook_create(&file->scene, run, def->cells, def->cell_x, trails, &outlook) != CEDUO_OK) {
+        complain(file->path, _("out of memory"));
+        return EXIT_RUN;
+    }
+    add_plots(a, &file->scene, outlook, out);
+    bool unfinished = outlook->ends.count[CEDUO_UNFINISHED] * 1000 > outlook->rocks;
+    ceduo_outlook_free(outlook);
+    return unfinished ? EXIT_RUN : EXIT_DONE;
+}
+
+/* ---- a run ---- */
+
 static enum exit_status run_scene(const struct arguments *a, const struct scene_file *file, struct text *out)
 {
     struct progress progress = {.start = now(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
@@ -238,6 +309,10 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
     def.cancel = ceduo_interrupt_flag();
     def.progress = show_progress;
     def.context = &progress;
+    double cell_x[CEDUO_OUTLOOK_CELLS];
+    if (ceduo_plot_needs_cells(a->plot))
+        def.cells = ceduo_outlook_places(&file->scene, cell_x);
+    def.cell_x = cell_x;
     struct ceduo_report report = {
         .file = file, .remarks = {.tolerance = a->tolerance, .ground_assumed = file->ground_assumed}};
     struct ceduo_run *run;
@@ -249,7 +324,9 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
         status = ceduo_run_extend(run, def.rocks_most);
     end_progress(&progress);
     enum exit_status done = EXIT_RUN;
-    if (status == CEDUO_OK)
+    if (status == CEDUO_OK && a->plot != CEDUO_PLOT_NONE)
+        done = plot_run(a, file, run, &def, out);
+    else if (status == CEDUO_OK)
         done = report_run(a, file, run, &report, progress.start, out);
     else if (status != CEDUO_CANCELLED)
         complain(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
@@ -263,7 +340,9 @@ static enum exit_status batch_scene(const struct arguments *a, const char *path,
     enum exit_status status = read_scene(a, path, &file);
     if (status == EXIT_DONE)
         status = choose_options(a, &file);
-    if (status == EXIT_DONE) {
+    if (status == EXIT_DONE && a->plot != CEDUO_PLOT_NONE && !ceduo_plot_needs_run(a->plot)) {
+        add_plots(a, &file.scene, NULL, out);
+    } else if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
         status = run_scene(a, &file, out);
     }

@@ -2,11 +2,11 @@
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <locale.h>
-#include <stdio.h>
 #include <unistd.h>
 
 #include "batch.h"
 #include "ceduo/version.h"
+#include "interactive.h"
 #include "io/intl.h"
 
 #ifndef CEDUO_LOCALEDIR
@@ -45,12 +45,6 @@ static void fill_version(struct text *text)
     ceduo_text_format(text, "ceduo %s\n", CEDUO_VERSION);
 }
 
-static enum exit_status no_terminal(void)
-{
-    fputs(_("ceduo: use 'ceduo --batch SCENE.yaml'; try 'ceduo --help'\n"), stderr);
-    return EXIT_USAGE;
-}
-
 static enum exit_status act(const struct arguments *a)
 {
     switch (a->mode) {
@@ -67,7 +61,7 @@ static enum exit_status act(const struct arguments *a)
     case MODE_VERSION:
         return print(a, fill_version);
     default:
-        return no_terminal();
+        return ceduo_interactive_run(a);
     }
 }
 

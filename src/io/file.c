@@ -188,7 +188,11 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
 
 static int by_name(const void *a, const void *b)
 {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
+    /* by what stands before .yaml: a name before its own continuation */
+    const char *p = *(const char *const *)a, *q = *(const char *const *)b;
+    size_t n = strlen(p) - 5, m = strlen(q) - 5;
+    int order = strncmp(p, q, n < m ? n : m);
+    return order != 0 ? order : (n > m) - (n < m);
 }
 
 static bool is_yaml(const char *name)

@@ -18,6 +18,9 @@ struct ceduo_report {
 /* The page that a forester reads first; 80 columns. `plain`: ASCII alone. */
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain);
 
+/* The part of that page that belongs to one option, in `width` columns. */
+void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width);
+
 /* One line of JSON, "ceduo-result-1". */
 void ceduo_report_json(struct text *text, const struct ceduo_report *report);
 

@@ -13,6 +13,7 @@ struct page {
     struct text *text;
     const struct ceduo_report *report;
     bool plain; /* ASCII alone */
+    size_t width; /* columns */
 };
 
 /* ---- small parts ---- */
@@ -77,7 +78,7 @@ static void put_wrapped(struct page *p, const char *first, size_t indent, const 
         size_t n = strcspn(at, " "), width = 0;
         for (size_t i = 0; i < n; i++)
             width += ((unsigned char)at[i] & 0xc0) != 0x80;
-        if (!start && column + 1 + width > WIDTH) {
+        if (!start && column + 1 + width > p->width) {
             ceduo_text_char(p->text, '\n');
             for (column = 0; column < indent; column++)
                 ceduo_text_char(p->text, ' ');
@@ -99,9 +100,9 @@ static void put_wrapped(struct page *p, const char *first, size_t indent, const 
 }
 
 /* "991 (984–995)": of 1000 rocks, with the 95 % interval. */
-static void put_of_1000(struct page *p, double probability, double lo, double hi)
+static void put_of_1000(struct page *p, struct text *text, double probability, double lo, double hi)
 {
-    ceduo_text_format(p->text, "%.0f (%.0f%s%.0f)", probability * 1000, floor(lo * 1000), dash(p), ceil(hi * 1000));
+    ceduo_text_format(text, "%.0f (%.0f%s%.0f)", probability * 1000, floor(lo * 1000), dash(p), ceil(hi * 1000));
 }
 
 /* ---- head ---- */
@@ -171,15 +172,18 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
 
 static void put_arrivals(struct page *p, const struct ceduo_arrivals *a)
 {
-    ceduo_text_put(p->text, _("    Without forest, of 1000 rocks released: "));
-    put_of_1000(p, a->reach_probability, a->reach_lo, a->reach_hi);
-    ceduo_text_put(p->text, _(" reach it"));
+    struct text first = {0};
+    ceduo_text_put(&first, _("Without forest, of 1000 rocks released: "));
+    put_of_1000(p, &first, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_text_put(&first, _(" reach it"));
     if (!isnan(a->exceed_probability)) {
-        ceduo_text_put(p->text, ",\n    ");
-        put_of_1000(p, a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        ceduo_text_put(p->text, _(" with more than it bears"));
+        ceduo_text_put(&first, ", ");
+        put_of_1000(p, &first, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_text_put(&first, _(" with more than it bears"));
     }
-    ceduo_text_put(p->text, ".\n");
+    ceduo_text_char(&first, '.');
+    put_wrapped(p, "    ", 4, first.bytes ? first.bytes : "");
+    ceduo_text_free(&first);
     if (a->reached == 0) {
         ceduo_text_format(p->text, _("    No rock arrives: no energy to show (of 1000, below %.1f with 95 %%).\n"),
                           a->reach_hi * 1000);
@@ -334,9 +338,30 @@ static void put_residual(struct page *p, const struct ceduo_control *c, const st
     ceduo_text_free(&seen);
 }
 
+/* The belts where there is no room for a table. */
+static void put_belts_narrow(struct page *p, const struct ceduo_option *o, const struct ceduo_option_result *found)
+{
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const struct ceduo_stand_result *s = &found->stands[i];
+        struct text line = {0};
+        ceduo_text_format(&line, "%s%s: ADC ", o->belts[i].name, o->belts[i].assumed ? "*" : "");
+        ceduo_words_number(&line, s->adc_m, 3);
+        ceduo_text_format(&line, _(" m, free run %.1f %%, "), s->free_run_probability * 100);
+        ceduo_words_number(&line, s->dissipated / s->length * 100 * KILO, 3);
+        ceduo_text_format(&line, _(" kJ per 100 m (%s)"), s->bare ? _("no stems") : ceduo_words_rule(s->rule));
+        put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
+        ceduo_text_free(&line);
+    }
+}
+
 static void put_belts(struct page *p, const struct ceduo_option *o, const struct ceduo_option_result *found)
 {
     char room[CEDUO_NUMBER_ROOM];
+    if (p->width < WIDTH) {
+        put_belts_narrow(p, o, found);
+        put_other_forms(p, o, found);
+        return;
+    }
     if (o->belts_count == 0)
         return;
     ceduo_text_put(p->text, "    ");
@@ -518,10 +543,16 @@ static void put_foot(struct page *p)
 
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
 {
-    struct page p = {text, report, plain};
+    struct page p = {text, report, plain, WIDTH};
     put_head(&p);
     for (size_t i = 0; i < report->result->scene->options_count; i++)
         put_option(&p, i);
     put_comparison(&p);
     put_foot(&p);
+}
+
+void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width)
+{
+    struct page p = {text, report, false, width > 20 ? (size_t)width : 20};
+    put_option(&p, option);
 }

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "interactive.h"
+
+#include <langinfo.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "batch.h"
+#include "io/intl.h"
+#include "tui/script.h"
+#include "tui/terminal.h"
+
+static enum ceduo_charset charset_of(const struct arguments *a)
+{
+    if (a->charset_given)
+        return a->charset;
+    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0 ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII;
+}
+
+static enum exit_status no_terminal(const char *why)
+{
+    struct text text = {0};
+    ceduo_text_format(&text, _("ceduo: %s; use 'ceduo --batch SCENE.yaml', or try 'ceduo --help'\n"), why);
+    ceduo_batch_say(&text);
+    ceduo_text_free(&text);
+    return EXIT_USAGE;
+}
+
+static enum exit_status run(const struct arguments *a, struct app *app)
+{
+    if (a->script) {
+        bool good = ceduo_script_run(app, a->script);
+        ceduo_document_forget(&app->document); /* what a script leaves unsaved nobody misses */
+        return good ? EXIT_DONE : EXIT_USAGE;
+    }
+    switch (ceduo_terminal_run(app)) {
+    case TERMINAL_DONE:
+        return EXIT_DONE;
+    case TERMINAL_NONE:
+        return no_terminal(_("this terminal cannot be used"));
+    default:
+        return EXIT_RUN;
+    }
+}
+
+enum exit_status ceduo_interactive_run(const struct arguments *a)
+{
+    const char *why;
+    if (!a->script && !ceduo_terminal_there(&why))
+        return no_terminal(why);
+    struct app app;
+    struct problems problems = {0};
+    bool good = ceduo_app_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, charset_of(a), a->threads, &problems);
+    ceduo_problems_close(&problems);
+    ceduo_batch_say(&problems.text);
+    ceduo_problems_free(&problems);
+    if (!good)
+        return EXIT_INPUT;
+    enum exit_status status = run(a, &app);
+    ceduo_app_free(&app);
+    return status;
+}

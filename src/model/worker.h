@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WORKER_H
+#define CEDUO_WORKER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "view/outlook.h"
+
+/* One thread in the background that flies rocks over a snapshot of the scene: coarse first, then finer by itself until
+ * the errors are small. A new request cancels what it makes stale; one that asks for the same run changes nothing. */
+struct worker;
+
+#define WORKER_FIRST_ROCKS 1024    /* shown first */
+#define WORKER_ROCKS_MOST 1000000  /* refined up to this */
+#define WORKER_TOLERANCE 0.004     /* or until mean energies are known to this (95 %) */
+
+/* NULL where no thread can be started. */
+struct worker *ceduo_worker_create(unsigned threads);
+void ceduo_worker_free(struct worker *worker);
+unsigned ceduo_worker_threads(const struct worker *worker);
+
+/* Asks for the run of a scene. What the scene points to must stay until the worker is freed (an arena that is never
+ * emptied); the struct itself is copied. */
+void ceduo_worker_request(struct worker *worker, const struct ceduo_scene *scene);
+
+/* A file descriptor that becomes readable when there is news; read by ceduo_worker_news(). */
+int ceduo_worker_fd(const struct worker *worker);
+
+struct worker_news {
+    struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
+    bool busy;                     /* still refining */
+    uint64_t rocks;                /* of the newest */
+    double seconds;                /* since the request */
+    bool failed;                   /* out of memory */
+};
+struct worker_news ceduo_worker_news(struct worker *worker);
+
+/* Waits until nothing is under way. */
+void ceduo_worker_wait(struct worker *worker);
+
+/* How many runs were started, and rocks flown, since the worker was made. */
+void ceduo_worker_counts(struct worker *worker, uint64_t *runs, uint64_t *rocks);
+
+#endif

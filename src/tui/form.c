@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "form.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/intl.h"
+
+#define LABEL       18 /* columns of a line's label */
+#define COLUMN_MOST 22 /* of a table's column */
+
+void ceduo_form_clear(struct form *form)
+{
+    form->n = 0;
+}
+
+void ceduo_form_free(struct form *form)
+{
+    free(form->rows);
+    *form = (struct form){0};
+}
+
+static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
+{
+    static struct form_row spare;
+    if (form->n == form->room) {
+        size_t room = form->room ? 2 * form->room : 32;
+        struct form_row *rows = realloc(form->rows, room * sizeof *rows);
+        if (!rows) {
+            form->failed = true;
+            return &spare;
+        }
+        form->rows = rows;
+        form->room = room;
+    }
+    struct form_row *row = &form->rows[form->n++];
+    memset(row, 0, sizeof *row);
+    row->kind = kind;
+    snprintf(row->label, sizeof row->label, "%s", label);
+    return row;
+}
+
+void ceduo_form_heading(struct form *form, const char *text)
+{
+    add_row(form, FORM_HEADING, text);
+}
+
+void ceduo_form_note(struct form *form, const char *text)
+{
+    add_row(form, FORM_NOTE, text);
+}
+
+/* ---- cells ---- */
+
+static void show_spread(char *to, size_t size, const struct node *node)
+{
+    const char *mean = ceduo_node_text(node, "mean"), *spread = ceduo_node_text(node, "spread");
+    const char *kind = ceduo_node_text(node, "kind");
+    snprintf(to, size, "%s \xc2\xb1 %s%s", mean ? mean : "?", spread ? spread : "0",
+             kind && strcmp(kind, "uniform") == 0 ? " u" : "");
+}
+
+static void show_list(char *to, size_t size, const struct node *node)
+{
+    size_t at = 0;
+    to[0] = '\0';
+    for (size_t i = 0; i < node->n && at < size; i++)
+        at += (size_t)snprintf(to + at, size - at, "%s%s", i ? " " : "",
+                               node->items[i]->kind == NODE_SCALAR ? node->items[i]->text : "~");
+}
+
+static void fill_cell(struct form_cell *cell, const struct document *d, const struct field *field, const char *path)
+{
+    const struct node *node = ceduo_document_node(d, path);
+    snprintf(cell->path, sizeof cell->path, "%s", path);
+    cell->field = field;
+    cell->given = node != NULL;
+    cell->assumed = node && ceduo_scene_assumes_value(&d->file, path);
+    const char *name = node && node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
+    if (name && field && field->flags & FIELD_FOLLOWS)
+        snprintf(cell->text, sizeof cell->text, "%s", name);
+    else if (node && node->written && node->written->kind == NODE_SCALAR)
+        snprintf(cell->text, sizeof cell->text, "%s", node->written->text);
+    else if (node && node->kind == NODE_SCALAR)
+        snprintf(cell->text, sizeof cell->text, "%s", node->text);
+    else if (node && node->kind == NODE_MAP && field && field->type == FIELD_SPREAD)
+        show_spread(cell->text, sizeof cell->text, node);
+    else if (node && node->kind == NODE_LIST)
+        show_list(cell->text, sizeof cell->text, node);
+    else if (node)
+        snprintf(cell->text, sizeof cell->text, "%s", "{}");
+    else
+        snprintf(cell->text, sizeof cell->text, "%s", field && field->value ? field->value : "");
+}
+
+/* The field at a key that may hold a dot: of a group within the object. */
+static const struct field *find_field(const struct object *object, const char *key)
+{
+    const char *dot = strchr(key, '.');
+    char head[64];
+    if (!dot)
+        return ceduo_schema_field(object, key);
+    snprintf(head, sizeof head, "%.*s", (int)(dot - key), key);
+    const struct field *group = ceduo_schema_field(object, head);
+    return group && group->object ? ceduo_schema_field(group->object, dot + 1) : NULL;
+}
+
+void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
+                      const char *key, const char *label)
+{
+    char path[FORM_PATH];
+    const struct field *field = find_field(object, key);
+    struct form_row *row = add_row(form, FORM_FIELDS, label);
+    snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
+    fill_cell(&row->cells[0], d, field, path);
+    row->n = 1;
+}
+
+void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
+                      const char *const *keys, const char *title)
+{
+    char path[FORM_PATH];
+    const struct node *node = ceduo_document_node(d, list);
+    struct form_row *head = add_row(form, FORM_COLUMNS_ROW, title);
+    for (size_t k = 0; keys[k] && k < FORM_COLUMNS; k++) {
+        const char *dot = strrchr(keys[k], '.');
+        snprintf(head->cells[k].text, sizeof head->cells[k].text, "%s", dot ? dot + 1 : keys[k]);
+        head->n = k + 1;
+    }
+    snprintf(head->list, sizeof head->list, "%s", list);
+    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
+        char label[32];
+        snprintf(label, sizeof label, "%zu", i + 1);
+        struct form_row *row = add_row(form, FORM_FIELDS, label);
+        snprintf(row->list, sizeof row->list, "%s", list);
+        row->index = i;
+        for (size_t k = 0; keys[k] && k < FORM_COLUMNS; k++) {
+            snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", keys[k]);
+            fill_cell(&row->cells[k], d, find_field(object, keys[k]), path);
+            row->n = k + 1;
+        }
+    }
+    if (!node || node->n == 0) {
+        struct form_row *row = add_row(form, FORM_FIELDS, _("none; a adds one"));
+        snprintf(row->list, sizeof row->list, "%s", list);
+        row->n = 0;
+    }
+}
+
+void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list)
+{
+    char path[FORM_PATH];
+    const struct node *node = ceduo_document_node(d, list);
+    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
+        char label[32];
+        snprintf(label, sizeof label, "%zu", i + 1);
+        struct form_row *row = add_row(form, FORM_FIELDS, label);
+        snprintf(row->list, sizeof row->list, "%s", list);
+        row->index = i;
+        snprintf(path, sizeof path, "%.100s[%zu]", list, i);
+        fill_cell(&row->cells[0], d, field, path);
+        row->n = 1;
+    }
+}
+
+/* ---- the cursor ---- */
+
+static bool can_hold(const struct form_row *row)
+{
+    return row->kind == FORM_FIELDS;
+}
+
+void ceduo_form_settle(struct form *form)
+{
+    if (form->n == 0) {
+        form->row = form->column = 0;
+        return;
+    }
+    if (form->row >= form->n)
+        form->row = form->n - 1;
+    size_t down = form->row, up = form->row;
+    while (down < form->n && !can_hold(&form->rows[down]))
+        down++;
+    while (up > 0 && !can_hold(&form->rows[up]))
+        up--;
+    form->row = down < form->n ? down : up;
+    size_t n = form->rows[form->row].n;
+    if (form->column >= n)
+        form->column = n > 0 ? n - 1 : 0;
+}
+
+void ceduo_form_move(struct form *form, int lines, int columns)
+{
+    int step = lines < 0 ? -1 : 1;
+    for (int left = abs(lines); left > 0 && form->n > 0; left--) {
+        size_t to = form->row;
+        do {
+            if (step < 0 ? to == 0 : to + 1 >= form->n) {
+                to = form->row;
+                break;
+            }
+            to = step < 0 ? to - 1 : to + 1;
+        } while (!can_hold(&form->rows[to]));
+        form->row = to;
+    }
+    if (columns < 0 && form->column > 0)
+        form->column--;
+    if (columns > 0)
+        form->column++;
+    ceduo_form_settle(form);
+}
+
+struct form_row *ceduo_form_row(struct form *form)
+{
+    return form->row < form->n && can_hold(&form->rows[form->row]) ? &form->rows[form->row] : NULL;
+}
+
+struct form_cell *ceduo_form_cell(struct form *form)
+{
+    struct form_row *row = ceduo_form_row(form);
+    return row && form->column < row->n ? &row->cells[form->column] : NULL;
+}
+
+/* ---- drawing ---- */
+
+/* Columns of cell k of a row in a rectangle `width` wide. */
+static void cell_place(const struct form_row *row, int width, size_t k, int *from, int *span)
+{
+    int label = row->list[0] ? 4 : LABEL;
+    int room = width - label;
+    int each = row->n > 0 ? room / (int)row->n : room;
+    each = row->list[0] && each > COLUMN_MOST ? COLUMN_MOST : each;
+    *from = label + (int)k * each;
+    *span = each - 1;
+}
+
+static void put_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ceduo_role role, const char *text)
+{
+    char cut[256];
+    size_t n = 0;
+    int columns = 0;
+    while (text[n] && n + 5 < sizeof cut && columns < span) {
+        cut[n] = text[n];
+        n++;
+        while (((unsigned char)text[n] & 0xc0) == 0x80 && n + 5 < sizeof cut) {
+            cut[n] = text[n];
+            n++;
+        }
+        columns++;
+    }
+    cut[n] = '\0';
+    ceduo_canvas_label(canvas, x, y, role, cut);
+}
+
+static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, int left, int y, int width, size_t k,
+                      bool cursor, const char *edit)
+{
+    const struct form_cell *cell = &row->cells[k];
+    int from, span;
+    char shown[80];
+    cell_place(row, width, k, &from, &span);
+    snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
+    const char *text = cursor && edit ? edit : shown;
+    if (cursor && edit) { /* the end of what is typed stays in sight */
+        size_t columns = ceduo_text_columns(text);
+        while (span > 1 && columns > (size_t)span - 1) {
+            text++;
+            while (((unsigned char)*text & 0xc0) == 0x80)
+                text++;
+            columns--;
+        }
+    }
+    if (cursor)
+        for (int i = 0; i < span; i++)
+            ceduo_canvas_label(canvas, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
+    put_cut(canvas, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
+            text);
+    if (cursor && edit)
+        ceduo_canvas_label(canvas, left + from + (int)ceduo_text_columns(text), y, CEDUO_ROLE_CURSOR, "_");
+}
+
+static void draw_row(const struct form *form, size_t i, struct ceduo_canvas *canvas, int left, int y, int width,
+                     bool focused, const char *edit)
+{
+    const struct form_row *row = &form->rows[i];
+    if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
+        put_cut(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
+        return;
+    }
+    bool here = i == form->row && focused;
+    if (row->kind == FORM_FIELDS) {
+        int span = row->n == 0 ? width : row->list[0] ? 3 : LABEL - 1;
+        put_cut(canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+    }
+    for (size_t k = 0; k < row->n; k++) {
+        if (row->kind == FORM_COLUMNS_ROW) {
+            int from, span;
+            cell_place(row, width, k, &from, &span);
+            put_cut(canvas, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
+        } else {
+            draw_cell(row, canvas, left, y, width, k, here && k == form->column, edit);
+        }
+    }
+}
+
+void ceduo_form_draw(struct form *form, struct ceduo_canvas *canvas, int left, int top, int width, int height,
+                     bool focused, const char *edit)
+{
+    if (height <= 0 || width < 8)
+        return;
+    size_t lines = (size_t)height, above = form->row;
+    while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
+        above--;
+    if (above < form->top)
+        form->top = above;
+    if (form->row >= form->top + lines)
+        form->top = form->row + 1 - lines;
+    if (form->top + lines > form->n)
+        form->top = form->n > lines ? form->n - lines : 0;
+    for (size_t i = 0; i < lines && form->top + i < form->n; i++)
+        draw_row(form, form->top + i, canvas, left, top + (int)i, width, focused, edit);
+}
+
+bool ceduo_form_hit(const struct form *form, int left, int top, int width, int height, int x, int y, size_t *row,
+                    size_t *column)
+{
+    size_t i = form->top + (size_t)(y - top);
+    if (x < left || x >= left + width || y < top || y >= top + height || i >= form->n || !can_hold(&form->rows[i]))
+        return false;
+    *row = i;
+    *column = 0;
+    for (size_t k = 0; k < form->rows[i].n; k++) {
+        int from, span;
+        cell_place(&form->rows[i], width, k, &from, &span);
+        if (x - left >= from)
+            *column = k;
+    }
+    return true;
+}
+
+/* ---- explaining and stepping ---- */
+
+void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text)
+{
+    const struct field *f = cell->field;
+    char range[96] = "";
+    if (!f)
+        return;
+    const char *key = strrchr(cell->path, '.');
+    ceduo_text_format(text, "%s  %s", key ? key + 1 : cell->path, _(f->meaning));
+    if (f->unit[0])
+        ceduo_text_format(text, "; %s", f->unit);
+    if (ceduo_schema_range_text(f, range, sizeof range))
+        ceduo_text_format(text, ", %s", range);
+    if (f->value)
+        ceduo_text_format(text, _(" (default %s)"), f->value);
+    const struct source_note *note = ceduo_scene_note(&d->file, cell->path);
+    if (note && cell->given)
+        ceduo_text_format(text, " [%s: %s]", note->kind, note->text);
+}
+
+/* One unit of the second significant digit. */
+static double step_of(double value, const struct field *f)
+{
+    if (value == 0)
+        return f->hi <= 1 ? 0.05 : f->hi <= 100 ? 0.1 : 1;
+    double step = pow(10, floor(log10(fabs(value)) + 1e-9) - 1);
+    return f->type == FIELD_COUNT && step < 1 ? 1 : step;
+}
+
+static bool step_word(const struct form_cell *cell, int direction, struct text *value)
+{
+    const struct choices *c = cell->field->choices;
+    size_t at = 0;
+    while (at < c->n && strcmp(c->names[at], cell->text) != 0)
+        at++;
+    at = at >= c->n ? 0 : direction > 0 ? (at + 1) % c->n : (at + c->n - 1) % c->n;
+    ceduo_text_put(value, c->names[at]);
+    return true;
+}
+
+bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int direction, struct text *value)
+{
+    const struct field *f = cell->field;
+    double now;
+    if (!f)
+        return false;
+    if (f->type == FIELD_CHOICE)
+        return step_word(cell, direction, value);
+    if (f->type == FIELD_FLAG) {
+        ceduo_text_put(value, strcmp(cell->text, "true") == 0 ? "false" : "true");
+        return true;
+    }
+    const struct node *node = ceduo_document_node(d, cell->path);
+    bool scalar = !node || node->kind == NODE_SCALAR;
+    if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
+        ceduo_number_read(cell->text, &now) != CEDUO_NUMBER_GOOD)
+        return false;
+    double step = step_of(now, f);
+    if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && step_of(now - step, f) < step && now > 0)
+        step /= 10; /* from 1.0 down to 0.99, not to 0.9 */
+    double next = (round(now / step) + direction) * step;
+    next = next < f->lo ? f->lo : next > f->hi ? f->hi : next;
+    int decimals = step < 1 ? (int)ceil(-log10(step) - 1e-9) : 0;
+    char room[64];
+    snprintf(room, sizeof room, "%.*f", decimals, next == 0 ? 0.0 : next);
+    ceduo_text_put(value, room);
+    return true;
+}

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_FORM_H
+#define CEDUO_FORM_H
+
+#include "model/document.h"
+#include "view/canvas.h"
+
+/* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
+
+#define FORM_PATH 160
+#define FORM_COLUMNS 8
+
+struct form_cell {
+    char path[FORM_PATH]; /* of the value, as in --set */
+    const struct field *field;
+    char text[64]; /* as it is shown */
+    bool given;    /* written in the scene, not a default */
+    bool assumed;
+};
+
+enum form_kind { FORM_HEADING, FORM_COLUMNS_ROW, FORM_FIELDS, FORM_NOTE };
+
+struct form_row {
+    enum form_kind kind;
+    char label[64];
+    size_t n;
+    struct form_cell cells[FORM_COLUMNS];
+    char list[FORM_PATH]; /* the list that the row is an item of; "": none */
+    size_t index;
+};
+
+struct form {
+    struct form_row *rows;
+    size_t n, room;
+    size_t row, column; /* the cursor */
+    size_t top;         /* first line shown */
+    bool failed;
+};
+
+void ceduo_form_clear(struct form *form); /* the cursor stays */
+void ceduo_form_free(struct form *form);
+
+void ceduo_form_heading(struct form *form, const char *text);
+void ceduo_form_note(struct form *form, const char *text);
+
+/* A line with one field. */
+void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
+                      const char *key, const char *label);
+
+/* A table of the items of a list: a line of column names, a line for each item; `keys` ends in NULL. An empty list has a
+ * line that says how to add to it. `list` is the path, `object` that of its items. Keys may hold a dot. */
+void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
+                      const char *const *keys, const char *title);
+
+/* A line for each point of a list of points. */
+void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list);
+
+/* Puts the cursor on a line with fields, as near as may be. */
+void ceduo_form_settle(struct form *form);
+void ceduo_form_move(struct form *form, int lines, int columns);
+
+/* The cell under the cursor; NULL where there is none. */
+struct form_cell *ceduo_form_cell(struct form *form);
+struct form_row *ceduo_form_row(struct form *form);
+
+/* Draws the lines into a rectangle, scrolled so that the cursor is seen. `edit`: text to show in the cell under the
+ * cursor instead of its own (NULL: none). */
+void ceduo_form_draw(struct form *form, struct ceduo_canvas *canvas, int left, int top, int width, int height,
+                     bool focused, const char *edit);
+
+/* The line and cell at a place of the rectangle it was drawn into; false where there is none. */
+bool ceduo_form_hit(const struct form *form, int left, int top, int width, int height, int x, int y, size_t *row,
+                    size_t *column);
+
+/* What stands below the screen for a cell: meaning, unit, range, default, source. */
+void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text);
+
+/* The value one step up (+1) or down (-1), as it would be typed; false where the field has no steps. */
+bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int direction, struct text *value);
+
+#endif

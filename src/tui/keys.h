@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_KEYS_H
+#define CEDUO_KEYS_H
+
+#include <stdbool.h>
+
+/* A key as the program knows it: a Unicode code point, or one of these. */
+enum key {
+    K_NONE = 0,
+    K_CTRL_L = 12,
+    K_TAB = 9,
+    K_ENTER = 13,
+    K_CTRL_R = 18,
+    K_CTRL_U = 21,
+    K_ESCAPE = 27,
+    K_SPECIAL = 0x110000,
+    K_UP,
+    K_DOWN,
+    K_LEFT,
+    K_RIGHT,
+    K_HOME,
+    K_END,
+    K_PAGE_UP,
+    K_PAGE_DOWN,
+    K_BACKSPACE,
+    K_DELETE,
+    K_SHIFT_TAB,
+    K_F1,
+    K_F2,
+    K_F3,
+    K_F4,
+    K_F5,
+    K_F6,
+    K_F7,
+    K_F8,
+    K_F9,
+    K_F10
+};
+
+/* The one table of actions: keys, bar, help and manual come from it.
+ * name, first key, its word, second key, its word, in the bar, what it does */
+#define ACTIONS(X)                                                                                           \
+    X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"))                                                      \
+    X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"))                                              \
+    X(LEFT, K_LEFT, "Left", 'h', "h", 0, N_("move left"))                                              \
+    X(RIGHT, K_RIGHT, "Right", 'l', "l", 0, N_("move right"))                                          \
+    X(TOP, K_HOME, "Home", 'g', "g", 0, N_("to the first line"))                                       \
+    X(BOTTOM, K_END, "End", 'G', "G", 0, N_("to the last line"))                                       \
+    X(PAGE_UP, K_PAGE_UP, "PgUp", K_NONE, "", 0, N_("a page up"))                                    \
+    X(PAGE_DOWN, K_PAGE_DOWN, "PgDn", K_NONE, "", 0, N_("a page down"))                              \
+    X(EDIT, K_ENTER, "Enter", K_NONE, "", 2, N_("edit"))                                              \
+    X(MORE, '+', "+", '=', "=", 0, N_("a step more"))                                                    \
+    X(LESS, '-', "-", '_', "_", 0, N_("a step less"))                                                    \
+    X(ADD, 'a', "a", K_NONE, "", 2, N_("add"))                                                          \
+    X(DELETE, 'd', "d", K_DELETE, "Del", 1, N_("delete"))                                               \
+    X(DUPLICATE, 'y', "y", K_NONE, "", 1, N_("duplicate"))                                              \
+    X(EARLIER, '<', "<", K_NONE, "", 0, N_("move this item before the one before it"))                 \
+    X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"))                             \
+    X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"))                                                        \
+    X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"))                                           \
+    X(PRESETS, 'p', "p", K_F5, "F5", 2, N_("presets"))                                                  \
+    X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                   \
+    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 1, N_("pane"))                                             \
+    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                     \
+    X(VIEW_1, '1', "1", K_NONE, "", 0, N_("view: slope"))                                              \
+    X(VIEW_2, '2', "2", K_NONE, "", 0, N_("view: stand"))                                              \
+    X(VIEW_3, '3', "3", K_NONE, "", 0, N_("view: rock and release"))                                   \
+    X(VIEW_4, '4', "4", K_NONE, "", 0, N_("view: results"))                                            \
+    X(VIEW_5, '5', "5", K_NONE, "", 0, N_("view: compare"))                                            \
+    X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                   \
+    X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \
+    X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                       \
+    X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                 \
+    X(SEARCH, '/', "/", K_F3, "F3", 0, N_("search"))                                                   \
+    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                              \
+    X(NEW, 'n', "n", K_F7, "F7", 0, N_("new scene"))                                                   \
+    X(OPEN, 'o', "o", K_F4, "F4", 0, N_("open a scene"))                                               \
+    X(SAVE, 's', "s", K_F2, "F2", 2, N_("save"))                                                        \
+    X(EXPORT, 'w', "w", K_F6, "F6", 1, N_("export"))                                                    \
+    X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"))                                \
+    X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"))                                \
+    X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"))                         \
+    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"))                                                        \
+    X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"))
+
+enum action {
+#define X(NAME, key, word, key2, word2, bar, help) ACTION_##NAME,
+    ACTIONS(X)
+#undef X
+        ACTION_COUNT,
+    ACTION_NONE
+};
+
+struct action_row {
+    int key, key2;
+    const char *word, *word2;
+    int bar; /* 2: always in the bar, 1: where there is room */
+    const char *help; /* marked for translation */
+};
+
+extern const struct action_row ceduo_actions[ACTION_COUNT];
+
+/* The action of a key; ACTION_NONE. */
+enum action ceduo_action_of(int key);
+
+/* A key from its name in a script: a single character, or Up, Enter, F1, Ctrl-R, Esc, Space …; K_NONE. */
+int ceduo_key_of(const char *name);
+
+#endif

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_POPUP_H
+#define CEDUO_POPUP_H
+
+#include <stdio.h>
+
+#include "app.h"
+
+enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
+
+#define POPUP_FIELDS_MOST 12
+
+struct popup_item {
+    const char *text, *value;
+};
+
+/* An item was chosen; the popup is closed after the call. */
+typedef void popup_chosen(struct app *app, struct popup *popup, const char *value);
+
+/* The fields were filled. False: app->message says what is wrong, and it stays open. */
+typedef bool popup_filled(struct app *app, struct popup *popup);
+
+struct popup {
+    enum popup_kind kind;
+    char title[128];
+    struct arena arena;
+    struct text text;         /* to read; over a list or fields: what it is about */
+    struct popup_item *items; /* to choose from */
+    size_t items_count, items_room;
+    char labels[POPUP_FIELDS_MOST][40];
+    struct line fields[POPUP_FIELDS_MOST]; /* to fill */
+    size_t fields_count;
+    size_t at, top;
+    char message[256];
+    char path[FORM_PATH]; /* what a choice is for */
+    char *kept;           /* a text that goes with it */
+    popup_chosen *chosen, *preview;
+    popup_filled *filled;
+};
+
+struct popup *ceduo_popup_text(struct app *app, const char *title);
+struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
+struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
+void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
+void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
+
+#endif

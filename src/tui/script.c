@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "script.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/file.h"
+#include "io/intl.h"
+
+static bool fail(const char *path, size_t line, const char *what, const char *word)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, word);
+    fprintf(stderr, "%s:%zu: %s: %s\n", path, line, what, safe.bytes ? safe.bytes : "");
+    ceduo_text_free(&safe);
+    return false;
+}
+
+static bool press(struct app *app, char *names, const char *path, size_t line)
+{
+    for (char *save, *name = strtok_r(names, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
+        int key = ceduo_key_of(name);
+        if (key == K_NONE)
+            return fail(path, line, _("no such key"), name);
+        ceduo_app_key(app, key);
+    }
+    return true;
+}
+
+static void type(struct app *app, const char *text)
+{
+    size_t n = strlen(text);
+    for (size_t i = 0; i < n;) {
+        uint32_t code;
+        size_t length = ceduo_utf8_decode(text + i, n - i, &code);
+        if (length > 0)
+            ceduo_app_key(app, (int)code);
+        i += length > 0 ? length : 1;
+    }
+}
+
+static void wait_idle(struct app *app)
+{
+    ceduo_worker_wait(app->worker);
+    ceduo_app_news(app);
+}
+
+static bool dump(struct app *app, const char *name, bool roles, const char *path, size_t line)
+{
+    ceduo_app_news(app);
+    ceduo_app_draw(app);
+    char *text = roles ? ceduo_canvas_roles(app->canvas) : ceduo_canvas_dump(app->canvas);
+    bool good = text != NULL;
+    if (good && strcmp(name, "-") == 0)
+        good = fputs(text, stdout) >= 0 && fflush(stdout) == 0;
+    else if (good)
+        good = ceduo_file_write(name, text, strlen(text));
+    if (!good)
+        fail(path, line, strerror(errno), name);
+    free(text);
+    return good;
+}
+
+static bool resize(struct app *app, const char *rest, const char *path, size_t line)
+{
+    int width, height, used = 0;
+    if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
+        width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
+        return fail(path, line, _("a width and a height are wanted"), rest);
+    ceduo_app_resize(app, width, height);
+    return true;
+}
+
+static bool obey(struct app *app, char *command, const char *path, size_t line)
+{
+    command += strspn(command, " \t");
+    if (command[0] == '\0' || command[0] == '#')
+        return true;
+    char *rest = command + strcspn(command, " \t");
+    if (*rest)
+        *rest++ = '\0';
+    if (strcmp(command, "key") == 0)
+        return press(app, rest, path, line);
+    if (strcmp(command, "dump") == 0 || strcmp(command, "roles") == 0)
+        return dump(app, rest, command[0] == 'r', path, line);
+    if (strcmp(command, "resize") == 0)
+        return resize(app, rest, path, line);
+    if (strcmp(command, "type") == 0)
+        type(app, rest);
+    else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0)
+        wait_idle(app);
+    else
+        return fail(path, line, _("key, type, resize, wait idle, dump or roles is wanted"), command);
+    return true;
+}
+
+bool ceduo_script_run(struct app *app, const char *path)
+{
+    struct arena arena = {0};
+    struct problems problems = {0};
+    const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
+    bool good = source != NULL;
+    if (problems.text.bytes)
+        fputs(problems.text.bytes, stderr);
+    char *text = good ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
+    ceduo_app_resize(app, 80, 24);
+    good = text != NULL;
+    for (size_t line = 1; good && *text && !app->quit; line++) {
+        char *end = text + strcspn(text, "\n");
+        bool more = *end;
+        *end = '\0';
+        if (end > text && end[-1] == '\r')
+            end[-1] = '\0';
+        good = obey(app, text, path, line);
+        text = more ? end + 1 : end;
+    }
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+    return good;
+}

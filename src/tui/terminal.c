@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The only file that knows curses, colours and the signals of a terminal. */
+#define NCURSES_WIDECHAR 1
+#include "terminal.h"
+
+#include <curses.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <term.h>
+#include <termios.h>
+#include <unistd.h>
+#include <wchar.h>
+
+#include "io/intl.h"
+
+/* ---- colours ---- */
+
+struct look {
+    short colour; /* of curses, -1: the terminal's own */
+    attr_t attributes;
+};
+
+/* By theme: dark, light, none. Meaning is never in colour alone: words and signs stand beside it. */
+static struct look look_of(enum ceduo_role role, int theme)
+{
+    bool light = theme == 1;
+    switch (role) {
+    case CEDUO_ROLE_DIM: return (struct look){-1, A_DIM};
+    case CEDUO_ROLE_TITLE: return (struct look){-1, A_BOLD};
+    case CEDUO_ROLE_AXIS: return (struct look){-1, A_DIM};
+    case CEDUO_ROLE_GROUND: return (struct look){light ? COLOR_BLACK : COLOR_YELLOW, A_NORMAL};
+    case CEDUO_ROLE_CLOUD: return (struct look){light ? COLOR_BLUE : COLOR_CYAN, A_NORMAL};
+    case CEDUO_ROLE_ENVELOPE: return (struct look){COLOR_BLUE, A_NORMAL};
+    case CEDUO_ROLE_MEAN: return (struct look){-1, A_BOLD};
+    case CEDUO_ROLE_WAY: return (struct look){COLOR_MAGENTA, A_BOLD};
+    case CEDUO_ROLE_STEM:
+    case CEDUO_ROLE_STOOL:
+    case CEDUO_ROLE_BELT: return (struct look){COLOR_GREEN, A_NORMAL};
+    case CEDUO_ROLE_CONTROL: return (struct look){COLOR_RED, A_NORMAL};
+    case CEDUO_ROLE_GOOD: return (struct look){COLOR_GREEN, A_BOLD};
+    case CEDUO_ROLE_BAD: return (struct look){COLOR_RED, A_BOLD};
+    case CEDUO_ROLE_WARN: return (struct look){light ? COLOR_RED : COLOR_YELLOW, A_NORMAL};
+    case CEDUO_ROLE_BARE: return (struct look){light ? COLOR_BLUE : COLOR_CYAN, A_NORMAL};
+    case CEDUO_ROLE_WOOD: return (struct look){COLOR_GREEN, A_NORMAL};
+    case CEDUO_ROLE_CURSOR: return (struct look){-1, A_REVERSE};
+    default: return (struct look){-1, A_NORMAL};
+    }
+}
+
+static bool colours_wanted(void)
+{
+    const char *no = getenv("NO_COLOR");
+    return !(no && no[0]) && has_colors();
+}
+
+static void start_colours(void)
+{
+    if (!colours_wanted())
+        return;
+    start_color();
+    use_default_colors();
+    for (short c = 0; c < 8; c++)
+        init_pair((short)(c + 1), c, -1);
+}
+
+/* ---- a crash or a signal ---- */
+
+static struct termios saved_mode;
+static char restore_string[128];
+static size_t restore_length;
+static volatile sig_atomic_t ending;   /* SIGTERM or SIGHUP */
+static volatile sig_atomic_t interrupted; /* Ctrl-C */
+static int wake[2] = {-1, -1};
+
+/* What brings the terminal back, made before it is needed: a handler may only write it. */
+static void prepare_restore(void)
+{
+    static const char *const names[] = {"sgr0", "cnorm", "rmkx", "rmcup"};
+    restore_length = 0;
+    for (size_t i = 0; i < 4; i++) {
+        const char *s = tigetstr(names[i]);
+        size_t n = s && s != (char *)-1 ? strlen(s) : 0;
+        if (restore_length + n < sizeof restore_string) {
+            memcpy(restore_string + restore_length, s ? s : "", n);
+            restore_length += n;
+        }
+    }
+    tcgetattr(STDIN_FILENO, &saved_mode);
+}
+
+static void on_crash(int number)
+{
+    static const char mouse_off[] = "\033[?1000l\033[?1006l";
+    ssize_t unused = write(STDOUT_FILENO, mouse_off, sizeof mouse_off - 1);
+    unused = write(STDOUT_FILENO, restore_string, restore_length);
+    (void)unused;
+    tcsetattr(STDIN_FILENO, TCSANOW, &saved_mode);
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+static void on_end(int number)
+{
+    int kept = errno;
+    if (number == SIGINT)
+        interrupted = 1;
+    else
+        ending = number;
+    ssize_t unused = write(wake[1], "", 1);
+    (void)unused;
+    errno = kept;
+}
+
+static void set_handlers(void)
+{
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, ends[] = {SIGTERM, SIGHUP, SIGINT};
+    for (size_t i = 0; i < 5; i++)
+        sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)},
+                  NULL);
+    for (size_t i = 0; i < 3; i++)
+        sigaction(ends[i], &(struct sigaction){.sa_handler = on_end}, NULL);
+    signal(SIGPIPE, SIG_IGN);
+}
+
+/* ---- drawing ---- */
+
+static void put_cell(const struct ceduo_canvas *canvas, int x, int y, int theme, bool colours)
+{
+    uint32_t code = ceduo_canvas_glyph(canvas, x, y);
+    struct look look = look_of(ceduo_canvas_role(canvas, x, y), theme);
+    wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
+    cchar_t cell;
+    short pair = colours && theme < 2 && look.colour >= 0 ? (short)(look.colour + 1) : 0;
+    if (setcchar(&cell, text, look.attributes, pair, NULL) == OK)
+        mvadd_wch(y, x, &cell);
+}
+
+static void show(struct app *app, bool colours)
+{
+    if (app->width != COLS || app->height != LINES || !app->canvas)
+        ceduo_app_resize(app, COLS, LINES);
+    if (!app->canvas)
+        return;
+    ceduo_app_draw(app);
+    if (app->redraw)
+        clearok(curscr, TRUE);
+    app->redraw = false;
+    for (int y = 0; y < app->height; y++)
+        for (int x = 0; x < app->width; x++)
+            put_cell(app->canvas, x, y, app->theme, colours);
+    wnoutrefresh(stdscr);
+    doupdate();
+}
+
+/* ---- keys ---- */
+
+static int special_key(wint_t code)
+{
+    static const struct {
+        int from, to;
+    } keys[] = {{KEY_UP, K_UP},
+                {KEY_DOWN, K_DOWN},
+                {KEY_LEFT, K_LEFT},
+                {KEY_RIGHT, K_RIGHT},
+                {KEY_HOME, K_HOME},
+                {KEY_END, K_END},
+                {KEY_PPAGE, K_PAGE_UP},
+                {KEY_NPAGE, K_PAGE_DOWN},
+                {KEY_BACKSPACE, K_BACKSPACE},
+                {KEY_DC, K_DELETE},
+                {KEY_BTAB, K_SHIFT_TAB},
+                {KEY_ENTER, K_ENTER}};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if ((wint_t)keys[i].from == code)
+            return keys[i].to;
+    if (code >= KEY_F(1) && code <= KEY_F(10))
+        return K_F1 + (int)code - KEY_F(1);
+    return K_NONE;
+}
+
+static void take_mouse(struct app *app)
+{
+    MEVENT event;
+    if (getmouse(&event) != OK)
+        return;
+    if (event.bstate & BUTTON4_PRESSED)
+        ceduo_app_wheel(app, -3);
+    else if (event.bstate & BUTTON5_PRESSED)
+        ceduo_app_wheel(app, 3);
+    else if (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
+        ceduo_app_click(app, event.x, event.y);
+}
+
+/* All keys that wait. True where there was one. */
+static bool take_keys(struct app *app)
+{
+    bool any = false;
+    wint_t code;
+    for (int kind; !app->quit && (kind = get_wch(&code)) != ERR; any = true) {
+        if (kind == KEY_CODE_YES && code == KEY_RESIZE)
+            continue;
+        if (kind == KEY_CODE_YES && code == KEY_MOUSE) {
+            take_mouse(app);
+            continue;
+        }
+        int key = kind == KEY_CODE_YES ? special_key(code) : (int)code;
+        if (kind != KEY_CODE_YES && (code == '\n' || code == '\r'))
+            key = K_ENTER;
+        if (kind != KEY_CODE_YES && (code == 127 || code == 8))
+            key = K_BACKSPACE;
+        if (key != K_NONE)
+            ceduo_app_key(app, key);
+    }
+    return any;
+}
+
+/* ---- the loop ---- */
+
+static void drain_wake(void)
+{
+    char bytes[32];
+    while (read(wake[0], bytes, sizeof bytes) > 0)
+        ;
+}
+
+static void loop(struct app *app, bool colours)
+{
+    show(app, colours);
+    while (!app->quit && !app->stopped && !ending) {
+        struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
+                                {.fd = ceduo_worker_fd(app->worker), .events = POLLIN},
+                                {.fd = wake[0], .events = POLLIN}};
+        int n = poll(fds, 3, -1);
+        if (n < 0 && errno != EINTR)
+            break;
+        drain_wake();
+        if (n > 0 && fds[0].revents & (POLLHUP | POLLERR) && !(fds[0].revents & POLLIN))
+            break; /* the window is gone */
+        if (interrupted) {
+            interrupted = 0;
+            ceduo_app_key(app, 'q');
+        }
+        bool changed = take_keys(app); /* also where a signal told of a new size */
+        changed |= ceduo_app_news(app);
+        if (changed || n < 0 || app->width != COLS || app->height != LINES)
+            show(app, colours);
+    }
+}
+
+bool ceduo_terminal_there(const char **why)
+{
+    const char *unused;
+    why = why ? why : &unused;
+    int error;
+    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO)) {
+        *why = _("standard input and output are no terminal");
+        return false;
+    }
+    const char *name = getenv("TERM");
+    if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK) {
+        *why = _("TERM names no terminal that is known");
+        return false;
+    }
+    const char *move = tigetstr("cup");
+    if (!move || move == (char *)-1) {
+        *why = _("this terminal cannot place the cursor");
+        return false;
+    }
+    return true;
+}
+
+enum terminal_end ceduo_terminal_run(struct app *app)
+{
+    if (pipe2(wake, O_NONBLOCK | O_CLOEXEC) != 0)
+        return TERMINAL_FAILED;
+    if (!getenv("ESCDELAY"))
+        set_escdelay(25);
+    SCREEN *screen = newterm(NULL, stdout, stdin);
+    if (!screen)
+        return TERMINAL_NONE;
+    prepare_restore();
+    start_colours();
+    cbreak();
+    noecho();
+    nonl();
+    keypad(stdscr, TRUE);
+    nodelay(stdscr, TRUE);
+    curs_set(0);
+    mouseinterval(0);
+    mousemask(BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED, NULL);
+    set_handlers();
+    loop(app, colours_wanted());
+    endwin();
+    delscreen(screen);
+    if (ending) {
+        signal(ending, SIG_DFL);
+        raise(ending);
+    }
+    return app->stopped ? TERMINAL_FAILED : TERMINAL_DONE;
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_TERMINAL_H
+#define CEDUO_TERMINAL_H
+
+#include "app.h"
+
+enum terminal_end {
+    TERMINAL_DONE,
+    TERMINAL_NONE,  /* there is no terminal that a screen can be drawn on; nothing was touched */
+    TERMINAL_FAILED /* out of memory */
+};
+
+/* Whether the environment has a terminal to draw on: standard input and output are one, and TERM can address its cells.
+ * `*why` (may be NULL) is set where not. */
+bool ceduo_terminal_there(const char **why);
+
+/* Shows the program on the terminal until it ends; restores the terminal. A signal that ends it is raised again. */
+enum terminal_end ceduo_terminal_run(struct app *app);
+
+#endif

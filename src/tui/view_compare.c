@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 5: the silvicultural options side by side. */
+#include <math.h>
+#include <stdio.h>
+
+#include "app.h"
+#include "io/intl.h"
+
+static void build(struct app *app, struct form *form)
+{
+    static const char *const columns[] = {"name", NULL};
+    const struct field *options = ceduo_schema_field(ceduo_schema_scene(), "options");
+    if (ceduo_node_get(app->document.file.root, "options"))
+        ceduo_form_table(form, &app->document, options->object, "options", columns, "");
+    else
+        ceduo_form_note(form, _("One way to treat this wood. a adds another from a preset, y a copy of this one."));
+    form->row = app->option + 1; /* below the names of the columns */
+}
+
+/* What is compared; each figure with what is better. */
+enum column { ADC, FREE_RUN, TAKEN, LEFT, COLUMNS };
+
+static double figure(const struct app *app, size_t i, enum column column)
+{
+    const struct ceduo_result *r = app->result;
+    const struct ceduo_index *s = &r->options[i].controls[r->last_control];
+    switch (column) {
+    case ADC:
+        return s->worst_adc;
+    case FREE_RUN:
+        return s->worst_free_run;
+    case TAKEN:
+        return s->length > 0 ? s->dissipated / s->length * 100e-3 : 0;
+    default:
+        return s->residual * 1e-3;
+    }
+}
+
+/* '*' for the best of a column, '!' for the worst, where they differ. By the index these figures have no error of their
+ * own: every option is held against the same rocks. */
+static char mark_of(const struct app *app, size_t i, enum column column)
+{
+    double lo = INFINITY, hi = -INFINITY, here = figure(app, i, column);
+    for (size_t k = 0; k < app->result->options_count; k++) {
+        lo = fmin(lo, figure(app, k, column));
+        hi = fmax(hi, figure(app, k, column));
+    }
+    if (!(hi > lo) || isnan(here))
+        return ' ';
+    double best = column == TAKEN ? hi : lo, worst = column == TAKEN ? lo : hi;
+    return here == best ? '*' : here == worst ? '!' : ' ';
+}
+
+static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
+{
+    const struct ceduo_result *r = app->result;
+    const struct ceduo_option *o = &r->scene->options[i];
+    const struct ceduo_index *s = &r->options[i].controls[r->last_control];
+    bool here = i == app->option;
+    int name = area.width - 39;
+    struct ceduo_area first = {area.left, y, name > 8 ? name : 8, 1};
+    struct text safe = {0};
+    ceduo_text_safe(&safe, o->name);
+    for (int x = 0; here && x < first.width; x++)
+        ceduo_canvas_label(app->canvas, area.left + x, y, CEDUO_ROLE_CURSOR, " ");
+    ceduo_app_text(app, first, here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, safe.bytes ? safe.bytes : "", 0);
+    ceduo_text_free(&safe);
+    int x = area.left + first.width;
+    for (int c = 0; c < COLUMNS; c++) {
+        double value = figure(app, i, (enum column)c);
+        struct text text = {0};
+        if (c == FREE_RUN)
+            ceduo_text_format(&text, "%.1f %%", value * 100);
+        else if (c == LEFT && s->exhausted)
+            ceduo_text_put(&text, _("used up"));
+        else
+            ceduo_words_number(&text, value, 3);
+        if (text.bytes)
+            ceduo_canvas_label_right(app->canvas, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
+        char mark[2] = {mark_of(app, i, (enum column)c), '\0'};
+        ceduo_canvas_label(app->canvas, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
+        ceduo_text_free(&text);
+        x += 9;
+    }
+    x++;
+    bool lights[2] = {s->contact == CEDUO_PASS, s->free_run == CEDUO_PASS};
+    for (int k = 0; k < 2; k++)
+        ceduo_canvas_label(app->canvas, x + k, y, lights[k] ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
+                           lights[k] ? "\xe2\x9c\x94" : "\xe2\x9c\x98");
+}
+
+static void draw_head(struct app *app, struct ceduo_area area)
+{
+    static const char *const words[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
+    int name = area.width - 39, x = area.left + (name > 8 ? name : 8);
+    ceduo_canvas_label(app->canvas, area.left, area.top, CEDUO_ROLE_TITLE, _("option"));
+    for (int c = 0; c < COLUMNS; c++, x += 9)
+        ceduo_canvas_label_right(app->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
+    ceduo_canvas_label(app->canvas, x + 1, area.top, CEDUO_ROLE_TITLE, "CF");
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    app->form_area = (struct ceduo_area){0, 0, 0, 0};
+    if (!app->result)
+        return;
+    size_t n = app->result->options_count;
+    draw_head(app, area);
+    int room = area.height - 7, top = 0;
+    if ((int)app->option >= room)
+        top = (int)app->option - room + 1;
+    for (int i = 0; i < room && (size_t)(top + i) < n; i++)
+        draw_row(app, area, area.top + 1 + i, (size_t)(top + i));
+    struct ceduo_area foot = {area.left, area.top + area.height - 5, area.width, 5};
+    ceduo_app_text(app, foot, CEDUO_ROLE_DIM,
+                   n > 1 ? _("* best, ! worst of a column; C contact, F free run. Without forest every option sees the "
+                             "same rocks; kJ per 100 m and what is left are by the index, which says what stems could "
+                             "take, not what a rock loses. No column decides alone. a adds from a preset, y copies, "
+                             "Enter renames, d deletes, < > reorder, p other stand, 2 its stand.")
+                         : _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."),
+                   0);
+}
+
+static void choose(struct app *app, long i)
+{
+    long n = (long)app->document.file.scene.options_count;
+    app->option = (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i);
+    app->belt = 0;
+    struct problems none = {0};
+    ceduo_app_edited(app, true, &none);
+}
+
+static void copy_option(struct app *app)
+{
+    struct problems problems = {0};
+    size_t at = app->option;
+    if (ceduo_app_edited(app, ceduo_document_copy_option(&app->document, at, &problems), &problems))
+        choose(app, (long)at + 1);
+}
+
+static void delete_option(struct app *app)
+{
+    struct problems problems = {0};
+    char path[64], name[200];
+    if (app->document.file.scene.options_count < 2) {
+        ceduo_app_say(app, "%s", _("the only option stays"));
+        return;
+    }
+    snprintf(path, sizeof path, "options[%zu]", app->option);
+    snprintf(name, sizeof name, "%s", ceduo_app_option(app)->name);
+    if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &problems), &problems))
+        ceduo_app_say(app, _("deleted '%s'; u brings it back"), name);
+}
+
+static void move_option(struct app *app, int by)
+{
+    struct problems problems = {0};
+    long to = (long)app->option + by;
+    if (to < 0 || to >= (long)app->document.file.scene.options_count)
+        return;
+    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to, &problems);
+    if (ceduo_app_edited(app, good, &problems))
+        choose(app, to);
+}
+
+static bool act(struct app *app, enum action action)
+{
+    switch (action) {
+    case ACTION_UP: choose(app, (long)app->option - 1); return true;
+    case ACTION_DOWN: choose(app, (long)app->option + 1); return true;
+    case ACTION_TOP: choose(app, 0); return true;
+    case ACTION_BOTTOM: choose(app, 1000000); return true;
+    case ACTION_ADD: ceduo_popup_presets(app, true); return true;
+    case ACTION_DUPLICATE: copy_option(app); return true;
+    case ACTION_DELETE: delete_option(app); return true;
+    case ACTION_EARLIER: move_option(app, -1); return true;
+    case ACTION_LATER: move_option(app, 1); return true;
+    case ACTION_EDIT:
+        if (ceduo_node_get(app->document.file.root, "options"))
+            ceduo_popup_rename(app);
+        return true;
+    default: return false;
+    }
+}
+
+const struct app_view ceduo_view_compare = {N_("compare"), 1, build, draw, act};

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
+#include "app.h"
+#include "io/intl.h"
+
+/* The batch page of the option shown, as narrow as the pane. */
+static void fill_page(struct app *app, struct text *text, int width)
+{
+    struct ceduo_report report = {.file = &app->document.file,
+                                  .result = app->result,
+                                  .remarks = {.ground_assumed = app->document.file.ground_assumed}};
+    ceduo_report_option(text, &report, app->option, width);
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    app->form_area = (struct ceduo_area){0, 0, 0, 0};
+    if (!app->result) {
+        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling …"), 0);
+        return;
+    }
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    bool wide = area.width >= 110;
+    int pictures = wide ? area.height : area.height / 2;
+    int half = wide ? area.width / 2 - 1 : area.width;
+    struct ceduo_area adc = {area.left, area.top, half, wide ? pictures / 3 : area.height >= 30 ? pictures / 2 : 0};
+    struct ceduo_area histogram = {area.left, area.top + adc.height, half, pictures - adc.height - 1};
+    struct ceduo_area page = {wide ? area.left + half + 2 : area.left, wide ? area.top : area.top + pictures,
+                              wide ? area.width - half - 2 : area.width, wide ? area.height : area.height - pictures};
+    if (adc.height > 4)
+        ceduo_plot_adc(app->canvas, &adc, &picture);
+    ceduo_plot_histogram(app->canvas, &histogram, &picture);
+    struct text text = {0};
+    fill_page(app, &text, page.width);
+    const char *bytes = text.bytes ? text.bytes : "";
+    struct ceduo_area none = {0, 0, page.width, 0};
+    int lines = ceduo_app_text(app, none, CEDUO_ROLE_TEXT, bytes, 0), most = lines - page.height;
+    if (app->scroll > most)
+        app->scroll = most > 0 ? most : 0;
+    ceduo_app_text(app, page, CEDUO_ROLE_TEXT, bytes, app->scroll);
+    if (app->scroll < most)
+        ceduo_app_label(app, page.left + page.width - 2, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
+    ceduo_text_free(&text);
+}
+
+const struct app_view ceduo_view_results = {N_("results"), 1, NULL, draw, NULL};

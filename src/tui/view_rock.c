@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 3: the rock, how it starts, and how it is computed. */
+#include "app.h"
+#include "io/forms.h"
+#include "io/intl.h"
+
+static void add(struct app *app, struct form *form, const char *group, const char *key, const char *label)
+{
+    const struct field *f = ceduo_schema_field(ceduo_schema_scene(), group);
+    ceduo_form_field(form, &app->document, f->object, group, key, label);
+}
+
+static void build(struct app *app, struct form *form)
+{
+    enum ceduo_shape shape = app->document.file.scene.rock.shape;
+    bool round = shape == CEDUO_SPHERE || shape == CEDUO_CYLINDER;
+    ceduo_form_heading(form, _("Rock"));
+    add(app, form, "rock", "shape", _("shape"));
+    if (round)
+        add(app, form, "rock", "diameter_m", _("diameter, m"));
+    if (shape == CEDUO_CYLINDER)
+        add(app, form, "rock", "height_m", _("height, m"));
+    if (!round)
+        add(app, form, "rock", "axes_m", _("axes, m"));
+    if (shape == CEDUO_SPHERE)
+        add(app, form, "rock", "volume_m3", _("or volume, m3"));
+    add(app, form, "rock", "mass_kg", shape == CEDUO_SPHERE ? _("or mass, kg") : _("mass, kg"));
+    add(app, form, "rock", "density_kg_m3", _("density, kg/m3"));
+    ceduo_form_heading(form, _("Release"));
+    add(app, form, "release", "x_m", _("x, m"));
+    add(app, form, "release", "height_m", _("height, m"));
+    add(app, form, "release", "vx_m_s", _("speed along x, m/s"));
+    add(app, form, "release", "vz_m_s", _("speed upward, m/s"));
+    add(app, form, "release", "spin_rad_s", _("spin, rad/s"));
+    ceduo_form_heading(form, _("Simulation"));
+    add(app, form, "simulation", "law", _("law of impact"));
+    add(app, form, "simulation", "rule", _("form of the ADC"));
+    add(app, form, "simulation", "threshold_m", _("threshold, m"));
+    add(app, form, "simulation", "scale_rn", _("Rn by speed"));
+    add(app, form, "simulation", "gravity_m_s2", _("gravity, m/s2"));
+    add(app, form, "simulation", "seed", _("seed"));
+    add(app, form, "simulation", "rocks", _("rocks (batch)"));
+    ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", _("title"));
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    struct ceduo_rock rock;
+    app->form_area = (struct ceduo_area){area.left, area.top, area.width, area.height - 3};
+    ceduo_form_draw(&app->forms[VIEW_ROCK], app->canvas, area.left, area.top, area.width, area.height - 3, true,
+                    app->editing ? app->line.text : NULL);
+    if (ceduo_rock_of_means(&app->document.file.scene.rock, &rock) != CEDUO_OK)
+        return;
+    struct text text = {0};
+    ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2; the lumped law knows neither "
+                               "mass nor shape: they scale the energy alone."),
+                      rock.mass, rock.volume, rock.mean_diameter, rock.moment);
+    struct ceduo_area foot = {area.left, area.top + area.height - 2, area.width, 2};
+    if (text.bytes)
+        ceduo_app_text(app, foot, CEDUO_ROLE_DIM, text.bytes, 0);
+    ceduo_text_free(&text);
+}
+
+/* A sphere has one of three sizes: the one that is set replaces the other two. */
+const struct app_view ceduo_view_rock = {N_("rock"), 1, build, draw, NULL};

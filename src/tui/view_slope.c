@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 1: the slope, the rocks' ways over it, height and energy along it; its ground, belts and controls to edit. */
+
+#include "app.h"
+#include "io/intl.h"
+
+static void build_ground(struct app *app, struct form *form)
+{
+    static const char *const ground[] = {"rn", "rt", "roughness_rad", "friction", NULL};
+    static const char *const heights[] = {"rn", "rt", "roughness_m", "friction", NULL};
+    static const char *const materials[] = {"from_m", "to_m", "material", NULL};
+    const struct document *d = &app->document;
+    const struct object *slope = ceduo_schema_slope();
+    const struct node *segments = ceduo_document_node(d, "slope.segments");
+    ceduo_form_heading(form, _("Ground"));
+    ceduo_form_field(form, d, slope, "slope", "facets", _("facets"));
+    if (ceduo_document_node(d, "slope.materials"))
+        ceduo_form_table(form, d, ceduo_schema_field(slope, "materials")->object, "slope.materials", materials, "");
+    if (segments) {
+        bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");
+        ceduo_form_table(form, d, ceduo_schema_field(slope, "segments")->object, "slope.segments",
+                         by_height ? heights : ground, "");
+    }
+}
+
+static void build_vertices(struct app *app, struct form *form)
+{
+    const struct document *d = &app->document;
+    const struct node *vertices = ceduo_document_node(d, "slope.vertices_m");
+    if (!vertices) {
+        ceduo_form_heading(form, _("Profile: from a CSV file"));
+        ceduo_form_field(form, d, ceduo_schema_slope(), "slope", "csv", _("file"));
+        return;
+    }
+    if (vertices->n > 200) { /* a list too long to be edited by hand */
+        ceduo_form_note(form, _("The profile has too many vertices to list; edit its file."));
+        return;
+    }
+    ceduo_form_heading(form, _("Vertices [x, z], m"));
+    ceduo_form_points(form, d, ceduo_schema_field(ceduo_schema_slope(), "vertices_m"), "slope.vertices_m");
+}
+
+static void build(struct app *app, struct form *form)
+{
+    static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
+    static const char *const control_columns[] = {"x_m", "name", "accepted_kJ", "measured_speed_m_s", NULL};
+    const struct object *scene = ceduo_schema_scene();
+    char forest[64];
+    ceduo_app_forest(app, forest, sizeof forest);
+    ceduo_form_heading(form, _("Belts of forest"));
+    ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "forest")->object, forest, belt_columns, "");
+    ceduo_form_heading(form, _("Controls"));
+    if (ceduo_document_node(&app->document, "controls"))
+        ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "controls")->object, "controls",
+                         control_columns, "");
+    else
+        ceduo_form_field(form, &app->document, scene, "", "controls_m", _("x, m"));
+    build_ground(app, form);
+    build_vertices(app, form);
+}
+
+/* The way of the rock that is stepped through, followed anew when the scene or the rock is another. */
+static void follow_rock(struct app *app)
+{
+    uint64_t key = app->outlook_key;
+    if (app->trail.n > 0 && key == app->trail_key && app->rock == app->trail_rock)
+        return;
+    ceduo_trail_free(&app->trail);
+    if (ceduo_trail_follow(&app->document.file.scene, app->rock, &app->trail) != CEDUO_OK)
+        ceduo_trail_free(&app->trail);
+    app->trail_key = key;
+    app->trail_rock = app->rock;
+}
+
+/* The picture alone where it has the focus, otherwise with the form below it. */
+static void draw(struct app *app, struct ceduo_area area)
+{
+    follow_rock(app);
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    struct ceduo_span span;
+    bool alone = app->pane == 1;
+    int form_height = alone ? 0 : area.height / 3;
+    int room = area.height - form_height;
+    int strips = room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    int strip = room >= 24 ? room / 4 : 5;
+    struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
+    ceduo_plot_profile(app->canvas, &profile, &picture, &span);
+    struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
+    if (strips > 1) {
+        ceduo_plot_height(app->canvas, &next, &picture, &span, false);
+        next.top += strip;
+    }
+    if (strips > 0)
+        ceduo_plot_energy(app->canvas, &next, &picture, &span, strips > 1);
+    struct ceduo_area form = {area.left, area.top + area.height - form_height, area.width, form_height};
+    app->form_area = form;
+    if (!alone)
+        ceduo_form_draw(&app->forms[VIEW_SLOPE], app->canvas, form.left, form.top, form.width, form.height, true,
+                        app->editing ? app->line.text : NULL);
+}
+
+/* In the picture left and right go from rock to rock. */
+static bool act(struct app *app, enum action action)
+{
+    if (app->pane != 1 || (action != ACTION_LEFT && action != ACTION_RIGHT))
+        return false;
+    ceduo_app_show_rock(app, action == ACTION_RIGHT ? app->rock + 1 : app->rock > 0 ? app->rock - 1 : 0);
+    return true;
+}
+
+const struct app_view ceduo_view_slope = {N_("slope"), 2, build, draw, act};

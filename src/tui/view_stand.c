@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees; a plan to scale. */
+#include <stdio.h>
+#include <string.h>
+
+#include "app.h"
+#include "io/intl.h"
+
+static void build(struct app *app, struct form *form)
+{
+    static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
+    static const char *const stem_columns[] = {"per_ha", "dbh_m", "height_m", "volume_m3", "dbh_sd_m", NULL};
+    const struct document *d = &app->document;
+    const struct object *stand = ceduo_schema_stand();
+    const struct object *belt = ceduo_schema_field(ceduo_schema_scene(), "forest")->object;
+    char forest[64], path[FORM_PATH], list[FORM_PATH + 16];
+    ceduo_app_forest(app, forest, sizeof forest);
+    ceduo_form_table(form, d, belt, forest, belt_columns, "");
+    if (ceduo_app_option(app)->belts_count == 0)
+        return;
+    snprintf(path, sizeof path, "%s[%zu].stand", forest, app->belt);
+    char heading[128];
+    snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
+             ceduo_app_option(app)->belts[app->belt].name);
+    ceduo_form_heading(form, heading);
+    ceduo_form_field(form, d, stand, path, "system", _("system"));
+    ceduo_form_field(form, d, stand, path, "species", _("species"));
+    ceduo_form_field(form, d, stand, path, "stools.per_ha", _("stools per ha"));
+    ceduo_form_field(form, d, stand, path, "stools.spacing_m", _("spacing, m"));
+    ceduo_form_heading(form, _("Shoots on the stools"));
+    snprintf(list, sizeof list, "%s.shoots", path);
+    ceduo_form_table(form, d, ceduo_schema_field(stand, "shoots")->object, list, stem_columns, "");
+    ceduo_form_heading(form, _("Single trees: standards, reserves"));
+    snprintf(list, sizeof list, "%s.trees", path);
+    ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
+    ceduo_form_heading(form, _("Energy of a contact"));
+    ceduo_form_field(form, d, stand, path, "energy.model", _("model"));
+    ceduo_form_field(form, d, stand, path, "energy.u_J_m3", _("U, J/m3"));
+    ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", _("fracture ratio"));
+    ceduo_form_field(form, d, stand, path, "name", _("name"));
+}
+
+/* The cursor on a belt shows that belt's stand. */
+static void follow_cursor(struct app *app)
+{
+    struct form_row *row = ceduo_form_row(&app->forms[VIEW_STAND]);
+    char forest[64];
+    ceduo_app_forest(app, forest, sizeof forest);
+    if (!row || row->n == 0 || strcmp(row->list, forest) != 0 || row->index == app->belt)
+        return;
+    app->belt = row->index;
+    struct problems none = {0};
+    ceduo_app_edited(app, true, &none);
+}
+
+static void draw_figures(struct app *app, struct ceduo_area area)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    if (app->belt >= o->belts_count)
+        return;
+    struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, &o->belts[app->belt]);
+    struct text text = {0};
+    ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha. "), r.stems_per_ha, r.basal_area);
+    if (!r.bare)
+        ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g); %.3g kJ per "
+                                   "100 m (%s)"),
+                          r.adc_m, ceduo_words_rule(r.rule), r.adc.gsteiger_stools, r.adc.gsteiger_stems,
+                          r.adc.interception, r.adc.crofton, r.dissipated / r.length * 0.1, ceduo_words_rule(r.rule));
+    if (text.bytes)
+        ceduo_app_text(app, area, CEDUO_ROLE_DIM, text.bytes, 0);
+    ceduo_text_free(&text);
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    follow_cursor(app);
+    const struct ceduo_option *o = ceduo_app_option(app);
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    bool wide = area.width >= 84;
+    int plan = wide ? area.width / 2 - 1 : 0;
+    struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - 3};
+    struct ceduo_area figures = {area.left, area.top + area.height - 3, area.width, 3};
+    if (!wide && area.height >= 30) { /* the plan below the form */
+        form.height = area.height * 3 / 5;
+        struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
+        if (app->belt < o->belts_count)
+            ceduo_plot_stand(app->canvas, &below, &picture);
+    }
+    app->form_area = form;
+    ceduo_form_draw(&app->forms[VIEW_STAND], app->canvas, form.left, form.top, form.width, form.height, app->pane == 0,
+                    app->editing ? app->line.text : NULL);
+    struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
+    if (wide && app->belt < o->belts_count)
+        ceduo_plot_stand(app->canvas, &beside, &picture);
+    draw_figures(app, figures);
+}
+
+const struct app_view ceduo_view_stand = {N_("stand"), 1, build, draw, NULL};

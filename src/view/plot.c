@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot.h"
+
+#include <string.h>
+
+#include "io/intl.h"
+#include "plot_parts.h"
+
+typedef void draw_function(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                           const struct ceduo_picture *picture);
+
+static void draw_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                         const struct ceduo_picture *picture)
+{
+    ceduo_plot_profile(canvas, area, picture, NULL);
+}
+
+static void draw_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+{
+    ceduo_plot_height(canvas, area, picture, NULL, true);
+}
+
+static void draw_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+{
+    ceduo_plot_energy(canvas, area, picture, NULL, true);
+}
+
+static const struct {
+    const char *name;
+    draw_function *draw;
+    bool needs_run, needs_cells, by_option;
+} kinds[CEDUO_PLOTS] = {
+    [CEDUO_PLOT_PROFILE] = {"profile", draw_profile, true, false, true},
+    [CEDUO_PLOT_ENERGY] = {"energy", draw_energy, true, true, false},
+    [CEDUO_PLOT_HEIGHT] = {"height", draw_height, true, true, false},
+    [CEDUO_PLOT_HISTOGRAM] = {"histogram", ceduo_plot_histogram, true, false, false},
+    [CEDUO_PLOT_ADC] = {"adc", ceduo_plot_adc, false, false, true},
+    [CEDUO_PLOT_STAND] = {"stand", ceduo_plot_stand, false, false, true},
+    [CEDUO_PLOT_COMPARE] = {"compare", ceduo_plot_compare, true, false, false},
+};
+
+enum ceduo_plot ceduo_plot_find(const char *name)
+{
+    for (int i = CEDUO_PLOT_NONE + 1; i < CEDUO_PLOTS; i++)
+        if (strcmp(kinds[i].name, name) == 0)
+            return (enum ceduo_plot)i;
+    return CEDUO_PLOT_NONE;
+}
+
+bool ceduo_plot_needs_run(enum ceduo_plot plot)
+{
+    return kinds[plot].needs_run;
+}
+
+bool ceduo_plot_needs_cells(enum ceduo_plot plot)
+{
+    return kinds[plot].needs_cells;
+}
+
+bool ceduo_plot_by_option(enum ceduo_plot plot)
+{
+    return kinds[plot].by_option;
+}
+
+void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                     const struct ceduo_picture *picture)
+{
+    if (kinds[plot].draw)
+        kinds[plot].draw(canvas, area, picture);
+}
+
+/* ---- titles ---- */
+
+static void title_of_option(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
+{
+    const struct ceduo_option *option = ceduo_plot_option(p);
+    const struct ceduo_belt *belt = ceduo_plot_belt(p);
+    ceduo_text_put(text, option && option->name ? option->name : "");
+    if (plot == CEDUO_PLOT_PROFILE)
+        ceduo_text_put(text, _(": slope, forest, and ways without forest"));
+    else if (plot == CEDUO_PLOT_ADC)
+        ceduo_text_put(text, _(": average distance between contacts, m"));
+    else
+        ceduo_text_format(text, _(": %s, from above"), belt && belt->name ? belt->name : _("no forest"));
+}
+
+void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
+{
+    struct text place = {0};
+    const struct ceduo_control *control = ceduo_plot_control(p);
+    if (control)
+        ceduo_plot_control_name(&place, control);
+    const char *where = place.bytes ? place.bytes : _("no control");
+    if (kinds[plot].by_option)
+        title_of_option(text, plot, p);
+    else if (plot == CEDUO_PLOT_HEIGHT)
+        ceduo_text_put(text, _("Height of the rocks above the ground, without forest"));
+    else if (plot == CEDUO_PLOT_ENERGY)
+        ceduo_text_put(text, _("Energy of the rocks, without forest"));
+    else if (plot == CEDUO_PLOT_HISTOGRAM)
+        ceduo_text_format(text, _("Energy at %s, without forest"), where);
+    else if (plot == CEDUO_PLOT_COMPARE)
+        ceduo_text_format(text, _("Options side by side, up to %s"), where);
+    ceduo_text_free(&place);
+}

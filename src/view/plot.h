@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_PLOT_H
+#define CEDUO_PLOT_H
+
+#include "canvas.h"
+#include "io/text.h"
+#include "outlook.h"
+
+/* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
+ * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
+
+/* A rectangle of cells, counted as those of the canvas. */
+struct ceduo_area {
+    int left, top, width, height;
+};
+
+/* What a picture shows. */
+struct ceduo_picture {
+    const struct ceduo_scene *scene;     /* checked */
+    const struct ceduo_outlook *outlook; /* NULL: nothing is computed yet */
+    size_t option, belt, control;        /* indices; where there is none, the picture says so */
+    const struct ceduo_trail *selected;  /* one rock's way, shown before all others; NULL: none */
+    double from, to;                     /* the stretch of slope shown, m, relative; from = to: all of it */
+};
+
+/* The columns that show the slope and the metres at their edges (relative), so that pictures can stand above each other
+ * on one axis. */
+struct ceduo_span {
+    int left, width;
+    double x0, x1;
+};
+
+/* The slope with rocks' ways as density, the option's belts, release and controls. True to scale; where that would leave
+ * most of the area empty, heights are stretched or pressed, and the factor is written. `span` (may be NULL) tells where
+ * the slope stands. */
+void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                        struct ceduo_span *span);
+
+/* Strips: along the slope, of the rocks that pass, the height above the ground (p50, p95, max), and the energy (mean,
+ * p5, p50, p95), without forest. `span`: the columns to stand in; NULL: the area's own. The names of the curves stand
+ * to the right of the span, where the area has room. `axis`: an x axis in the two lowest rows. */
+void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                       const struct ceduo_span *span, bool axis);
+void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                       const struct ceduo_span *span, bool axis);
+
+/* How the energies of the rocks that reach the control are spread, without forest. */
+void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                          const struct ceduo_picture *picture);
+
+/* The four forms of the ADC of each of the option's belts, beside the threshold. */
+void ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
+
+/* A stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same stand. */
+void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
+
+/* The options side by side, up to the control: ADC of the worst belt, kJ taken per 100 m, kJ left. */
+void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                        const struct ceduo_picture *picture);
+
+/* ---- by name ---- */
+
+enum ceduo_plot {
+    CEDUO_PLOT_NONE,
+    CEDUO_PLOT_PROFILE,
+    CEDUO_PLOT_ENERGY,
+    CEDUO_PLOT_HEIGHT,
+    CEDUO_PLOT_HISTOGRAM,
+    CEDUO_PLOT_ADC,
+    CEDUO_PLOT_STAND,
+    CEDUO_PLOT_COMPARE,
+    CEDUO_PLOTS
+};
+
+#define CEDUO_PLOT_NAMES "profile, energy, height, histogram, adc, stand, compare"
+
+/* CEDUO_PLOT_NONE for a word that names none. */
+enum ceduo_plot ceduo_plot_find(const char *name);
+
+/* What a kind of picture needs, and of what there is one each. */
+bool ceduo_plot_needs_run(enum ceduo_plot plot);
+bool ceduo_plot_needs_cells(enum ceduo_plot plot);
+bool ceduo_plot_by_option(enum ceduo_plot plot);
+
+/* Draws any of them. */
+void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                     const struct ceduo_picture *picture);
+
+/* One line that says what the picture shows. */
+void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);
+
+/* The control farthest along the slope; 0 where there is none. */
+size_t ceduo_plot_last_control(const struct ceduo_scene *scene);
+
+#endif

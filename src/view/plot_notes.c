@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "io/intl.h"
+#include "plot_parts.h"
+
+/* The words beside the profile. */
+
+#define SIDE_LEAST 24 /* columns that make a paragraph worth while */
+
+struct notes {
+    struct ceduo_canvas *canvas;
+    const struct ceduo_picture *picture;
+    int left, width, row, end;
+};
+
+__attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ceduo_role role, const char *format, ...)
+{
+    struct text line = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&line, format, args);
+    va_end(args);
+    if (n->row < n->end)
+        ceduo_plot_put(n->canvas, n->left, n->row++, n->width, role, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+}
+
+static void note_scale(struct notes *n, double factor)
+{
+    if (factor == 1)
+        note(n, CEDUO_ROLE_DIM, _("true to scale"));
+    else
+        note(n, CEDUO_ROLE_WARN, _("heights \xc3\x97%g"), factor);
+}
+
+static void note_ways(struct notes *n)
+{
+    const struct ceduo_outlook *o = n->picture->outlook;
+    if (!o || o->trails_count == 0)
+        return;
+    note(n, CEDUO_ROLE_CLOUD, _("%zu ways of %llu"), o->trails_count, (unsigned long long)o->rocks);
+    note(n, CEDUO_ROLE_CLOUD, _("without forest"));
+}
+
+static void note_belt(struct notes *n, const struct ceduo_belt *belt)
+{
+    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM], stems[PLOT_NUMBER_ROOM];
+    struct text name = {0};
+    ceduo_plot_belt_name(&name, belt);
+    if (n->row + 3 < n->end)
+        n->row++;
+    note(n, CEDUO_ROLE_BELT, "%s", name.bytes ? name.bytes : "");
+    ceduo_text_free(&name);
+    note(n, CEDUO_ROLE_TEXT, _(" %s\xe2\x80\x93%s m"), ceduo_number_shortest(belt->from_given, from),
+         ceduo_number_shortest(belt->to_given, to));
+    double count = ceduo_stand_shoots(&belt->stand) + ceduo_stand_trees(&belt->stand);
+    if (!(count > 0)) {
+        note(n, CEDUO_ROLE_TEXT, _(" no stems"));
+        return;
+    }
+    note(n, CEDUO_ROLE_TEXT, _(" %s stems/ha"), ceduo_plot_number(count, 4, stems));
+    note(n, CEDUO_ROLE_TEXT, _(" up to %g m high"), ceduo_plot_tallest(&belt->stand));
+}
+
+static void note_control(struct notes *n, size_t c)
+{
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c);
+    char room[CEDUO_NUMBER_ROOM];
+    if (!a || n->row + 2 >= n->end)
+        return;
+    n->row++;
+    note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"),
+         ceduo_number_shortest(n->picture->scene->controls[c].x_given, room));
+    note(n, CEDUO_ROLE_TEXT, _(" %.0f of 1000 arrive"), a->reach_probability * 1000);
+    if (!isnan(a->exceed_probability))
+        note(n, CEDUO_ROLE_TEXT, _(" %.0f with > %g kJ"), a->exceed_probability * 1000,
+             n->picture->scene->controls[c].accepted * KILO);
+}
+
+/* The factor alone, at the right of the top row. */
+static void put_factor(struct ceduo_canvas *canvas, const struct ceduo_area *area, double factor)
+{
+    struct text text = {0};
+    if (area->width >= 30)
+        ceduo_text_format(&text, _(" heights \xc3\x97%g"), factor);
+    else
+        ceduo_text_format(&text, " \xc3\x97%g", factor);
+    if (factor != 1)
+        ceduo_plot_put_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
+                             text.bytes ? text.bytes : "");
+    ceduo_text_free(&text);
+}
+
+void ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                              const struct ceduo_picture *picture, const struct ceduo_frame *frame, double factor)
+{
+    int end = area->left + area->width, left = frame->left + frame->width + 2;
+    if (end - left < SIDE_LEAST) {
+        put_factor(canvas, area, factor);
+        return;
+    }
+    struct notes n = {canvas, picture, left, end - left, area->top + 2, frame->top + frame->height};
+    const struct ceduo_option *option = ceduo_plot_option(picture);
+    note_scale(&n, factor);
+    note_ways(&n);
+    for (size_t i = 0; option && i < option->belts_count; i++)
+        note_belt(&n, &option->belts[i]);
+    for (size_t c = 0; c < picture->scene->controls_count; c++)
+        note_control(&n, c);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "plot_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/intl.h"
+#include "words.h"
+
+/* ---- text ---- */
+
+int ceduo_plot_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text)
+{
+    if (most < 1)
+        return 0;
+    if (ceduo_canvas_label_width(canvas->charset, text) <= most)
+        return ceduo_canvas_label(canvas, column, row, role, text);
+    const char *mark = canvas->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6";
+    struct text cut = {0};
+    ceduo_text_put(&cut, text);
+    while (cut.length > 0 && ceduo_canvas_label_width(canvas->charset, cut.bytes) > most - 1) {
+        while (cut.length > 1 && ((unsigned char)cut.bytes[cut.length - 1] & 0xc0) == 0x80)
+            cut.length--;
+        cut.bytes[--cut.length] = '\0';
+    }
+    ceduo_text_put(&cut, mark);
+    int cells = ceduo_canvas_label(canvas, column, row, role, cut.bytes ? cut.bytes : "");
+    ceduo_text_free(&cut);
+    return cells;
+}
+
+int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
+                   ...)
+{
+    struct text text = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&text, format, args);
+    va_end(args);
+    int cells = ceduo_plot_put(canvas, column, row, most, role, text.bytes ? text.bytes : "");
+    ceduo_text_free(&text);
+    return cells;
+}
+
+void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                          const char *text)
+{
+    int width = ceduo_canvas_label_width(canvas->charset, text);
+    width = width < most ? width : most;
+    ceduo_plot_put(canvas, column + 1 - width, row, width, role, text);
+}
+
+void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence)
+{
+    int width = ceduo_canvas_label_width(canvas->charset, sentence);
+    int column = width < area->width ? (area->width - width) / 2 : 0;
+    ceduo_plot_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
+                   sentence);
+}
+
+const char *ceduo_plot_number(double value, int digits, char room[PLOT_NUMBER_ROOM])
+{
+    struct text text = {0};
+    ceduo_words_number(&text, value, digits);
+    snprintf(room, PLOT_NUMBER_ROOM, "%s", text.bytes ? text.bytes : "");
+    ceduo_text_free(&text);
+    return room;
+}
+
+void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    const char *x = ceduo_number_shortest(control->x_given, room);
+    if (control->name)
+        ceduo_text_format(text, _("%s (%s m)"), control->name, x);
+    else
+        ceduo_text_format(text, _("%s m"), x);
+}
+
+void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
+{
+    ceduo_text_put(text, belt->name ? belt->name : _("stand"));
+    ceduo_text_put(text, belt->assumed ? "*" : "");
+}
+
+/* ---- what a picture shows ---- */
+
+const struct ceduo_option *ceduo_plot_option(const struct ceduo_picture *p)
+{
+    return p->option < p->scene->options_count ? &p->scene->options[p->option] : NULL;
+}
+
+const struct ceduo_belt *ceduo_plot_belt(const struct ceduo_picture *p)
+{
+    const struct ceduo_option *option = ceduo_plot_option(p);
+    return option && p->belt < option->belts_count ? &option->belts[p->belt] : NULL;
+}
+
+const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *p)
+{
+    return p->control < p->scene->controls_count ? &p->scene->controls[p->control] : NULL;
+}
+
+const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_picture *p, size_t control)
+{
+    return p->outlook && control < p->outlook->controls ? &p->outlook->arrivals[control] : NULL;
+}
+
+struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene)
+{
+    struct ceduo_rock rock;
+    if (ceduo_rock_of_means(&scene->rock, &rock) != CEDUO_OK)
+        rock = (struct ceduo_rock){.mean_diameter = NAN};
+    return rock;
+}
+
+void ceduo_plot_stretch(const struct ceduo_picture *p, double *from, double *to)
+{
+    const struct ceduo_slope *slope = &p->scene->slope;
+    bool whole = !(p->to > p->from);
+    *from = whole ? slope->x[0] : fmax(p->from, slope->x[0]);
+    *to = whole ? slope->x[slope->vertices - 1] : fmin(p->to, slope->x[slope->vertices - 1]);
+}
+
+struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, const struct ceduo_slope *slope)
+{
+    struct ceduo_frame given = *frame;
+    given.x0 += slope->origin_x;
+    given.x1 += slope->origin_x;
+    given.y0 += slope->origin_z;
+    given.y1 += slope->origin_z;
+    return given;
+}
+
+double ceduo_plot_tallest(const struct ceduo_stand *stand)
+{
+    double tallest = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        tallest = fmax(tallest, stand->shoots[i].height);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        tallest = fmax(tallest, stand->trees[i].height);
+    return tallest;
+}
+
+size_t ceduo_plot_last_control(const struct ceduo_scene *scene)
+{
+    size_t last = 0;
+    for (size_t c = 1; c < scene->controls_count; c++)
+        if (scene->controls[c].x > scene->controls[last].x)
+            last = c;
+    return last;
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_PLOT_PARTS_H
+#define CEDUO_PLOT_PARTS_H
+
+#include "plot.h"
+
+/* What several pictures share. */
+
+#define KILO 1e-3
+
+/* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
+int ceduo_plot_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text);
+
+/* The same, formatted. */
+int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
+                   ...) __attribute__((format(printf, 6, 7)));
+
+/* The same, its last cell in column `column`. */
+void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                          const char *text);
+
+/* A sentence in the middle of the area, where there is nothing to draw. */
+void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence);
+
+/* A number as words_number writes it. */
+#define PLOT_NUMBER_ROOM 48
+const char *ceduo_plot_number(double value, int digits, char room[PLOT_NUMBER_ROOM]);
+
+/* "end of the forest (135 m)", or "135 m". */
+void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control);
+
+/* NULL where the picture's index names none. */
+const struct ceduo_option *ceduo_plot_option(const struct ceduo_picture *picture);
+const struct ceduo_belt *ceduo_plot_belt(const struct ceduo_picture *picture);
+const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *picture);
+const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_picture *picture, size_t control);
+
+/* The rock whose sizes are the means; mean diameter NaN where the scene has none. */
+struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene);
+
+/* The stretch of slope to show. */
+void ceduo_plot_stretch(const struct ceduo_picture *picture, double *from, double *to);
+
+/* A frame in the user's coordinates, for its axes. */
+struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, const struct ceduo_slope *slope);
+
+/* The height of the tallest stem; 0 in a bare stand. */
+double ceduo_plot_tallest(const struct ceduo_stand *stand);
+
+/* The name of a stand with a star where something of it is assumed. */
+void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
+
+/* What the profile is, in words: to the right of its frame where there is room, otherwise in the top row. */
+void ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                              const struct ceduo_picture *picture, const struct ceduo_frame *frame, double factor);
+
+#endif

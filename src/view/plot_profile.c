@@ -1,0 +1,310 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+
+#include "io/intl.h"
+#include "plot_parts.h"
+
+/* ---- the scale ---- */
+
+#define RARE       0.2  /* share of the dots with ways that so few pass that they are left out */
+#define LEAST_USED 0.45 /* share of the area that the slope should take at true scale */
+
+struct range {
+    double x_lo, x_hi, y_lo, y_hi;
+};
+
+static void widen(struct range *r, double z)
+{
+    r->y_lo = fmin(r->y_lo, z);
+    r->y_hi = fmax(r->y_hi, z);
+}
+
+static void widen_by_trail(struct range *r, const struct ceduo_trail *t)
+{
+    for (size_t i = 0; i < t->n; i++)
+        if (t->x[i] >= r->x_lo && t->x[i] <= r->x_hi)
+            widen(r, t->z[i]);
+}
+
+static void widen_by_belt(struct range *r, const struct ceduo_slope *slope, const struct ceduo_belt *belt)
+{
+    double from = fmax(belt->from, r->x_lo), to = fmin(belt->to, r->x_hi), tallest = ceduo_plot_tallest(&belt->stand);
+    if (!(to > from))
+        return;
+    widen(r, ceduo_slope_height(slope, from) + tallest);
+    widen(r, ceduo_slope_height(slope, to) + tallest);
+    for (size_t i = 0; i < slope->vertices; i++)
+        if (slope->x[i] > from && slope->x[i] < to)
+            widen(r, slope->z[i] + tallest);
+}
+
+/* All that is to be seen: ground, release, ways, stems. */
+static struct range range_of(const struct ceduo_picture *p)
+{
+    const struct ceduo_slope *slope = &p->scene->slope;
+    struct range r = {.y_lo = INFINITY, .y_hi = -INFINITY};
+    ceduo_plot_stretch(p, &r.x_lo, &r.x_hi);
+    widen(&r, ceduo_slope_height(slope, r.x_lo));
+    widen(&r, ceduo_slope_height(slope, r.x_hi));
+    for (size_t i = 0; i < slope->vertices; i++)
+        if (slope->x[i] > r.x_lo && slope->x[i] < r.x_hi)
+            widen(&r, slope->z[i]);
+    double x = p->scene->release.x.mean;
+    if (x >= r.x_lo && x <= r.x_hi)
+        widen(&r, ceduo_slope_height(slope, x) + p->scene->release.height.mean);
+    for (size_t i = 0; p->outlook && i < p->outlook->trails_count; i++)
+        widen_by_trail(&r, &p->outlook->trails[i]);
+    if (p->selected)
+        widen_by_trail(&r, p->selected);
+    const struct ceduo_option *option = ceduo_plot_option(p);
+    for (size_t i = 0; option && i < option->belts_count; i++)
+        widen_by_belt(&r, slope, &option->belts[i]);
+    return r;
+}
+
+/* Sets the frame's ranges with heights drawn `factor` times as long as lengths. */
+static bool fit(struct ceduo_frame *f, enum ceduo_charset charset, const struct range *r, double factor)
+{
+    if (!ceduo_frame_true_scale(f, charset, r->x_lo, r->x_hi, factor * r->y_lo, factor * r->y_hi))
+        return false;
+    f->y0 /= factor;
+    f->y1 /= factor;
+    return true;
+}
+
+/* 1 where true scale makes use of the area, otherwise a round factor with which the slope does. */
+static double height_factor(const struct ceduo_frame *frame, enum ceduo_charset charset, const struct range *r)
+{
+    static const double round[] = {0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
+    const int one = 9, n = sizeof round / sizeof round[0];
+    struct ceduo_frame f = *frame;
+    if (!fit(&f, charset, r, 1))
+        return 1;
+    double across = (r->x_hi - r->x_lo) / (f.x1 - f.x0), up = (r->y_hi - r->y_lo) / (f.y1 - f.y0);
+    int i = one;
+    if (up < LEAST_USED)
+        while (i + 1 < n && round[i + 1] * up <= 1)
+            i++;
+    else if (across < LEAST_USED)
+        while (i > 0 && across / round[i] < LEAST_USED)
+            i--;
+    return round[i];
+}
+
+/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. Returns the
+ * factor of heights, NaN where nothing can be drawn. */
+static double scale(struct ceduo_frame *f, enum ceduo_charset charset, const struct range *r)
+{
+    double factor = height_factor(f, charset, r);
+    if (!fit(f, charset, r, factor))
+        return NAN;
+    int needed = (int)ceil(f->width * (r->x_hi - r->x_lo) / (f->x1 - f->x0));
+    if (needed < f->width && needed >= 2) {
+        f->width = needed;
+        fit(f, charset, r, factor);
+    }
+    f->x1 = r->x_lo + (f->x1 - f->x0);
+    f->x0 = r->x_lo;
+    f->y1 = r->y_lo + (f->y1 - f->y0);
+    f->y0 = r->y_lo;
+    return factor;
+}
+
+/* ---- what stands on the slope ---- */
+
+struct profile {
+    struct ceduo_canvas *canvas;
+    const struct ceduo_area *area;
+    const struct ceduo_picture *picture;
+    struct ceduo_frame frame;
+    double factor;
+    bool names, belts; /* rows for them */
+};
+
+static double metres_per_dot(const struct profile *p)
+{
+    return (p->frame.x1 - p->frame.x0) / (p->frame.width * ceduo_canvas_dots_x(p->canvas->charset) - 1);
+}
+
+/* A row of stems at their mean distance in the stand, but no closer than can be told apart. */
+static void draw_stems(const struct profile *p, const struct ceduo_belt *belt, const struct ceduo_stems *stems,
+                       enum ceduo_role role)
+{
+    const struct ceduo_slope *slope = &p->picture->scene->slope;
+    double step = fmax(sqrt(1e4 / stems->per_ha), 4 * metres_per_dot(p));
+    double from = fmax(belt->from, p->frame.x0), to = fmin(belt->to, fmin(p->frame.x1, slope->x[slope->vertices - 1]));
+    double first = ceil((from - belt->from) / step - 0.5);
+    for (double i = fmax(first, 0); belt->from + (i + 0.5) * step < to; i++) {
+        double x = belt->from + (i + 0.5) * step, z = ceduo_slope_height(slope, x);
+        ceduo_canvas_line(p->canvas, &p->frame, role, x, z, x, z + stems->height);
+    }
+}
+
+static void draw_forest(const struct profile *p)
+{
+    const struct ceduo_option *option = ceduo_plot_option(p->picture);
+    for (size_t i = 0; option && i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        for (size_t k = 0; k < belt->stand.shoots_count; k++)
+            draw_stems(p, belt, &belt->stand.shoots[k], CEDUO_ROLE_STOOL);
+        for (size_t k = 0; k < belt->stand.trees_count; k++)
+            draw_stems(p, belt, &belt->stand.trees[k], CEDUO_ROLE_STEM);
+    }
+}
+
+static void draw_ways(const struct profile *p)
+{
+    const struct ceduo_outlook *o = p->picture->outlook;
+    if (o && ceduo_canvas_density_start(p->canvas)) {
+        for (size_t i = 0; i < o->trails_count; i++)
+            ceduo_canvas_density_add_polyline(p->canvas, &p->frame, o->trails[i].n, o->trails[i].x, o->trails[i].z);
+        ceduo_canvas_density_show(p->canvas, RARE);
+    }
+    const struct ceduo_trail *t = p->picture->selected;
+    if (t)
+        ceduo_canvas_polyline(p->canvas, &p->frame, CEDUO_ROLE_WAY, t->n, t->x, t->z);
+}
+
+/* ---- names ---- */
+
+static int area_end(const struct ceduo_area *area)
+{
+    return area->left + area->width;
+}
+
+/* Cells from..to and one on either side are blank. */
+static bool is_free(const struct profile *p, int row, int from, int to)
+{
+    for (int column = from - 1; column <= to; column++)
+        if (ceduo_canvas_glyph(p->canvas, column, row) != ' ')
+            return false;
+    return from >= p->area->left && to <= area_end(p->area);
+}
+
+#define NAME_ROWS 4
+
+/* Beside its rule, to the right or the left, in the highest row that has room; nowhere where none has. */
+static void name_control(const struct profile *p, const struct ceduo_control *control)
+{
+    int column, row;
+    if (!ceduo_frame_cell(&p->frame, p->canvas->charset, control->x, p->frame.y0, &column, &row))
+        return;
+    struct text name = {0};
+    ceduo_plot_control_name(&name, control);
+    const char *bytes = name.bytes ? name.bytes : "";
+    int width = ceduo_canvas_label_width(p->canvas->charset, bytes);
+    for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
+        int to_right = column + 2, to_left = column - 1 - width, y = p->area->top + i;
+        int start = is_free(p, y, to_right, to_right + width) ? to_right : to_left;
+        if (!is_free(p, y, start, start + width))
+            continue;
+        ceduo_canvas_label(p->canvas, start, y, CEDUO_ROLE_CONTROL, bytes);
+        if (i == 0)
+            ceduo_canvas_label(p->canvas, column, y, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
+        break;
+    }
+    ceduo_text_free(&name);
+}
+
+static void mark_release(const struct profile *p)
+{
+    const struct ceduo_scene *scene = p->picture->scene;
+    double x = scene->release.x.mean, z = ceduo_slope_height(&scene->slope, x) + scene->release.height.mean;
+    int column, row;
+    if (!ceduo_frame_cell(&p->frame, p->canvas->charset, x, z, &column, &row) || row - 1 < p->area->top)
+        return;
+    ceduo_plot_put(p->canvas, column, row - 1, area_end(p->area) - column, CEDUO_ROLE_TEXT, _("\xe2\x96\xbc release"));
+}
+
+static void draw_controls(const struct profile *p)
+{
+    const struct ceduo_scene *scene = p->picture->scene;
+    for (size_t c = 0; p->names && c < scene->controls_count; c++)
+        name_control(p, &scene->controls[c]);
+    for (size_t c = 0; c < scene->controls_count; c++)
+        ceduo_canvas_rule_x(p->canvas, &p->frame, CEDUO_ROLE_CONTROL, scene->controls[c].x);
+}
+
+/* ├── ADS 1 ──┤ below the axis. */
+static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt, int row)
+{
+    const struct ceduo_frame *f = &p->frame;
+    double per_metre = f->width / (f->x1 - f->x0);
+    int from = f->left + (int)lround((fmax(belt->from, f->x0) - f->x0) * per_metre);
+    int to = f->left + (int)lround((fmin(belt->to, f->x1) - f->x0) * per_metre);
+    if (to <= from)
+        return;
+    for (int column = from; column < to; column++)
+        ceduo_canvas_label(p->canvas, column, row, CEDUO_ROLE_BELT,
+                           to - from == 1     ? "\xe2\x94\x82"
+                           : column == from   ? "\xe2\x94\x9c"
+                           : column == to - 1 ? "\xe2\x94\xa4"
+                                              : "\xe2\x94\x80");
+    struct text name = {0};
+    ceduo_text_char(&name, ' ');
+    ceduo_plot_belt_name(&name, belt);
+    ceduo_text_char(&name, ' ');
+    const char *bytes = name.bytes ? name.bytes : "";
+    int width = ceduo_canvas_label_width(p->canvas->charset, bytes), room = to - from - 2;
+    int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
+    ceduo_plot_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, bytes);
+    ceduo_text_free(&name);
+}
+
+static void draw_belts(const struct profile *p)
+{
+    const struct ceduo_option *option = ceduo_plot_option(p->picture);
+    int row = p->area->top + p->area->height - 1;
+    if (option && option->belts_count == 0)
+        ceduo_plot_put(p->canvas, p->frame.left, row, area_end(p->area) - p->frame.left, CEDUO_ROLE_BELT,
+                       _("no forest"));
+    for (size_t i = 0; option && i < option->belts_count; i++)
+        draw_belt_bar(p, &option->belts[i], row);
+}
+
+/* ---- the picture ---- */
+
+static void place_frame(struct profile *p)
+{
+    const struct ceduo_area *a = p->area;
+    struct range r = range_of(p->picture);
+    int axis = 0, needed = 1;
+    while (axis < needed) { /* the axis takes columns, and they decide its labels */
+        axis = needed;
+        p->frame = (struct ceduo_frame){.left = a->left + axis,
+                                        .top = a->top + p->names,
+                                        .width = a->width - axis,
+                                        .height = a->height - p->names - p->belts - 2};
+        p->factor = scale(&p->frame, p->canvas->charset, &r);
+        if (isnan(p->factor))
+            return;
+        struct ceduo_frame given = ceduo_plot_given(&p->frame, &p->picture->scene->slope);
+        needed = ceduo_frame_axis_width(&given, p->canvas->charset);
+    }
+}
+
+void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                        struct ceduo_span *span)
+{
+    struct profile p = {
+        .canvas = canvas, .area = area, .picture = picture, .names = area->height >= 8, .belts = area->height >= 6};
+    const struct ceduo_slope *slope = &picture->scene->slope;
+    place_frame(&p);
+    if (span)
+        *span = (struct ceduo_span){p.frame.left, p.frame.width, p.frame.x0, p.frame.x1};
+    if (isnan(p.factor)) {
+        ceduo_plot_words(canvas, area, _("too narrow"));
+        return;
+    }
+    draw_forest(&p);
+    draw_ways(&p);
+    ceduo_canvas_polyline(canvas, &p.frame, CEDUO_ROLE_GROUND, slope->vertices, slope->x, slope->z);
+    mark_release(&p);
+    ceduo_plot_profile_notes(canvas, area, picture, &p.frame, p.factor);
+    draw_controls(&p);
+    struct ceduo_frame given = ceduo_plot_given(&p.frame, slope);
+    ceduo_canvas_axis_left(canvas, &given);
+    ceduo_canvas_axis_bottom(canvas, &given, _("m"));
+    if (p.belts)
+        draw_belts(&p);
+}

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "io/intl.h"
+#include "plot_parts.h"
+
+/* A stand from above. Places are drawn from a generator of its own with a fixed seed, one stream for each kind of stem:
+ * when a number changes, the stems that stay do not move. */
+
+#define PATCH_M     20.0 /* along the fall */
+#define STEMS_MOST  8000 /* of one kind in a patch */
+#define JOINED_DOTS 6    /* shoots closer than this are joined */
+#define CROWD       2000 /* beyond this one place is as good as any other */
+#define TRIES       20   /* to find a place clear of the others */
+
+struct generator {
+    uint64_t state;
+};
+
+/* splitmix64 (Steele, Lea and Flood 2014), uniform in [0, 1). */
+static double uniform(struct generator *g)
+{
+    uint64_t z = (g->state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+/* What stands somewhere, as a circle. */
+struct foot {
+    double x, y, radius; /* m */
+};
+
+struct plan {
+    struct ceduo_canvas *canvas;
+    struct ceduo_frame frame;
+    const struct ceduo_stand *stand;
+    double width, height, strip; /* m: the patch, and the rock's strip in its middle */
+    double dot;                  /* m */
+    struct foot *feet;
+    size_t feet_count, met; /* stools and trees in the way of the rock */
+};
+
+/* How many of `per_ha` stand in the patch. */
+static size_t count_in(const struct plan *p, double per_ha)
+{
+    double n = per_ha * p->width * p->height / 1e4;
+    return n < STEMS_MOST ? (size_t)lround(n) : STEMS_MOST;
+}
+
+static bool in_strip(const struct plan *p, double y, double radius)
+{
+    return fabs(y - p->height / 2) < p->strip / 2 + radius;
+}
+
+/* ---- drawing ---- */
+
+/* A disc of at least one dot. */
+static void draw_disc(const struct plan *p, enum ceduo_role role, double x, double y, double radius)
+{
+    double dot = p->dot;
+    int rows = (int)floor(radius / dot);
+    for (int i = -rows; i <= rows; i++) {
+        double half = sqrt(fmax(radius * radius - i * dot * i * dot, 0));
+        ceduo_canvas_line(p->canvas, &p->frame, role, x - half, y + i * dot, x + half, y + i * dot);
+    }
+}
+
+/* ---- places ---- */
+
+static bool clear_of_others(const struct plan *p, const struct foot *f)
+{
+    for (size_t i = 0; i < p->feet_count; i++)
+        if (hypot(f->x - p->feet[i].x, f->y - p->feet[i].y) < f->radius + p->feet[i].radius)
+            return false;
+    return true;
+}
+
+/* A place for a circle; the last of the tries where none is clear. */
+static struct foot find_place(struct plan *p, struct generator *g, double radius)
+{
+    struct foot f = {.radius = radius};
+    for (int i = 0; i < TRIES; i++) {
+        f.x = uniform(g) * p->width;
+        f.y = uniform(g) * p->height;
+        if (p->feet_count > CROWD || clear_of_others(p, &f))
+            break;
+    }
+    p->feet[p->feet_count++] = f;
+    return f;
+}
+
+/* The cohort of a shoot that stands at share u of all of them. */
+static const struct ceduo_stems *cohort_at(const struct ceduo_stand *stand, double u)
+{
+    double left = u * ceduo_stand_shoots(stand);
+    size_t i = 0;
+    while (i + 1 < stand->shoots_count && left >= stand->shoots[i].per_ha)
+        left -= stand->shoots[i++].per_ha;
+    return &stand->shoots[i];
+}
+
+static double thickest(const struct ceduo_stand *stand)
+{
+    double d = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        d = fmax(d, stand->shoots[i].dbh);
+    return d;
+}
+
+/* Where shoot i of n stands on a ring. */
+static struct foot on_ring(const struct foot *stool, double ring, double turn, int i, int n)
+{
+    double angle = 2 * 3.14159265358979323846 * (turn + (double)i / n);
+    return (struct foot){stool->x + ring * cos(angle), stool->y + ring * sin(angle), 0};
+}
+
+/* A stool: a ring of whole shoots, now one more, now one less, so that the mean comes out. Where the picture is so
+ * small that the ring would fall apart into dots, neighbours are joined. */
+static void draw_stool(struct plan *p, uint64_t number)
+{
+    struct generator g = {number};
+    double mean = ceduo_stand_shoots(p->stand) / p->stand->stools_per_ha, u = uniform(&g), turn = uniform(&g);
+    int n = (int)fmin(floor(mean) + (u < mean - floor(mean)), 200);
+    double ring = n > 1 ? ceduo_stool_radius((unsigned)n, p->stand->spacing) : 0;
+    struct foot f = find_place(p, &g, ring + thickest(p->stand) / 2);
+    bool met = n > 0 && in_strip(p, f.y, f.radius);
+    enum ceduo_role role = met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STOOL;
+    p->met += met;
+    for (int i = 0; i < n; i++) {
+        struct foot a = on_ring(&f, ring, turn, i, n), b = on_ring(&f, ring, turn, i + 1, n);
+        draw_disc(p, role, a.x, a.y, cohort_at(p->stand, uniform(&g))->dbh / 2);
+        if (p->stand->spacing < JOINED_DOTS * p->dot)
+            ceduo_canvas_line(p->canvas, &p->frame, role, a.x, a.y, b.x, b.y);
+    }
+}
+
+static void draw_tree(struct plan *p, uint64_t number, const struct ceduo_stems *stems)
+{
+    struct generator g = {number};
+    struct foot f = find_place(p, &g, stems->dbh / 2);
+    bool met = in_strip(p, f.y, f.radius);
+    p->met += met;
+    draw_disc(p, met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STEM, f.x, f.y, f.radius);
+}
+
+static void draw_stems(struct plan *p)
+{
+    const struct ceduo_stand *s = p->stand;
+    size_t stools = s->shoots_count > 0 ? count_in(p, s->stools_per_ha) : 0, all = stools;
+    for (size_t k = 0; k < s->trees_count; k++)
+        all += count_in(p, s->trees[k].per_ha);
+    p->feet = malloc((all + 1) * sizeof *p->feet);
+    if (!p->feet)
+        return;
+    for (size_t k = 0; k < s->trees_count; k++)
+        for (size_t i = 0, n = count_in(p, s->trees[k].per_ha); i < n; i++)
+            draw_tree(p, ((uint64_t)(k + 1) << 32) + i, &s->trees[k]);
+    for (size_t i = 0; i < stools; i++)
+        draw_stool(p, i);
+    free(p->feet);
+}
+
+/* ---- the picture ---- */
+
+static void draw_strip(const struct plan *p)
+{
+    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_CURSOR, (p->height - p->strip) / 2);
+    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_CURSOR, (p->height + p->strip) / 2);
+}
+
+static void put_words(const struct plan *p, const struct ceduo_area *area)
+{
+    char b[PLOT_NUMBER_ROOM];
+    int row = area->top + area->height - 1;
+    ceduo_plot_say(p->canvas, area->left, row, area->width, CEDUO_ROLE_TEXT,
+                   _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
+                   ceduo_plot_number(p->strip, 2, b), p->met, PATCH_M);
+}
+
+void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+{
+    const struct ceduo_belt *belt = ceduo_plot_belt(picture);
+    if (!belt || area->width < 4 || area->height < 4) {
+        ceduo_plot_words(canvas, area, _("no forest"));
+        return;
+    }
+    bool words = area->height >= 7;
+    struct plan p = {
+        .canvas = canvas,
+        .stand = &belt->stand,
+        .strip = ceduo_plot_rock(picture->scene).mean_diameter,
+        .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
+    if (!ceduo_frame_true_scale(&p.frame, canvas->charset, 0, PATCH_M, 0, 0))
+        return;
+    p.width = PATCH_M;
+    p.height = p.frame.y1 - p.frame.y0;
+    p.frame.y1 = p.height;
+    p.frame.y0 = 0;
+    p.dot = p.height / (p.frame.height * ceduo_canvas_dots_y(canvas->charset) - 1);
+    draw_stems(&p);
+    draw_strip(&p);
+    ceduo_canvas_axis_bottom(canvas, &p.frame, _("m"));
+    if (words && ceduo_stand_is_bare(p.stand))
+        ceduo_plot_put(canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
+                       _("No stems: nothing stands in a rock's way."));
+    else if (words)
+        put_words(&p, area);
+}

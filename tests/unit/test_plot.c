@@ -1,0 +1,945 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+#include "view/plot.h"
+
+#define BRAILLE CEDUO_CHARSET_BRAILLE
+#define BLOCK   CEDUO_CHARSET_BLOCK
+#define ASCII   CEDUO_CHARSET_ASCII
+
+/* ---- a small scene ---- */
+
+#define CELLS    10
+#define ENERGIES 8
+
+/* A slope of 100 m that falls 60 m, a path at 40 m and a road at 80 m, a coppice with standards between. Numbers are
+ * round so that a reader can check a picture by eye. It points into itself: never copy it. */
+struct site {
+    struct ceduo_scene scene;
+    double x[3], z[3];
+    struct ceduo_segment segments[2];
+    struct ceduo_control controls[2];
+    struct ceduo_option options[2];
+    struct ceduo_belt belts[2];
+    struct ceduo_stems shoots, trees;
+    struct ceduo_outlook outlook;
+    struct ceduo_arrivals arrivals[2];
+    struct ceduo_energies energies[2];
+    struct ceduo_trail trail;
+    double cell_x[CELLS], values[ENERGIES], trail_x[5], trail_z[5];
+    struct ceduo_envelope envelopes[CELLS];
+};
+
+static void set_ground(struct site *s)
+{
+    const double x[3] = {0, 50, 100}, z[3] = {0, -40, -60};
+    memcpy(s->x, x, sizeof x);
+    memcpy(s->z, z, sizeof z);
+    for (int i = 0; i < 2; i++)
+        s->segments[i] = (struct ceduo_segment){.rn = ceduo_number(0.4),
+                                                .rt = ceduo_number(0.9),
+                                                .roughness_m = NAN,
+                                                .roughness_rad = 0.1,
+                                                .friction = 0.3};
+    s->scene.slope = (struct ceduo_slope){
+        .facets = CEDUO_AGAINST, .vertices = 3, .x = s->x, .z = s->z, .segments = s->segments, .origin_z = 60};
+}
+
+static void set_forest(struct site *s)
+{
+    s->shoots = (struct ceduo_stems){.per_ha = 2000, .dbh = 0.08, .height = 8, .volume = 0.02, .age = NAN};
+    s->trees = (struct ceduo_stems){.per_ha = 100, .dbh = 0.3, .height = 20, .volume = 0.6, .age = NAN};
+    s->belts[0] = (struct ceduo_belt){.from = 20,
+                                      .to = 70,
+                                      .from_given = 20,
+                                      .to_given = 70,
+                                      .name = "coppice",
+                                      .assumed = true,
+                                      .stand = {.system = CEDUO_COPPICE_WITH_STANDARDS,
+                                                .species = -1,
+                                                .stools_per_ha = 800,
+                                                .spacing = 0.5,
+                                                .shoots_count = 1,
+                                                .trees_count = 1,
+                                                .shoots = &s->shoots,
+                                                .trees = &s->trees,
+                                                .u = 102800}};
+    s->belts[1] = s->belts[0];
+    s->belts[1].name = "cut";
+    s->belts[1].assumed = false;
+    s->belts[1].stand = (struct ceduo_stand){.system = CEDUO_BARE, .species = -1, .u = NAN};
+    s->options[0] = (struct ceduo_option){"kept", 1, &s->belts[0]};
+    s->options[1] = (struct ceduo_option){"felled", 1, &s->belts[1]};
+}
+
+/* Heights of 1, 2, 3 m and energies of 10 kJ a cell more from place to place; eight rocks at the path. */
+static void set_outlook(struct site *s)
+{
+    static const double kj[ENERGIES] = {12, 21, 25, 33, 34, 38, 47, 55};
+    static const double x[5] = {0, 20, 40, 60, 80}, z[5] = {0, -10, -30, -42, -52};
+    for (int i = 0; i < CELLS; i++) {
+        double e = 10e3 * (i + 1);
+        s->cell_x[i] = 10 * i + 5;
+        s->envelopes[i] = (struct ceduo_envelope){
+            .passed = 8, .mean_energy = e, .height = {0.5, 1, 2, 3}, .energy = {0.5 * e, 0.9 * e, 1.5 * e, 2 * e}};
+    }
+    for (int i = 0; i < ENERGIES; i++)
+        s->values[i] = 1e3 * kj[i];
+    memcpy(s->trail_x, x, sizeof x);
+    memcpy(s->trail_z, z, sizeof z);
+    s->trail = (struct ceduo_trail){5, s->trail_x, s->trail_z};
+    s->arrivals[0] = (struct ceduo_arrivals){
+        .released = 10, .reached = 8, .exceeded = 2, .reach_probability = 0.8, .exceed_probability = 0.2};
+    s->arrivals[0].energy = (struct ceduo_distribution){.mean = 33125, .p50 = 33e3, .p95 = 55e3, .max = 55e3};
+    s->arrivals[1] = (struct ceduo_arrivals){.released = 10, .exceed_probability = NAN};
+    s->arrivals[1].energy = ceduo_distribution_none();
+    s->energies[0] = (struct ceduo_energies){ENERGIES, s->values};
+    s->energies[1] = (struct ceduo_energies){0, s->values};
+    s->outlook = (struct ceduo_outlook){.rocks = 10,
+                                        .cells = CELLS,
+                                        .cell_x = s->cell_x,
+                                        .envelopes = s->envelopes,
+                                        .controls = 2,
+                                        .arrivals = s->arrivals,
+                                        .energies = s->energies,
+                                        .trails_count = 1,
+                                        .trails = &s->trail};
+}
+
+static void site_init(struct site *s)
+{
+    *s = (struct site){.scene = {.title = "small",
+                                 .rock = ceduo_rock_def_default(),
+                                 .simulation = ceduo_simulation_default(),
+                                 .controls_count = 2,
+                                 .controls = s->controls,
+                                 .options_count = 2,
+                                 .options = s->options}};
+    s->scene.rock.diameter = ceduo_number(0.8);
+    s->scene.release.vx = ceduo_number(1);
+    s->controls[0] = (struct ceduo_control){40, 40, "path", 40e3, NAN};
+    s->controls[1] = (struct ceduo_control){80, 80, NULL, NAN, NAN};
+    set_ground(s);
+    set_forest(s);
+    set_outlook(s);
+    assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
+}
+
+static struct ceduo_picture picture_of(const struct site *s)
+{
+    return (struct ceduo_picture){.scene = &s->scene, .outlook = &s->outlook};
+}
+
+static struct ceduo_canvas *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
+                                 enum ceduo_charset charset)
+{
+    struct ceduo_canvas *canvas = ceduo_canvas_create(width, height, charset);
+    assert_non_null(canvas);
+    struct ceduo_area area = {0, 0, width, height};
+    ceduo_plot_draw(plot, canvas, &area, p);
+    return canvas;
+}
+
+static void expect(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
+                   enum ceduo_charset charset, const char *expected)
+{
+    struct ceduo_canvas *canvas = draw(plot, p, width, height, charset);
+    char *text = ceduo_canvas_dump(canvas);
+    assert_non_null(text);
+    assert_string_equal(text, expected);
+    free(text);
+    ceduo_canvas_free(canvas);
+}
+
+static bool shows(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, const char *words)
+{
+    struct ceduo_canvas *canvas = draw(plot, p, width, height, ASCII);
+    char *text = ceduo_canvas_dump(canvas);
+    assert_non_null(text);
+    bool found = strstr(text, words) != NULL;
+    free(text);
+    ceduo_canvas_free(canvas);
+    return found;
+}
+
+/* Cells of a role. */
+static int cells_of(const struct ceduo_canvas *canvas, enum ceduo_role role)
+{
+    int n = 0;
+    for (int row = 0; row < canvas->height; row++)
+        for (int column = 0; column < canvas->width; column++)
+            n += ceduo_canvas_role(canvas, column, row) == role;
+    return n;
+}
+
+/* ---- the profile ---- */
+
+static void profile_is_true_to_scale(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_PROFILE, &p, 72, 22, ASCII,
+           "                         v path (40 m)         v 80 m\n"
+           "  |v release             '                     '\n"
+           "60+'..           :       '                     '\n"
+           "  |  '':..       :       '                     '\n"
+           "  |     '.''..   :    .  '                     '\n"
+           "50+       '.. '.::    :  '                     '\n"
+           "  |          '. ::  . :  '  .                  '\n"
+           "40+            '::'.: :  '  :                  '\n"
+           "  |               '.:.: .'  :    :             '\n"
+           "  |                 '.:.:'  :    :     :       '\n"
+           "30+                   ''::  :    :     :       '\n"
+           "  |                      ':':.  ::     :       '\n"
+           "  |                      ' ''.''::  :  :       '\n"
+           "20+                      '    ''::'':  ::      '\n"
+           "  |                      '        '''::::      '\n"
+           "  |                      '             ''':..  '\n"
+           "10+                      '                  ''':..\n"
+           "  |                      '                     '  ''...\n"
+           " 0+                      '                     '       ''..\n"
+           "  ++----+-----+----+-----+----+-----+----+-----+----+-----+\n"
+           "   0 m  10    20   30    40   50    60   70    80   90  100\n"
+           "              +-------- coppice* --------+\n");
+    expect(CEDUO_PLOT_PROFILE, &p, 44, 16, BRAILLE,
+           "   ▼ release     ▼ path (40 m)  ▼ 80 m\n"
+           "60┤⣀        ⡀    ⠨              ⠨\n"
+           "  │⠈⠛⢖⠤⣀    ⡇    ⠨              ⠨\n"
+           "  │   ⠉⠢⡉⠒⠤⣠⡇   ⡆⠨              ⠨\n"
+           "  │     ⠈⠑⢄⢸⡧⣠  ⡇⠨ ⢀            ⠨\n"
+           "40┤        ⠉⠧⣸⢆⢰⡇⠨ ⢸   ⡀        ⠨\n"
+           "  │           ⠑⢽⣇⢸ ⢸   ⡇   ⡄    ⠨\n"
+           "  │             ⠉⠻⣤⣸ ⢠ ⡇   ⡇    ⠨\n"
+           "  │              ⠨ ⠙⠵⣺⢄⣿ ⢠ ⣇    ⠨\n"
+           "20┤              ⠨   ⠈⠑⠿⢖⣼⣀⣿    ⠨\n"
+           "  │              ⠨       ⠈⠉⠛⠲⢤⣀ ⠨\n"
+           "  │              ⠨            ⠈⠉⠺⠤⢄⡀\n"
+           " 0┤              ⠨              ⠨  ⠈⠑⠒⠤⣀\n"
+           "  └┬──────┬──────┬───────┬──────┬──────┬─\n"
+           "   0 m    20     40      60     80    100\n"
+           "          ├─── coppice* ────┤\n");
+}
+
+static void span_tells_where_the_slope_stands(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_canvas *canvas = ceduo_canvas_create(80, 24, BRAILLE);
+    struct ceduo_area area = {0, 0, 80, 24};
+    struct ceduo_span span;
+    ceduo_plot_profile(canvas, &area, &p, &span);
+    assert_true(span.x0 == 0);
+    assert_true(span.x1 >= 100 && span.x1 < 104);
+    assert_true(span.left >= 3 && span.left + span.width <= 80);
+    p.from = 40;
+    p.to = 60;
+    ceduo_canvas_clear(canvas);
+    ceduo_plot_profile(canvas, &area, &p, &span);
+    assert_true(span.x0 == 40);
+    assert_true(span.x1 >= 60 && span.x1 < 62);
+    ceduo_canvas_free(canvas);
+}
+
+static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    p.outlook = NULL;
+    s.options[0].belts_count = 0;
+    s.z[1] = -2;
+    s.z[2] = -3;
+    s.scene.slope.origin_z = 3;
+    expect(CEDUO_PLOT_PROFILE, &p, 60, 12, ASCII,
+           "  v release              v path (40 m)     80 m v heights x8\n"
+           "3+..                     '                      '\n"
+           " |  '''....              '                      '\n"
+           " |         '''...        '                      '\n"
+           "2+               '''...  '                      '\n"
+           " |                     ''''...                  '\n"
+           "1+                       '    ''''......        '\n"
+           " |                       '              '''''...:..\n"
+           "0+                       '                      '  ''''''...\n"
+           " ++-----+----+-----+-----+-----+----+-----+-----+----+-----+\n"
+           "  0 m   10   20    30    40    50   60    70    80   90  100\n"
+           "  no forest\n");
+    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 200, 8, "heights"));
+    s.z[1] = -800; /* a wall: pressed */
+    s.z[2] = -900;
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 60, 12, "heights x0."));
+}
+
+static void the_selected_way_is_drawn_over_all(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
+    assert_int_equal(cells_of(canvas, CEDUO_ROLE_WAY), 0);
+    assert_true(cells_of(canvas, CEDUO_ROLE_STEM) > 5);
+    assert_true(cells_of(canvas, CEDUO_ROLE_STOOL) > 5);
+    assert_true(cells_of(canvas, CEDUO_ROLE_CLOUD) > 0);
+    ceduo_canvas_free(canvas);
+    p.selected = &s.trail;
+    canvas = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
+    assert_true(cells_of(canvas, CEDUO_ROLE_WAY) > 10);
+    ceduo_canvas_free(canvas);
+}
+
+/* Survey coordinates on the axes, the same picture. */
+static void axes_have_the_users_coordinates(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    s.scene.slope.origin_x = 481000;
+    s.scene.slope.origin_z = 1000;
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 80, 24, "481040"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 80, 24, " 960+"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 80, 24, "481040"));
+}
+
+/* ---- strips ---- */
+
+static void strips_show_quantiles_along_the_slope(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_HEIGHT, &p, 60, 12, ASCII,
+           "  height above the ground, m\n"
+           "3+    .   .   .   .   :   .   .   .   .   .'  .   .    max\n"
+           " |                    '                    '\n"
+           " |                    '                    '\n"
+           "2+    ' ' ' ' ' ' ' ' ' ' ' ' ' ' ' ' ' ' ''' ' ' '    p95\n"
+           " |                    '                    '\n"
+           " |                    '                    '\n"
+           "1+   ''''''''''''''''''''''''''''''''''''''''''''''    p50\n"
+           " |                    '                    '\n"
+           "0+                    '                    '\n"
+           " ++---------+---------+----------+---------+---------+\n"
+           "  0 m       20        40         60        80      100\n");
+    expect(CEDUO_PLOT_ENERGY, &p, 60, 16, BRAILLE,
+           "    energy, kJ\n"
+           "150┤                    ⠅                  ⠨      ⡀⠄   p95\n"
+           "   │                    ⠅                  ⠨  ⡀⠄⠂⠁\n"
+           "   │                    ⠅                 ⡀⠬⠂⠁\n"
+           "   │                    ⠅             ⡀⠄⠂⠁ ⠨\n"
+           "100┤                    ⠅         ⡀⠄⠂⠁     ⠨      ⢀⡀   mean\n"
+           "   │                    ⠅     ⡀⠄⠂⠁         ⢨⣀⡠⠤⠒⠊⠉⠅    p50\n"
+           "   │                    ⠅ ⡀⠄⠂⠁       ⣀⡠⠤⠔⠒⡉⠩⠄ ⠂ ⠁\n"
+           "   │                  ⡀⠄⠇⠁      ⣀⠤⠔⠊⡉ ⠄ ⠁  ⠨\n"
+           " 50┤              ⡀⠄⠂⠁  ⠅ ⣀⡠⡤⠒⠎⠉⠂ ⠁        ⠨     ⡀⡀⡀   p5\n"
+           "   │      bears 40 kJ⠤⡴⠶⠭⠭⠂          ⡀⡀⡀⠄⠄⠄⠪⠂⠂⠁⠁⠁\n"
+           "   │      ⡀⠄⠂⢁⣀⠤⠖⠊⠋ ⠁   ⠅⡀⡀⡀⠄⠄⠄⠂⠂⠂⠁⠁⠁      ⠨\n"
+           "   │   ⢄⣂⠥⠤⠒⠊⡁⡁⡀⠄⠄⠄⠂⠂⠂⠁⠁⠅                  ⠨\n"
+           "  0┤  ⠈⠃⠂⠂⠁⠁⠁           ⠅                  ⠨\n"
+           "   └┬─────────┬─────────┬────────┬─────────┬─────────┬\n"
+           "    0 m       20        40       60        80      100\n");
+}
+
+/* Nine places of ten say how high the scale goes; the tenth is told. */
+static void a_peak_is_cut_and_told(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    assert_false(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "beyond the top"));
+    s.envelopes[2].height.max = 30;
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "max beyond the top: 30.0 m at 25.0 m"));
+    expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII,
+           "  height above the ground, m; max beyond the top: 30.0 m at 25.0 m\n"
+           " |                        '                        '\n"
+           "3+    .   .               :   .   .   .   .   .   .'  .   .      max\n"
+           " |                        '                        '\n"
+           " |                        '                        '\n"
+           " |                        '                        '\n"
+           "2+    . . . . . . . . . . : . . . . . . . . . . . .'. . . .      p95\n"
+           " |                        '                        '\n"
+           " |                        '                        '\n"
+           " |                        '                        '\n"
+           "1+   ''''''''''''''''''''''''''''''''''''''''''''''''''''''''    p50\n"
+           " |                        '                        '\n"
+           " |                        '                        '\n"
+           "0+                        '                        '\n"
+           " ++-----+-----+-----+-----+------+-----+-----+-----+-----+-----+\n"
+           "  0 m   10    20    30    40     50    60    70    80    90  100\n");
+}
+
+static void strips_share_the_profiles_columns(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_canvas *canvas = ceduo_canvas_create(70, 24, ASCII);
+    struct ceduo_area above = {0, 0, 70, 16}, below = {0, 16, 70, 8};
+    struct ceduo_span span;
+    ceduo_plot_profile(canvas, &above, &p, &span);
+    ceduo_plot_height(canvas, &below, &p, &span, true);
+    int rules[2] = {0, 0};
+    for (int column = 0; column < 70; column++) {
+        rules[0] += ceduo_canvas_role(canvas, column, 5) == CEDUO_ROLE_CONTROL;
+        rules[1] += ceduo_canvas_role(canvas, column, 5) == CEDUO_ROLE_CONTROL &&
+                    ceduo_canvas_role(canvas, column, 20) == CEDUO_ROLE_CONTROL;
+    }
+    assert_int_equal(rules[0], 2);
+    assert_int_equal(rules[1], 2);
+    ceduo_canvas_free(canvas);
+}
+
+static void places_without_rocks_stay_empty(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    for (int i = 0; i < CELLS; i++)
+        s.envelopes[i] =
+            (struct ceduo_envelope){.mean_energy = NAN, .height = {NAN, NAN, NAN, NAN}, .energy = {NAN, NAN, NAN, NAN}};
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 60, 12, "no rock passes here"));
+    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "no rock passes here"));
+    p.outlook = NULL;
+    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "not computed yet"));
+}
+
+/* ---- bars ---- */
+
+static void histogram_counts_by_round_bins(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, BRAILLE,
+           "n = 8 of 10 rocks arrive; of 1000 released, 200 with more t…\n"
+           "10–20 kJ ██████████                     1  12.5 %\n"
+           "20–30 kJ ████████████████████           2  25.0 %\n"
+           "30–40 kJ ██████████████████████████████ 3  37.5 % ◀ p50 33\n"
+           "40–50 kJ ██████████                     1  12.5 % ◀ bears 40\n"
+           "50–60 kJ ██████████                     1  12.5 % ◀ p95 55\n"
+           "\n"
+           "\n");
+    expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 5, ASCII,
+           "n = 8 of 10 rocks arrive; of 1000 released, 200 with more t~\n"
+           " 0-20 kJ ####                   1  12.5 %\n"
+           "20-40 kJ ###################### 5  62.5 % < p50 33\n"
+           "40-60 kJ #########              2  25.0 % < bears 40, p95 55\n"
+           "\n");
+    p.control = 1;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "no rock arrives"));
+    p.control = 2;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "no control"));
+}
+
+static void a_long_tail_goes_into_one_bin(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    static double many[1000];
+    for (int i = 0; i < 1000; i++)
+        many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
+    s.energies[0] = (struct ceduo_energies){1000, many};
+    s.arrivals[0].reached = 1000;
+    expect(CEDUO_PLOT_HISTOGRAM, &p, 70, 8, ASCII,
+           "n = 1000 of 10 rocks arrive; of 1000 released, 200 with more than 40 ~\n"
+           " 0-10 kJ ###################################### 200  20.0 %\n"
+           "10-20 kJ ###################################### 200  20.0 %\n"
+           "20-30 kJ ###################################### 200  20.0 %\n"
+           "30-40 kJ ###################################### 200  20.0 % < p50 33\n"
+           "40-50 kJ #####################################  197  19.7 % < bears 40\n"
+           ">= 50 kJ #                                         3  0.3 % < p95 55\n"
+           "\n");
+    s.arrivals[0].reached = 5000;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 70, 8, "the first 1000 of them"));
+}
+
+static void equal_energies_make_a_bin(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    for (int i = 0; i < ENERGIES; i++)
+        s.values[i] = 0;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "100.0 %"));
+    for (int i = 0; i < ENERGIES; i++)
+        s.values[i] = 5e12;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "100.0 %"));
+}
+
+static void adc_shows_the_forms_beside_the_threshold(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_ADC, &p, 70, 9, BRAILLE,
+           "coppice*, 20–70 m\n"
+           "  gsteiger-stools  ██████████████▎      │      12.5 m\n"
+           "  gsteiger-stems   ███████▋             │      5.35 m\n"
+           "▶ interception     ███████████          │      8.24 m applied: passes\n"
+           "  crofton          ███████████▌         │      8.83 m\n"
+           "                   2      5     10   20 30 m\n"
+           "\n"
+           "│ 30 m: in this distance without a contact a rock reaches its full sp…\n"
+           "\n");
+    s.shoots.per_ha = 20;
+    s.belts[0].stand.stools_per_ha = 10;
+    s.belts[0].stand.trees_count = 0;
+    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "applied: NO"));
+    p.option = 1;
+    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "no stems, nothing to meet: NO"));
+    s.options[1].belts_count = 0;
+    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "no forest"));
+}
+
+static void many_belts_get_a_row_each(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_belt belts[6];
+    for (int i = 0; i < 6; i++)
+        belts[i] = s.belts[i % 2];
+    s.options[0] = (struct ceduo_option){"six", 6, belts};
+    expect(CEDUO_PLOT_ADC, &p, 70, 7, ASCII,
+           "coppice*           ###########          |      8.24 m passes\n"
+           "cut                                     |        none NO\n"
+           "coppice*           ###########          |      8.24 m passes\n"
+           "cut                                     |        none NO\n"
+           "coppice*           ###########          |      8.24 m passes\n"
+           "cut                                     |        none NO\n"
+           "                   2      5     10   20 30 m\n");
+    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 5, "and 3 more belts"));
+}
+
+static void options_stand_side_by_side(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
+           "  ADC, m (│ 30)             taken, kJ/100 m           left, kJ (bears 40)\n"
+           "\n"
+           "kept\n"
+           "  ████▊      │   8.24 pass  ██████████████ 90.5       ██████▍        15.0\n"
+           "\n"
+           "felled\n"
+           "  ██████████████ none NO                   0          ██████████████ 33.1\n"
+           "\n"
+           "left = 33.12 kJ (mean, without forest) less what the stems could take (index)\n");
+    expect(CEDUO_PLOT_COMPARE, &p, 120, 6, ASCII,
+           "         ADC, m (| 30)                         taken, kJ/100 m                       left, kJ (bears 40)\n"
+           "\n"
+           "kept     ########          |      8.24 pass    ######################## 90.5         ###########           "
+           "   15.0\n"
+           "\n"
+           "felled   ######################## none NO                               0            "
+           "######################## 33.1\n"
+           "left = 33.12 kJ (mean, without forest) less what the stems could take (index)\n");
+    p.control = 1;
+    assert_true(shows(CEDUO_PLOT_COMPARE, &p, 120, 6, "no rock arrives"));
+}
+
+/* ---- the stand ---- */
+
+static void the_stand_is_drawn_to_scale(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE,
+           " ⠲⠤\n"
+           "       ⡤⡤\n"
+           "       ⠘⠃      ⢈⡇                  ⢰\n"
+           "                                   ⠈\n"
+           "⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⣀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⡀⣖⡤⡀⡀⡀⡀⡀\n"
+           "                                     ⠴⠧⠄⠐⠁        ⠴⢽⡀⠉   ⠠⡄\n"
+           "⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠁⠑⠃⠁\n"
+           "\n"
+           "                                             ⠤⠄\n"
+           "  ⠠⢄⡀        ⢤⢤                     ⣀\n"
+           "             ⠈⠁                     ⠷⠋\n"
+           "┬─────┬─────┬─────┬─────┬─────┬────┬─────┬─────┬─────┬─────┬\n"
+           "0 m   2     4     6     8     10   12    14    16    18   20\n"
+           "One pattern of many. The rock (0.80 m wide) meets 5 stools …\n");
+    p.option = 1;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 12, "No stems"));
+    p.belt = 1;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 12, "no forest"));
+}
+
+/* More stools are added to those that stand. */
+static void stems_that_stay_do_not_move(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    s.belts[0].stand.trees_count = 0;
+    struct ceduo_canvas *few = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    s.belts[0].stand.stools_per_ha *= 1.5;
+    s.shoots.per_ha *= 1.5;
+    struct ceduo_canvas *more = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    int dots[2] = {0, 0};
+    for (int i = 0; i < 80 * 37; i++) {
+        assert_int_equal(few->cells[i].dots & ~more->cells[i].dots, 0);
+        dots[0] += few->cells[i].dots != 0;
+        dots[1] += more->cells[i].dots != 0;
+    }
+    assert_true(dots[1] > dots[0]);
+    ceduo_canvas_free(few);
+    ceduo_canvas_free(more);
+}
+
+/* Trees of 10 cm and a rock of 3 m: those whose middle is less than 1.55 m off its path are met, no others. A row of
+ * the picture is half a metre. */
+static void what_the_rock_meets_lies_in_its_strip(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    s.scene.rock.diameter = ceduo_number(3);
+    s.belts[0].stand.shoots_count = 0;
+    s.trees.per_ha = 5000;
+    s.trees.dbh = 0.1;
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_STAND, &p, 80, 43, BRAILLE);
+    for (int row = 0; row < 40; row++)
+        for (int column = 0; column < 80; column++) {
+            double off = fabs(0.503 * (row + 0.5 - 20)); /* m */
+            enum ceduo_role role = ceduo_canvas_role(canvas, column, row);
+            assert_false(role == CEDUO_ROLE_WAY && off > 1.6 + 0.3);
+            assert_false(role == CEDUO_ROLE_STEM && off < 1.5 - 0.3);
+        }
+    assert_true(cells_of(canvas, CEDUO_ROLE_WAY) > 10);
+    assert_true(cells_of(canvas, CEDUO_ROLE_STEM) > 50);
+    ceduo_canvas_free(canvas);
+}
+
+static void a_dense_stand_is_drawn_in_time(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    s.belts[0].stand.stools_per_ha = 1e6;
+    s.shoots.per_ha = 1e7;
+    ceduo_canvas_free(draw(CEDUO_PLOT_STAND, &p, 200, 400, BRAILLE));
+}
+
+/* ---- all of them ---- */
+
+static void nothing_is_drawn_beside_the_area(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    for (int i = 0; i < 3 * 40 * 12; i++) {
+        enum ceduo_charset charset = (enum ceduo_charset)(i % 3);
+        struct ceduo_area area = {7, 3, 4 + i / 3 % 40 * 3, 1 + i / 120 * 2};
+        for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
+            struct ceduo_canvas *canvas = ceduo_canvas_create(area.width + 14, area.height + 6, charset);
+            struct ceduo_picture p = picture_of(&s);
+            p.outlook = i % 7 == 0 ? NULL : p.outlook;
+            p.option = (size_t)(i % 5 == 0);
+            ceduo_plot_draw((enum ceduo_plot)plot, canvas, &area, &p);
+            for (int row = 0; row < canvas->height; row++)
+                for (int column = 0; column < canvas->width; column++) {
+                    bool in = column >= area.left && column < area.left + area.width && row >= area.top &&
+                              row < area.top + area.height;
+                    if (!in && ceduo_canvas_role(canvas, column, row) != CEDUO_ROLE_BLANK)
+                        fail_msg("plot %d, charset %d, %dx%d: drawn at %d, %d", plot, (int)charset, area.width,
+                                 area.height, column - area.left, row - area.top);
+                }
+            ceduo_canvas_free(canvas);
+        }
+    }
+}
+
+static void names_are_found(void **state)
+{
+    (void)state;
+    const char *names[] = {"profile", "energy", "height", "histogram", "adc", "stand", "compare"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        enum ceduo_plot plot = ceduo_plot_find(names[i]);
+        assert_int_not_equal(plot, CEDUO_PLOT_NONE);
+        assert_non_null(strstr(CEDUO_PLOT_NAMES, names[i]));
+    }
+    assert_int_equal(ceduo_plot_find("rotation"), CEDUO_PLOT_NONE);
+    assert_int_equal(ceduo_plot_find(""), CEDUO_PLOT_NONE);
+}
+
+static void titles_name_what_is_shown(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    const char *expected[CEDUO_PLOTS] = {
+        "",
+        "kept: slope, forest, and ways without forest",
+        "Energy of the rocks, without forest",
+        "Height of the rocks above the ground, without forest",
+        "Energy at path (40 m), without forest",
+        "kept: average distance between contacts, m",
+        "kept: coppice, from above",
+        "Options side by side, up to path (40 m)",
+    };
+    for (int plot = 0; plot < CEDUO_PLOTS; plot++) {
+        struct text title = {0};
+        ceduo_plot_title(&title, (enum ceduo_plot)plot, &p);
+        assert_string_equal(title.bytes ? title.bytes : "", expected[plot]);
+        ceduo_text_free(&title);
+    }
+    assert_int_equal(ceduo_plot_last_control(&s.scene), 1);
+}
+
+/* ---- what pictures are made of ---- */
+
+static struct ceduo_run *run_of(const struct site *s, size_t cells, const double *cell_x, size_t exact_bytes)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&s->scene);
+    struct ceduo_run *run;
+    def.rocks_most = 300;
+    def.cells = cells;
+    def.cell_x = cell_x;
+    def.exact_bytes = exact_bytes;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
+    return run;
+}
+
+static void places_lie_beyond_the_release(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
+    assert_int_equal(ceduo_outlook_places(&s.scene, x), CEDUO_OUTLOOK_CELLS);
+    assert_true(x[0] > 12);
+    for (int i = 1; i < CEDUO_OUTLOOK_CELLS; i++)
+        assert_true(x[i] > x[i - 1]);
+    assert_true(x[CEDUO_OUTLOOK_CELLS - 1] <= 100);
+    s.scene.release.x = ceduo_number(100);
+    assert_int_equal(ceduo_outlook_places(&s.scene, x), 0);
+}
+
+static void outlook_is_what_the_run_says(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    size_t cells = ceduo_outlook_places(&s.scene, x);
+    struct ceduo_run *run = run_of(&s, cells, x, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o;
+    assert_int_equal(ceduo_outlook_create(&s.scene, run, cells, x, 20, &o), CEDUO_OK);
+    assert_int_equal(o->rocks, 300);
+    assert_int_equal(o->cells, cells);
+    assert_int_equal(o->controls, 2);
+    assert_int_equal(o->trails_count, 20);
+    for (size_t c = 0; c < 2; c++) {
+        assert_true(o->arrivals[c].reached > 0);
+        assert_int_equal(o->energies[c].n, o->arrivals[c].reached);
+        double sum = 0;
+        for (size_t i = 0; i < o->energies[c].n; i++)
+            sum += o->energies[c].values[i];
+        assert_true(fabs(sum / (double)o->energies[c].n - o->arrivals[c].energy.mean) < 1e-6 * sum);
+    }
+    for (size_t i = 0; i < cells; i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        assert_int_equal(o->envelopes[i].passed, e.passed);
+        assert_true(o->cell_x[i] == x[i]);
+    }
+    ceduo_outlook_free(o);
+    ceduo_run_free(run);
+    ceduo_outlook_free(NULL);
+}
+
+/* A run too long for its samples: the energies come from rocks flown once more, the same ones. */
+static void energies_are_flown_where_they_were_not_kept(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_run *kept = run_of(&s, 0, NULL, CEDUO_EXACT_BYTES), *binned = run_of(&s, 0, NULL, 0);
+    struct ceduo_outlook *a, *b;
+    assert_int_equal(ceduo_outlook_create(&s.scene, kept, 0, NULL, 0, &a), CEDUO_OK);
+    assert_int_equal(ceduo_outlook_create(&s.scene, binned, 0, NULL, 0, &b), CEDUO_OK);
+    for (size_t c = 0; c < 2; c++) {
+        assert_false(b->arrivals[c].exact);
+        assert_int_equal(a->energies[c].n, b->energies[c].n);
+        for (size_t i = 0; i < a->energies[c].n; i++)
+            assert_true(fabs(a->energies[c].values[i] - b->energies[c].values[i]) <= 1e-9 * a->energies[c].values[i]);
+    }
+    ceduo_outlook_free(a);
+    ceduo_outlook_free(b);
+    ceduo_run_free(kept);
+    ceduo_run_free(binned);
+}
+
+/* Starts and ends where the rock does, never far below the ground, and never jumps. */
+static void trails_follow_the_rocks(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    for (uint64_t rock = 0; rock < 20; rock++) {
+        struct ceduo_trail t;
+        struct ceduo_way way;
+        assert_int_equal(ceduo_trail_follow(&s.scene, rock, &t), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(&s.scene, rock, NULL, NULL, &way, NULL), CEDUO_OK);
+        assert_true(t.n >= 2);
+        assert_true(t.x[0] == way.x0 && t.z[0] == way.z0);
+        assert_true(t.x[t.n - 1] == way.x && t.z[t.n - 1] == way.z);
+        for (size_t i = 0; i < t.n; i++)
+            if (t.x[i] >= 0 && t.x[i] <= 100)
+                assert_true(t.z[i] > ceduo_slope_height(&s.scene.slope, t.x[i]) - 0.1);
+        ceduo_trail_free(&t);
+    }
+}
+
+/* A rock thrown far: every point of its trail and the middle of every chord lies on the parabola. */
+static void flights_are_sampled_finely(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    s.scene.release.vx = ceduo_number(10);
+    s.scene.release.vz = ceduo_number(10);
+    struct ceduo_trail t;
+    assert_int_equal(ceduo_trail_follow(&s.scene, 0, &t), CEDUO_OK);
+    size_t checked = 0;
+    for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
+        double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
+        assert_true(fabs(z - (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds) < 0.06); /* a step is 0.05 m */
+    }
+    assert_true(checked > 3);
+    ceduo_trail_free(&t);
+}
+
+/* ---- the command line ---- */
+
+static enum exit_status read(struct arguments *a, int argc, char **argv)
+{
+    optind = 0;
+    return ceduo_arguments_read(a, argc, argv);
+}
+
+#define READ(a, ...)                                                                                                   \
+    read(a, sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
+
+static void a_picture_is_asked_for(void **state)
+{
+    (void)state;
+    struct arguments a;
+    assert_int_equal(READ(&a, "--plot", "adc", "--size", "100x30", "--charset", "block", "x.yaml"), EXIT_DONE);
+    assert_int_equal(a.mode, MODE_BATCH);
+    assert_int_equal(a.plot, CEDUO_PLOT_ADC);
+    assert_int_equal(a.plot_width, 100);
+    assert_int_equal(a.plot_height, 30);
+    assert_true(a.charset_given);
+    assert_int_equal(a.charset, BLOCK);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "--plot=profile", "x.yaml"), EXIT_DONE);
+    assert_false(a.charset_given);
+    assert_int_equal(a.plot_width, 0);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "--check", "--plot=profile", "x.yaml"), EXIT_DONE);
+    assert_int_equal(a.mode, MODE_CHECK);
+    ceduo_arguments_free(&a);
+}
+
+static void wrong_pictures_are_usage_errors(void **state)
+{
+    (void)state;
+    struct arguments a;
+    const char *sizes[] = {"",     "80",      "x24",    "80x",       "80x24x2", "19x24",
+                           "80x5", "1001x24", "80x501", "8e1000x24", "-80x24",  "80.5x24"};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        char size[16];
+        snprintf(size, sizeof size, "%s", sizes[i]);
+        assert_int_equal(READ(&a, "--plot", "adc", "--size", size, "x.yaml"), EXIT_USAGE);
+        ceduo_arguments_free(&a);
+    }
+    assert_int_equal(READ(&a, "--plot", "rotation", "x.yaml"), EXIT_USAGE);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "--plot", "adc", "--charset", "latin", "x.yaml"), EXIT_USAGE);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "--plot", "adc", "-f", "json", "x.yaml"), EXIT_USAGE);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "-f", "csv", "--plot", "adc", "x.yaml"), EXIT_USAGE);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "-f", "table", "--plot", "adc", "x.yaml"), EXIT_DONE);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "--plot", "adc"), EXIT_USAGE);
+    ceduo_arguments_free(&a);
+    assert_int_equal(READ(&a, "--batch", "--size", "80x24", "x.yaml"), EXIT_USAGE);
+    ceduo_arguments_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(profile_is_true_to_scale),
+        cmocka_unit_test(span_tells_where_the_slope_stands),
+        cmocka_unit_test(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written),
+        cmocka_unit_test(the_selected_way_is_drawn_over_all),
+        cmocka_unit_test(axes_have_the_users_coordinates),
+        cmocka_unit_test(strips_show_quantiles_along_the_slope),
+        cmocka_unit_test(a_peak_is_cut_and_told),
+        cmocka_unit_test(strips_share_the_profiles_columns),
+        cmocka_unit_test(places_without_rocks_stay_empty),
+        cmocka_unit_test(histogram_counts_by_round_bins),
+        cmocka_unit_test(a_long_tail_goes_into_one_bin),
+        cmocka_unit_test(equal_energies_make_a_bin),
+        cmocka_unit_test(adc_shows_the_forms_beside_the_threshold),
+        cmocka_unit_test(many_belts_get_a_row_each),
+        cmocka_unit_test(options_stand_side_by_side),
+        cmocka_unit_test(the_stand_is_drawn_to_scale),
+        cmocka_unit_test(stems_that_stay_do_not_move),
+        cmocka_unit_test(what_the_rock_meets_lies_in_its_strip),
+        cmocka_unit_test(a_dense_stand_is_drawn_in_time),
+        cmocka_unit_test(nothing_is_drawn_beside_the_area),
+        cmocka_unit_test(names_are_found),
+        cmocka_unit_test(titles_name_what_is_shown),
+        cmocka_unit_test(places_lie_beyond_the_release),
+        cmocka_unit_test(outlook_is_what_the_run_says),
+        cmocka_unit_test(energies_are_flown_where_they_were_not_kept),
+        cmocka_unit_test(trails_follow_the_rocks),
+        cmocka_unit_test(flights_are_sampled_finely),
+        cmocka_unit_test(a_picture_is_asked_for),
+        cmocka_unit_test(wrong_pictures_are_usage_errors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
