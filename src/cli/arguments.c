@@ -48,7 +48,7 @@ static const struct row {
     {"seed", OPTION_SEED, "N", N_("seed of the random numbers, 0 to 2^53")},
     {"threads", 'j', "N", N_("threads; the result does not depend on them (all cores)")},
     {"option", OPTION_ONLY, "NAME", N_("only this option of the scene; may be repeated")},
-    {"plot", OPTION_PLOT, "WHAT", N_("print a picture: profile, energy, height, histogram,\n                              adc, stand or compare")},
+    {"plot", OPTION_PLOT, "WHAT", N_("print a picture: profile, energy, height, histogram, adc, stand or compare")},
     {"size", OPTION_SIZE, "WxH", N_("of a picture in columns and lines (80x24)")},
     {"charset", OPTION_CHARSET, "braille|block|ascii", N_("what pictures are made of (the locale's)")},
     {"script", OPTION_SCRIPT, "FILE", N_("feed keys and commands to the terminal program; needs no terminal")},
@@ -61,6 +61,26 @@ static const struct row {
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])
+
+#define HELP_COLUMN 30
+
+/* A help text from its column on, in lines of 80 columns at most. */
+static void put_help(struct text *text, const char *help)
+{
+    size_t column = HELP_COLUMN;
+    while (*help) {
+        size_t n = strcspn(help, " "), gap = column > HELP_COLUMN;
+        if (column + gap + n > 79) {
+            ceduo_text_format(text, "\n%*s", HELP_COLUMN, "");
+            column = HELP_COLUMN;
+            gap = 0;
+        }
+        ceduo_text_format(text, "%s%.*s", gap ? " " : "", (int)n, help);
+        column += gap + n;
+        help += n + (help[n] == ' ');
+    }
+    ceduo_text_char(text, '\n');
+}
 
 void ceduo_arguments_help(struct text *text)
 {
@@ -76,10 +96,12 @@ void ceduo_arguments_help(struct text *text)
         int n = snprintf(head, sizeof head, "  %c%c%s --%s%s%s", rows[i].letter < 256 ? '-' : ' ',
                          rows[i].letter < 256 ? rows[i].letter : ' ', rows[i].letter < 256 ? "," : " ", rows[i].name,
                          rows[i].value ? " " : "", rows[i].value ? rows[i].value : "");
-        ceduo_text_format(text, "%-30s%s%s\n", head, n >= 30 ? "\n                              " : "", _(rows[i].help));
+        ceduo_text_format(text, "%-30s%s", head, n >= 30 ? "\n                              " : "");
+        put_help(text, _(rows[i].help));
     }
     ceduo_text_put(text, _("\nexample: ceduo --batch -s 'forest[0].stand.stools.per_ha=2000' paper-site\n"
-                           "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed; see man ceduo\n"));
+                           "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed;\n"
+                           "see man ceduo\n"));
 }
 
 __attribute__((format(printf, 1, 2))) static enum exit_status usage(const char *format, ...)

@@ -288,7 +288,7 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
 {
     struct ceduo_outlook *outlook;
     size_t trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0;
-    if (ceduo_outlook_create(&file->scene, run, def->cells, def->cell_x, trails, &outlook) != CEDUO_OK) {
+    if (ceduo_outlook_create(&file->scene, run, NULL, def->cells, def->cell_x, trails, &outlook) != CEDUO_OK) {
         complain(file->path, _("out of memory"));
         return EXIT_RUN;
     }

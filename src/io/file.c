@@ -274,9 +274,9 @@ static void sync_folder(char *path)
     }
 }
 
-static bool fill_temporary(int fd, mode_t mode, const char *bytes, size_t n)
+static bool fill_temporary(int fd, mode_t mode, const char *bytes, size_t n, bool wait)
 {
-    bool good = fchmod(fd, mode) == 0 && write_all(fd, bytes, n) && fsync(fd) == 0;
+    bool good = fchmod(fd, mode) == 0 && write_all(fd, bytes, n) && (!wait || fsync(fd) == 0);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -284,7 +284,7 @@ static bool fill_temporary(int fd, mode_t mode, const char *bytes, size_t n)
     return good;
 }
 
-static bool write_whole(char *target, mode_t mode, const char *bytes, size_t n)
+static bool write_whole(char *target, mode_t mode, const char *bytes, size_t n, bool wait)
 {
     size_t length = strlen(target);
     char *temporary = malloc(length + 8);
@@ -293,11 +293,11 @@ static bool write_whole(char *target, mode_t mode, const char *bytes, size_t n)
     memcpy(temporary, target, length);
     memcpy(temporary + length, ".XXXXXX", 8);
     int fd = mkstemp(temporary);
-    bool good = fd >= 0 && fill_temporary(fd, mode, bytes, n) && rename(temporary, target) == 0;
+    bool good = fd >= 0 && fill_temporary(fd, mode, bytes, n, wait) && rename(temporary, target) == 0;
     int why = errno;
     if (!good && fd >= 0)
         unlink(temporary);
-    if (good)
+    if (good && wait)
         sync_folder(temporary);
     free(temporary);
     errno = why;
@@ -334,7 +334,7 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
-bool ceduo_file_write(const char *path, const char *bytes, size_t n)
+static bool write_file(const char *path, const char *bytes, size_t n, bool wait)
 {
     struct stat st;
     bool exists = stat(path, &st) == 0;
@@ -345,9 +345,19 @@ bool ceduo_file_write(const char *path, const char *bytes, size_t n)
     char *target = exists ? realpath(path, NULL) : follow_links(path); /* a link stays a link */
     if (!target)
         return false;
-    bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), bytes, n);
+    bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), bytes, n, wait);
     int why = errno;
     free(target);
     errno = why;
     return good;
+}
+
+bool ceduo_file_write(const char *path, const char *bytes, size_t n)
+{
+    return write_file(path, bytes, n, true);
+}
+
+bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
+{
+    return write_file(path, bytes, n, false);
 }

@@ -27,4 +27,7 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
  * False with errno set. */
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);
 
+/* The same without waiting for the disk: it survives the program, but maybe not a power cut. */
+bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n);
+
 #endif

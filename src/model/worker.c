@@ -51,11 +51,20 @@ static bool precise(const struct ceduo_outlook *o)
     return true;
 }
 
+/* The runs of one request: a short one with envelopes for the pictures, a long one for the figures. */
+struct flight_plan {
+    const struct ceduo_scene *scene;
+    struct ceduo_run *pictures, *figures;
+    double cells[CEDUO_OUTLOOK_CELLS];
+    size_t cells_count;
+};
+
 /* Hands over what is known so far. */
-static bool publish(struct worker *w, const struct ceduo_run_def *def, const struct ceduo_run *run, bool *enough)
+static bool publish(struct worker *w, const struct flight_plan *plan, const struct ceduo_run *run, bool *enough)
 {
     struct ceduo_outlook *o;
-    if (ceduo_outlook_create(def->scene, run, def->cells, def->cell_x, CEDUO_OUTLOOK_TRAILS, &o) != CEDUO_OK)
+    if (ceduo_outlook_create(plan->scene, run, plan->pictures, plan->cells_count, plan->cells, CEDUO_OUTLOOK_TRAILS,
+                             &o) != CEDUO_OK)
         return false;
     *enough = precise(o);
     pthread_mutex_lock(&w->lock);
@@ -72,32 +81,45 @@ static bool publish(struct worker *w, const struct ceduo_run_def *def, const str
     return true;
 }
 
+static void count_rocks(struct worker *w, uint64_t rocks)
+{
+    pthread_mutex_lock(&w->lock);
+    w->rocks_flown += rocks;
+    pthread_mutex_unlock(&w->lock);
+}
+
 /* Flies one request in steps, each ten times the one before, until it is precise or stale. */
+static bool fly_plan(struct worker *w, struct flight_plan *plan)
+{
+    bool enough = false;
+    for (uint64_t rocks = WORKER_FIRST_ROCKS; !enough && !atomic_load(&w->cancel); rocks *= 10) {
+        struct ceduo_run *run = rocks <= WORKER_PICTURE_ROCKS ? plan->pictures : plan->figures;
+        uint64_t before = ceduo_run_rocks(run);
+        enum ceduo_status status = ceduo_run_extend(run, rocks);
+        count_rocks(w, ceduo_run_rocks(run) - before);
+        if (status == CEDUO_CANCELLED)
+            return true;
+        if (status != CEDUO_OK || !publish(w, plan, run, &enough))
+            return false;
+        enough |= rocks * 10 > WORKER_ROCKS_MOST;
+    }
+    return true;
+}
+
 static bool fly(struct worker *w, const struct ceduo_scene *scene)
 {
-    double cells[CEDUO_OUTLOOK_CELLS];
+    struct flight_plan plan = {.scene = scene};
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = w->threads;
     def.rocks_most = WORKER_ROCKS_MOST;
     def.cancel = &w->cancel;
-    def.cells = ceduo_outlook_places(scene, cells);
-    def.cell_x = cells;
-    struct ceduo_run *run;
-    if (ceduo_run_create(&def, &run) != CEDUO_OK)
-        return false;
-    bool good = true, enough = false;
-    for (uint64_t rocks = WORKER_FIRST_ROCKS; good && !enough && !atomic_load(&w->cancel); rocks *= 10) {
-        uint64_t before = ceduo_run_rocks(run);
-        enum ceduo_status status = ceduo_run_extend(run, rocks);
-        pthread_mutex_lock(&w->lock);
-        w->rocks_flown += ceduo_run_rocks(run) - before;
-        pthread_mutex_unlock(&w->lock);
-        if (status == CEDUO_CANCELLED)
-            break;
-        good = status == CEDUO_OK && publish(w, &def, run, &enough);
-        enough |= rocks >= WORKER_ROCKS_MOST;
-    }
-    ceduo_run_free(run);
+    bool good = ceduo_run_create(&def, &plan.figures) == CEDUO_OK;
+    plan.cells_count = ceduo_outlook_places(scene, plan.cells);
+    def.cells = plan.cells_count;
+    def.cell_x = plan.cells;
+    good = good && ceduo_run_create(&def, &plan.pictures) == CEDUO_OK && fly_plan(w, &plan);
+    ceduo_run_free(plan.figures);
+    ceduo_run_free(plan.pictures);
     return good;
 }
 
@@ -201,6 +223,7 @@ struct worker_news ceduo_worker_news(struct worker *w)
         ;
     pthread_mutex_lock(&w->lock);
     struct worker_news news = {.outlook = w->outlook,
+                               .key = w->key,
                                .busy = w->busy,
                                .rocks = w->rocks,
                                .seconds = w->seconds,

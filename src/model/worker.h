@@ -12,7 +12,8 @@
 struct worker;
 
 #define WORKER_FIRST_ROCKS 1024    /* shown first */
-#define WORKER_ROCKS_MOST 1000000  /* refined up to this */
+#define WORKER_PICTURE_ROCKS 10240 /* enough for envelopes */
+#define WORKER_ROCKS_MOST 1024000  /* refined up to this */
 #define WORKER_TOLERANCE 0.004     /* or until mean energies are known to this (95 %) */
 
 /* NULL where no thread can be started. */
@@ -29,6 +30,7 @@ int ceduo_worker_fd(const struct worker *worker);
 
 struct worker_news {
     struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
+    uint64_t key;                  /* of its run: ceduo_run_key() */
     bool busy;                     /* still refining */
     uint64_t rocks;                /* of the newest */
     double seconds;                /* since the request */

@@ -145,6 +145,7 @@ bool ceduo_app_news(struct app *app)
     if (news.outlook) {
         ceduo_outlook_free(app->outlook);
         app->outlook = news.outlook;
+        app->shown_key = news.key;
         app->seconds = news.seconds;
         refresh_result(app);
     }

@@ -44,7 +44,8 @@ struct app {
     struct worker *worker;
     struct ceduo_outlook *outlook;   /* newest; NULL before the first */
     struct ceduo_result *result;     /* the scene as it is now, by the newest outlook; NULL before the first */
-    uint64_t outlook_key;            /* of the run that it shows */
+    uint64_t outlook_key;            /* of the run that was asked for last */
+    uint64_t shown_key;              /* of the one that is shown */
     bool busy;
     double seconds;                  /* from the edit to the newest figures */
     struct ceduo_canvas *canvas;

@@ -182,8 +182,9 @@ static enum ceduo_status read_controls(const struct ceduo_scene *scene, const st
     return status == CEDUO_OK ? read_energies(scene, run, o) : status;
 }
 
-enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const struct ceduo_run *run, size_t cells,
-                                       const double *cell_x, size_t trails, struct ceduo_outlook **outlook)
+enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const struct ceduo_run *run,
+                                       const struct ceduo_run *with_cells, size_t cells, const double *cell_x,
+                                       size_t trails, struct ceduo_outlook **outlook)
 {
     *outlook = NULL;
     struct ceduo_outlook *o = calloc(1, sizeof *o);
@@ -191,7 +192,7 @@ enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const st
         return CEDUO_NO_MEMORY;
     o->rocks = ceduo_run_rocks(run);
     o->contacts = ceduo_run_contacts(run);
-    enum ceduo_status status = read_envelopes(run, cells, cell_x, o);
+    enum ceduo_status status = read_envelopes(with_cells ? with_cells : run, cells, cell_x, o);
     if (status == CEDUO_OK)
         status = read_controls(scene, run, o);
     if (status == CEDUO_OK)

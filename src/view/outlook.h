@@ -43,10 +43,12 @@ struct ceduo_outlook {
  * many: none where the release may lie at the end. */
 size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x);
 
-/* Reads a run of `scene` that was made with these cells, and follows its first `trails` rocks.
- * CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const struct ceduo_run *run, size_t cells,
-                                       const double *cell_x, size_t trails, struct ceduo_outlook **outlook);
+/* Reads a run of `scene`, and follows its first `trails` rocks. The envelopes come from `with_cells`, a run of the same
+ * rocks that was made with these cells and may be shorter: they make a run five times as slow, and a picture needs no
+ * more than some thousand rocks. NULL: `run` itself. CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const struct ceduo_run *run,
+                                       const struct ceduo_run *with_cells, size_t cells, const double *cell_x,
+                                       size_t trails, struct ceduo_outlook **outlook);
 void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
 
 /* The way of one rock, the one that a run of the scene flies under this number. CEDUO_NO_MEMORY or CEDUO_OK; free the

@@ -9,7 +9,7 @@ say() { # status name
     n=$((n + 1))
     if [ "$1" = 0 ]; then echo "ok $n - $2"; else echo "not ok $n - $2"; fi
 }
-for page in ceduo.1 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-model.7; do
+for page in ceduo.1 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-model.7 ceduo-workflows.7; do
     mandoc -Tlint -W warning "man/$page" >"$dir/lint" 2>&1
     say $? "$page has no warning"
     sed 's/^/# /' "$dir/lint"
@@ -20,6 +20,9 @@ for kind in scene slope stand; do
     "${BUILD:-build/release}/tests/tables" $kind "$dir/page" && cmp -s "man/ceduo-$kind.5" "$dir/page"
     say $? "the parameters of ceduo-$kind.5 are those of the program (make man)"
 done
+cp man/ceduo.1 "$dir/page"
+"${BUILD:-build/release}/tests/tables" keys "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
+say $? "the keys of ceduo.1 are those of the program (make man)"
 for option in $("${CEDUO:-./ceduo}" --help | grep -oE -- '--[a-z-]+' | sort -u); do
     grep -qE -- "It Fl (. , )?-${option#--}( |$)" man/ceduo.1
     say $? "$option stands in ceduo.1"

@@ -762,7 +762,7 @@ static void outlook_is_what_the_run_says(void **state)
     size_t cells = ceduo_outlook_places(&s.scene, x);
     struct ceduo_run *run = run_of(&s, cells, x, CEDUO_EXACT_BYTES);
     struct ceduo_outlook *o;
-    assert_int_equal(ceduo_outlook_create(&s.scene, run, cells, x, 20, &o), CEDUO_OK);
+    assert_int_equal(ceduo_outlook_create(&s.scene, run, NULL, cells, x, 20, &o), CEDUO_OK);
     assert_int_equal(o->rocks, 300);
     assert_int_equal(o->cells, cells);
     assert_int_equal(o->controls, 2);
@@ -794,8 +794,8 @@ static void energies_are_flown_where_they_were_not_kept(void **state)
     site_init(&s);
     struct ceduo_run *kept = run_of(&s, 0, NULL, CEDUO_EXACT_BYTES), *binned = run_of(&s, 0, NULL, 0);
     struct ceduo_outlook *a, *b;
-    assert_int_equal(ceduo_outlook_create(&s.scene, kept, 0, NULL, 0, &a), CEDUO_OK);
-    assert_int_equal(ceduo_outlook_create(&s.scene, binned, 0, NULL, 0, &b), CEDUO_OK);
+    assert_int_equal(ceduo_outlook_create(&s.scene, kept, NULL, 0, NULL, 0, &a), CEDUO_OK);
+    assert_int_equal(ceduo_outlook_create(&s.scene, binned, NULL, 0, NULL, 0, &b), CEDUO_OK);
     for (size_t c = 0; c < 2; c++) {
         assert_false(b->arrivals[c].exact);
         assert_int_equal(a->energies[c].n, b->energies[c].n);

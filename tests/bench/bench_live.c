@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How long a person waits: from a key to the first new picture of at least 1000 rocks, on the grid of cells (what a
+ * terminal adds is its own), to 10 000 rocks, and for an edit of a stand, which flies no rock. Prints CSV. */
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "tui/app.h"
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + 1e-6 * (double)t.tv_nsec;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void report(const char *what, double *ms, size_t n, double goal_median, double goal_p99)
+{
+    qsort(ms, n, sizeof *ms, by_value);
+    printf("%s,%zu,%.3f,%.3f,%g,%g\n", what, n, ms[n / 2], ms[(n * 99) / 100], goal_median, goal_p99);
+}
+
+/* Until the newest figures stand on at least so many rocks and are drawn. */
+static void wait_for(struct app *app, uint64_t rocks)
+{
+    do {
+        struct pollfd fd = {.fd = ceduo_worker_fd(app->worker), .events = POLLIN};
+        poll(&fd, 1, 1000);
+        ceduo_app_news(app);
+    } while (!app->result || app->outlook->rocks < rocks || app->outlook_key != app->shown_key);
+    ceduo_app_draw(app);
+}
+
+static void to_field(struct app *app, const char *path)
+{
+    struct form *form = &app->forms[app->view];
+    for (size_t i = 0; i < form->n; i++)
+        if (form->rows[i].n > 0 && strcmp(form->rows[i].cells[0].path, path) == 0)
+            form->row = i;
+}
+
+int main(int argc, char **argv)
+{
+    size_t repeats = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 100;
+    struct app app;
+    struct problems problems = {0};
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all), *stand = calloc(repeats, sizeof *stand);
+    if (!first || !all || !stand ||
+        !ceduo_app_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, &problems))
+        return 1;
+    ceduo_app_resize(&app, 120, 40);
+    ceduo_worker_wait(app.worker);
+    printf("what,edits,median_ms,p99_ms,goal_median_ms,goal_p99_ms\n");
+    for (size_t i = 0; i < repeats; i++) {
+        ceduo_app_key(&app, '3');
+        to_field(&app, "rock.diameter_m");
+        double start = now();
+        ceduo_app_key(&app, i % 2 ? '-' : '+');
+        wait_for(&app, 1000);
+        first[i] = now() - start;
+        wait_for(&app, 10000);
+        all[i] = now() - start;
+        ceduo_worker_wait(app.worker);
+        ceduo_app_key(&app, '2');
+        to_field(&app, "forest[0].stand.stools.per_ha");
+        start = now();
+        ceduo_app_key(&app, i % 2 ? '-' : '+');
+        ceduo_app_draw(&app);
+        stand[i] = now() - start;
+    }
+    report("key to a picture of 1000 rocks", first, repeats, 33, 100);
+    report("key to a picture of 10000 rocks", all, repeats, 250, 0);
+    report("edit of a stand (index)", stand, repeats, 5, 0);
+    ceduo_app_free(&app);
+    free(first);
+    free(all);
+    free(stand);
+    return 0;
+}

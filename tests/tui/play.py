@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tests of the terminal program share: scripts played without a terminal, the screens that they dump."""
+import os
+import re
+import subprocess
+import sys
+import time
+import unicodedata
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
+from harness import CEDUO, DONE, ROOT, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
+
+VIEWS = ["slope", "stand", "rock", "results", "compare"]
+
+# Its rocks all fly the same way: the figures are as fine as they will be at once.
+FAST = """\
+# kept: the first line
+ceduo: scene/1
+title: fast
+rock: {shape: sphere, diameter_m: 0.5}   # kept: found on the road
+release: {vx_m_s: 1}
+slope:
+  vertices_m: [[0, 80], [60, 30], [100, 0]]
+  segments:
+    - {rn: 0.3, rt: 0.98, roughness_rad: 0, friction: 0.25}
+    # kept: below the path
+    - {rn: 0.25, rt: 0.97, roughness_rad: 0, friction: 0.3}
+controls:
+  - {x_m: 60, name: track, accepted_kJ: 20}
+  - {x_m: 80, name: road, accepted_kJ: 50}
+forest:
+  - from_m: 5
+    to_m: 45
+    stand:
+      name: upper
+      species: ostrya-carpinifolia
+      stools: {per_ha: 3000, spacing_m: 0.4}   # kept: counted in May
+      shoots:
+        - {per_ha: 9000, dbh_m: 0.06, height_m: 7, volume_m3: 0.01}
+        - {per_ha: 500, dbh_m: 0.12, height_m: 10, volume_m3: 0.05}
+      trees:
+        - {per_ha: 80, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}
+        - {per_ha: 20, dbh_m: 0.35, height_m: 16, volume_m3: 0.7}
+      energy: {model: brauner, u_J_m3: 100000}
+  - from_m: 50
+    to_m: 80
+    stand:
+      name: lower
+      species: ostrya-carpinifolia
+      stools: {per_ha: 1000, spacing_m: 0.3}
+      shoots: [{per_ha: 2500, dbh_m: 0.05, height_m: 5, volume_m3: 0.005}]
+      trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}]
+      energy: {model: brauner, u_J_m3: 100000}
+simulation: {rocks: 1000}
+"""
+# The same with three ways to treat it.
+OPTIONS = FAST[:FAST.index("forest:")] + """\
+options:
+  - name: thick
+    forest:
+      - from_m: 5
+        to_m: 80
+        stand: {name: many, species: ostrya-carpinifolia, stools: {per_ha: 3000, spacing_m: 0.4},
+                shoots: [{per_ha: 9000, dbh_m: 0.06, height_m: 7, volume_m3: 0.01}],
+                energy: {model: brauner, u_J_m3: 100000}}
+  - name: thin
+    forest:
+      - from_m: 5
+        to_m: 80
+        stand: {name: few, species: ostrya-carpinifolia, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}],
+                energy: {model: brauner, u_J_m3: 100000}}
+  - name: none left
+    forest: []
+simulation: {rocks: 1000}
+"""
+
+
+class Screen:
+    def __init__(self, text, width, height):
+        self.text, self.width, self.height = text, width, height
+        self.lines = text.split("\n")[:-1] if text.endswith("\n") else text.split("\n")
+        self.side = 44 if width >= 140 else 36 if width >= 100 else 28
+
+    def __str__(self):
+        return f"screen of {self.width} x {self.height}:\n{self.text}"
+
+    @property
+    def title(self):
+        return self.lines[0]
+
+    @property
+    def note(self):
+        """What explains the field, or answers the last key."""
+        return self.lines[-2]
+
+    @property
+    def bar(self):
+        return self.lines[-1]
+
+    def cut(self, left, right):
+        return [line[left:right].rstrip() for line in self.lines[2:self.height - 3]]
+
+    @property
+    def body(self):
+        """The view's own part."""
+        return "\n".join(self.cut(0, self.width - self.side - 2))
+
+    @property
+    def now(self):
+        """The column on the right."""
+        return "\n".join(self.cut(self.width - self.side + 1, self.width))
+
+    def figure(self, pattern):
+        """The number that follows in the column on the right."""
+        found = re.search(pattern + r"\s*([-\d.]+)", self.now)
+        expect(found, f"no '{pattern}' with a number in the column on the right:", self.now)
+        return float(found.group(1).rstrip("."))
+
+    def has(self, *parts):
+        """Each part is there, in whatever layout: runs of blanks are one."""
+        flat = re.sub(r"[ \n]+", " ", self.text)
+        for part in parts:
+            expect(part in flat or part in self.text, f"{part!r} is missing in the", self)
+        return self
+
+    def lacks(self, *parts):
+        for part in parts:
+            expect(part not in self.text, f"{part!r} should not be in the", self)
+        return self
+
+    def row(self, pattern):
+        """The body's first line that matches, as words."""
+        for line in self.body.split("\n"):
+            if re.search(pattern, line):
+                return line.split()
+        raise Failure(f"no line like {pattern!r} in the", self)
+
+    def whole(self):
+        """As many lines as the screen has, none wider than it."""
+        expect(len(self.lines) == self.height and self.text.endswith("\n"),
+               f"{len(self.lines)} lines, {self.height} wanted", self)
+        for line in self.lines:
+            wide = sum(2 if unicodedata.east_asian_width(c) in "WF" else not unicodedata.combining(c) for c in line)
+            expect(wide <= self.width, f"{wide} columns, {self.width} wanted: {line}")
+        return self
+
+
+def home(folder):
+    """An environment that keeps the program's files in a folder; without a terminal's name."""
+    at = str(folder)
+    return environment(HOME=at, XDG_STATE_HOME=at + "/state", XDG_DATA_HOME=at + "/data", XDG_CONFIG_HOME=at + "/config",
+                       XDG_CACHE_HOME=at + "/cache", TERM=None, COLUMNS=None, LINES=None)
+
+
+def run_script(folder, script, *arguments, timeout=60, name="play.txt"):
+    """Plays a script with no terminal at all; the program ends by itself, whatever its status."""
+    (folder / name).write_text(script)
+    command = [CEDUO, "--script", name, *map(str, arguments)]
+    start = time.monotonic()
+    try:
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              cwd=folder, env=home(folder), timeout=timeout, check=False, start_new_session=True)
+    except subprocess.TimeoutExpired as late:
+        raise Failure(f"not ended after {timeout} s", script) from late
+    result = Result(command[1:], done.returncode, done.stdout, done.stderr, time.monotonic() - start)
+    expect(0 <= result.status <= 4, "the program crashed on", script, result)
+    only_text(result.out_bytes, "stdout")
+    only_text(result.err_bytes, "stderr")
+    return result
+
+
+def play(folder, script, *arguments, charset="braille"):
+    """The screens that a script dumps: a line 'dump' alone takes one. Also: 'find WORD' searches, 'set VALUE' types
+    into the field, 'clear' takes the message away."""
+    width, height, sizes, lines = 80, 24, [], []
+    for line in script.strip().split("\n"):
+        line = line.strip()
+        word, _, rest = line.partition(" ")
+        if line == "dump":
+            lines.append(f"dump screen-{len(sizes)}.txt")
+            sizes.append((width, height))
+        elif word == "find":
+            lines += ["key /", "key Ctrl-U", f"type {rest}", "key Enter"]
+        elif word == "set":
+            lines += ["key Enter", "key Ctrl-U", f"type {rest}", "key Enter"]
+        elif line == "clear":
+            lines.append("key Ctrl-L")
+        else:
+            if word == "resize":
+                width, height = map(int, rest.split())
+            lines.append(line)
+    done = run_script(folder, "\n".join(lines) + "\n", "--charset", charset, *arguments)
+    expect(done.status == DONE and done.err == "", "the script", "\n".join(lines), done)
+    screens = []
+    for i, (width, height) in enumerate(sizes):
+        path = folder / f"screen-{i}.txt"
+        expect(path.exists(), f"dump {i} was not written: the program ended before", "\n".join(lines))
+        screens.append(Screen(path.read_text(), width, height))
+        path.unlink()
+    return screens
+
+
+class Place(Folder):
+    """A folder with the fast scene in it."""
+
+    def __enter__(self):
+        super().__enter__()
+        self.write("fast.yaml", FAST)
+        self.write("options.yaml", OPTIONS)
+        return self
+
+    def play(self, script, scene="fast.yaml", **options):
+        return play(self.path, script, scene, **options)
+
+    def text(self, name):
+        return (self.path / name).read_text()
+
+
+def fast(script, scene="fast.yaml", **options):
+    """The screens of a script on the fast scene in a folder of its own."""
+    with Place() as place:
+        return place.play(script, scene, **options)
+
+
+def actions():
+    """The program's one table of keys: (name, first word, second word, 0…2 in the bar, what it does)."""
+    source = (ROOT / "src/tui/keys.h").read_text()
+    rows = re.findall(r'X\((\w+), (?:\',\'|[^,]+), "(.*?)", [^,]+, "(.*?)", (\d), N_\("(.*?)"\)\)', source)
+    expect(len(rows) > 30 and len(rows) == len(re.findall(r"^ *X\([A-Z]", source, re.M)), rows)
+    return [(name, word, word2, int(bar), text) for name, word, word2, bar, text in rows]
+
+
+def check_good(folder, name):
+    """The program itself finds nothing wrong with a scene."""
+    done = subprocess.run([CEDUO, "--check", name], cwd=folder, env=home(folder), stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, check=False)
+    expect(done.returncode == DONE, f"{name}: ceduo --check says", done.stdout.decode(), "of",
+           (Path(folder) / name).read_text()[:3000])
