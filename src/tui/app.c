@@ -830,10 +830,9 @@ static void draw_title(struct app *app)
     ceduo_text_safe(&title, app->document.file.scene.title);
     int room = app->width - x - 1;
     if (title.bytes && room > 4) {
-        struct ceduo_area area = {x + 1, 0, room, 1};
         int columns = (int)ceduo_text_columns(title.bytes);
-        area.left = columns < room ? app->width - columns : x + 1;
-        ceduo_app_text(app, area, CEDUO_ROLE_TITLE, title.bytes, 0);
+        ceduo_form_cut(app->canvas, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
+                       title.bytes);
     }
     ceduo_text_free(&title);
 }
@@ -850,9 +849,8 @@ static void draw_explanation(struct app *app)
         ceduo_form_explain(&app->document, cell, &text);
     }
     ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
-    struct ceduo_area line = {0, app->height - 2, app->width, 1};
     if (safe.bytes)
-        ceduo_app_text(app, line, role, safe.bytes, 0);
+        ceduo_form_cut(app->canvas, 0, app->height - 2, app->width, role, safe.bytes);
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
 }

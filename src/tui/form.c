@@ -236,21 +236,27 @@ static void cell_place(const struct form_row *row, int width, size_t k, int *fro
     *span = each - 1;
 }
 
-static void put_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ceduo_role role, const char *text)
+/* Bytes of the first `columns` columns. */
+static size_t bytes_of(const char *text, size_t columns)
 {
-    char cut[256];
     size_t n = 0;
-    int columns = 0;
-    while (text[n] && n + 5 < sizeof cut && columns < span) {
-        cut[n] = text[n];
-        n++;
-        while (((unsigned char)text[n] & 0xc0) == 0x80 && n + 5 < sizeof cut) {
-            cut[n] = text[n];
+    for (; text[n] && columns > 0; columns--)
+        do
             n++;
-        }
-        columns++;
-    }
-    cut[n] = '\0';
+        while (((unsigned char)text[n] & 0xc0) == 0x80);
+    return n;
+}
+
+void ceduo_form_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ceduo_role role, const char *text)
+{
+    char cut[512];
+    if (span <= 0)
+        return;
+    bool whole = ceduo_text_columns(text) <= (size_t)span;
+    size_t n = bytes_of(text, whole ? (size_t)span : (size_t)span - 1);
+    n = n < sizeof cut - 4 ? n : bytes_of(text, 100);
+    memcpy(cut, text, n);
+    memcpy(cut + n, whole ? "" : "\xe2\x80\xa6", whole ? 1 : 4);
     ceduo_canvas_label(canvas, x, y, role, cut);
 }
 
@@ -275,7 +281,7 @@ static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, i
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_canvas_label(canvas, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
-    put_cut(canvas, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
+    ceduo_form_cut(canvas, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
             text);
     if (cursor && edit)
         ceduo_canvas_label(canvas, left + from + (int)ceduo_text_columns(text), y, CEDUO_ROLE_CURSOR, "_");
@@ -286,19 +292,19 @@ static void draw_row(const struct form *form, size_t i, struct ceduo_canvas *can
 {
     const struct form_row *row = &form->rows[i];
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
-        put_cut(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
+        ceduo_form_cut(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
         return;
     }
     bool here = i == form->row && focused;
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : LABEL - 1;
-        put_cut(canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_form_cut(canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         if (row->kind == FORM_COLUMNS_ROW) {
             int from, span;
             cell_place(row, width, k, &from, &span);
-            put_cut(canvas, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
+            ceduo_form_cut(canvas, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
         } else {
             draw_cell(row, canvas, left, y, width, k, here && k == form->column, edit);
         }

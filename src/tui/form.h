@@ -63,6 +63,9 @@ void ceduo_form_move(struct form *form, int lines, int columns);
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);
 
+/* A text in at most `span` columns, its end as … where it is longer. */
+void ceduo_form_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ceduo_role role, const char *text);
+
 /* Draws the lines into a rectangle, scrolled so that the cursor is seen. `edit`: text to show in the cell under the
  * cursor instead of its own (NULL: none). */
 void ceduo_form_draw(struct form *form, struct ceduo_canvas *canvas, int left, int top, int width, int height,

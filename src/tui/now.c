@@ -25,8 +25,7 @@ __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ced
     va_end(args);
     ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
     if (pen->y < pen->area.top + pen->area.height && safe.bytes) {
-        struct ceduo_area one = {pen->area.left, pen->y, pen->area.width, 1};
-        ceduo_app_text(pen->app, one, role, safe.bytes, 0);
+        ceduo_form_cut(pen->app->canvas, pen->area.left, pen->y, pen->area.width, role, safe.bytes);
     }
     pen->y++;
     ceduo_text_free(&text);

@@ -237,9 +237,9 @@ static void draw_list(struct app *app, struct popup *p)
     if (p->at >= p->top + room)
         p->top = p->at + 1 - room;
     for (size_t i = 0; i < room && p->top + i < p->items_count; i++) {
-        struct ceduo_area row = {r.left + 2, r.top + 1 + note_lines + (int)i, r.width - 4, 1};
         bool here = p->top + i == p->at;
-        ceduo_app_text(app, row, here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[p->top + i].text, 0);
+        ceduo_form_cut(app->canvas, r.left + 2, r.top + 1 + note_lines + (int)i, r.width - 4,
+                       here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[p->top + i].text);
     }
     struct ceduo_area note = {r.left + 2, r.top + 1, r.width - 4, note_lines};
     if (p->text.bytes)

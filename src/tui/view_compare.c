@@ -17,6 +17,8 @@ static void build(struct app *app, struct form *form)
     form->row = app->option + 1; /* below the names of the columns */
 }
 
+#define FIGURES 40 /* columns of the figures and the lights */
+
 /* What is compared; each figure with what is better. */
 enum column { ADC, FREE_RUN, TAKEN, LEFT, COLUMNS };
 
@@ -51,48 +53,66 @@ static char mark_of(const struct app *app, size_t i, enum column column)
     return here == best ? '*' : here == worst ? '!' : ' ';
 }
 
-static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
+/* Columns of the names, and lines that an option takes: where there is no room beside the figures, its name stands above
+ * them. */
+static int name_columns(struct ceduo_area area)
+{
+    return area.width - FIGURES >= 20 ? area.width - FIGURES : 8;
+}
+
+static int lines_of(struct ceduo_area area)
+{
+    return area.width - FIGURES >= 20 ? 1 : 2;
+}
+
+static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
+{
+    enum ceduo_role role = i == app->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT;
+    int width = lines_of(area) == 1 ? name_columns(area) - 1 : area.width;
+    struct text safe = {0};
+    ceduo_text_safe(&safe, app->result->scene->options[i].name);
+    for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
+        ceduo_canvas_label(app->canvas, area.left + x, y, role, " ");
+    ceduo_form_cut(app->canvas, area.left, y, width, role, safe.bytes ? safe.bytes : "");
+    ceduo_text_free(&safe);
+}
+
+static void draw_figure(struct app *app, int x, int y, size_t i, enum column column)
 {
     const struct ceduo_result *r = app->result;
-    const struct ceduo_option *o = &r->scene->options[i];
-    const struct ceduo_index *s = &r->options[i].controls[r->last_control];
-    bool here = i == app->option;
-    int name = area.width - 39;
-    struct ceduo_area first = {area.left, y, name > 8 ? name : 8, 1};
-    struct text safe = {0};
-    ceduo_text_safe(&safe, o->name);
-    for (int x = 0; here && x < first.width; x++)
-        ceduo_canvas_label(app->canvas, area.left + x, y, CEDUO_ROLE_CURSOR, " ");
-    ceduo_app_text(app, first, here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, safe.bytes ? safe.bytes : "", 0);
-    ceduo_text_free(&safe);
-    int x = area.left + first.width;
-    for (int c = 0; c < COLUMNS; c++) {
-        double value = figure(app, i, (enum column)c);
-        struct text text = {0};
-        if (c == FREE_RUN)
-            ceduo_text_format(&text, "%.1f %%", value * 100);
-        else if (c == LEFT && s->exhausted)
-            ceduo_text_put(&text, _("used up"));
-        else
-            ceduo_words_number(&text, value, 3);
-        if (text.bytes)
-            ceduo_canvas_label_right(app->canvas, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
-        char mark[2] = {mark_of(app, i, (enum column)c), '\0'};
-        ceduo_canvas_label(app->canvas, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
-        ceduo_text_free(&text);
-        x += 9;
-    }
-    x++;
-    bool lights[2] = {s->contact == CEDUO_PASS, s->free_run == CEDUO_PASS};
+    struct text text = {0};
+    double value = figure(app, i, column);
+    if (column == FREE_RUN)
+        ceduo_text_format(&text, "%.1f %%", value * 100);
+    else if (column == LEFT && r->options[i].controls[r->last_control].exhausted)
+        ceduo_text_put(&text, _("used up"));
+    else
+        ceduo_words_number(&text, value, 3);
+    if (text.bytes)
+        ceduo_canvas_label_right(app->canvas, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
+    char mark[2] = {mark_of(app, i, column), '\0'};
+    ceduo_canvas_label(app->canvas, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
+    ceduo_text_free(&text);
+}
+
+static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
+{
+    const struct ceduo_index *s = &app->result->options[i].controls[app->result->last_control];
+    draw_name(app, area, y, i);
+    y += lines_of(area) - 1;
+    int x = area.left + name_columns(area);
+    for (int c = 0; c < COLUMNS; c++, x += 9)
+        draw_figure(app, x, y, i, (enum column)c);
+    const bool lights[2] = {s->contact == CEDUO_PASS, s->free_run == CEDUO_PASS};
     for (int k = 0; k < 2; k++)
-        ceduo_canvas_label(app->canvas, x + k, y, lights[k] ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
+        ceduo_canvas_label(app->canvas, x + 1 + k, y, lights[k] ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
                            lights[k] ? "\xe2\x9c\x94" : "\xe2\x9c\x98");
 }
 
 static void draw_head(struct app *app, struct ceduo_area area)
 {
     static const char *const words[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
-    int name = area.width - 39, x = area.left + (name > 8 ? name : 8);
+    int x = area.left + name_columns(area);
     ceduo_canvas_label(app->canvas, area.left, area.top, CEDUO_ROLE_TITLE, _("option"));
     for (int c = 0; c < COLUMNS; c++, x += 9)
         ceduo_canvas_label_right(app->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
@@ -106,17 +126,17 @@ static void draw(struct app *app, struct ceduo_area area)
         return;
     size_t n = app->result->options_count;
     draw_head(app, area);
-    int room = area.height - 7, top = 0;
-    if ((int)app->option >= room)
-        top = (int)app->option - room + 1;
+    int lines = lines_of(area), foot_lines = area.height >= 26 ? 6 : area.height - 1 - lines * (int)n;
+    foot_lines = foot_lines < 2 ? 2 : foot_lines > 6 ? 6 : foot_lines;
+    int room = (area.height - 1 - foot_lines) / lines;
+    int top = (int)app->option >= room ? (int)app->option - room + 1 : 0;
     for (int i = 0; i < room && (size_t)(top + i) < n; i++)
-        draw_row(app, area, area.top + 1 + i, (size_t)(top + i));
-    struct ceduo_area foot = {area.left, area.top + area.height - 5, area.width, 5};
+        draw_row(app, area, area.top + 1 + lines * i, (size_t)(top + i));
+    struct ceduo_area foot = {area.left, area.top + area.height - foot_lines, area.width, foot_lines};
     ceduo_app_text(app, foot, CEDUO_ROLE_DIM,
-                   n > 1 ? _("* best, ! worst of a column; C contact, F free run. Without forest every option sees the "
-                             "same rocks; kJ per 100 m and what is left are by the index, which says what stems could "
-                             "take, not what a rock loses. No column decides alone. a adds from a preset, y copies, "
-                             "Enter renames, d deletes, < > reorder, p other stand, 2 its stand.")
+                   n > 1 ? _("* best, ! worst; C contact, F free run. a adds from a preset, y copies, Enter renames, d "
+                             "deletes, < > reorder, p and 2 its stand. Without forest every option sees the same rocks; "
+                             "the index says what stems could take, not what a rock loses. No column decides alone.")
                          : _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."),
                    0);
 }

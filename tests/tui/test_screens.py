@@ -1,0 +1,1415 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The screens of the terminal program, from scripts and without any terminal: what stands on them, and what each key
+does to the scene, to the figures and to the files."""
+import json
+import math
+import os
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
+from play import FAST, OPTIONS, VIEWS, Place, actions, check_good, fast, run_script  # noqa: E402
+from harness import (DONE, INPUT, PROFILES, USAGE, Folder, Skip, Suite, environment, expect, expect_equal,  # noqa: E402
+                     expect_in, expect_near, tests_of)
+
+SIZES = [(80, 24), (120, 40), (200, 50)]
+CHARSETS = ["braille", "block", "ascii"]
+SCENES = ["paper-site", "four-systems"]
+EIGHT = ["simple coppice, 25 years", "simple coppice, just cut", "coppice with standards",
+         "coppice with standards, just cut", "selection coppice", "selection coppice, just cut", "large reserves",
+         "large reserves, just cut"]
+SIGNS = {"passes": {"braille": "✔", "block": "✔", "ascii": "+"}, "FAILS": {"braille": "✘", "block": "✘", "ascii": "x"},
+         "unknown": {"braille": "?", "block": "?", "ascii": "?"}}
+
+# ---- every view in every size ----
+
+_seen = {}
+
+
+def views_of(scene, charset):
+    """The five views in every size, played once."""
+    if (scene, charset) not in _seen:
+        script = ["wait idle"]
+        for width, height in SIZES:
+            script.append(f"resize {width} {height}")
+            script += [line for v in range(5) for line in (f"key {v + 1}", "dump")]
+        with Folder() as folder:
+            screens = play.play(folder.path, "\n".join(script), scene, charset=charset)
+        keys = [(size, view) for size in SIZES for view in VIEWS]
+        _seen[scene, charset] = dict(zip(keys, screens))
+    return _seen[scene, charset]
+
+
+def lights(screen, charset):
+    """{'Contact': 'passes', …}: the sign and the word must agree."""
+    found = {}
+    for name in ("Contact", "Free run", "Energy"):
+        match = re.search(rf"^(\S) {name} +(\w+)", screen.now, re.M)
+        expect(match, f"no light '{name}' in the", screen)
+        sign, word = match.groups()
+        expect(word in SIGNS and SIGNS[word][charset] == sign, f"the sign {sign!r} does not go with {name} {word}", screen)
+        found[name] = word
+    return found
+
+
+def check_frame(screen, scene, charset):
+    screen.whole()
+    for i, view in enumerate(VIEWS):
+        expect_in(f"{i + 1} {view}", screen.title, "title")
+    title = {"paper-site": "Test site of Ciabocco", "four-systems": "Four systems, before and after"}[scene]
+    expect_in(title, screen.title, "title")
+    for part in ("? help", "q quit", "Enter edit", "u undo", "s save", "p presets"):
+        expect_in(part, screen.bar, "the bar of keys")
+    wall = "|" if charset == "ascii" else "│"
+    at = screen.width - screen.side - 1
+    for y in range(2, screen.height - 3):
+        line = screen.lines[y].ljust(screen.width)
+        expect(line[at] == wall and line[at - 1] == line[at + 1] == " ",
+               f"line {y + 1}: something reaches over the wall between view and figures: {line!r}", screen)
+    expect(screen.lines[1] == "" and screen.lines[screen.height - 3] == "", "a line of distance is not empty", screen)
+    if charset == "ascii":
+        expect(screen.text.isascii(), "not pure ASCII:", ascii(screen.text))
+
+
+def check_now(screen, scene, charset):
+    now = screen.now
+    expect_in("Rock  0.68 m  512.3 kg", now)
+    expect_in("At 135 m, end of the forest", now)
+    expect_in("without forest, of 1000:", now)
+    sign = r"\+-" if charset == "ascii" else "±"
+    for pattern in (r"^ pass +\d+ \(\d+-\d+\)$", r"^ >50 kJ +\d+ \(\d+-\d+\)$", rf"^ energy [\d.]+ kJ {sign}[\d.]+$",
+                    r"^ +95 % [\d.]+ kJ$", r"^ height [\d.]+ m \(95 %\)$", r"^ taken +[\d.]+ kJ$", r"^ left +[\d.]+ kJ$",
+                    rf"^= {sign}[\d.]+ % \d+ rocks$"):
+        expect(re.search(pattern, now, re.M), f"nothing like {pattern!r} in the column on the right:", now)
+    found = lights(screen, charset)
+    expect_equal(found, {"Contact": "passes", "Free run": "passes", "Energy": "unknown"}, "lights")
+    if scene == "paper-site":
+        expect_in("seen   62.3 kJ (one rock)", now)
+        expect_in("Eq. 6 gives", now, "the warning about ADS 2")
+
+
+MUST = {
+    "slope": ["Belts of forest", "from_m to_m stand", "energy, kJ", "0 m", "Controls"],
+    "stand": ["from_m to_m stand", "Stand of belt 1:", "system", "species", "stools per ha", "spacing, m",
+              "Shoots on the stools", "Single trees: standards, reserves", "per_ha dbh_m height_m",
+              "stems/ha, basal area", "by interception", "kJ per 100 m"],
+    "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m3 2600", "Release", "x, m 0",
+             "spin, rad/s 0", "Simulation", "law of impact lumped", "512.3 kg", "mean diameter B 0.68 m"],
+    "results": ["of 102400 rocks", "50 kJ", "p50", "p95", "bears 50", "Without forest, of 1000 rocks released: 991"],
+    "compare": ["option ADC m free run kJ/100m left kJ"]}
+WIDE = {"slope": ["height above the ground, m", "without forest", "release", "end of the forest (135 m)", "p95", "p50",
+                  "rn rt roughness_rad friction", "x_m name accepted_kJ measured_speed_m_s", "facets against"],
+        "stand": ["One pattern of many. The rock (0.68 m wide) meets", "Energy of a contact", "model brauner", "fracture ratio"],
+        "rock": ["form of the ADC auto", "threshold, m 30", "gravity, m/s2 9.81", "seed 1", "title"],
+        "results": ["gsteiger-stools", "gsteiger-stems", "interception", "crofton",
+                    "30 m: in this distance without a contact a rock reaches its full speed",
+                    "Contact: passes.", "Free run: passes.", "By the index (Eq. 4, interception)"],
+        "compare": []}
+
+
+def check_view(screen, view, scene, charset):
+    screen.has(*MUST[view])
+    if screen.width >= 120:
+        screen.has(*WIDE[view])
+    if view == "results" and scene == "four-systems" and screen.width >= 120:
+        screen.has("applied: passes")
+    if view == "slope":
+        screen.has("heights x" if charset == "ascii" else "heights ×")
+        screen.has("ADS 1" if scene == "paper-site" else "simple coppice")
+    if view == "compare" and scene == "four-systems":
+        screen.has("* best, ! worst of a column")
+        names = [line[:screen.width - screen.side - 2 - 39].strip() for line in screen.body.split("\n")[1:9]]
+        expect(len(set(names)) == 8, "the names of the options cannot be told apart:", names, screen)
+        if screen.width >= 120:
+            expect_equal(names, EIGHT, "names of the options")
+    if view in ("slope", "stand", "rock"):
+        where = {"slope": "from_m  where the belt begins", "stand": "from_m  where the belt begins",
+                 "rock": "shape  shape of the rock"}[view]
+        expect(screen.note.startswith(where), f"the line above the keys does not explain the field: {screen.note!r}")
+    expect("nan" not in re.sub(r"\w*nan\w+|\w+nan\w*", "", screen.text.lower()), "a nan on the", screen)
+
+
+def check_screen(size, view, scene, charset):
+    screens = views_of(scene, charset)
+    screen = screens[size, view]
+    check_frame(screen, scene, charset)
+    check_now(screen, scene, charset)
+    expect_equal(screen.now, screens[size, "slope"].now, "the column on the right, as in the first view")
+    check_view(screen, view, scene, charset)
+    marks = {"braille": (0x2800, 0x28ff), "block": (0x2580, 0x259f)}.get(charset)
+    if view == "slope" and marks:
+        expect(sum(marks[0] < ord(c) <= marks[1] for c in screen.body) > 20, f"hardly any {charset} in the", screen)
+    other = {"braille": "▀▄█", "block": "⠁⠂⠄⡀⣀⠉"}.get(charset)
+    if view == "slope" and other:
+        expect(not set(other) & set(screen.body), f"dots of another kind than {charset} in the", screen)
+
+
+GOLDEN_STAND = """\
+    from_m         to_m           stand
+1   0              67.5           ADS 1
+2   67.5           135            ADS 2
+Stand of belt 1: ADS 1
+system            simple-coppice
+species           ostrya-carpinifolia
+stools per ha     3688
+spacing, m        0.5
+Shoots on the stools
+    per_ha   dbh_m    height_m volume_m dbh_sd_m
+1   8326     0.061    6        0.0107   0
+Single trees: standards, reserves
+    per_ha   dbh_m    height_m volume_m dbh_sd_m
+1   750      0.061    6        0.0107   0"""
+GOLDEN_ROCK = """\
+Rock
+shape             cylinder
+diameter, m       0.56
+height, m         0.80
+mass, kg          -
+density, kg/m3    2600
+Release
+x, m              0
+height, m         0"""
+
+
+def test_golden():
+    """The forms of stand and rock at 80x24 stand as they always stood."""
+    screens = views_of("paper-site", "braille")
+    expect(screens[(80, 24), "stand"].body.startswith(GOLDEN_STAND), "wanted", GOLDEN_STAND, screens[(80, 24), "stand"])
+    expect(screens[(80, 24), "rock"].body.startswith(GOLDEN_ROCK), "wanted", GOLDEN_ROCK, screens[(80, 24), "rock"])
+
+
+def test_more_mark():
+    """The mark of more text below does not stand on a letter of the results."""
+    for scene in SCENES:
+        for size in SIZES:
+            body = views_of(scene, "ascii")[size, "results"].body
+            found = re.findall(r"\b\w*[a-uw-z]v[^\Waeiouy]\w*", body)
+            expect(not found, f"{size}: in the middle of a word: {found}", body)
+
+
+def test_explanation():
+    """The line above the keys tells unit, range, default and source of the field."""
+    screens = fast("""resize 200 50
+        key 2
+        find stools.per_ha
+        dump
+        key 1
+        find roughness_rad
+        key 3
+        find rock.density_kg_m3
+        dump
+        find simulation.threshold_m
+        dump
+        find simulation.law
+        dump""", "paper-site")
+    expect_in("stools per horizontal hectare; 1/ha", screens[0].note)
+    expect_in("[measured: Ciabocco, Boccia and Ripa 2009, Table 1", screens[0].note, "source")
+    for part in ("density_kg_m3", "kg/m3", "(default 2600)", "[measured: Ciabocco"):
+        expect_in(part, screens[1].note, "density")
+    for part in ("threshold_m", "; m", "(default 30)"):
+        expect_in(part, screens[2].note, "threshold")
+    expect_in("(default lumped)", screens[3].note)
+
+
+def test_assumed():
+    """What is assumed carries a star, what is measured none."""
+    screen = fast("""resize 120 40
+        key 2
+        dump""", "four-systems")[0]
+    expect_equal(screen.row("^stools per ha")[-1], "2500*", "stools")
+    screen = fast("key 2\ndump", "paper-site")[0]
+    expect_equal(screen.row("^stools per ha")[-1], "3688", "stools")
+
+
+def test_too_small():
+    """Below 60 x 20 a message says what is needed; at 60 x 20 the views are there, whole and in their place."""
+    screens = fast("""wait idle
+        resize 59 19
+        dump
+        resize 60 19
+        dump
+        resize 59 20
+        dump
+        resize 20 4
+        dump
+        resize 1 1
+        dump
+        resize 80 24
+        dump""")
+    for screen in screens[:3]:
+        screen.whole().has(f"ceduo needs a window of 60 x 20; this one is {screen.width} x {screen.height}.", "q quits")
+    screens[3].whole().has("ceduo needs a")
+    screens[4].whole()
+    screens[5].whole().has("Belts of forest")
+
+
+def check_smallest(view):
+    scene, charset = "four-systems", "ascii"
+    screen = fast(f"wait idle\nresize 60 20\nkey {VIEWS.index(view) + 1}\ndump", scene, charset=charset)[0].whole()
+    at = screen.width - screen.side - 1
+    for line in screen.lines[2:screen.height - 3]:
+        line = line.ljust(60)
+        expect(line[at] == "|" and line[at - 1] == line[at + 1] == " ", "view and figures run into each other", screen)
+    expect_equal(lights(screen, charset)["Contact"], "passes", "light")
+    for part in ("? help", "q quit"):
+        expect_in(part, screen.bar, "bar")
+
+
+def test_any_size():
+    """Every view and help in sizes from 60 x 20 to 300 x 100 fills the screen exactly."""
+    script = ["wait idle"]
+    for width, height in ((60, 20), (61, 21), (79, 25), (99, 20), (100, 30), (139, 21), (140, 60), (300, 20), (60, 100),
+                          (300, 100)):
+        script.append(f"resize {width} {height}")
+        script += [line for v in "12345" for line in (f"key {v}", "dump")] + ["key ?", "dump", "key Esc"]
+    for screen in fast("\n".join(script), "options.yaml"):
+        screen.whole()
+
+
+# ---- the small things of a script ----
+
+def test_script_words():
+    """An unknown command, key, size or file ends with status 2 and its line."""
+    with Place() as place:
+        for line, what in (("frobnicate", "frobnicate"), ("key Nokey", "Nokey"), ("resize 80", "80"), ("resize 0 5", ""),
+                           ("resize 100000 5", ""), ("resize a b", ""), ("wait", ""), ("wait long", ""),
+                           ("dump no/such/folder/file.txt", "no/such/folder/file.txt"), ("Dump x", "Dump")):
+            done = run_script(place.path, f"# a comment\n\nkey 2\n{line}\nkey q\n", "fast.yaml")
+            expect(done.status == USAGE, f"'{line}': status {done.status}, 2 wanted", done)
+            expect(done.err.startswith("play.txt:4: ") and what in done.err, f"'{line}'", done)
+            expect_equal(done.err.count("\n"), 1, "lines on standard error")
+        done = run_script(place.path, "key 2\n", "fast.yaml", "--script", "none.txt")
+        expect(done.status != DONE and "none.txt" in done.err, done)
+        done = run_script(place.path, "key 2\n", "none.yaml")
+        expect(done.status == INPUT and "none.yaml" in done.err, done)
+
+
+def test_script_end():
+    """A script may end at any point, in CRLF, without a last line end, and after quitting nothing more is done."""
+    with Place() as place:
+        done = run_script(place.path, "key 2\r\nkey q\r\ndump late.txt\r\n", "fast.yaml")
+        expect(done.status == DONE and not (place.path / "late.txt").exists(), done)
+        for script in ("", "key ?", "key Enter", "type x", "key n", "# only a comment"):
+            expect_equal(run_script(place.path, script, "fast.yaml").status, DONE, script)
+        expect_equal(place.text("fast.yaml"), FAST, "the scene")
+
+
+def test_script_stdout():
+    """'dump -' writes the screen to standard output, and nothing else is there."""
+    with Place() as place:
+        done = run_script(place.path, "key 3\ndump -\n", "fast.yaml", "--charset", "ascii")
+        expect_equal(done.out.count("\n"), 24, "lines")
+        expect(done.out.startswith(" 1 slope  2 stand") and done.err == "", done)
+
+
+def test_without_scene():
+    """Without a scene the paper's site is opened."""
+    with Folder() as folder:
+        screen = play.play(folder.path, "key 3\ndump")[0]
+    screen.has("Test site of Ciabocco", "diameter, m 0.56")
+
+
+def test_charset_of_locale():
+    """The locale chooses the picture's dots, --charset and the key b others."""
+    with Place() as place:
+        run_script(place.path, "wait idle\ndump a.txt\nkey b\ndump b.txt\nkey b\ndump c.txt\n", "fast.yaml")
+        expect(re.search("[\u2801-\u28ff]", place.text("a.txt")), place.text("a.txt"))
+        expect(re.search("[▀▄█]", place.text("b.txt")) and not re.search("[\u2801-\u28ff]", place.text("b.txt")),
+               place.text("b.txt"))
+        expect(place.text("c.txt").isascii(), place.text("c.txt"))
+        before = play.home
+        try:
+            play.home = lambda folder: {**before(folder), "LC_ALL": "C"}
+            run_script(place.path, "wait idle\ndump d.txt\nkey ?\ndump e.txt\n", "fast.yaml")
+        finally:
+            play.home = before
+        expect_equal(place.text("d.txt"), place.text("c.txt"), "the screen under LC_ALL=C")
+        expect(place.text("e.txt").isascii(), place.text("e.txt"))
+
+
+# ---- live ----
+
+def test_stand_edit():
+    """A change of the stand changes ADC, light and index at once, and nothing of what is without forest."""
+    before, at_once, after, cut = fast("""key 2
+        wait idle
+        dump
+        find stools.per_ha
+        set 1000
+        clear
+        dump
+        wait idle
+        dump
+        find shoots
+        key d
+        find trees
+        key d
+        find forest[1]
+        key d
+        wait idle
+        dump""", "paper-site")
+    expect(at_once.now != before.now, "nothing has changed", at_once)
+    for screen in (at_once, after):
+        for name in (" pass", r" >50 kJ", " energy", r"    95 %", " height"):
+            expect_equal(screen.figure(name), before.figure(name), f"'{name}' without forest")
+        expect(screen.figure(" taken") < before.figure(" taken") - 1, "fewer stools, yet the index takes", screen.now)
+        expect_near(screen.figure(" left") + screen.figure(" taken"), screen.figure(" energy"), 0.2, "Eq. 5")
+        adc = [float(re.search(r"ADC ([\d.]+) m", s.body).group(1)) for s in (before, screen)]
+        expect(adc[1] > adc[0] * 2, f"ADC {adc}")
+    expect_equal(lights(before, "braille")["Contact"], "passes", "light")
+    expect_equal(lights(cut, "braille"), {"Contact": "FAILS", "Free run": "FAILS", "Energy": "unknown"}, "lights")
+    cut.whole()
+
+
+def test_rock_edit():
+    """A change of rock or ground changes what passes and its energy."""
+    before, mass, ground = fast("""key 3
+        wait idle
+        dump
+        find rock.diameter_m
+        set 0.8
+        wait idle
+        dump
+        key 1
+        find segments[5].
+        key Right
+        set 0.5
+        wait idle
+        dump""", "paper-site")
+    expect(mass.figure(" energy") > before.figure(" energy") * 1.9, before.now, mass.now)
+    expect(mass.figure(" >50 kJ") > before.figure(" >50 kJ"), before.now, mass.now)
+    expect(float(re.search(r"Rock +[\d.]+ m +([\d.]+) kg", mass.now).group(1)) > 1000, mass.now)
+    expect_near(mass.figure(" pass"), before.figure(" pass"), 3, "the lumped law knows no mass: pass")
+    expect(ground.figure(" pass") < mass.figure(" pass") - 50, mass.now, ground.now)
+    expect(ground.figure(" energy") < mass.figure(" energy"), mass.now, ground.now)
+
+
+def test_control_edit():
+    """Another place to count at: no figure of the old place stands under the new name, none is 'nan'."""
+    screens = fast("""wait idle
+        find controls[1]
+        key d
+        dump
+        wait idle
+        dump
+        find controls[0]
+        key a
+        dump
+        wait idle
+        dump
+        find controls[0]
+        set 50
+        dump
+        wait idle
+        dump""")
+    for screen in screens:
+        expect(not re.search(r">-?nan", screen.now), "the energy that nobody gave is compared with", screen)
+    screens[1].has("At 60 m, track", ">20 kJ")
+    screens[3].has("At 80 m")
+    expect(">" not in screens[3].now.split("passes")[0], "an accepted energy that was not given:", screens[3])
+    screens[5].has("At 80 m")
+    for at in (1, 3, 5):
+        expect_in("1024 rocks", screens[at].now)
+
+
+def test_undo():
+    """Undo and redo bring back the very same screens."""
+    screens = fast("""key 2
+        wait idle
+        find stools.per_ha
+        clear
+        dump
+        set 2000
+        clear
+        wait idle
+        dump
+        key +
+        key +
+        wait idle
+        dump
+        key u
+        key u
+        dump
+        clear
+        wait idle
+        dump
+        key u
+        clear
+        wait idle
+        dump
+        key u
+        dump
+        key Ctrl-R
+        clear
+        wait idle
+        dump
+        key Ctrl-R Ctrl-R
+        clear
+        wait idle
+        dump
+        key Ctrl-R
+        dump""", "paper-site")
+    start, edited, stepped, undone, twice, thrice, none, again, far, end = screens
+    expect(start.text != edited.text != stepped.text, "the edits changed nothing")
+    expect_in("undone: ", undone.note)
+    expect_equal(twice.text, edited.text, "after two undos")
+    expect_equal(thrice.text, start.text, "after three undos")
+    expect_in("nothing to undo", none.note)
+    expect_equal(again.text, edited.text, "after redo")
+    expect_equal(far.text, stepped.text, "after all redos")
+    expect_in("nothing to redo", end.note)
+    expect("* Test site" in edited.title and "* Test site" not in thrice.title, "the mark of unsaved work", edited.title)
+
+
+def test_undo_rock():
+    """Undo of a change of the rock brings back the figures too, which are flown anew."""
+    start, edited, back = fast("""key 3
+        find rock.diameter_m
+        wait idle
+        clear
+        dump
+        set 1.1
+        wait idle
+        dump
+        key u
+        clear
+        wait idle
+        dump""", "paper-site")
+    expect(start.now != edited.now, edited)
+    expect_equal(back.text, start.text, "after undo")
+
+
+def wrong(view, word, value, *parts, right=0):
+    screens = fast(f"""key {view}
+        wait idle
+        find {word}
+        {'key ' + 'Right ' * right if right else '#'}
+        clear
+        dump
+        set {value}
+        dump
+        key Esc
+        clear
+        dump""")
+    before, refused, after = screens
+    for part in parts:
+        expect_in(part, refused.note, f"what is said to {value!r}")
+    expect_in("Esc leaves it as it was", refused.bar, "still in the field")
+    expect_in(value, refused.body, "what was typed is still there")
+    expect_equal(refused.now, before.now, "the figures")
+    expect_equal(after.text, before.text, "after Esc")
+
+
+def test_wrong_values():
+    """A wrong value is explained in place and never accepted."""
+    wrong(2, "shoots[0].dbh_m", "-0.07", "dbh_m", "-0.07 is below 0 m", right=1)
+    wrong(2, "stools.per_ha", "3000,5", "'3000,5' is no number", "dot")
+    wrong(2, "stools.per_ha", "many", "'many' is no number")
+    wrong(2, "stools.per_ha", "nan", "no number")
+    wrong(2, "stools.per_ha", "1e400", "")
+    wrong(2, "stools.per_ha", "0", "")
+    wrong(3, "rock.diameter_m", "0", "")
+    wrong(3, "rock.diameter_m", "0x10", "no number")
+    wrong(3, "release.x_m", "-7", "")
+    wrong(1, "forest[1].from_m", "20", "")
+    wrong(1, "forest[1].from_m", "1000", "")
+    wrong(1, "controls[1].x_m", "60", "")
+    wrong(1, "vertices_m[1]", "[0, 1]", "")
+    wrong(1, "vertices_m[1]", "here", "")
+
+
+def test_message_whole():
+    """At 80 columns too a refusal can be read to its end."""
+    refused = fast("""find vertices_m[1]
+        key Enter Ctrl-U
+        type [0, 1]
+        key Enter
+        dump
+        resize 200 50
+        dump""")
+    for word in refused[1].note.split():
+        expect_in(word, refused[0].text, "at 80 columns")
+
+
+def test_escape():
+    """Esc leaves a field as it was, whatever was typed."""
+    before, after = fast("""key 2
+        wait idle
+        find stools.per_ha
+        dump
+        key Enter
+        type 17.5e3x
+        key Left Backspace Home Del
+        key Esc
+        dump""")
+    expect_equal(after.text, before.text, "after Esc")
+
+
+def test_editing_line():
+    """The line of a field: cursor, deleting, UTF-8, and the first letter that replaces all."""
+    screens = fast("""key 3
+        find title
+        key Enter
+        type Über dem Weg
+        key Home Del
+        type u
+        key End Backspace
+        dump
+        key Enter
+        dump
+        key Enter Home
+        type À
+        key Right Right Backspace Enter
+        dump
+        key Enter Ctrl-U Enter
+        dump""")
+    expect_in("uber dem We_", screens[0].body)
+    expect(screens[1].title.endswith("* uber dem We"), screens[1])
+    expect(screens[2].title.endswith("* Àuer dem We"), screens[2])
+    screens[3].whole()
+
+
+def test_empty_value():
+    """A field that is emptied takes its default."""
+    before, after = fast("""key 3
+        find simulation.threshold_m
+        set 25
+        dump
+        key Enter Ctrl-U Enter
+        dump""")
+    expect_equal(before.row("^threshold")[-1], "25", "threshold")
+    expect_equal(after.row("^threshold")[-1], "30", "threshold")
+
+
+def test_steps():
+    """+ and - step numbers, words and yes or no, and stop at the limit of the range."""
+    screens = fast("""key 2
+        find stools.per_ha
+        dump
+        key +
+        dump
+        key - - -
+        dump
+        find stools.spacing_m
+        key -
+        dump
+        key 3
+        find simulation.scale_rn
+        key +
+        dump
+        key +
+        dump
+        find simulation.law
+        key +
+        dump
+        key -
+        dump
+        key 1
+        find segments[0]
+        set 0.98
+        key + + + + +
+        dump""")
+    stools = [float(s.row("^stools per ha")[-1]) for s in screens[:3]]
+    expect(stools[0] == 3000 and stools[1] > 3000 and stools[2] < 3000, stools)
+    expect_near(stools[1] - 3000, 3000 - stools[2] - (stools[1] - 3000), 1e-9, f"steps {stools}")
+    spacing = float(screens[3].row("^spacing")[-1])
+    expect(0.3 < spacing < 0.4, f"spacing {spacing}")
+    expect_equal([s.row("^Rn by speed")[-1] for s in screens[4:6]], ["true", "false"], "Rn by speed")
+    expect_equal([s.row("^law of impact")[-1] for s in screens[6:8]], ["crsp", "lumped"], "law")
+    expect_in("the limit of its range", screens[8].note)
+    expect_equal(screens[8].row(r"^1 +1(\.0*)? +0.98")[0], "1", "rn at its limit")
+
+
+def table(screen, head):
+    """The rows of the table below the line that starts with these words: lists of words."""
+    lines = screen.body.split("\n")
+    at = next((i for i, line in enumerate(lines) if line.split()[:len(head)] == head), None)
+    expect(at is not None, f"no table {head} in the", screen)
+    rows = []
+    for line in lines[at + 1:]:
+        if not re.match(r"\d+ ", line):
+            break
+        rows.append(line.split())
+    return rows
+
+
+def lists(view, word, keys, head, size="120 60"):
+    """The tables after each of some keys, with the cursor on a word."""
+    script = f"resize {size}\nkey {view}\nwait idle\nfind {word}\ndump\n"
+    script += "\n".join(f"key {key}\ndump" for key in keys)
+    return [table(s, head) for s in fast(script)]
+
+
+def test_belts():
+    """Belts: y splits one in two, d deletes, a fills the next free stretch, u brings back."""
+    head = ["from_m", "to_m", "stand"]
+    start, split, gone, back, first = lists(1, "forest[0]", ["y", "d", "u", "u"], head, "200 70")
+    expect_equal(start, [["1", "5", "45", "upper"], ["2", "50", "80", "lower"]], "belts")
+    expect_equal(split, [["1", "5", "25", "upper"], ["2", "25", "45", "upper"], ["3", "50", "80", "lower"]], "split")
+    expect_equal(gone, [["1", "5", "25", "upper"], ["2", "50", "80", "lower"]], "after d")
+    expect_equal(back, split, "after u")
+    expect_equal(first, start, "after u u")
+    start, more, most = lists(1, "forest[0]", ["a", "a"], head, "200 70")
+    expect_equal(len(more), 3, f"belts after a: {more}")
+    expect_equal(len(most), 4, f"belts after a a: {most}")
+    places = [(float(r[1]), float(r[2])) for r in most]
+    expect(places == sorted(places) and all(a[1] <= b[0] for a, b in zip(places, places[1:])), places)
+
+
+def test_cohorts():
+    """Cohorts of shoots and classes of trees: y and a, d, < and >."""
+    head = ["per_ha", "dbh_m", "height_m"]
+    start, copy, moved, fewer, one, none = lists(2, "shoots[0]", ["y", ">", "d", "d", "d"], head)
+    expect_equal([r[1] for r in start], ["9000", "500"], "shoots")
+    expect_equal([r[1] for r in copy], ["9000", "9000", "500"], "after y")
+    expect_equal([r[1] for r in moved], ["9000", "500", "9000"], "after >")
+    expect_equal([r[1] for r in fewer], ["9000", "500"], "after d")
+    expect_equal(len(one), 1, "after d d")
+    expect_equal(none, [], "after d d d")
+    start, later, earlier = lists(2, "shoots[1]", ["<", ">"], head)
+    expect_equal([r[1] for r in later], ["500", "9000"], "after <")
+    expect_equal(earlier, start, "after < >")
+    screens = fast("""resize 120 60
+        key 2
+        find trees[0]
+        key y
+        dump
+        key a
+        dump
+        key d d d d
+        dump
+        key a
+        dump
+        find shoots[0]
+        key d d
+        dump
+        key a
+        dump""")
+    trees = [re.findall(r"^\d +(\S+)", s.body.split("Single trees")[1], re.M) for s in screens]
+    expect_equal(trees[0], ["80", "80", "20"], "trees after y")
+    expect_equal(len(trees[1]), 4, "trees after a")
+    expect_equal(trees[2], [], "trees after d d d d")
+    expect_equal(len(trees[3]), 1, "trees after a on the empty list")
+    expect_equal(screens[4].row("^stools per ha")[-1], "-", "stools go with their last shoots")
+    expect(float(screens[5].row("^stools per ha")[-1]) > 0, "stools come with the first shoots")
+
+
+def test_segments():
+    """Segments: y splits one in two, d joins them again."""
+    head = ["rn", "rt", "roughness_rad"]
+    start, split, joined = lists(1, "segments[0]", ["y", "d"], head, "200 70")
+    expect_equal([r[1] for r in start], ["0.3", "0.25"], "rn")
+    expect_equal([r[1] for r in split], ["0.3", "0.3", "0.25"], "rn after y")
+    expect_equal(len(joined), 2, "segments after d")
+
+
+def test_vertices():
+    """Vertices: a pair is typed; keys that cannot add or delete one say why."""
+    screens = fast("""resize 200 70
+        find vertices_m[1]
+        set [60, 35]
+        dump
+        key y
+        dump
+        key d
+        dump""")
+    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Vertices")[1], re.M)) for s in screens]
+    expect_in("60 35", screens[0].body)
+    expect_equal(counts[0], 3, "vertices")
+    for i in (1, 2):
+        expect(counts[i] != counts[i - 1] or not screens[i].note.startswith("vertices_m"),
+               "nothing is done and nothing is said", screens[i])
+
+
+def test_controls():
+    """Controls: a and y add one, d deletes, < and > reorder, the last one stays."""
+    head = ["x_m", "name", "accepted_kJ"]
+    start, more, back, fewer, one, same = lists(1, "controls[1]", ["a", "<", "d", "d", "d"], head, "200 70")
+    expect_equal([r[1] for r in start], ["60", "80"], "controls")
+    expect(len(more) == 3 and 80 < float(more[2][1]) <= 100, more)
+    expect_equal([r[1] for r in back], ["60", more[2][1], "80"], "after <")
+    expect_equal([r[1] for r in fewer], ["60", "80"], "after d")
+    expect_equal(len(one), 1, "after d d")
+    expect_equal(same, one, "after d d d")
+
+
+def option_names(screen):
+    return [line.split("  ")[0].strip() for line in screen.body.split("\n")[1:9] if line.strip()]
+
+
+def test_options():
+    """Options: y copies, d deletes, < > reorder, Enter renames, the only one stays."""
+    screens = fast("""resize 120 40
+        key 5
+        wait idle
+        dump
+        key y
+        dump
+        key > >
+        dump
+        key <
+        dump
+        key Enter
+        type Più rado
+        key Enter
+        dump
+        key d
+        dump
+        key u
+        dump
+        key g d d d d d
+        dump""", "options.yaml")
+    names = [option_names(s) for s in screens]
+    expect_equal(names[0], ["thick", "thin", "none left"], "options")
+    expect_equal(names[1], ["thick", "thick (2)", "thin", "none left"], "after y")
+    expect_equal(names[2], ["thick", "thin", "none left", "thick (2)"], "after > >")
+    expect_equal(names[3], ["thick", "thin", "thick (2)", "none left"], "after <")
+    expect_equal(names[4], ["thick", "thin", "Più rado", "none left"], "after renaming")
+    expect_equal(names[5], ["thick", "thin", "none left"], "after d")
+    expect_in("deleted 'Più rado'; u brings it back", screens[5].note)
+    expect_equal(names[6], names[4], "after u")
+    expect_equal(len(names[7]), 1, "after many d")
+    expect_in("the only option stays", screens[7].note)
+
+
+def test_rename_refused():
+    """Two options cannot have one name; the refusal says so and keeps the question."""
+    screen = fast("key 5\nkey Enter Ctrl-U\ntype thin\nkey Enter\ndump", "options.yaml")[0]
+    screen.has("Name of this option")
+    expect(re.search("thin", screen.text) and "thick" in screen.text, screen)
+
+
+def test_compare_marks():
+    """Best and worst of each column are marked, with signs; figures are those of each option."""
+    screen = fast("resize 120 40\nkey 5\nwait idle\ndump", "options.yaml", charset="ascii")[0]
+    rows = {name: screen.row(f"^{name}") for name in ("thick", "thin", "none left")}
+    expect(rows["thick"][1].endswith("*") and rows["thick"][-1] == "++", rows)
+    expect(rows["none left"][-1] == "xx" and "!" in " ".join(rows["none left"]), rows)
+    for row in rows.values():
+        expect_equal(len(re.findall(r"[*!]", " ".join(row))) <= 4, True, f"marks of {row}")
+    expect(len(re.findall(r"\*", " ".join(map(" ".join, rows.values())))) >= 4, f"columns with a best: {rows}")
+    screen = views_of("four-systems", "ascii")[(120, 40), "compare"]
+    for c, (best, worst) in enumerate([("simple coppice, 25", "simple coppice, just"),
+                                       ("simple coppice, 25", "simple coppice, just"),
+                                       ("large reserves   ", "simple coppice, just"),
+                                       ("large reserves   ", "simple coppice, just")]):
+        left = 83 - 39 + 9 * c  # marks stand behind the figures
+        marks = {line[:18].rstrip(): line[left + 8:left + 9] for line in screen.body.split("\n")[1:9]}
+        expect(marks.get(best.rstrip()[:18].rstrip()) == "*" or
+               [n for n, m in marks.items() if m == "*" and best.rstrip().startswith(n)], f"column {c}", marks, screen)
+        expect([n for n, m in marks.items() if m == "!" and worst.startswith(n)], f"column {c}", marks, screen)
+
+
+def test_compare_one():
+    """With one option no mark is set; a adds one from a preset and both are compared."""
+    one, two = fast("""key 5
+        wait idle
+        dump
+        key a
+        key G
+        key Enter
+        wait idle
+        clear
+        dump""")
+    expect(not re.search(r"\d[*!]", one.body), one)
+    one.has("One way to treat this wood so far")
+    expect_equal(len([line for line in two.body.split("\n")[1:4] if re.search(r"\d", line)]), 2, "options")
+    expect(re.search(r"\d\*", two.body) and re.search(r"\d!", two.body), two)
+
+
+def test_next_option():
+    """] and [ go from option to option in every view, and the figures with them."""
+    screens = fast("""key 2
+        wait idle
+        dump
+        key ]
+        dump
+        clear
+        key ]
+        dump
+        key ]
+        clear
+        dump
+        key [
+        dump""", "options.yaml")
+    screens[0].has("Wood thick")
+    screens[1].has("Wood thin", "option 2 of 3: thin")
+    screens[2].has("Wood none left")
+    expect_equal(screens[3].text, screens[0].text, "around")
+    screens[4].has("option 3 of 3")
+
+
+def test_rocks_step():
+    """. and , step through the rocks' ways, in the picture the arrows too."""
+    screens = fast("""wait idle
+        key .
+        dump
+        key .
+        dump
+        key ,
+        dump
+        key Tab
+        key Right
+        dump
+        key Left
+        dump""", "paper-site")
+    for screen, rock in zip(screens, (1, 2, 1, 2, 1)):
+        expect(re.match(rf"rock {rock}: (passes at [\d.]+ m/s|does not pass)", screen.note), screen.note)
+    expect_equal(screens[2].note, screens[0].note, "rock 1 again")
+
+
+# ---- presets, new, open ----
+
+MARCHE = {"simple-coppice": "87 050 ha, 43.4 %", "coppice-with-standards": "13 250 ha, 6.6 %",
+          "selection-coppice": "350 ha, 0.2 %", "large-reserves": "30 275 ha, 15.1 %", "high-forest-small-rocks": "28 550 ha, 14.2 %"}
+
+
+def test_presets():
+    """Presets show how common each is in Marche, and before it is chosen what it would give."""
+    wide, narrow = fast("resize 120 40\nkey 2\nkey p\ndump\nresize 80 24\ndump")
+    for name, share in MARCHE.items():
+        line = next((x for x in wide.text.split("\n") if re.search(rf"[│|] {name} ", x)), "")
+        expect_in(share, line, f"{name} at 120 columns")
+        line = next((x for x in narrow.text.split("\n") if re.search(rf"[│|] {name} ", x)), "")
+        expect_in(share, line, f"{name} at 80 columns")
+    first, second, chosen, undone = fast("""key 2
+        wait idle
+        key p
+        dump
+        key Down
+        dump
+        key End Up Up
+        key Enter
+        wait idle
+        clear
+        dump
+        key u
+        wait idle
+        clear
+        dump""")
+    for screen in (first, second):
+        screen.has("Stand of this belt", "stools,", "stems,", "trees per ha; basal area", "with this rock: ADC", "free run",
+                   "kJ per 100 m")
+    expect(first.text.split("with this rock")[1][:60] != second.text.split("with this rock")[1][:60], "the preview stays")
+    expect_equal(chosen.row("^system")[-1], "simple-coppice", "system")
+    chosen.has("simple coppice")
+    undone.has("Stand of belt 1: upper")
+
+
+def test_new_typed():
+    """n: a new scene typed in one form, computed at once, saved where one says, and it is valid."""
+    with Place() as place:
+        screens = place.play("""key n
+            dump
+            type Above the mill
+            key Enter
+            type 0 100, 40 60; 90 20, 120 18
+            key Enter Enter
+            type 0.9
+            key Enter
+            type 95
+            key Enter
+            type 30
+            key Enter
+            dump
+            key Enter
+            wait idle
+            dump
+            key s
+            dump
+            key Ctrl-U
+            type mill.yaml
+            key Enter
+            dump""")
+        screens[0].has("New scene", "profile (CSV file or points)", "ground (talus, cliff", "rock: diameter, m",
+                       "counted at x, m", "that bears, kJ", "stand on the whole way", "Esc: never mind")
+        screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0.9", "95", "30", "simple-coppice")
+        screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
+        screens[3].has("Save as")
+        screens[4].has("saved mill.yaml")
+        check_good(place.path, "mill.yaml")
+        text = place.text("mill.yaml")
+        for part in ("Above the mill", "0.9", "95", "30"):
+            expect_in(part, text)
+
+
+def test_new_csv():
+    """n: a new scene from a CSV profile as QGIS writes it."""
+    with Place() as place:
+        place.write("line.csv", "distance,elevation\n0,150\n30,120\n80,80\n140,60\n200,55\n")
+        made, saved = place.play("""key n Enter
+            type line.csv
+            key Enter Enter Enter
+            type 150
+            key Enter Enter Enter
+            wait idle
+            dump
+            key s Ctrl-U
+            type from-csv.yaml
+            key Enter
+            dump""")
+        made.has("* My slope", "At 150 m", "Rock 0.6 m")
+        saved.has("saved from-csv.yaml")
+        check_good(place.path, "from-csv.yaml")
+        expect_in("line.csv", place.text("from-csv.yaml"))
+        again = place.play("wait idle\ndump", "from-csv.yaml")[0]
+        expect_equal(again.now, made.now, "figures of the saved scene")
+
+
+def test_new_refused():
+    """n: what cannot be a scene is explained in the form, and nothing is lost."""
+    for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "0 1, 0 2, 0 3"), ""),
+                         (("x", "none.csv"), "none.csv"), (("x", "0 60, 100 12", "moon"), "moon"),
+                         (("x", "0 60, 100 12", "talus", "-1"), "-1"), (("x", "0 60, 100 12", "talus", "0,6"), "0,6"),
+                         (("x", "0 60, 100 12", "talus", "0.6", "500"), "500"),
+                         (("x", "0 60, 100 12", "talus", "0.6", "90", "much"), "much")):
+        script = "wait idle\nkey n\n"
+        for field in fields:
+            script += f"key Ctrl-U\ntype {field}\nkey Enter\n"
+        script += "key Enter\n" * (7 - len(fields)) + "dump\nkey Esc\nclear\ndump"
+        refused, after = fast(script)
+        refused.has("New scene", fields[-1])
+        message = refused.text.split("stand on the whole way")[1]
+        expect("Enter: next" not in message and part in message, f"{fields} is not refused with a reason:", refused)
+        after.has("1 5 45 upper")
+        expect(after.title.endswith(" fast"), after.title)
+
+
+def test_new_bad_stand():
+    """n: a stand that there is not is told, not left out in silence."""
+    screen = fast("key n Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand\nkey Enter\ndump")[0]
+    expect_in("no-such-stand", screen.text)
+
+
+def test_open():
+    """o: a shipped scene from the list, a file by its name, one that there is not."""
+    screens = fast("""wait idle
+        key o
+        dump
+        key Down Enter
+        wait idle
+        dump
+        key o Enter
+        type options.yaml
+        key Enter
+        dump
+        key o Enter
+        type missing.yaml
+        key Enter
+        dump
+        key Esc
+        dump""")
+    screens[0].has("a file …", "four-systems", "paper-site")
+    screens[1].has("Four systems, before and after", "Rock 0.68 m 512.3 kg")
+    screens[2].has("Wood thick")
+    screens[3].has("No such file", "missing.yaml")
+    screens[4].has("Wood thick")
+
+
+def test_open_unsaved():
+    """o and n say first that there is unsaved work, and open nothing."""
+    screens = fast("""key 3
+        find title
+        set other
+        key o
+        dump
+        key n
+        dump""")
+    for screen in screens:
+        expect_in("unsaved work", screen.note)
+        screen.has("* other")
+
+
+# ---- saving ----
+
+def test_save():
+    """s writes the values that changed and leaves every comment and every other line."""
+    with Place() as place:
+        saved, again = place.play("""key 2
+            find stools.per_ha
+            set 2222
+            key s
+            dump
+            key 3
+            find rock.diameter_m
+            set 0.75
+            key s
+            dump""")
+        expect_in("saved fast.yaml", saved.note)
+        expect_in("saved fast.yaml", again.note)
+        expect("* fast" not in again.title, again.title)
+        wanted = FAST.replace("per_ha: 3000", "per_ha: 2222").replace("diameter_m: 0.5", "diameter_m: 0.75")
+        expect_equal(place.text("fast.yaml"), wanted, "the file")
+        expect_equal(sorted(n for n in place.names() if n.startswith("fast")), ["fast.yaml"], "files")
+
+
+def test_save_list():
+    """s after an item came or went: valid, the comments kept where they can be, otherwise in a .bak."""
+    for keys in ("find trees[0]\nkey y", "find trees[0]\nkey d", "find forest[0]\nkey d", "find shoots[1]\nkey d d"):
+        with Place() as place:
+            saved = place.play(f"key 2\n{keys}\nclear\nwait idle\nkey s\ndump\nclear\ndump")
+            expect_in("saved fast.yaml", saved[0].note)
+            check_good(place.path, "fast.yaml")
+            text = place.text("fast.yaml")
+            if "kept: the first line" not in text or "kept: found on the road" not in text:
+                expect_equal(place.text("fast.yaml.bak"), FAST, "the old file beside it")
+                expect_in("fast.yaml.bak", saved[0].note)
+            after = place.play("key 2\nwait idle\ndump")[0]
+            expect_equal(after.now, saved[1].now, "figures of the saved scene")
+
+
+def test_save_nothing():
+    """s without a change writes the same file; undone edits are no change."""
+    with Place() as place:
+        place.play("key s")
+        expect_equal(place.text("fast.yaml"), FAST, "the file")
+        screen = place.play("key 2\nfind stools.per_ha\nkey + + - u u u\nkey s\ndump")[0]
+        expect("* fast" not in screen.title, screen.title)
+        expect_equal(place.text("fast.yaml"), FAST, "the file")
+
+
+def test_save_shipped():
+    """A scene of the program is never written over: s asks for a name."""
+    shipped = PROFILES / "scenes/paper-site.yaml"
+    before, stamp = shipped.read_bytes(), shipped.stat().st_mtime_ns
+    with Place() as place:
+        asked, saved, later = place.play("""key 2
+            find stools.per_ha
+            set 2000
+            key s
+            dump
+            key Enter
+            dump
+            find stools.per_ha
+            set 1500
+            key s
+            dump""", "paper-site")
+        asked.has("Save as", "never written over", "paper-site.yaml")
+        expect_in("saved paper-site.yaml", saved.note)
+        expect_in("saved paper-site.yaml", later.note)
+        check_good(place.path, "paper-site.yaml")
+        expect_in("# Test site in central Italy", place.text("paper-site.yaml"), "its comments")
+        again = place.play("key 2\ndump", "paper-site.yaml")[0]
+        expect_equal(again.row("^stools per ha")[-1], "1500", "stools")
+        # straight onto the shipped file by its path
+        asked = place.play(f"key 2\nfind stools.per_ha\nset 9\nkey s\nkey Ctrl-U\ntype {shipped}\nkey Enter\ndump\n"
+                           "key Enter\ndump", "paper-site")
+        expect(shipped.read_bytes() == before and shipped.stat().st_mtime_ns == stamp, "the shipped file was written!")
+    expect(shipped.read_bytes() == before and shipped.stat().st_mtime_ns == stamp, "the shipped file was written!")
+
+
+def test_save_as_exists():
+    """Save as over another file asks once more; an empty name and a folder that is not there are refused."""
+    with Place() as place:
+        place.write("there.yaml", "mine\n")
+        screens = place.play("""key 2
+            find stools.per_ha
+            set 2000
+            key s Ctrl-U Enter
+            dump
+            type no/such/folder.yaml
+            key Enter
+            dump
+            key Ctrl-U
+            type there.yaml
+            key Enter
+            dump
+            key Esc
+            clear
+            dump""", "paper-site")
+        screens[0].has("a name is needed")
+        screens[1].has("No such file or directory")
+        screens[2].has("Enter once more replaces it")
+        expect("* Test site" in screens[3].title, screens[3].title)
+        expect_equal(place.text("there.yaml"), "mine\n", "the other file")
+        place.play("key 2\nfind stools.per_ha\nset 2000\nkey s Ctrl-U\ntype there.yaml\nkey Enter Enter", "paper-site")
+        check_good(place.path, "there.yaml")
+
+
+def test_changed_on_disk():
+    """s on a file that has changed on disk asks: never mind, another name, or over it."""
+    other = FAST.replace("title: fast", "title: theirs")
+    edit = "key 2\nfind stools.per_ha\nset 1234\n"
+    # The script writes the very file it edits: 'dump' does it from within.
+    for keys, wanted in (("key Enter", "theirs"), ("key Down Enter Ctrl-U\ntype mine.yaml\nkey Enter", "theirs"),
+                         ("key End Enter", "mine"), ("key Esc", "theirs")):
+        with Place() as place:
+            script = f"{edit}dump fast.yaml\nkey s\ndump asked.txt\n" + keys + "\ndump after.txt\n"
+            script = "\n".join("\n".join(["key /", "key Ctrl-U", f"type {x[5:]}", "key Enter"]) if x.startswith("find ")
+                               else "\n".join(["key Enter", "key Ctrl-U", f"type {x[4:]}", "key Enter"])
+                               if x.startswith("set ") else x for x in script.split("\n"))
+            done = run_script(place.path, script, "fast.yaml")
+            expect(done.status == DONE, done)
+            expect_in("The file has changed on disk since it was read", place.text("asked.txt"))
+            now = place.text("fast.yaml")
+            if wanted == "mine":
+                expect_in("per_ha: 1234", now, keys)
+                check_good(place.path, "fast.yaml")
+            else:
+                expect(now.startswith(" 1 slope"), f"{keys}: the file was written over:", now[:400])
+            if "mine.yaml" in keys:
+                expect_in("per_ha: 1234", place.text("mine.yaml"))
+    expect(other != FAST)
+
+
+def test_read_only():
+    """A file that cannot be written: the reason is said, the work stays unsaved, the file as it was."""
+    if os.geteuid() == 0:
+        raise Skip("root may write everywhere")
+    with Place() as place:
+        os.chmod(place.path, 0o500)
+        try:
+            screen = place.play("key 2\nfind stools.per_ha\nset 2000\nkey s\ndump")[0]
+        finally:
+            os.chmod(place.path, 0o700)
+        expect_in("Permission denied", screen.note)
+        expect("* fast" in screen.title, screen.title)
+
+
+def test_quit():
+    """q ends at once where nothing is unsaved, otherwise it asks: stay, save, lose."""
+    with Place() as place:
+        run_script(place.path, "key q\ndump late.txt\n", "fast.yaml")
+        expect("late.txt" not in place.names(), "still there after q")
+        edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
+        asked = place.play(edit + "key q\ndump\nkey Enter\ndump\nkey q Esc\ndump\nkey F10\ndump")
+        asked[0].has("There is unsaved work", "stay", "save and quit", "quit and lose it")
+        asked[1].has("* fast").lacks("There is unsaved work")
+        asked[2].has("* fast").lacks("There is unsaved work")
+        asked[3].has("There is unsaved work")
+        expect_equal(place.text("fast.yaml"), FAST, "the file after staying")
+        run_script(place.path, edit + "key q End Enter\ndump late.txt\n", "fast.yaml")
+        expect("late.txt" not in place.names(), "still there after 'quit and lose it'")
+        expect_equal(place.text("fast.yaml"), FAST, "the file after losing")
+        run_script(place.path, edit + "key q Down Enter\ndump late.txt\n", "fast.yaml")
+        expect("late.txt" not in place.names(), "still there after 'save and quit'")
+        expect_in("per_ha: 1234", place.text("fast.yaml"), "the file after saving")
+        shipped = place.play(edit + "key q Down Enter\ndump", "paper-site")[0]
+        shipped.has("Save as")
+
+
+def test_save_as_then_quit():
+    """'save and quit' on a shipped scene quits once the name is given."""
+    with Place() as place:
+        edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
+        run_script(place.path, edit + "key q Down Enter Enter\ndump late.txt\n", "paper-site")
+        check_good(place.path, "paper-site.yaml")
+        expect("late.txt" not in place.names(), "still there after it was saved")
+
+
+# ---- export ----
+
+def test_export():
+    """w: page, screen, CSV and JSON in files; over an existing one it asks."""
+    with Place() as place:
+        screens = place.play("""wait idle
+            dump
+            key w
+            dump
+            key Enter
+            dump
+            key Enter
+            dump
+            key w Down Enter Enter
+            key w Down Down Enter Ctrl-U
+            type table.csv
+            key Enter
+            key w Down Down Down Enter Enter
+            clear
+            key w Enter Enter
+            dump
+            key Esc
+            key w Enter Ctrl-U
+            type no/such/file.txt
+            key Enter
+            dump""", "options.yaml")
+        screens[1].has("the page, as text", "this screen, with its picture", "CSV", "JSON", "the batch command")
+        screens[2].has("Export to a file", "ceduo.txt")
+        expect_in("written: ceduo.txt", screens[3].note)
+        screens[4].has("Enter once more replaces it")
+        screens[5].has("No such file or directory")
+        page = place.text("ceduo.txt")
+        for part in ("fast", "thick", "thin", "none left", "At 80 m"):
+            expect_in(part, page, "the page")
+        expect_equal(place.text("ceduo-screen.txt"), screens[0].text, "the screen as a file")
+        rows = place.text("table.csv").splitlines()
+        expect(rows[0].startswith("scene,title,") and len(rows) == 1 + 3 * 2, rows)
+        line = json.loads(place.text("ceduo.json"))
+        expect_equal([o["name"] for o in line["options"]], ["thick", "thin", "none left"], "options in JSON")
+        expect_equal(line["format"], "ceduo-result-1", "format")
+
+
+def test_export_command():
+    """w: the batch command that is shown gives the same figures."""
+    with Place() as place:
+        screen, command = place.play("wait idle\ndump\nkey w End Enter\ndump", "paper-site")
+        line = next(x for x in command.text.split("\n") if "ceduo --batch" in x)
+        found = re.search(r"ceduo (--batch -n (\d+)) '(.*?)'", re.sub(r"\s*[│|]\n\s*[│|]\s*", "", command.text)) or \
+            re.search(r"ceduo (--batch -n (\d+)) ", line)
+        expect(found, "no command in the", command)
+        from harness import results
+        batch = results("-n", found.group(2), "paper-site")[0]
+        control = batch["options"][0]["controls"][0]
+        expect_equal(round(control["bare"]["reach_probability"] * 1000), round(screen.figure(" pass")), "pass")
+        expect_near(control["bare"]["energy_kJ"]["mean"], screen.figure(" energy"), 0.06, "energy")
+        expect_near(control["index"]["residual_kJ"], screen.figure(" left"), 0.06, "left")
+
+
+def test_export_unsaved():
+    """w: with unsaved work the command says that the file must be saved first."""
+    screen = fast("key 2\nfind stools.per_ha\nset 9\nwait idle\nkey w End Enter\ndump")[0]
+    screen.has("ceduo --batch", "unsaved work")
+
+
+# ---- search, help, counts ----
+
+def test_search():
+    """/ goes to a field by label, value or path, N to the next, and says where nothing is found."""
+    screens = fast("""key 3
+        key /
+        dump
+        type density
+        key Enter
+        dump
+        key /
+        key Ctrl-U
+        type speed
+        key Enter
+        dump
+        key N
+        dump
+        key N
+        dump
+        find zzz
+        dump
+        key /
+        key Esc
+        clear
+        dump""")
+    screens[0].has("Search in this view")
+    expect(screens[1].note.startswith("density_kg_m3 "), screens[1].note)
+    notes = [s.note.split()[0] for s in screens[2:5]]
+    expect(notes[0] != notes[1] and {"vx_m_s", "vz_m_s"} <= set(notes), notes)
+    expect_in("'zzz' is not found in this view", screens[5].note)
+    expect_equal(screens[6].note.split()[0], notes[2], "the field after Esc")
+
+
+def test_help():
+    """? has every key of the program with what it does, F1 too; the bar has those for always."""
+    rows = actions()
+    for key in ("?", "F1"):
+        tall, closed = fast(f"resize 120 80\nwait idle\nkey {key}\ndump\nkey Esc\ndump")
+        for name, word, word2, bar, text in rows:
+            pattern = re.escape(word) + (r" +" + re.escape(word2) if word2 else "") + r" +" + re.escape(text)
+            expect(re.search(r"[│|] " + pattern, tall.text), f"{name}: {word} {word2} {text} is missing in the", tall)
+        closed.lacks("Every edit is live")
+    wide = fast("resize 200 50\ndump")[0]
+    for name, word, word2, bar, text in rows:
+        if bar:
+            expect_in(f"{word} {text}", wide.bar, f"{name} in the bar at 200 columns")
+    for view in "12345":
+        bar = fast(f"key {view}\ndump")[0].bar
+        for name, word, word2, shown, text in rows:
+            if shown == 2:
+                expect_in(f"{word} {text}", bar, f"{name} in the bar of view {view} at 80 columns")
+
+
+def test_help_scrolls():
+    """The help can be read to its end at 80x24."""
+    pages = fast("key ?\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey g\ndump\nkey q\ndump")
+    text = "\n".join(p.text for p in pages[:6])
+    for name, word, word2, bar, what in actions():
+        expect_in(what, text, name)
+    expect_in("terminal itself selects text", re.sub(r"\s+[│|]\n.?[│|]\s+", " ", text))
+    expect_equal(pages[6].text, pages[0].text, "after g")
+    pages[7].lacks("─Keys")
+
+
+def test_contract_keys():
+    """Every key that was promised is in the table."""
+    words = {w for _, word, word2, _, _ in actions() for w in (word, word2)}
+    for key in ["Up", "Down", "Left", "Right", *"hjkl", "Tab", "Shift-Tab", *"12345", "Enter", "+", "-", *"adyu", "Ctrl-R",
+                *"nospw", "/", "?", "F1", "q", "F10"]:
+        expect(key in words, f"{key} is no key of the program")
+
+
+def counts_script(*fields):
+    """Fills the form of the counts for the second belt, and takes three screens: filled, done, left by Esc."""
+    script = "key 2\nwait idle\nfind forest[1]\ndump\nkey c\n"
+    for field in fields:
+        script += f"key Ctrl-U\ntype {field}\nkey Tab\n"
+    return script + "dump\nkey Enter\ndump\nkey Esc\nclear\ndump"
+
+
+def test_counts():
+    """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2."""
+    area = 400 * math.cos(math.radians(40))
+    for how, per in (("slope", 10000 / area), ("horizontal", 25)):
+        before, form, screen, _ = fast(counts_script("400", how, "40", "100", "250", "20"))
+        form.has("Stand from the counts of a sample plot", "size of the plot, m2", "slope or horizontal", "angle")
+        rows = [re.findall(r"^\d +(\S+)", part, re.M) for part in screen.body.split("\n    per_ha")[1:]]
+        found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0]), float(rows[1][0])]
+        for value, count in zip(found, (100, 250, 20)):
+            expect_near(value, count * per, count * per * 1e-5, f"{how}: {count} in the plot, per ha")
+        expect_in("306.4 m2" if how == "slope" else "400 m2", screen.note)
+        expect_in("32.64" if how == "slope" else "25", screen.note)
+        expect(screen.now != before.now, "the figures stay as they were")
+    expect_near(10000 / area, 10000 / 306.4, 0.005, "this test's own arithmetic")
+
+
+def test_counts_refused():
+    """c: what cannot be is refused with a reason, nothing changes."""
+    good = ["400", "slope", "40", "7", "7", "7"]
+    for at, value, part in ((0, "0", "above 0"), (0, "-4", "-4"), (1, "steep", "slope or horizontal"),
+                            (2, "90", "below 90"), (2, "x", "'x' is no number"), (3, "3,5", "'3,5' is no number"),
+                            (4, "nan", "'nan' is no number"), (0, "1e-320", ""), (3, "1e300", "")):
+        before, _, refused, after = fast(counts_script(*good[:at], value, *good[at + 1:]))
+        refused.has("Stand from the counts", part)
+        expect_equal(after.text, before.text, f"after {value!r} and Esc")
+
+
+def test_keys_at_once():
+    """Keys that come all at once do the same as one by one with the screen drawn in between."""
+    slow = fast("key 2\nwait idle\nkey Down\ndump\nkey p\ndump\nkey End\ndump\nkey Enter\ndump\nwait idle\nclear\ndump")[-1]
+    quick = fast("key 2 Down p End Enter\nwait idle\nclear\ndump")[0]
+    expect_equal(quick.text, slow.text, "view 2, the second belt's stand from a preset")
+    keys = ["5", "Down", "y", ">", "2", "Down", "Down", "Down", "+", "1", "G", "4", "j", "5", "Up", "d"]
+    slow = fast("wait idle\n" + "".join(f"key {k}\ndump\n" for k in keys) + "clear\ndump", "options.yaml")[-1]
+    quick = fast(f"wait idle\nkey {' '.join(keys)}\nclear\ndump", "options.yaml")[0]
+    expect_equal(quick.text, slow.text, "options and fields")
+
+
+def test_new_is_data():
+    """n: what is typed into a field is that field's value, never more of the file."""
+    for field, text in ((3, "0.5, density_kg_m3: 7000"), (3, "0.5}\\nx: {"), (4, "90, accepted_kJ: 1"), (5, "50}, {x_m: 95"),
+                        (2, "talus}, {from_m: 0"), (6, "bare}, {from_m: 91, to_m: 95, stand: bare")):
+        script = "wait idle\nkey n\n" + "key Enter\n" * field + f"key Ctrl-U\ntype {text}\n" + "key Enter\n" * (7 - field)
+        refused = fast(script + "dump")[0]
+        expect("New scene" in refused.text or refused.title.endswith(" fast"), f"{text!r} was taken as YAML:", refused)
+
+
+def test_fields_read_slowly():
+    """Popups over the smallest screen stay within it."""
+    for keys in ("?", "p", "n", "o", "w", "c", "/", "s"):
+        fast(f"wait idle\nkey 2\nresize 60 20\nkey {keys}\ndump", "paper-site")[0].whole()
+
+
+def main():
+    suite = Suite()
+    for scene in SCENES:
+        for charset in CHARSETS:
+            for width, height in SIZES:
+                for view in VIEWS:
+                    suite.check(f"screen: {scene}, {charset}, {width}x{height}: {view}", check_screen, (width, height),
+                                view, scene, charset)
+    for view in VIEWS:
+        suite.check(f"screen: 60x20: {view}", check_smallest, view)
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
