@@ -2,7 +2,6 @@
 #include "app.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,7 +84,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_plot_last_control(&app->document.file.scene),
-                                  .selected = app->trail.n > 0 ? &app->trail : NULL};
+                                  .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL};
 }
 
 /* Assesses the scene as it is now by the newest run, if that is its run. */
@@ -209,7 +208,7 @@ void ceduo_app_free(struct app *app)
     ceduo_outlook_free(app->outlook);
     for (int v = 0; v < VIEWS; v++)
         ceduo_form_free(&app->forms[v]);
-    ceduo_trail_free(&app->trail);
+    ceduo_steps_free(&app->steps);
     ceduo_canvas_free(app->canvas);
     ceduo_document_close(&app->document);
     *app = (struct app){0};
@@ -578,25 +577,26 @@ static void next_option(struct app *app, int by)
     ceduo_app_say(app, _("option %zu of %zu: %s"), app->option + 1, n, ceduo_app_option(app)->name);
 }
 
+static void say_steps(struct app *app)
+{
+    struct text text = {0};
+    ceduo_steps_say(&app->steps, &app->document.file.scene, app->document.file.origin_x, &text);
+    if (text.bytes)
+        ceduo_app_say(app, "%s", text.bytes);
+    ceduo_text_free(&text);
+}
+
 void ceduo_app_show_rock(struct app *app, uint64_t rock)
 {
-    static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever")};
-    const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_crossing *crossings = calloc(scene->controls_count + 1, sizeof *crossings);
-    struct ceduo_way way;
     app->rock = rock;
-    if (crossings && ceduo_way_follow(scene, rock, NULL, NULL, &way, crossings) == CEDUO_OK) {
-        const struct ceduo_crossing *c = &crossings[ceduo_plot_last_control(scene)];
-        double speed = hypot(c->vx, c->vz);
-        if (c->reached)
-            ceduo_app_say(app, _("rock %llu: passes at %.1f m/s, %.1f m high; %s at %.1f m, %llu contacts"),
-                          (unsigned long long)rock, speed, c->height, _(ends[way.end]),
-                          way.x + app->document.file.origin_x, (unsigned long long)way.contacts);
-        else
-            ceduo_app_say(app, _("rock %llu: does not pass; %s at %.1f m, %llu contacts"), (unsigned long long)rock,
-                          _(ends[way.end]), way.x + app->document.file.origin_x, (unsigned long long)way.contacts);
-    }
-    free(crossings);
+    if (ceduo_steps_follow(&app->steps, &app->document.file.scene, app->outlook_key, rock))
+        say_steps(app);
+}
+
+void ceduo_app_step_rock(struct app *app, int by)
+{
+    ceduo_steps_move(&app->steps, by);
+    say_steps(app);
 }
 
 static bool matches(const struct form_row *row, const char *what)

@@ -6,6 +6,7 @@
 #include "keys.h"
 #include "model/document.h"
 #include "model/worker.h"
+#include "steps.h"
 #include "view/canvas.h"
 #include "view/outlook.h"
 #include "view/plot.h"
@@ -58,8 +59,7 @@ struct app {
     int pane;
     size_t option, belt;             /* that the views show */
     uint64_t rock;                   /* whose way is shown */
-    struct ceduo_trail trail;        /* that way */
-    uint64_t trail_key, trail_rock;  /* of the run and rock that it was followed for */
+    struct steps steps;              /* that way */
     int scroll;                      /* of text that is longer than its pane */
     bool editing;
     struct line line;                /* what is typed into the field */
@@ -103,8 +103,9 @@ void ceduo_app_forest(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
-/* Shows the way of another rock, and says how it ends. */
+/* Shows the way of another rock, or `by` pieces more of it, and says what happens there. */
 void ceduo_app_show_rock(struct app *app, uint64_t rock);
+void ceduo_app_step_rock(struct app *app, int by);
 
 /* Text in a rectangle, wrapped, from line `skip` on; returns the lines there are. */
 int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);

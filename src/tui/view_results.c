@@ -27,6 +27,12 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_area histogram = {area.left, area.top + adc.height, half, pictures - adc.height - 1};
     struct ceduo_area page = {wide ? area.left + half + 2 : area.left, wide ? area.top : area.top + pictures,
                               wide ? area.width - half - 2 : area.width, wide ? area.height : area.height - pictures};
+    if (wide && area.height >= 30) { /* energy along the slope as well */
+        histogram.height = pictures / 3;
+        struct ceduo_area energy = {area.left, histogram.top + histogram.height + 1, half,
+                                    area.height - adc.height - histogram.height - 1};
+        ceduo_plot_energy(app->canvas, &energy, &picture, NULL, true);
+    }
     if (adc.height > 4)
         ceduo_plot_adc(app->canvas, &adc, &picture);
     ceduo_plot_histogram(app->canvas, &histogram, &picture);

@@ -59,23 +59,11 @@ static void build(struct app *app, struct form *form)
     build_vertices(app, form);
 }
 
-/* The way of the rock that is stepped through, followed anew when the scene or the rock is another. */
-static void follow_rock(struct app *app)
-{
-    uint64_t key = app->outlook_key;
-    if (app->trail.n > 0 && key == app->trail_key && app->rock == app->trail_rock)
-        return;
-    ceduo_trail_free(&app->trail);
-    if (ceduo_trail_follow(&app->document.file.scene, app->rock, &app->trail) != CEDUO_OK)
-        ceduo_trail_free(&app->trail);
-    app->trail_key = key;
-    app->trail_rock = app->rock;
-}
-
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
 {
-    follow_rock(app);
+    if (!ceduo_steps_follow(&app->steps, &app->document.file.scene, app->outlook_key, app->rock))
+        ceduo_steps_free(&app->steps);
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_span span;
     bool alone = app->pane == 1;
@@ -83,6 +71,8 @@ static void draw(struct app *app, struct ceduo_area area)
     int room = area.height - form_height;
     int strips = room >= 24 ? 2 : room >= 13 ? 1 : 0;
     int strip = room >= 24 ? room / 4 : 5;
+    if (alone && !app->message[0])
+        ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: back to the form"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
     ceduo_plot_profile(app->canvas, &profile, &picture, &span);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
@@ -99,13 +89,18 @@ static void draw(struct app *app, struct ceduo_area area)
                         app->editing ? app->line.text : NULL);
 }
 
-/* In the picture left and right go from rock to rock. */
+/* In the picture left and right go from rock to rock, up and down along its way. */
 static bool act(struct app *app, enum action action)
 {
-    if (app->pane != 1 || (action != ACTION_LEFT && action != ACTION_RIGHT))
+    if (app->pane != 1)
         return false;
-    ceduo_app_show_rock(app, action == ACTION_RIGHT ? app->rock + 1 : app->rock > 0 ? app->rock - 1 : 0);
-    return true;
+    switch (action) {
+    case ACTION_RIGHT: ceduo_app_show_rock(app, app->rock + 1); return true;
+    case ACTION_LEFT: ceduo_app_show_rock(app, app->rock > 0 ? app->rock - 1 : 0); return true;
+    case ACTION_DOWN: ceduo_app_step_rock(app, 1); return true;
+    case ACTION_UP: ceduo_app_step_rock(app, -1); return true;
+    default: return false;
+    }
 }
 
 const struct app_view ceduo_view_slope = {N_("slope"), 2, build, draw, act};

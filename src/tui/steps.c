@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "steps.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "io/intl.h"
+
+#define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
+#define PIECES_MOST 20000
+
+static void add_piece(void *context, const struct ceduo_piece *piece)
+{
+    struct steps *s = context;
+    if (s->n >= PIECES_MOST)
+        return;
+    if (s->n == s->room) {
+        size_t room = s->room ? 2 * s->room : 64;
+        struct ceduo_piece *pieces = realloc(s->pieces, room * sizeof *pieces);
+        if (!pieces)
+            return;
+        s->pieces = pieces;
+        s->room = room;
+    }
+    s->pieces[s->n++] = *piece;
+}
+
+static void add_point(struct ceduo_trail *t, double x, double z)
+{
+    t->x[t->n] = x;
+    t->z[t->n++] = z;
+}
+
+static void add_to_trail(struct ceduo_trail *t, const struct ceduo_piece *p, double half_g)
+{
+    for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
+        double time = p->seconds * i / FLIGHT_POINTS;
+        add_point(t, p->x + p->vx * time, p->z + (p->vz - half_g * time) * time);
+    }
+    add_point(t, p->x1, p->z1);
+}
+
+/* The line of the pieces that are shown. */
+static bool draw_trail(struct steps *s, double gravity)
+{
+    size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
+    ceduo_trail_free(&s->trail);
+    s->trail.x = malloc(room * sizeof(double));
+    s->trail.z = malloc(room * sizeof(double));
+    s->trail.n = 0;
+    if (!s->trail.x || !s->trail.z)
+        return false;
+    add_point(&s->trail, s->way.x0, s->way.z0);
+    for (size_t i = 0; i < shown; i++)
+        add_to_trail(&s->trail, &s->pieces[i], gravity / 2);
+    return true;
+}
+
+bool ceduo_steps_follow(struct steps *s, const struct ceduo_scene *scene, uint64_t key, uint64_t rock)
+{
+    bool same = s->n > 0 && s->key == key && s->rock == rock;
+    if (!same) {
+        s->n = s->at = 0;
+        s->key = key;
+        s->rock = rock;
+        if (ceduo_way_follow(scene, rock, add_piece, s, &s->way, NULL) != CEDUO_OK)
+            return false;
+    }
+    return draw_trail(s, scene->simulation.gravity);
+}
+
+void ceduo_steps_move(struct steps *s, int by)
+{
+    if (by > 0)
+        s->at = s->at < s->n ? s->at + 1 : s->n;
+    else
+        s->at = s->at > 1 ? s->at - 1 : s->at == 1 ? 0 : s->n;
+}
+
+static void say_end(const struct steps *s, double origin, struct text *text)
+{
+    static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever")};
+    ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
+                      _(ends[s->way.end]), s->way.x + origin, (unsigned long long)s->way.contacts);
+}
+
+void ceduo_steps_say(const struct steps *s, const struct ceduo_scene *scene, double origin, struct text *text)
+{
+    if (s->at == 0 || s->at > s->n) {
+        say_end(s, origin, text);
+        return;
+    }
+    const struct ceduo_piece *p = &s->pieces[s->at - 1];
+    double up = p->vz > 0 && !p->rolls ? p->vz / scene->simulation.gravity : 0;
+    up = up < p->seconds ? up : p->seconds;
+    double x = p->x + p->vx * up, z = p->z + (p->vz - scene->simulation.gravity / 2 * up) * up;
+    ceduo_text_format(text, _("rock %llu, piece %zu of %zu: "), (unsigned long long)s->rock, s->at, s->n);
+    if (p->rolls)
+        ceduo_text_format(text, _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
+                          hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
+    else
+        ceduo_text_format(text, _("flies from %.2f to %.2f m, lands at %.1f m/s, top %.1f m over the ground"),
+                          p->x + origin, p->x1 + origin, hypot(p->vx1, p->vz1),
+                          fmax(0, z - ceduo_slope_height(&scene->slope, x)));
+}
+
+void ceduo_steps_free(struct steps *s)
+{
+    free(s->pieces);
+    ceduo_trail_free(&s->trail);
+    *s = (struct steps){0};
+}

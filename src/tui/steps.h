@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_STEPS_H
+#define CEDUO_STEPS_H
+
+#include "io/text.h"
+#include "view/outlook.h"
+
+/* The way of one rock, piece by piece: flights, and rolls along the ground. */
+struct steps {
+    uint64_t key, rock; /* of the run and the rock that they were followed for */
+    size_t n, room, at; /* pieces; how many of them are shown, 0: all */
+    struct ceduo_piece *pieces;
+    struct ceduo_way way;
+    struct ceduo_trail trail; /* what is shown of it */
+};
+
+/* Follows rock number `rock` of the scene, whose run has this key, unless it is that way already. False without memory. */
+bool ceduo_steps_follow(struct steps *steps, const struct ceduo_scene *scene, uint64_t key, uint64_t rock);
+
+/* A piece further or back. */
+void ceduo_steps_move(struct steps *steps, int by);
+
+/* What happens where the way is shown to, or how it ends. `origin` is added to every x. */
+void ceduo_steps_say(const struct steps *steps, const struct ceduo_scene *scene, double origin, struct text *text);
+
+void ceduo_steps_free(struct steps *steps);
+
+#endif
