@@ -164,11 +164,11 @@ static void put_head(const struct histogram *h)
     struct text text = {0};
     ceduo_text_format(&text, _("n = %llu of %llu rocks arrive"), (unsigned long long)a->reached,
                       (unsigned long long)a->released);
-    if (h->n < a->reached)
-        ceduo_text_format(&text, _("; the first %zu of them:"), h->n);
     if (!isnan(a->exceed_probability))
         ceduo_text_format(&text, _("; of 1000 released, %.0f with more than %g kJ"), a->exceed_probability * 1000,
                           h->control->accepted * KILO);
+    if (h->n < a->reached)
+        ceduo_text_format(&text, _("; drawn: the first %zu"), h->n);
     ceduo_plot_put(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT,
                    text.bytes ? text.bytes : "");
     ceduo_text_free(&text);
