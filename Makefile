@@ -86,7 +86,8 @@ $(GOALS): $(filter deps,$(MAKECMDGOALS))
 do-run: all
 	$(PROGRAM) --batch profiles/scenes/paper-site.yaml
 	@echo
-	@echo "More: ./ceduo --batch four-systems; ./ceduo --help; man man/ceduo.1"
+	@echo "The terminal program: ./ceduo          Four systems side by side: ./ceduo --batch four-systems"
+	@echo "More: ./ceduo --help; man man/ceduo.1"
 
 # ---- tests ----
 
@@ -116,13 +117,22 @@ $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
 $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:
 
+DEBIAN_ALL := clang valgrind
 do-check-all: do-check
+	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
 	@+$(MAKE) --no-print-directory VARIANT=asan do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
+	@+$(MAKE) --no-print-directory do-check-memory
 
 # Threads are exercised by these.
-do-check-threads: $(T)/physics/test_statistics_of_runs
+do-check-threads: $(T)/physics/test_statistics_of_runs $(PROGRAM)
 	$<
+	CEDUO=$(CURDIR)/$(PROGRAM) tests/tui/test_screens.py
+
+# Memory as valgrind sees it: every scene as a batch, and the terminal program by a script.
+do-check-memory: all
+	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
+	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --plot profile profiles/scenes/paper-site.yaml >/dev/null
 
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
 $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) $(PARTS) $(LIBRARY)
@@ -163,5 +173,5 @@ uninstall:
 clean:
 	rm -rf build ceduo
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-check-threads man install uninstall clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-check-threads do-check-memory man install uninstall clean
 .DELETE_ON_ERROR:

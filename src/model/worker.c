@@ -43,6 +43,8 @@ static void tell(struct worker *w)
 
 static bool precise(const struct ceduo_outlook *o)
 {
+    if (o->rocks < WORKER_PICTURE_ROCKS) /* a chance is never known from so few */
+        return false;
     for (size_t i = 0; i < o->controls; i++) {
         const struct ceduo_arrivals *a = &o->arrivals[i];
         if (a->reached >= CEDUO_FEW_ROCKS && !(CEDUO_Z95 * a->energy.se <= WORKER_TOLERANCE * a->energy.mean))

@@ -234,30 +234,29 @@ static bool replace_document(struct app *app, struct document *next)
     return true;
 }
 
+/* What was opened takes the place of this document, or the reason why not is shown. */
+static bool take_opened(struct app *app, struct document *next, bool good, struct problems *problems)
+{
+    if (good)
+        good = replace_document(app, next);
+    else
+        say_problem(app, problems);
+    ceduo_problems_free(problems);
+    return good;
+}
+
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
     struct problems problems = {0};
-    bool good = ceduo_document_open(&next, path, &problems);
-    if (good)
-        good = replace_document(app, &next);
-    else
-        say_problem(app, &problems);
-    ceduo_problems_free(&problems);
-    return good;
+    return take_opened(app, &next, ceduo_document_open(&next, path, &problems), &problems);
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)
 {
     struct document next;
     struct problems problems = {0};
-    bool good = ceduo_document_new(&next, text, &problems);
-    if (good)
-        good = replace_document(app, &next);
-    else
-        say_problem(app, &problems);
-    ceduo_problems_free(&problems);
-    return good;
+    return take_opened(app, &next, ceduo_document_new(&next, text, &problems), &problems);
 }
 
 bool ceduo_app_save_to(struct app *app, const char *path)

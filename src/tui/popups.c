@@ -213,7 +213,7 @@ void ceduo_popup_open(struct app *app)
 enum { NEW_TITLE, NEW_PROFILE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 
 /* "0 120, 30 100, 60 95" as a list of vertices; false where it is none. */
-static bool typed_vertices(const char *text, struct text *yaml)
+static bool typed_vertices(const char *text, struct text *yaml, double *first, double *last)
 {
     size_t n = 0;
     ceduo_text_put(yaml, "vertices_m: [");
@@ -222,6 +222,8 @@ static bool typed_vertices(const char *text, struct text *yaml)
         int used = 0;
         if (sscanf(text, " %lf %lf%n", &x, &z, &used) != 2)
             return false;
+        *first = n == 0 ? x : *first;
+        *last = x;
         ceduo_text_format(yaml, "%s[%.10g, %.10g]", n++ ? ", " : "", x, z);
         text += used;
         text += strspn(text, " ,;");
@@ -245,11 +247,12 @@ static bool filled_new(struct app *app, struct popup *p)
     ceduo_text_format(&yaml, "ceduo: scene/1\ntitle: %s\nrock: {diameter_m: %s}\nslope: {", title.bytes ? title.bytes : "x",
                       p->fields[NEW_ROCK].text);
     bool good = true;
+    double first = -1e6, last = 1e6; /* of a file that is not read yet: wide enough */
     if (ends_in_csv(profile))
         ceduo_text_format(&yaml, "csv: %s", csv.bytes ? csv.bytes : "");
     else
-        good = typed_vertices(profile, &yaml);
-    ceduo_text_format(&yaml, ", materials: [{from_m: -1000000000, to_m: 1000000000, material: %s}]}\n",
+        good = typed_vertices(profile, &yaml, &first, &last);
+    ceduo_text_format(&yaml, ", materials: [{from_m: %.10g, to_m: %.10g, material: %s}]}\n", first, last,
                       p->fields[NEW_MATERIAL].text);
     ceduo_text_format(&yaml, "controls: [{x_m: %s", p->fields[NEW_CONTROL].text);
     if (p->fields[NEW_ACCEPTED].text[0])
@@ -286,7 +289,7 @@ void ceduo_popup_new(struct app *app)
                                "x z, x z, … Everything can be changed later."));
     ceduo_popup_field(p, _("title"), _("My slope"));
     ceduo_popup_field(p, _("profile (CSV file or points)"), "0 60, 20 35, 60 20, 100 12");
-    ceduo_popup_field(p, _("ground (talus, cliff, colluvium)"), "talus");
+    ceduo_popup_field(p, _("ground: talus, colluvium, cliff"), "talus");
     ceduo_popup_field(p, _("rock: diameter, m"), "0.6");
     ceduo_popup_field(p, _("counted at x, m"), "90");
     ceduo_popup_field(p, _("that bears, kJ (may be empty)"), "50");

@@ -861,7 +861,7 @@ def test_rocks_step():
         key Left
         dump""", "paper-site")
     for screen, rock in zip(screens, (1, 2, 1, 2, 1)):
-        expect(re.match(rf"rock {rock}: (passes at [\d.]+ m/s|does not pass)", screen.note), screen.note)
+        expect(re.match(rf"rock {rock}: .* [\d.]+ m", screen.note), screen.note)
     expect_equal(screens[2].note, screens[0].note, "rock 1 again")
 
 

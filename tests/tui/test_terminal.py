@@ -1,0 +1,636 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program in a real terminal, that of tmux: keys, sizes, signals, and that the terminal is left as it was."""
+import fcntl
+import os
+import pty
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import termios
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import FAST, Place, check_good, home  # noqa: E402
+from harness import (CEDUO, PROFILES, ROOT, USAGE, Failure, Skip, Suite, environment, expect, expect_equal,  # noqa: E402
+                     expect_in, tests_of)
+
+PATIENCE = 20  # seconds until something that must come counts as missing; none of it is ever waited for in full
+ASAN = b"__asan_init" in Path(CEDUO).read_bytes()
+
+
+def until(what, found, patience=PATIENCE):
+    """Polls until found() is true, and returns that."""
+    end = time.monotonic() + patience
+    while True:
+        value = found()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise Failure(f"waited {patience} s in vain: {what() if callable(what) else what}")
+        time.sleep(0.01)
+
+
+class Tmux:
+    """A tmux server of its own with one shell in it; `with Tmux(place) as t:`."""
+
+    def __init__(self, place, width=80, height=24, **changes):
+        self.place, self.width, self.height = place, width, height
+        self.env = home(place.path)
+        self.env.update(TERM="tmux-256color", PS1="READY> ", HISTFILE="", ENV="")
+        self.env.pop("TMUX", None)
+        for name, value in changes.items():
+            if value is None:
+                self.env.pop(name, None)
+            else:
+                self.env[name] = value
+        self.socket = str(place.path / "tmux.socket")
+        self.marks = 0
+
+    def tmux(self, *words, check=True):
+        done = subprocess.run(["tmux", "-S", self.socket, "-f", "/dev/null", *words], env=self.env, cwd=self.place.path,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=PATIENCE, check=False)
+        expect(not check or done.returncode == 0, "tmux", words, done.stderr.decode())
+        return done.stdout.decode("utf-8", "replace")
+
+    def __enter__(self):
+        if not shutil.which("tmux"):
+            raise Skip("no tmux here")
+        # The shell gets exactly this environment, not what tmux would add to it.
+        inner = [f"{k}={v}" for k, v in self.env.items()]
+        self.tmux("-u", "new-session", "-d", "-x", str(self.width), "-y", str(self.height), "env", "-i", *inner, "sh", "-i")
+        self.tmux("set-option", "-g", "window-size", "manual", check=False)
+        self.tmux("set-option", "-g", "escape-time", "0")
+        self.sees("READY>")
+        return self
+
+    def __exit__(self, *_):
+        self.tmux("kill-server", check=False)
+
+    def screen(self, *options):
+        return self.tmux("capture-pane", "-p", *options)
+
+    def sees(self, *parts, lacks=()):
+        """Waits until all parts are on the screen; returns it."""
+        last = [""]
+
+        def there():
+            last[0] = self.screen()
+            return all(p in last[0] for p in parts) and not any(p in last[0] for p in lacks)
+
+        until(lambda: f"{parts} without {lacks} on the screen, which is:\n{last[0]}", there)
+        return last[0]
+
+    def keys(self, *keys):
+        self.tmux("send-keys", *keys)
+
+    def text(self, text):
+        self.tmux("send-keys", "-l", text)
+
+    def shell(self, line):
+        """A command of the shell; returns what is on the screen once it is done."""
+        self.marks += 1
+        self.text(f"clear; {line}; echo DONE-$((1000+{self.marks}))")
+        self.keys("Enter")
+        return self.sees(f"DONE-{1000 + self.marks}\n")
+
+    def start(self, *arguments, sees=("READY-TO-SEE",), prefix=""):
+        """Starts the program; returns its process."""
+        words = " ".join(f"'{a}'" for a in arguments)
+        self.text(f"clear; {prefix} '{CEDUO}' {words}")
+        self.keys("Enter")
+        self.sees(*(("? help", "q quit", "1 slope") if sees == ("READY-TO-SEE",) else sees))
+        return self.process()
+
+    def process(self):
+        shell = int(self.tmux("display-message", "-p", "#{pane_pid}"))
+
+        def child():
+            found = Path(f"/proc/{shell}/task/{shell}/children").read_text().split()
+            return found and int(found[0])
+
+        return until("the program runs", child)
+
+    def alternate(self):
+        return self.tmux("display-message", "-p", "#{alternate_on}").strip() == "1"
+
+    def edit(self, stools="1234"):
+        """Changes the stools of the first belt."""
+        self.keys("2")
+        self.sees("stools per ha")
+        self.keys("/")
+        self.sees("Search in this view")
+        self.keys("C-u")
+        self.text("stools.per_ha")
+        self.keys("Enter")
+        self.sees("stools per horizontal hectare")
+        self.keys("Enter")
+        self.sees("Esc leaves it as it was")
+        self.keys("C-u")
+        self.text(stools)
+        self.keys("Enter")
+        self.sees(stools, "* ", lacks=("Esc leaves it as it was",))
+
+
+def gone(pid):
+    """Whether a process has ended."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
+    except (FileNotFoundError, ProcessLookupError):
+        return True
+
+
+def mode(t):
+    """What stty says of the terminal, between marks of its own."""
+    text = t.shell("stty -a")
+    found = text.split("\n")
+    return "\n".join(line for line in found if "=" in line or "icanon" in line or "echo" in line or "speed" in line)
+
+
+def after_ending(t, before, what):
+    """The terminal is that of a shell again."""
+    t.sees("READY>")
+    until(f"the alternate screen is left after {what}", lambda: not t.alternate())
+    expect_equal(mode(t), before, f"stty -a after {what}")
+    flags = t.tmux("display-message", "-p", "#{mouse_any_flag}#{mouse_sgr_flag} #{cursor_flag} #{keypad_cursor_flag}").strip()
+    expect_equal(flags, "00 1 0", f"mouse, cursor, keypad after {what}")
+
+
+# ---- working ----
+
+def test_work():
+    """Start, edit, undo, redo, save, quit; every key does at once what it should."""
+    with Place() as place, Tmux(place) as t:
+        before = mode(t)
+        t.start("fast.yaml")
+        t.sees("Rock  0.5 m", "1024 rocks", "Belts of forest")
+        expect(t.alternate(), "not on the alternate screen")
+        old = t.screen()
+        t.edit()
+        expect(t.screen() != old, "nothing has changed")
+        t.keys("u")
+        t.sees("undone: ", "3000")
+        t.keys("C-r")
+        t.sees("again: ", "1234")
+        t.keys("s")
+        t.sees("saved ", lacks=("* fast",))
+        expect_equal(place.text("fast.yaml"), FAST.replace("per_ha: 3000", "per_ha: 1234"), "the file")
+        t.keys("F10")
+        after_ending(t, before, "quitting")
+        expect("1 slope" not in t.screen(), "the program's screen is still there")
+
+
+def test_function_keys():
+    """Function keys, arrows, Shift-Tab, Del, PgDn come as the terminal sends them; Esc without delay."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.keys("F1")
+        t.sees("Every edit is live")
+        t.keys("NPage")
+        t.sees("search again", lacks=("Every edit is live",))
+        start = time.monotonic()
+        t.keys("Escape")
+        t.sees("Belts of forest", lacks=("search again",))
+        expect(time.monotonic() - start < 0.5, f"Esc took {time.monotonic() - start:.2f} s")
+        t.keys("Down", "Right")
+        t.sees("to_m  where the belt ends")
+        t.keys("DC")
+        t.sees("deleted forest[1]")
+        t.keys("BTab")
+        t.keys("F4")
+        t.sees("unsaved work")
+        t.keys("F7")
+        t.sees("unsaved work")
+        t.keys("F3")
+        t.sees("Search in this view")
+        t.keys("Escape")
+        t.keys("F5")
+        t.sees("Stand of this belt")
+        t.keys("Escape")
+        t.keys("F6")
+        t.sees("the batch command")
+        t.keys("Escape")
+        t.keys("F2")
+        t.sees("saved ")
+        check_good(place.path, "fast.yaml")
+
+
+def test_utf8():
+    """What is typed in UTF-8 arrives whole."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.keys("3")
+        t.keys("G")
+        t.sees("title  ")
+        t.keys("Enter")
+        t.text("Über dem Weg ‘è’")
+        t.keys("Enter")
+        t.sees("* Über dem Weg ‘è’")
+        t.keys("s")
+        t.sees("saved ")
+        expect_in("Über dem Weg ‘è’", place.text("fast.yaml"))
+
+
+def test_resizes():
+    """200 resizes, and the screen is that of its size; too small says so and comes back."""
+    with Place() as place, Tmux(place) as t:
+        pid = t.start("fast.yaml")
+        sizes = [(80, 24), (20, 5), (200, 50), (60, 20), (59, 19), (121, 33), (1, 1), (100, 30), (300, 90), (79, 24)]
+        for i in range(200):
+            width, height = sizes[i % 10][0] + i % 7, sizes[i % 10][1] + i % 3
+            t.tmux("resize-window", "-x", str(width), "-y", str(height))
+            if i % 20 == 3:
+                t.keys(str(1 + i // 20 % 5))
+        expect(not gone(pid), "the program ended on a resize")
+        t.tmux("resize-window", "-x", "59", "-y", "19")
+        t.sees("ceduo needs a window of 60 x 20; this one is 59 x 19")
+        t.keys("1")
+        t.tmux("resize-window", "-x", "120", "-y", "40")
+        screen = t.sees("Belts of forest", "height above the ground", "w export")
+        lines = screen.split("\n")
+        expect_equal(len(lines), 41, "lines")
+        expect_in("? help", lines[39], "the last line")
+        expect(all(line[83] == "│" for line in lines[2:37]), screen)
+        t.keys("q")
+        t.sees("READY>")
+
+
+def test_stop():
+    """Ctrl-Z gives the terminal back as it was, fg goes on where it was."""
+    with Place() as place, Tmux(place, PS1="READY> ") as t:
+        before = mode(t)
+        t.start("fast.yaml")
+        t.edit("1111")
+        t.keys("C-z")
+        t.sees("READY>", lacks=("1 slope",))
+        expect_equal(mode(t), before, "stty -a while stopped")
+        expect(not t.alternate(), "the alternate screen while stopped")
+        t.text("fg")
+        t.keys("Enter")
+        t.sees("stools per ha     1111", "? help")
+        t.keys("u")
+        t.sees("undone: ")
+        t.keys("q")
+        after_ending(t, before, "Ctrl-Z, fg and quitting")
+
+
+def test_interrupt():
+    """Ctrl-C asks like q: at once where nothing is unsaved, otherwise first."""
+    with Place() as place, Tmux(place) as t:
+        before = mode(t)
+        t.start("fast.yaml")
+        t.edit("1111")
+        t.keys("C-c")
+        t.sees("There is unsaved work", "quit and lose it")
+        t.keys("Enter")
+        t.sees("* fast", lacks=("There is unsaved work",))
+        t.keys("u")
+        t.sees("undone: ")
+        t.keys("C-c")
+        after_ending(t, before, "Ctrl-C")
+        expect_equal(place.text("fast.yaml"), FAST, "the scene")
+
+
+def left_behind(place):
+    folder = place.path / "state/ceduo"
+    return sorted(p.name for p in folder.iterdir()) if folder.exists() else []
+
+
+def end_by(number, name, restores):
+    """Ends the program with unsaved work by a signal; the next start offers that work."""
+    with Place() as place, Tmux(place) as t:
+        t.shell("ulimit -c 0")
+        before = mode(t)
+        pid = t.start("fast.yaml")
+        t.edit("1234")
+        until("a copy of the unsaved work", lambda: left_behind(place))
+        os.kill(pid, number)
+        until(f"ended by {name}", lambda: gone(pid))
+        if restores:
+            after_ending(t, before, name)
+            status = t.shell("echo status-$STATUS") if False else ""
+            expect("1 slope" not in t.screen(), f"the program's screen is still there after {name}", status)
+        else:
+            t.keys("C-j")
+            t.text("reset; stty sane; clear")
+            t.keys("C-j")
+            t.tmux("send-keys", "-R")
+            t.sees("READY>")
+        expect_equal(place.text("fast.yaml"), FAST, "the scene on disk")
+        t.start("fast.yaml", sees=("Unsaved work on this scene was left behind", "take it up again", "forget it"))
+        t.keys("Enter")
+        t.sees("your work is back")
+        t.keys("2")
+        t.sees("stools per ha     1234", "* fast")
+        t.keys("s")
+        t.sees("saved ")
+        expect_equal(place.text("fast.yaml"), FAST.replace("per_ha: 3000", "per_ha: 1234"), "the recovered scene")
+        t.keys("q")
+        t.sees("READY>")
+        until("no copy is kept of what is saved", lambda: not left_behind(place))
+        t.start("fast.yaml")
+        expect("left behind" not in t.screen(), "offered again")
+        t.keys("q")
+        t.sees("READY>")
+
+
+def test_kill():
+    """kill -9: the next start offers the work, takes it up, saves it."""
+    end_by(signal.SIGKILL, "SIGKILL", False)
+
+
+def test_term():
+    """SIGTERM leaves the terminal as it was, and the work to be taken up again."""
+    end_by(signal.SIGTERM, "SIGTERM", True)
+
+
+def test_hup():
+    """SIGHUP leaves the terminal as it was, and the work to be taken up again."""
+    end_by(signal.SIGHUP, "SIGHUP", True)
+
+
+def test_crash():
+    """A crash (SIGSEGV) leaves the terminal as it was, and the work to be taken up again."""
+    if ASAN:
+        raise Skip("the sanitizer would report the signal")
+    end_by(signal.SIGSEGV, "SIGSEGV", True)
+
+
+def test_abort():
+    """An abort leaves the terminal as it was too."""
+    with Place() as place, Tmux(place) as t:
+        t.shell("ulimit -c 0")
+        before = mode(t)
+        pid = t.start("fast.yaml")
+        os.kill(pid, signal.SIGABRT)
+        until("ended by SIGABRT", lambda: gone(pid))
+        after_ending(t, before, "SIGABRT")
+
+
+def test_signal_status():
+    """A signal ends the program by that signal: the shell sees 128 + its number."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        with Place() as place, Tmux(place) as t:
+            t.text(f"clear; '{CEDUO}' fast.yaml; echo STATUS-$?-")
+            t.keys("Enter")
+            t.sees("? help", "1 slope")
+            os.kill(t.process(), number)
+            t.sees(f"STATUS-{128 + number}-")
+
+
+def test_forget():
+    """Work that was left behind can be forgotten, and is not offered again."""
+    with Place() as place, Tmux(place) as t:
+        pid = t.start("fast.yaml")
+        t.edit("1234")
+        until("a copy of the unsaved work", lambda: left_behind(place))
+        os.kill(pid, signal.SIGTERM)
+        t.sees("READY>", lacks=("1 slope",))
+        t.start("fast.yaml", sees=("left behind", "forget it"))
+        t.keys("Down", "Enter")
+        t.sees("Belts of forest", lacks=("left behind",))
+        expect("* fast" not in t.screen(), "the forgotten work is there")
+        t.keys("q")
+        t.sees("READY>", lacks=("1 slope",))
+        expect_equal(left_behind(place), [], "copies")
+
+
+def test_recover_escape():
+    """Esc at the offer of left work does not destroy it: only 'forget it' does."""
+    with Place() as place, Tmux(place) as t:
+        pid = t.start("fast.yaml")
+        t.edit("1234")
+        until("a copy of the unsaved work", lambda: left_behind(place))
+        os.kill(pid, signal.SIGKILL)
+        until("killed", lambda: gone(pid))
+        t.tmux("send-keys", "-R")
+        t.keys("C-j")
+        t.text("stty sane; clear")
+        t.keys("C-j")
+        pid = t.start("fast.yaml", sees=("left behind", "forget it"))
+        os.kill(pid, signal.SIGKILL)  # again, before anything is chosen
+        until("killed", lambda: gone(pid))
+        t.tmux("send-keys", "-R")
+        t.keys("C-j")
+        t.text("stty sane; clear")
+        t.keys("C-j")
+        t.start("fast.yaml", sees=("left behind", "forget it"))
+        t.keys("Escape")
+        t.sees("Belts of forest", lacks=("left behind",))
+        t.keys("q")
+        t.sees("READY>", lacks=("1 slope",))
+        t.start("fast.yaml", sees=("left behind", "forget it"))
+
+
+def test_two_at_once():
+    """A second program on the same scene is not offered the unsaved work of the first, which still runs."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.edit("1234")
+        until("a copy of the unsaved work", lambda: left_behind(place))
+        t.tmux("new-window", "env", "-i", *[f"{k}={v}" for k, v in t.env.items()], CEDUO, "fast.yaml")
+        screen = t.sees("Belts of forest", "? help")
+        expect("left behind" not in screen and "* fast" not in screen, screen)
+
+
+def test_closed_window():
+    """A window that is closed ends the program, and the work can be taken up again."""
+    with Place() as place, Tmux(place) as t:
+        pid = t.start("fast.yaml")
+        t.edit("1234")
+        until("a copy of the unsaved work", lambda: left_behind(place))
+        t.tmux("new-window", "sh")
+        t.tmux("kill-window", "-t", ":0")
+        until("ended with its window", lambda: gone(pid))
+        expect(left_behind(place), "the work is lost")
+
+
+# ---- terminals that cannot show it ----
+
+def in_pty(*arguments, env=None, patience=PATIENCE):
+    """Runs the program on a bare pseudo-terminal of 80x24; returns its status and all it wrote."""
+    pid, fd = pty.fork()
+    if pid == 0:
+        try:
+            os.execve(CEDUO, [CEDUO, *arguments], env)
+        finally:
+            os._exit(127)
+    fcntl.ioctl(fd, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    out, end = b"", time.monotonic() + patience
+    os.set_blocking(fd, False)
+    while time.monotonic() < end:
+        try:
+            part = os.read(fd, 65536)
+        except BlockingIOError:
+            part = None
+            time.sleep(0.01)
+        except OSError:
+            break
+        if part == b"":
+            break
+        out += part or b""
+    ended, status = os.waitpid(pid, os.WNOHANG)
+    for _ in range(200):
+        if ended:
+            break
+        time.sleep(0.01)
+        ended, status = os.waitpid(pid, os.WNOHANG)
+    if not ended:
+        os.kill(pid, signal.SIGKILL)
+        os.waitpid(pid, 0)
+        raise Failure(f"not ended after {patience} s; it wrote {out[-2000:]!r}")
+    os.close(fd)
+    return os.waitstatus_to_exitcode(status), out
+
+
+def test_no_terminal():
+    """Without a terminal: status 2 and a hint to --batch, nothing on standard output."""
+    with Place() as place:
+        for stdin in (subprocess.DEVNULL, subprocess.PIPE):
+            done = subprocess.run([CEDUO, "fast.yaml"], stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  env={**home(place.path), "TERM": "xterm"}, cwd=place.path, timeout=PATIENCE, check=False,
+                                  start_new_session=True)
+            expect(done.returncode == USAGE and done.stdout == b"" and b"--batch" in done.stderr, done)
+            expect_equal(done.stderr.count(b"\n"), 1, "lines of the hint")
+
+
+def test_dumb():
+    """TERM=dumb, unknown or unset: the same hint, and no escape sequence."""
+    with Place() as place:
+        for term in ("dumb", "no-such-terminal", "", None):
+            env = home(place.path)
+            if term is not None:
+                env["TERM"] = term
+            status, out = in_pty("fast.yaml", env={**env, "PWD": str(place.path)}) if os.chdir(place.path) is None else 0
+            expect(status == USAGE and b"--batch" in out, f"TERM={term}: status {status}, {out!r}")
+            expect(b"\x1b" not in out and out.count(b"\n") == 1, f"TERM={term}: {out!r}")
+
+
+def test_bad_scene():
+    """A scene that cannot be read is reported on the plain screen, status 3."""
+    with Place() as place:
+        os.chdir(place.path)
+        place.write("bad.yaml", "ceduo: scene/1\nrock: {diameter_m: -1}\n")
+        status, out = in_pty("bad.yaml", env={**home(place.path), "TERM": "xterm"})
+        expect(status == 3 and b"bad.yaml:2:" in out and b"\x1b" not in out, status, out)
+
+
+# ---- colours and letters ----
+
+def test_ascii_locale():
+    """LC_ALL=C: a screen in ASCII alone."""
+    with Place() as place, Tmux(place, LC_ALL="C") as t:
+        t.start("fast.yaml")
+        for view in "12345?":
+            t.keys(view)
+            screen = t.sees("? help" if view != "?" else "Every edit is live")
+            expect(screen.isascii(), screen)
+        t.keys("Escape")
+
+
+def colours_of(screen):
+    """The colour codes of the sequences m; 39 and 49 are the terminal's own colours."""
+    codes = [c for seq in re.findall(r"\x1b\[([\d;:]*)m", screen) for c in re.split("[;:]", seq)]
+    return {c for c in codes if re.fullmatch(r"3[0-8]|4[0-8]|9\d|10\d", c)}
+
+
+def test_no_color():
+    """NO_COLOR: no colour sequences; the signs are still there. Without it there are some."""
+    for setting, wanted in (({}, True), ({"NO_COLOR": "1"}, False)):
+        with Place() as place, Tmux(place, **setting) as t:
+            t.start("fast.yaml")
+            t.sees("✔ Contact", "1024 rocks")
+            for view in "12345":
+                t.keys(view)
+                t.sees("? help")
+            t.keys("1")
+            t.sees("Belts of forest")
+            found = colours_of(t.screen("-e"))
+            expect(bool(found) == wanted, f"{setting}: colours {found}")
+
+
+def test_themes():
+    """t goes through dark, light and none; the third has no colours."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.sees("1024 rocks")
+        first = t.screen("-e")
+        t.keys("t")
+        second = until("another screen", lambda: (lambda s: s != first and s)(t.screen("-e")))
+        t.keys("t")
+        until("a screen without colours", lambda: not colours_of(t.screen("-e")))
+        t.keys("t")
+        until("the first again", lambda: t.screen("-e") == first)
+        expect(colours_of(first) and second, first)
+
+
+def test_mouse():
+    """A click on a view's name opens it, the wheel moves."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        flags = t.tmux("display-message", "-p", "#{mouse_any_flag} #{mouse_sgr_flag}").split()
+        expect("1" in flags, f"the program does not ask for the mouse: {flags}")
+        click = "\x1b[<0;{x};{y}M\x1b[<0;{x};{y}m" if flags[1] == "1" else None
+        if click is None:
+            raise Skip("no SGR mouse here")
+        t.text(click.format(x=12, y=1))
+        t.sees("stools per ha")
+        t.text(click.format(x=4, y=1))
+        t.sees("Belts of forest")
+
+
+# ---- at rest ----
+
+def test_idle():
+    """A program at rest uses no processor and writes nothing."""
+    with Place() as place, Tmux(place) as t:
+        pid = t.start("fast.yaml")
+        t.sees("= ±0 % 1024 rocks")
+        t.edit("1234")
+        t.sees("= ±0 % 1024 rocks")
+
+        def used():
+            stat = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+            io = dict(line.split(": ") for line in Path(f"/proc/{pid}/io").read_text().splitlines())
+            switches = re.findall(r"ctxt_switches:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())
+            return {"ticks": int(stat[11]) + int(stat[12]), "written": int(io["wchar"]), "read": int(io["rchar"]),
+                    "switches": [int(s) for s in switches]}
+
+        # quiet first: the last picture is out, the last copy written
+        last = [None]
+
+        def quiet():
+            now, before = used(), last[0]
+            last[0] = now
+            time.sleep(0.2)
+            return now == before
+
+        until("the program comes to rest", quiet)
+        before = used()
+        time.sleep(2)
+        expect_equal(used(), before, "processor, bytes and switches after two seconds at rest")
+
+
+def test_refining_ends():
+    """On the paper's site the figures are refined by themselves, until the mark says that they are fine."""
+    with Place() as place, Tmux(place) as t:
+        t.start("paper-site")
+        screen = t.sees("= ±0.")
+        expect(re.search(r"= ±0\.\d+ % \d{5,} rocks", screen), screen)
+
+
+def main():
+    os.environ.pop("TMUX", None)
+    if not shutil.which("tmux"):
+        print("# no tmux here: most of these tests are skipped")
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
