@@ -45,6 +45,15 @@ enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, uint64_t roc
                                    void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
                                    struct ceduo_way *way, struct ceduo_crossing *crossings);
 
+/* The same for many rocks: what they share of the scene is prepared once. NULL without memory, or where the scene has not
+ * passed ceduo_scene_check(). */
+struct ceduo_follower;
+struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene);
+enum ceduo_status ceduo_follower_follow(const struct ceduo_follower *follower, uint64_t rock,
+                                        void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
+                                        struct ceduo_way *way, struct ceduo_crossing *crossings);
+void ceduo_follower_free(struct ceduo_follower *follower);
+
 /* The facet draw, uniform in [0, 1), of contact number `contact` of a rock: Threefry 2x64 (Salmon et al. 2011). */
 double ceduo_way_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);
 

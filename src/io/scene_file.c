@@ -75,7 +75,8 @@ static void assume(struct maker *m, const char *path, const char *text)
         ceduo_problem_memory(m->problems);
         return;
     }
-    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = m->file->notes};
+    *note = (struct source_note){
+        .path = path, .kind = "assumed", .text = text, .before = m->file->notes, .made = true};
     m->file->notes = note;
 }
 
@@ -302,6 +303,22 @@ static bool make_talus(struct maker *m)
     for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
         s->segments[j] = segment_of(2);
     return s->segments != NULL;
+}
+
+/* The slope as it was made before, where its part of the document is the same one: an edit elsewhere costs nothing,
+ * however long the profile. */
+static bool reuse_slope(struct maker *m, const struct scene_file *before)
+{
+    const struct node *node = ceduo_node_get(m->file->root, "slope");
+    if (!node || node != before->slope_node)
+        return false;
+    m->file->scene.slope = before->scene.slope;
+    m->origin = before->origin_x;
+    m->file->ground_assumed = before->ground_assumed;
+    for (const struct source_note *n = before->notes; n; n = n->before)
+        if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made)
+            assume(m, n->path, n->text);
+    return true;
 }
 
 static bool make_slope(struct maker *m)
@@ -536,6 +553,7 @@ static const char *title_of(struct scene_file *file, const char *title)
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
     struct maker m = {.file = file, .problems = problems};
+    const struct scene_file last = *file;
     size_t before = problems->count;
     file->notes = NULL;
     file->ground_assumed = false;
@@ -547,12 +565,14 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->scene.title = (char *)(uintptr_t)title_of(file, m.form.title);
     make_simulation(&m);
     check_rock(&m);
-    if (make_slope(&m)) {
+    if (reuse_slope(&m, &last) || make_slope(&m)) {
         make_release(&m);
         make_controls(&m);
         make_options(&m);
     }
-    return problems->count == before && !problems->memory;
+    bool good = problems->count == before && !problems->memory;
+    file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
+    return good;
 }
 
 /* The '=' that ends a path; one within brackets belongs to a name. */

@@ -13,6 +13,7 @@ struct scene_file {
     const struct node *root; /* the scene, with what it refers to in place */
     struct ceduo_scene scene;
     const struct source_note *notes; /* where values come from, last first */
+    const struct node *slope_node;   /* that scene.slope was made from */
     bool ground_assumed;             /* the slope's file says no ground: talus was taken */
     double origin_x;                 /* what was taken off every x */
 };

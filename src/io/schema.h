@@ -89,6 +89,7 @@ struct source_note {
     const char *path; /* of the mapping that it stands in */
     const char *kind; /* measured, literature, assumed */
     const char *text;
+    bool made; /* by the program, not in the files */
     const struct source_note *before;
 };
 

@@ -62,7 +62,8 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
     add_point(t, p->x1, p->z1, false);
 }
 
-enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, uint64_t rock, struct ceduo_trail *trail)
+static enum ceduo_status trace(const struct ceduo_follower *follower, const struct ceduo_scene *scene, uint64_t rock,
+                               struct ceduo_trail *trail)
 {
     const struct ceduo_slope *slope = &scene->slope;
     *trail = (struct ceduo_trail){0};
@@ -70,10 +71,19 @@ enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, uint64_t r
                             .gravity = scene->simulation.gravity,
                             .step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION};
     struct ceduo_way way;
-    enum ceduo_status status = ceduo_way_follow(scene, rock, trace_piece, &tracer, &way, NULL);
+    enum ceduo_status status = ceduo_follower_follow(follower, rock, trace_piece, &tracer, &way, NULL);
     if (status == CEDUO_OK)
         add_point(&tracer, way.x, way.z, true);
     return tracer.failed ? CEDUO_NO_MEMORY : status;
+}
+
+enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, uint64_t rock, struct ceduo_trail *trail)
+{
+    *trail = (struct ceduo_trail){0};
+    struct ceduo_follower *follower = ceduo_follower_create(scene);
+    enum ceduo_status status = follower ? trace(follower, scene, rock, trail) : CEDUO_NO_MEMORY;
+    ceduo_follower_free(follower);
+    return status;
 }
 
 void ceduo_trail_free(struct ceduo_trail *trail)
@@ -87,11 +97,11 @@ static enum ceduo_status follow_trails(const struct ceduo_scene *scene, size_t t
 {
     trails = trails < o->rocks ? trails : (size_t)o->rocks;
     o->trails = calloc(trails + 1, sizeof *o->trails);
-    if (!o->trails)
-        return CEDUO_NO_MEMORY;
-    enum ceduo_status status = CEDUO_OK;
+    struct ceduo_follower *follower = o->trails ? ceduo_follower_create(scene) : NULL;
+    enum ceduo_status status = follower ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < trails && status == CEDUO_OK; i++)
-        status = ceduo_trail_follow(scene, i, &o->trails[o->trails_count++]);
+        status = trace(follower, scene, i, &o->trails[o->trails_count++]);
+    ceduo_follower_free(follower);
     return status;
 }
 
@@ -130,12 +140,11 @@ static enum ceduo_status fly_energies(const struct ceduo_scene *scene, struct ce
 {
     uint64_t rocks = o->rocks < FLOWN_MOST ? o->rocks : FLOWN_MOST;
     struct ceduo_crossing *crossings = calloc(o->controls + 1, sizeof *crossings);
-    if (!crossings)
-        return CEDUO_NO_MEMORY;
-    enum ceduo_status status = CEDUO_OK;
+    struct ceduo_follower *follower = crossings ? ceduo_follower_create(scene) : NULL;
+    enum ceduo_status status = follower ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (uint64_t rock = 0; rock < rocks && status == CEDUO_OK; rock++) {
         struct ceduo_way way;
-        status = ceduo_way_follow(scene, rock, NULL, NULL, &way, crossings);
+        status = ceduo_follower_follow(follower, rock, NULL, NULL, &way, crossings);
         for (size_t c = 0; c < o->controls && status == CEDUO_OK; c++) {
             const struct ceduo_crossing *at = &crossings[c];
             double energy = 0.5 * way.rock.mass * (at->vx * at->vx + at->vz * at->vz) +
@@ -144,6 +153,7 @@ static enum ceduo_status fly_energies(const struct ceduo_scene *scene, struct ce
                 o->energies[c].values[o->energies[c].n++] = energy;
         }
     }
+    ceduo_follower_free(follower);
     free(crossings);
     return status;
 }
