@@ -153,6 +153,7 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 # Writes the tables of parameters into the pages.
 man: $(TABLES)
 	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
+	@$(TABLES) keys man/ceduo.1
 
 # ---- installing ----
 

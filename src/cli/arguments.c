@@ -325,6 +325,12 @@ static enum exit_status check_together(const struct arguments *a)
         return usage(_("--plot prints a picture; it has no --format csv or json"));
     if (a->plot_width > 0 && a->plot == CEDUO_PLOT_NONE)
         return usage(_("--size goes with --plot"));
+    bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets_count > 0 || a->options_count > 0 || a->output ||
+                      a->format != CEDUO_TABLE || a->stands;
+    if (a->mode == MODE_TERMINAL && batch_only)
+        return usage(_("options such as -s, -n, -f and -o belong to --batch"));
+    if (a->mode == MODE_TERMINAL && a->scenes_count > 1)
+        return usage(_("the terminal program opens one scene; --batch takes several"));
     size_t standard = 0;
     for (size_t i = 0; i < a->scenes_count; i++)
         standard += strcmp(a->scenes[i], "-") == 0;

@@ -29,9 +29,8 @@ static enum exit_status no_terminal(const char *why)
 static enum exit_status run(const struct arguments *a, struct app *app)
 {
     if (a->script) {
-        bool good = ceduo_script_run(app, a->script);
-        ceduo_document_forget(&app->document); /* what a script leaves unsaved nobody misses */
-        return good ? EXIT_DONE : EXIT_USAGE;
+        static const enum exit_status statuses[] = {EXIT_DONE, EXIT_USAGE, EXIT_INPUT, EXIT_OUTPUT};
+        return statuses[ceduo_script_run(app, a->script)];
     }
     switch (ceduo_terminal_run(app)) {
     case TERMINAL_DONE:
@@ -50,7 +49,8 @@ enum exit_status ceduo_interactive_run(const struct arguments *a)
         return no_terminal(why);
     struct app app;
     struct problems problems = {0};
-    bool good = ceduo_app_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, charset_of(a), a->threads, &problems);
+    bool good = ceduo_app_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, charset_of(a), a->threads,
+                                 a->script != NULL, &problems);
     ceduo_problems_close(&problems);
     ceduo_batch_say(&problems.text);
     ceduo_problems_free(&problems);

@@ -249,29 +249,42 @@ struct patcher {
     size_t done; /* bytes of the source that are written */
 };
 
+/* Puts `now` in the place of what stands between the marks of `old`. */
+static bool patch_span(struct patcher *p, const struct node *old, const struct node *now)
+{
+    size_t from = byte_of(p->source, old->line, old->column);
+    size_t to = byte_of(p->source, old->end_line, old->end_column);
+    if (from < p->done || to < from)
+        return false;
+    ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);
+    put_flow(p->text, now);
+    p->done = to;
+    return true;
+}
+
+static bool same_shape(const struct node *old, const struct node *now)
+{
+    if (old->kind != now->kind || old->n != now->n)
+        return false;
+    for (size_t i = 0; old->kind == NODE_MAP && i < old->n; i++)
+        if (strcmp(old->items[i]->key, now->items[i]->key) != 0)
+            return false;
+    return true;
+}
+
 static bool patch(struct patcher *p, const struct node *old, const struct node *now)
 {
     if (old == now || (old->kind == NODE_SCALAR && now->kind == NODE_SCALAR && strcmp(old->text, now->text) == 0))
         return true;
-    if (old->kind != now->kind || old->n != now->n || old->source != p->source)
+    if (old->source != p->source)
         return false;
-    if (old->kind == NODE_SCALAR) {
-        size_t from = byte_of(p->source, old->line, old->column);
-        size_t to = byte_of(p->source, old->end_line, old->end_column);
-        if (from < p->done || to < from)
+    if (old->kind == NODE_SCALAR)
+        return patch_span(p, old, now);
+    if (!same_shape(old, now))
+        return old->flow && patch_span(p, old, now);
+    for (size_t i = 0; i < old->n; i++)
+        if (!patch(p, old->items[i], now->items[i]))
             return false;
-        ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);
-        ceduo_emit_scalar(p->text, now->text, now->quoted);
-        p->done = to;
-        return true;
-    }
-    for (size_t i = 0; i < old->n; i++) {
-        const struct node *a = old->items[i], *b = now->items[i];
-        if (old->kind == NODE_MAP && strcmp(a->key, b->key) != 0)
-            return false;
-        if (!patch(p, a, b))
-            return false;
-    }
     return true;
 }
 

@@ -14,8 +14,9 @@ enum node_kind { NODE_SCALAR, NODE_MAP, NODE_LIST };
 struct node {
     enum node_kind kind;
     bool quoted;                      /* a scalar in quotes: text, never a number */
+    bool flow;                        /* a mapping or list in brackets */
     uint32_t line, column;            /* of the value, from 1 */
-    uint32_t end_line, end_column;    /* of a scalar: just after it */
+    uint32_t end_line, end_column;    /* of a scalar, or what is in brackets: just after it */
     uint32_t key_line, key_column;    /* of its key; 0: none */
     const struct source *source;
     const char *key;                  /* in a mapping */

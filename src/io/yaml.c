@@ -189,6 +189,14 @@ static struct node *settle(struct reader *r, struct node *node, struct pile *pil
     return r->stopped ? NULL : node;
 }
 
+/* Where something in brackets ends: so that it can be written anew without the rest of the file. */
+static void note_end(const struct reader *r, struct node *node, bool flow, const yaml_event_t *event)
+{
+    node->flow = flow;
+    node->end_line = (uint32_t)line_of(event->end_mark);
+    node->end_column = (uint32_t)column_of(r, event->end_mark);
+}
+
 static struct node *read_list(struct reader *r, const yaml_event_t *start, int depth)
 {
     struct node *node = new_node(r, NODE_LIST, start->start_mark);
@@ -198,6 +206,8 @@ static struct node *read_list(struct reader *r, const yaml_event_t *start, int d
         if (!next_event(r, &event))
             break;
         bool end = event.type == YAML_SEQUENCE_END_EVENT;
+        if (end)
+            note_end(r, node, start->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE, &event);
         if (!end) {
             struct node *item = read_value(r, &event, depth);
             if (item)
@@ -266,6 +276,8 @@ static struct node *read_map(struct reader *r, const yaml_event_t *start, int de
         if (!next_event(r, &event))
             break;
         bool end = event.type == YAML_MAPPING_END_EVENT;
+        if (end)
+            note_end(r, node, start->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE, &event);
         if (!end)
             read_entry(r, &event, &pile, depth);
         yaml_event_delete(&event);

@@ -92,21 +92,28 @@ static bool commit(struct document *d, const struct node *root, const char *what
 
 /* ---- opening ---- */
 
-static bool is_shipped(struct document *d)
+/* A folder of profiles that is the user's own. */
+static bool is_own(const char *folder)
 {
-    const char *const *folders = ceduo_file_folders(&d->file.arena);
-    char *real = realpath(d->path, NULL);
-    bool shipped = false;
     const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
+    return (data && data[0] == '/' && strncmp(folder, data, strlen(data)) == 0) ||
+           (home && strstr(folder, "/.local/share/ceduo") && strncmp(folder, home, strlen(home)) == 0);
+}
+
+bool ceduo_document_is_shipped(const char *path)
+{
+    struct arena arena = {0};
+    const char *const *folders = ceduo_file_folders(&arena);
+    char *real = realpath(path, NULL);
+    bool shipped = false;
     for (size_t i = 0; real && folders && folders[i] && !shipped; i++) {
         char *folder = realpath(folders[i], NULL);
         size_t n = folder ? strlen(folder) : 0;
-        bool own = (data && data[0] == '/' && strncmp(folders[i], data, strlen(data)) == 0) ||
-                   (home && strstr(folders[i], "/.local/share/ceduo") && strncmp(folders[i], home, strlen(home)) == 0);
-        shipped = folder && !own && strncmp(real, folder, n) == 0 && real[n] == '/';
+        shipped = folder && !is_own(folders[i]) && strncmp(real, folder, n) == 0 && real[n] == '/';
         free(folder);
     }
     free(real);
+    ceduo_arena_free(&arena);
     return shipped;
 }
 
@@ -128,7 +135,7 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
     }
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : strdup(d->file.path);
-    d->shipped = d->path && is_shipped(d);
+    d->shipped = d->path && ceduo_document_is_shipped(d->path);
     note_disk(d);
     d->recovery = ceduo_recovery_path(d->path);
     if (!push_state(d, d->file.root, "")) {
@@ -371,6 +378,19 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
     return commit(d, root, list, problems);
 }
 
+bool ceduo_document_join_segments(struct document *d, size_t index, struct problems *problems)
+{
+    const char *list = "slope.vertices_m", *ground = "slope.segments";
+    const struct node *vertices = ceduo_document_node(d, list), *segments = ceduo_document_node(d, ground);
+    if (!vertices || !segments || vertices->n < 3)
+        return commit(d, NULL, ground, problems);
+    size_t vertex = index + 2 < vertices->n ? index + 1 : index;
+    const struct node *root = put(d, d->file.root, list, ceduo_node_removed(&d->file.arena, vertices, vertex), problems);
+    if (root && segments->n > 1)
+        root = put(d, root, ground, ceduo_node_removed(&d->file.arena, segments, index), problems);
+    return commit(d, root, ground, problems);
+}
+
 /* A scene whose forest is the one option "current". */
 static const struct node *with_options(struct document *d, const struct node *root, struct problems *problems)
 {
@@ -448,9 +468,49 @@ bool ceduo_document_unsaved(const struct document *d)
 
 /* ---- saving ---- */
 
-static bool fill_text(struct document *d, struct text *text, bool *laid_out_anew)
+/* Whether two names lead to one file. */
+static bool same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    return a && b && stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+/* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
+ * there, otherwise whole. */
+static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
+{
+    struct arena *arena = &d->file.arena;
+    const char *from = node->source && node->source->is_option ? node->source->beside : d->path;
+    const char *now = ceduo_file_find(arena, node->text, from, folder);
+    now = now ? now : ceduo_file_find(arena, node->text, NULL, folder);
+    if (!now || same_file(now, ceduo_file_find(arena, node->text, to, folder)))
+        return node;
+    char *whole = realpath(now, NULL);
+    const struct node *scalar = whole ? ceduo_node_scalar(arena, node->source, whole, false) : NULL;
+    free(whole);
+    return scalar ? ceduo_node_renamed(arena, scalar, node->key) : node;
+}
+
+/* All paths of an unresolved tree, for a scene that lies at `to`. */
+static const struct node *references_from(struct document *d, const struct node *node, const char *to)
+{
+    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"}, {"base", "stands"}, {"csv", "slopes"}};
+    for (size_t i = 0; i < 4 && node->kind == NODE_SCALAR && node->key; i++)
+        if (strcmp(node->key, keys[i][0]) == 0)
+            return reference_from(d, node, keys[i][1], to);
+    const struct node *out = node;
+    for (size_t i = 0; node->kind != NODE_SCALAR && out && i < node->n; i++) {
+        const struct node *item = references_from(d, node->items[i], to);
+        if (item != node->items[i])
+            out = item ? ceduo_node_replaced(&d->file.arena, out, i, item) : NULL;
+    }
+    return out;
+}
+
+static bool fill_text(struct document *d, const char *to, struct text *text, bool *laid_out_anew)
 {
     const struct node *root = ceduo_emit_unresolve(&d->file.arena, d->file.root);
+    root = root && to ? references_from(d, root, to) : root;
     *laid_out_anew = false;
     if (!root)
         return false;
@@ -464,7 +524,7 @@ static bool fill_text(struct document *d, struct text *text, bool *laid_out_anew
 void ceduo_document_text(struct document *d, struct text *text)
 {
     bool anew;
-    if (!fill_text(d, text, &anew))
+    if (!fill_text(d, NULL, text, &anew))
         text->failed = true;
 }
 
@@ -491,7 +551,7 @@ static bool keep_backup(const struct document *d, const char *path)
 bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
 {
     struct text text = {0};
-    bool good = fill_text(d, &text, laid_out_anew);
+    bool good = fill_text(d, path, &text, laid_out_anew);
     if (!good)
         errno = ENOMEM;
     bool same = d->path && strcmp(path, d->path) == 0;
@@ -541,9 +601,9 @@ void ceduo_document_forget(struct document *d)
         unlink(d->recovery);
 }
 
-char *ceduo_document_left_behind(const char *path)
+char *ceduo_document_left_behind(const char *path, char **file)
 {
-    return ceduo_recovery_find(path);
+    return ceduo_recovery_find(path, file);
 }
 
 bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)

@@ -67,6 +67,9 @@ bool ceduo_document_split(struct document *document, const char *list, size_t in
 bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex,
                                   struct problems *problems);
 
+/* Takes the vertex behind segment `index` out, or the one before the last segment: its ground goes. */
+bool ceduo_document_join_segments(struct document *document, size_t index, struct problems *problems);
+
 bool ceduo_document_undo(struct document *document);
 bool ceduo_document_redo(struct document *document);
 bool ceduo_document_unsaved(const struct document *document);
@@ -74,6 +77,9 @@ bool ceduo_document_unsaved(const struct document *document);
 /* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (a copy
  * of the old file is then kept as PATH.bak). False with errno set. */
 bool ceduo_document_save(struct document *document, const char *path, bool *laid_out_anew);
+
+/* Whether a path leads to a file of the program's own, which is never written. */
+bool ceduo_document_is_shipped(const char *path);
 
 /* Whether the file on disk is no longer the one that was read. */
 bool ceduo_document_changed_on_disk(const struct document *document);
@@ -84,8 +90,9 @@ void ceduo_document_text(struct document *document, struct text *text);
 /* Recovery: a copy of unsaved work, kept while there is some. */
 void ceduo_document_keep(struct document *document);
 void ceduo_document_forget(struct document *document);
-/* Text of a copy left behind for `path` by a program that ended without saving; NULL: none. To be freed. */
-char *ceduo_document_left_behind(const char *path);
+/* Text of a copy left behind for `path` (NULL: a scene without a file) by a program that ended without saving; NULL:
+ * none. Both it and the name of its file, which stays until somebody removes it, are to be freed. */
+char *ceduo_document_left_behind(const char *path, char **file);
 /* Puts such a text in place, as one state that can be undone. */
 bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
 

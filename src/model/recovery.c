@@ -76,20 +76,18 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
     return good;
 }
 
-static char *read_and_remove(const char *path)
+static char *read_copy(const char *path)
 {
     struct arena arena = {0};
     struct problems problems = {0};
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
     char *copy = source ? strdup(source->bytes) : NULL;
-    if (copy)
-        unlink(path);
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
     return copy;
 }
 
-char *ceduo_recovery_find(const char *path)
+char *ceduo_recovery_find(const char *path, char **file)
 {
     struct text folder = {0};
     char *found = NULL;
@@ -103,8 +101,11 @@ char *ceduo_recovery_find(const char *path)
             continue; /* its program still runs */
         struct text name = {0};
         ceduo_text_format(&name, "%s/%s", folder.bytes, e->d_name);
-        found = name.bytes ? read_and_remove(name.bytes) : NULL;
-        ceduo_text_free(&name);
+        found = name.bytes ? read_copy(name.bytes) : NULL;
+        if (found)
+            *file = name.bytes;
+        else
+            ceduo_text_free(&name);
     }
     if (dir)
         closedir(dir);

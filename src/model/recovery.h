@@ -15,7 +15,7 @@ char *ceduo_recovery_path(const char *path);
 /* Writes it, the scene's path in a first comment line. */
 bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n);
 
-/* Text of a copy for `path` whose process has ended; it is taken off the disk. NULL: none. To be freed. */
-char *ceduo_recovery_find(const char *path);
+/* Text of a copy for `path` whose process has ended, and in `*file` where it lies; both to be freed. NULL: none. */
+char *ceduo_recovery_find(const char *path, char **file);
 
 #endif

@@ -165,13 +165,21 @@ static void show_view(struct app *app, enum view_number view)
 
 static void offer_recovery(struct app *app)
 {
-    char *text = ceduo_document_left_behind(app->document.path);
+    char *file = NULL, *text = app->no_recovery ? NULL : ceduo_document_left_behind(app->document.path, &file);
+    bool without_file = !text && !app->no_recovery && app->document.path;
+    if (without_file)
+        text = ceduo_document_left_behind(NULL, &file);
     if (text)
-        ceduo_popup_recover(app, text);
+        ceduo_popup_recover(app, text, file, without_file);
 }
 
 static void took_document(struct app *app)
 {
+    if (app->no_recovery) {
+        ceduo_document_forget(&app->document);
+        free(app->document.recovery);
+        app->document.recovery = NULL;
+    }
     app->option = app->belt = 0;
     app->rock = 0;
     app->outlook_key = 0;
@@ -185,9 +193,9 @@ static void took_document(struct app *app)
 }
 
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
-                      struct problems *problems)
+                      bool no_recovery, struct problems *problems)
 {
-    *app = (struct app){.charset = charset};
+    *app = (struct app){.charset = charset, .no_recovery = no_recovery};
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
         return false;
     app->worker = ceduo_worker_create(threads);
@@ -262,6 +270,10 @@ bool ceduo_app_open_text(struct app *app, const char *text)
 bool ceduo_app_save_to(struct app *app, const char *path)
 {
     bool anew;
+    if (ceduo_document_is_shipped(path)) {
+        ceduo_app_warn(app, _("%s belongs to the program and is never written over; choose another name"), path);
+        return false;
+    }
     if (!ceduo_document_save(&app->document, path, &anew)) {
         ceduo_app_warn(app, "%s: %s", path, strerror(errno));
         return false;
@@ -270,6 +282,7 @@ bool ceduo_app_save_to(struct app *app, const char *path)
         ceduo_app_say(app, _("saved %s; laid out anew, the old file with its comments is %s.bak"), path, path);
     else
         ceduo_app_say(app, _("saved %s"), path);
+    app->quit |= app->quit_once_saved;
     return true;
 }
 
@@ -279,8 +292,12 @@ void ceduo_app_save(struct app *app)
         ceduo_popup_save_as(app);
     else if (ceduo_document_changed_on_disk(&app->document))
         ceduo_popup_changed_on_disk(app);
-    else
-        ceduo_app_save_to(app, app->document.path);
+    else { /* a copy: saving makes the document's own anew */
+        char *path = strdup(app->document.path);
+        if (path)
+            ceduo_app_save_to(app, path);
+        free(path);
+    }
 }
 
 /* ---- editing fields ---- */
@@ -386,8 +403,8 @@ static bool add_first_shoots(struct app *app, const char *list, struct problems 
     return ceduo_document_set_all(&app->document, sets, 2, list, problems);
 }
 
-/* The room after the last belt, or before the first; false where the forest fills the slope. */
-static bool free_stretch(const struct app *app, double *from, double *to)
+/* The first stretch without forest, and the belt that it lies before; false where the forest fills the slope. */
+static bool free_stretch(const struct app *app, double *from, double *to, size_t *index)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
@@ -398,6 +415,7 @@ static bool free_stretch(const struct app *app, double *from, double *to)
         if (next - at > 0.5) {
             *from = at + origin;
             *to = next + origin;
+            *index = i;
             return true;
         }
         at = i < o->belts_count ? o->belts[i].to : at;
@@ -408,13 +426,14 @@ static bool free_stretch(const struct app *app, double *from, double *to)
 static bool add_belt(struct app *app, const char *list, struct problems *problems)
 {
     double from, to;
+    size_t index;
     char item[256];
-    if (!free_stretch(app, &from, &to)) {
+    if (!free_stretch(app, &from, &to, &index)) {
         ceduo_app_warn(app, "%s", _("the belts fill the slope; shorten one, or y splits one in two"));
         return false;
     }
     snprintf(item, sizeof item, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to);
-    return ceduo_document_insert(&app->document, list, 1000000, item, problems);
+    return ceduo_document_insert(&app->document, list, index, item, problems);
 }
 
 static bool add_control(struct app *app, const char *list, struct problems *problems)
@@ -460,6 +479,14 @@ static void add_item(struct app *app)
         ceduo_form_move(form_of(app), 1, 0);
 }
 
+/* The cursor must not slip into the next list, where another d would delete what nobody meant. */
+static void stay_in_list(struct app *app, const char *list)
+{
+    struct form_row *row = ceduo_form_row(form_of(app));
+    if (row && strcmp(row->list, list) != 0)
+        ceduo_form_move(form_of(app), -1, 0);
+}
+
 static void delete_item(struct app *app)
 {
     struct form_row *row = ceduo_form_row(form_of(app));
@@ -475,15 +502,21 @@ static void delete_item(struct app *app)
     bool shoots = strcmp(key, "shoots") == 0 && list && list->n == 1;
     snprintf(path, sizeof path, "%s[%zu]", row->list, row->index);
     bool good;
-    if (shoots) { /* the stools go with their last shoots */
+    if (strcmp(row->list, "slope.segments") == 0) {
+        good = ceduo_document_join_segments(&app->document, row->index, &problems);
+    } else if (shoots) { /* the stools go with their last shoots */
         char stand[FORM_PATH];
         snprintf(stand, sizeof stand, "%.*s", (int)(dot - row->list), row->list);
         good = ceduo_document_delete_both(&app->document, stand, "stools", "shoots", &problems);
     } else {
         good = ceduo_document_delete(&app->document, path, &problems);
     }
-    if (ceduo_app_edited(app, good, &problems))
+    char list_path[FORM_PATH];
+    snprintf(list_path, sizeof list_path, "%s", row->list);
+    if (ceduo_app_edited(app, good, &problems)) {
+        stay_in_list(app, list_path);
         ceduo_app_say(app, _("deleted %s; u brings it back"), path);
+    }
 }
 
 /* A belt is duplicated by splitting it: two cannot stand in one place. */
@@ -703,19 +736,21 @@ static void act(struct app *app, enum action action)
 
 void ceduo_app_key(struct app *app, int key)
 {
+    enum action action = ceduo_action_of(key);
     if (app->popup) {
         ceduo_popup_key(app, key);
-        return;
-    }
-    app->message[0] = '\0';
-    if (app->editing) {
+    } else if (app->editing) {
+        app->message[0] = '\0';
         editing_key(app, key);
-        return;
+    } else {
+        const struct app_view *view = ceduo_views[app->view];
+        app->message[0] = '\0';
+        app->quit_once_saved = false;
+        if (action != ACTION_NONE && !(view->act && view->act(app, action)))
+            act(app, action);
     }
-    enum action action = ceduo_action_of(key);
-    const struct app_view *view = ceduo_views[app->view];
-    if (action != ACTION_NONE && !(view->act && view->act(app, action)))
-        act(app, action);
+    if (!app->quit && ceduo_views[app->view]->follow)
+        ceduo_views[app->view]->follow(app);
 }
 
 void ceduo_app_click(struct app *app, int x, int y)
@@ -848,7 +883,11 @@ static void draw_explanation(struct app *app)
         ceduo_form_explain(&app->document, cell, &text);
     }
     ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
-    if (safe.bytes)
+    bool two_lines = safe.bytes && app->message[0] && (int)ceduo_text_columns(safe.bytes) > app->width;
+    struct ceduo_area lines = {0, app->height - 3, app->width, 2};
+    if (two_lines)
+        ceduo_app_text(app, lines, role, safe.bytes, 0);
+    else if (safe.bytes)
         ceduo_form_cut(app->canvas, 0, app->height - 2, app->width, role, safe.bytes);
     ceduo_text_free(&text);
     ceduo_text_free(&safe);

@@ -29,6 +29,7 @@ struct app_view {
     void (*build)(struct app *app, struct form *form);
     void (*draw)(struct app *app, struct ceduo_area area);
     bool (*act)(struct app *app, enum action action); /* true: done; NULL: none of its own */
+    void (*follow)(struct app *app);                  /* after each key; NULL: nothing */
 };
 
 /* A line that is typed: a value, a file name, something to search. */
@@ -67,13 +68,15 @@ struct app {
     bool message_bad;
     char search[128];
     struct popup *popup;
+    bool no_recovery;                /* a script: nothing is offered, no copy is kept */
+    bool quit_once_saved;
     bool quit, redraw;               /* redraw: the terminal is to be painted anew */
     bool stopped;                    /* out of memory: cannot go on */
 };
 
 /* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in `problems`. */
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
-                      struct problems *problems);
+                      bool no_recovery, struct problems *problems);
 void ceduo_app_free(struct app *app);
 
 void ceduo_app_resize(struct app *app, int width, int height);
@@ -129,7 +132,8 @@ void ceduo_popup_export(struct app *app);
 void ceduo_popup_search(struct app *app);
 void ceduo_popup_counts(struct app *app);
 void ceduo_popup_quit(struct app *app);
-void ceduo_popup_recover(struct app *app, char *text); /* takes the text */
+/* Both strings are taken; `without_file`: it is a scene that was never saved, to be opened in place of this one. */
+void ceduo_popup_recover(struct app *app, char *text, char *file, bool without_file);
 void ceduo_popup_changed_on_disk(struct app *app);
 void ceduo_popup_rename(struct app *app);
 

@@ -256,7 +256,8 @@ void ceduo_form_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ce
     size_t n = bytes_of(text, whole ? (size_t)span : (size_t)span - 1);
     n = n < sizeof cut - 4 ? n : bytes_of(text, 100);
     memcpy(cut, text, n);
-    memcpy(cut + n, whole ? "" : "\xe2\x80\xa6", whole ? 1 : 4);
+    /* three dots would take three columns */
+    strcpy(cut + n, whole ? "" : canvas->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6");
     ceduo_canvas_label(canvas, x, y, role, cut);
 }
 

@@ -32,7 +32,7 @@ struct popup {
     size_t fields_count;
     size_t at, top;
     char message[256];
-    char path[FORM_PATH]; /* what a choice is for */
+    char path[1024];      /* what a choice is for */
     char *kept;           /* a text that goes with it */
     popup_chosen *chosen, *preview;
     popup_filled *filled;

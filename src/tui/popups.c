@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "io/emit.h"
 #include "io/file.h"
@@ -40,11 +41,11 @@ static const char *how_common(const char *name)
 {
     static const struct {
         const char *start, *text;
-    } rows[] = {{"simple-coppice", N_("coppice with reserves: 87 050 ha, 43.4 % of the woods of Marche")},
-                {"coppice-with-standards", N_("coppice with standards: 13 250 ha, 6.6 % of the woods of Marche")},
-                {"selection-coppice", N_("coppice selection system: 350 ha, 0.2 % of the woods of Marche")},
-                {"large-reserves", N_("coppice with a lot of reserves: 30 275 ha, 15.1 % of the woods of Marche")},
-                {"high-forest", N_("natural high forest: 28 550 ha, 14.2 % of the woods of Marche")}};
+    } rows[] = {{"simple-coppice", N_("87 050 ha, 43.4 % of Marche: with reserves")},
+                {"coppice-with-standards", N_("13 250 ha, 6.6 % of Marche: with standards")},
+                {"selection-coppice", N_("350 ha, 0.2 % of Marche: selection system")},
+                {"large-reserves", N_("30 275 ha, 15.1 % of Marche: a lot of reserves")},
+                {"high-forest", N_("28 550 ha, 14.2 % of Marche: natural high forest")}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (strncmp(name, rows[i].start, strlen(rows[i].start)) == 0)
             return _(rows[i].text);
@@ -65,7 +66,7 @@ static void add_profiles(struct popup *p, const char *shelf)
             for (size_t m = 0; m < p->items_count; m++)
                 known |= strcmp(p->items[m].value, name) == 0;
             char line[256];
-            snprintf(line, sizeof line, "%-34s %s", name, how_common(name));
+            snprintf(line, sizeof line, "%-27s %s", name, how_common(name));
             if (!known)
                 ceduo_popup_item(p, line, name);
         }
@@ -93,7 +94,7 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
         if (r.bare)
             ceduo_text_put(&p->text, _("no stems\n"));
         else
-            ceduo_text_format(&p->text, _("with this rock: ADC %.3g m by %s, free run %.1f %%, %.3g kJ per 100 m (%s)\n"),
+            ceduo_text_format(&p->text, _("with this rock: ADC %.3g m by %s, free run %.1f %%, %.3g kJ/100 m (%s)\n"),
                               r.adc_m, ceduo_words_rule(r.rule), r.free_run_probability * 100, r.dissipated * 1e-3,
                               ceduo_words_rule(r.rule));
     }
@@ -238,10 +239,39 @@ static bool ends_in_csv(const char *name)
     return n > 4 && strcmp(name + n - 4, ".csv") == 0;
 }
 
+/* What is typed into a field is that field's value alone: a number where one is wanted, otherwise a text. */
+static bool numbers_typed(struct app *app, const struct popup *p)
+{
+    static const int numbers[] = {NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED};
+    double value;
+    for (size_t i = 0; i < 3; i++) {
+        const char *text = p->fields[numbers[i]].text;
+        bool may_be_empty = numbers[i] == NEW_ACCEPTED && text[0] == '\0';
+        if (!may_be_empty && ceduo_number_read(text, &value) != CEDUO_NUMBER_GOOD) {
+            ceduo_app_warn(app, _("%s: '%s' is no number; write a dot for the decimals"), p->labels[numbers[i]], text);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool stand_typed(struct app *app, struct popup *p)
+{
+    const char *stand = p->fields[NEW_STAND].text;
+    if (stand[0] == '\0' || ceduo_file_find(&p->arena, stand, NULL, "stands"))
+        return true;
+    ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), stand);
+    return false;
+}
+
 static bool filled_new(struct app *app, struct popup *p)
 {
-    struct text yaml = {0}, title = {0}, csv = {0};
+    struct text yaml = {0}, title = {0}, csv = {0}, material = {0}, stand = {0};
     const char *profile = p->fields[NEW_PROFILE].text;
+    if (!numbers_typed(app, p) || !stand_typed(app, p))
+        return false;
+    ceduo_emit_scalar(&material, p->fields[NEW_MATERIAL].text, true);
+    ceduo_emit_scalar(&stand, p->fields[NEW_STAND].text, true);
     ceduo_emit_scalar(&title, p->fields[NEW_TITLE].text, true);
     ceduo_emit_scalar(&csv, profile, true);
     ceduo_text_format(&yaml, "ceduo: scene/1\ntitle: %s\nrock: {diameter_m: %s}\nslope: {", title.bytes ? title.bytes : "x",
@@ -253,7 +283,7 @@ static bool filled_new(struct app *app, struct popup *p)
     else
         good = typed_vertices(profile, &yaml, &first, &last);
     ceduo_text_format(&yaml, ", materials: [{from_m: %.10g, to_m: %.10g, material: %s}]}\n", first, last,
-                      p->fields[NEW_MATERIAL].text);
+                      material.bytes ? material.bytes : "talus");
     ceduo_text_format(&yaml, "controls: [{x_m: %s", p->fields[NEW_CONTROL].text);
     if (p->fields[NEW_ACCEPTED].text[0])
         ceduo_text_format(&yaml, ", accepted_kJ: %s", p->fields[NEW_ACCEPTED].text);
@@ -267,7 +297,7 @@ static bool filled_new(struct app *app, struct popup *p)
         const struct ceduo_slope *s = &app->document.file.scene.slope;
         if (good && p->fields[NEW_STAND].text[0]) {
             snprintf(set, sizeof set, "forest=[{from_m: %.10g, to_m: %.10g, stand: %.100s}]", s->origin_x,
-                     app->document.file.scene.controls[0].x_given, p->fields[NEW_STAND].text);
+                     app->document.file.scene.controls[0].x_given, stand.bytes ? stand.bytes : "bare");
             const char *const sets[] = {set};
             ceduo_app_edited(app, ceduo_document_set_all(&app->document, sets, 1, "forest", &problems), &problems);
         }
@@ -275,6 +305,8 @@ static bool filled_new(struct app *app, struct popup *p)
     ceduo_text_free(&yaml);
     ceduo_text_free(&title);
     ceduo_text_free(&csv);
+    ceduo_text_free(&material);
+    ceduo_text_free(&stand);
     return good;
 }
 
@@ -353,8 +385,8 @@ static void chose_quit(struct app *app, struct popup *p, const char *value)
 {
     (void)p;
     if (strcmp(value, "save") == 0) {
+        app->quit_once_saved = true; /* once a name is given, where one is asked for */
         ceduo_app_save(app);
-        app->quit = !app->popup && !ceduo_document_unsaved(&app->document);
     } else if (strcmp(value, "drop") == 0) {
         ceduo_document_forget(&app->document);
         app->quit = true;
@@ -374,22 +406,32 @@ void ceduo_popup_quit(struct app *app)
 static void chose_recover(struct app *app, struct popup *p, const char *value)
 {
     struct problems problems = {0};
-    if (strcmp(value, "take") != 0)
-        return;
-    if (ceduo_app_edited(app, ceduo_document_recover(&app->document, p->kept, &problems), &problems))
-        ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows the file as it is on disk"));
+    bool without_file = value[0] == 'o';
+    if (strcmp(value, "forget") == 0) {
+        unlink(p->path);
+    } else if (without_file ? ceduo_app_open_text(app, p->kept)
+                            : ceduo_app_edited(app, ceduo_document_recover(&app->document, p->kept, &problems), &problems)) {
+        unlink(p->path); /* this program keeps a copy of its own now */
+        ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));
+    }
 }
 
-void ceduo_popup_recover(struct app *app, char *text)
+void ceduo_popup_recover(struct app *app, char *text, char *file, bool without_file)
 {
-    struct popup *p = ceduo_popup_list(app, _("Unsaved work on this scene was left behind"), chose_recover);
-    if (!p) {
-        free(text);
-        return;
+    struct popup *p = ceduo_popup_list(app, without_file ? _("A new scene that was never saved was left behind")
+                                                         : _("Unsaved work on this scene was left behind"),
+                                       chose_recover);
+    if (p && strlen(file) < sizeof p->path) {
+        snprintf(p->path, sizeof p->path, "%s", file);
+        p->kept = text;
+        text = NULL;
+        ceduo_popup_item(p, _("take it up again"), without_file ? "open" : "take");
+        ceduo_popup_item(p, _("forget it"), "forget");
+    } else {
+        ceduo_popup_close(app);
     }
-    p->kept = text;
-    ceduo_popup_item(p, _("take it up again"), "take");
-    ceduo_popup_item(p, _("forget it"), "");
+    free(text);
+    free(file);
 }
 
 /* ---- searching and naming ---- */
@@ -472,9 +514,9 @@ static bool filled_counts(struct app *app, struct popup *p)
                        stand->shoots_count, stand->trees_count);
         return false;
     }
-    snprintf(sets[0], sizeof sets[0], "%s.stools.per_ha=%.6g", p->path, v[COUNT_STOOLS] * per);
-    snprintf(sets[1], sizeof sets[1], "%s.shoots[0].per_ha=%.6g", p->path, v[COUNT_SHOOTS] * per);
-    snprintf(sets[2], sizeof sets[2], "%s.trees[0].per_ha=%.6g", p->path, v[COUNT_TREES] * per);
+    snprintf(sets[0], sizeof sets[0], "%.160s.stools.per_ha=%.6g", p->path, v[COUNT_STOOLS] * per);
+    snprintf(sets[1], sizeof sets[1], "%.160s.shoots[0].per_ha=%.6g", p->path, v[COUNT_SHOOTS] * per);
+    snprintf(sets[2], sizeof sets[2], "%.160s.trees[0].per_ha=%.6g", p->path, v[COUNT_TREES] * per);
     for (; n < 3; n++)
         list[n] = sets[n];
     struct problems problems = {0};
@@ -512,8 +554,10 @@ void ceduo_popup_counts(struct app *app)
 static void put_command(struct app *app, struct text *text)
 {
     struct document *d = &app->document;
-    ceduo_text_format(text, "ceduo --batch -n %llu '", (unsigned long long)(app->result ? app->result->rocks : 1000));
-    ceduo_text_safe(text, d->path ? d->path : "scene.yaml");
+    uint64_t rocks = app->result ? app->result->rocks : d->file.scene.simulation.rocks;
+    ceduo_text_format(text, "ceduo --batch -n %llu '", (unsigned long long)rocks);
+    for (const char *c = d->path ? d->path : "scene.yaml"; *c; c++)
+        ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1); /* as a shell reads it */
     ceduo_text_put(text, "'\n");
 }
 

@@ -9,16 +9,16 @@
 #include "io/file.h"
 #include "io/intl.h"
 
-static bool fail(const char *path, size_t line, const char *what, const char *word)
+static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, word);
     fprintf(stderr, "%s:%zu: %s: %s\n", path, line, what, safe.bytes ? safe.bytes : "");
     ceduo_text_free(&safe);
-    return false;
+    return SCRIPT_WRONG;
 }
 
-static bool press(struct app *app, char *names, const char *path, size_t line)
+static enum script_end press(struct app *app, char *names, const char *path, size_t line)
 {
     for (char *save, *name = strtok_r(names, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
         int key = ceduo_key_of(name);
@@ -26,7 +26,7 @@ static bool press(struct app *app, char *names, const char *path, size_t line)
             return fail(path, line, _("no such key"), name);
         ceduo_app_key(app, key);
     }
-    return true;
+    return SCRIPT_DONE;
 }
 
 static void type(struct app *app, const char *text)
@@ -47,7 +47,7 @@ static void wait_idle(struct app *app)
     ceduo_app_news(app);
 }
 
-static bool dump(struct app *app, const char *name, bool roles, const char *path, size_t line)
+static enum script_end dump(struct app *app, const char *name, bool roles, const char *path, size_t line)
 {
     ceduo_app_news(app);
     ceduo_app_draw(app);
@@ -60,24 +60,24 @@ static bool dump(struct app *app, const char *name, bool roles, const char *path
     if (!good)
         fail(path, line, strerror(errno), name);
     free(text);
-    return good;
+    return good ? SCRIPT_DONE : SCRIPT_UNWRITTEN;
 }
 
-static bool resize(struct app *app, const char *rest, const char *path, size_t line)
+static enum script_end resize(struct app *app, const char *rest, const char *path, size_t line)
 {
     int width, height, used = 0;
     if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
         width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
         return fail(path, line, _("a width and a height are wanted"), rest);
     ceduo_app_resize(app, width, height);
-    return true;
+    return SCRIPT_DONE;
 }
 
-static bool obey(struct app *app, char *command, const char *path, size_t line)
+static enum script_end obey(struct app *app, char *command, const char *path, size_t line)
 {
     command += strspn(command, " \t");
     if (command[0] == '\0' || command[0] == '#')
-        return true;
+        return SCRIPT_DONE;
     char *rest = command + strcspn(command, " \t");
     if (*rest)
         *rest++ = '\0';
@@ -93,10 +93,10 @@ static bool obey(struct app *app, char *command, const char *path, size_t line)
         wait_idle(app);
     else
         return fail(path, line, _("key, type, resize, wait idle, dump or roles is wanted"), command);
-    return true;
+    return SCRIPT_DONE;
 }
 
-bool ceduo_script_run(struct app *app, const char *path)
+enum script_end ceduo_script_run(struct app *app, const char *path)
 {
     struct arena arena = {0};
     struct problems problems = {0};
@@ -106,17 +106,17 @@ bool ceduo_script_run(struct app *app, const char *path)
         fputs(problems.text.bytes, stderr);
     char *text = good ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
     ceduo_app_resize(app, 80, 24);
-    good = text != NULL;
-    for (size_t line = 1; good && *text && !app->quit; line++) {
+    enum script_end end_of_it = text ? SCRIPT_DONE : SCRIPT_UNREADABLE;
+    for (size_t line = 1; end_of_it == SCRIPT_DONE && *text && !app->quit; line++) {
         char *end = text + strcspn(text, "\n");
         bool more = *end;
         *end = '\0';
         if (end > text && end[-1] == '\r')
             end[-1] = '\0';
-        good = obey(app, text, path, line);
+        end_of_it = obey(app, text, path, line);
         text = more ? end + 1 : end;
     }
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
-    return good;
+    return end_of_it;
 }

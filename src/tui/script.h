@@ -12,7 +12,8 @@
  *   dump FILE       the screen as text (-: standard output)
  *   roles FILE      the roles of its cells, a letter each
  *   # …             a comment
- * Returns true; false where a line is wrong or a file cannot be written, which goes to standard error. */
-bool ceduo_script_run(struct app *app, const char *path);
+ * What is wrong goes to standard error. */
+enum script_end { SCRIPT_DONE, SCRIPT_WRONG, SCRIPT_UNREADABLE, SCRIPT_UNWRITTEN };
+enum script_end ceduo_script_run(struct app *app, const char *path);
 
 #endif

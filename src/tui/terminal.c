@@ -89,7 +89,6 @@ static void prepare_restore(void)
             restore_length += n;
         }
     }
-    tcgetattr(STDIN_FILENO, &saved_mode);
 }
 
 static void on_crash(int number)
@@ -242,7 +241,7 @@ static void loop(struct app *app, bool colours)
             break; /* the window is gone */
         if (interrupted) {
             interrupted = 0;
-            ceduo_app_key(app, 'q');
+            ceduo_app_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
         bool changed = take_keys(app); /* also where a signal told of a new size */
         changed |= ceduo_app_news(app);
@@ -279,6 +278,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
         return TERMINAL_FAILED;
     if (!getenv("ESCDELAY"))
         set_escdelay(25);
+    tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
     SCREEN *screen = newterm(NULL, stdout, stdin);
     if (!screen)
         return TERMINAL_NONE;

@@ -57,7 +57,15 @@ static char mark_of(const struct app *app, size_t i, enum column column)
  * them. */
 static int name_columns(struct ceduo_area area)
 {
+    if (area.width < FIGURES + 8)
+        return 2;
     return area.width - FIGURES >= 20 ? area.width - FIGURES : 8;
+}
+
+/* In a very narrow window two of the figures have to do. */
+static bool has_room(struct ceduo_area area, int column)
+{
+    return area.width >= FIGURES + 2 || column == ADC || column == LEFT;
 }
 
 static int lines_of(struct ceduo_area area)
@@ -101,8 +109,11 @@ static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
     draw_name(app, area, y, i);
     y += lines_of(area) - 1;
     int x = area.left + name_columns(area);
-    for (int c = 0; c < COLUMNS; c++, x += 9)
-        draw_figure(app, x, y, i, (enum column)c);
+    for (int c = 0; c < COLUMNS; c++)
+        if (has_room(area, c)) {
+            draw_figure(app, x, y, i, (enum column)c);
+            x += 9;
+        }
     const bool lights[2] = {s->contact == CEDUO_PASS, s->free_run == CEDUO_PASS};
     for (int k = 0; k < 2; k++)
         ceduo_canvas_label(app->canvas, x + 1 + k, y, lights[k] ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
@@ -113,17 +124,23 @@ static void draw_head(struct app *app, struct ceduo_area area)
 {
     static const char *const words[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
     int x = area.left + name_columns(area);
-    ceduo_canvas_label(app->canvas, area.left, area.top, CEDUO_ROLE_TITLE, _("option"));
-    for (int c = 0; c < COLUMNS; c++, x += 9)
-        ceduo_canvas_label_right(app->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
+    if (lines_of(area) == 1 || area.width >= FIGURES + 8)
+        ceduo_form_cut(app->canvas, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
+    for (int c = 0; c < COLUMNS; c++)
+        if (has_room(area, c)) {
+            ceduo_canvas_label_right(app->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
+            x += 9;
+        }
     ceduo_canvas_label(app->canvas, x + 1, area.top, CEDUO_ROLE_TITLE, "CF");
 }
 
 static void draw(struct app *app, struct ceduo_area area)
 {
     app->form_area = (struct ceduo_area){0, 0, 0, 0};
-    if (!app->result)
+    if (!app->result) {
+        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
         return;
+    }
     size_t n = app->result->options_count;
     draw_head(app, area);
     int lines = lines_of(area), foot_lines = area.height >= 26 ? 6 : area.height - 1 - lines * (int)n;
@@ -203,4 +220,4 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct app_view ceduo_view_compare = {N_("compare"), 1, build, draw, act};
+const struct app_view ceduo_view_compare = {N_("compare"), 1, build, draw, act, NULL};

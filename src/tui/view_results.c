@@ -36,6 +36,7 @@ static void draw(struct app *app, struct ceduo_area area)
     if (adc.height > 4)
         ceduo_plot_adc(app->canvas, &adc, &picture);
     ceduo_plot_histogram(app->canvas, &histogram, &picture);
+    page.width -= 2; /* the mark of more below stands beside the text */
     struct text text = {0};
     fill_page(app, &text, page.width);
     const char *bytes = text.bytes ? text.bytes : "";
@@ -45,8 +46,8 @@ static void draw(struct app *app, struct ceduo_area area)
         app->scroll = most > 0 ? most : 0;
     ceduo_app_text(app, page, CEDUO_ROLE_TEXT, bytes, app->scroll);
     if (app->scroll < most)
-        ceduo_app_label(app, page.left + page.width - 2, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
+        ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_text_free(&text);
 }
 
-const struct app_view ceduo_view_results = {N_("results"), 1, NULL, draw, NULL};
+const struct app_view ceduo_view_results = {N_("results"), 1, NULL, draw, NULL, NULL};

@@ -62,4 +62,4 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 /* A sphere has one of three sizes: the one that is set replaces the other two. */
-const struct app_view ceduo_view_rock = {N_("rock"), 1, build, draw, NULL};
+const struct app_view ceduo_view_rock = {N_("rock"), 1, build, draw, NULL, NULL};

@@ -103,4 +103,4 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct app_view ceduo_view_slope = {N_("slope"), 2, build, draw, act};
+const struct app_view ceduo_view_slope = {N_("slope"), 2, build, draw, act, NULL};

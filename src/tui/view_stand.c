@@ -73,7 +73,6 @@ static void draw_figures(struct app *app, struct ceduo_area area)
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    follow_cursor(app);
     const struct ceduo_option *o = ceduo_app_option(app);
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool wide = area.width >= 84;
@@ -95,4 +94,4 @@ static void draw(struct app *app, struct ceduo_area area)
     draw_figures(app, figures);
 }
 
-const struct app_view ceduo_view_stand = {N_("stand"), 1, build, draw, NULL};
+const struct app_view ceduo_view_stand = {N_("stand"), 1, build, draw, NULL, follow_cursor};

@@ -56,7 +56,8 @@ int main(int argc, char **argv)
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all), *stand = calloc(repeats, sizeof *stand);
     if (!first || !all || !stand ||
-        !ceduo_app_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, &problems))
+        !ceduo_app_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
+                          &problems))
         return 1;
     ceduo_app_resize(&app, 120, 40);
     ceduo_worker_wait(app.worker);
