@@ -76,10 +76,13 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, double 
     char what[64];
     if (isinf(index->worst_adc))
         snprintf(what, sizeof what, "%s", _("no forest"));
+    else if (pen->area.width < 30)
+        snprintf(what, sizeof what, "%.3g m", index->worst_adc);
     else
         snprintf(what, sizeof what, "%.3g m (<%g)", index->worst_adc, threshold);
     put_light(pen, _("Contact"), what, index->contact);
-    snprintf(what, sizeof what, "%.1f %% (\xe2\x89\xa4" "10)", index->worst_free_run * 100);
+    snprintf(what, sizeof what, pen->area.width < 30 ? "%.1f %%" : "%.1f %% (\xe2\x89\xa4" "10)",
+             index->worst_free_run * 100);
     put_light(pen, _("Free run"), what, index->free_run);
     put_light(pen, _("Energy"), "", index->energy);
 }
