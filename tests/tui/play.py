@@ -92,7 +92,13 @@ class Screen:
     @property
     def note(self):
         """What explains the field, or answers the last key."""
-        return self.lines[-2]
+        return " ".join(f"{self.lines[-3]} {self.lines[-2]}".split(" ")).strip()
+
+    @property
+    def popup(self):
+        """What stands in the box over the view, its lines joined."""
+        inside = [m.group(1).strip() for m in (re.search(r"[│|] (.*) [│|]", line) for line in self.lines[1:-1]) if m]
+        return re.sub(r" +", " ", " ".join(inside))
 
     @property
     def bar(self):

@@ -12,8 +12,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
 from play import FAST, OPTIONS, VIEWS, Place, actions, check_good, fast, run_script  # noqa: E402
-from harness import (DONE, INPUT, PROFILES, USAGE, Folder, Skip, Suite, environment, expect, expect_equal,  # noqa: E402
-                     expect_in, expect_near, tests_of)
+from harness import (DONE, INPUT, OUTPUT, PROFILES, USAGE, Folder, Skip, Suite, expect, expect_equal,  # noqa: E402
+                     expect_in, expect_near, results, tests_of)
 
 SIZES = [(80, 24), (120, 40), (200, 50)]
 CHARSETS = ["braille", "block", "ascii"]
@@ -98,7 +98,7 @@ MUST = {
               "stems/ha, basal area", "by interception", "kJ per 100 m"],
     "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m3 2600", "Release", "x, m 0",
              "spin, rad/s 0", "Simulation", "law of impact lumped", "512.3 kg", "mean diameter B 0.68 m"],
-    "results": ["of 102400 rocks", "50 kJ", "p50", "p95", "bears 50", "Without forest, of 1000 rocks released: 991"],
+    "results": ["rocks", "50 kJ", "p50", "p95", "bears 50", "Without forest, of 1000 rocks released: 991"],
     "compare": ["option ADC m free run kJ/100m left kJ"]}
 WIDE = {"slope": ["height above the ground, m", "without forest", "release", "end of the forest (135 m)", "p95", "p50",
                   "rn rt roughness_rad friction", "x_m name accepted_kJ measured_speed_m_s", "facets against"],
@@ -114,7 +114,8 @@ def compared(screen):
     """The table of the compare view: (name, [(figure, mark) of each column]); figures may stand below the name."""
     rows, name = [], ""
     for line in screen.body.split("\n")[1:]:
-        found = re.match(r"(.*?) +([\d.]+|-)([*! ]) +([\d.]+ %)([*! ]) +([\d.]+|-)([*! ]) +([\d.]+|-|used up)([*! ]) +(?:[✔✘?+x]{2})$",
+        found = re.match(r"(.*?) +([\d.]+|none|-)([*! ]) +([\d.]+ %)([*! ]) +([\d.]+|-)([*! ]) +([\d.]+|-|used up)"
+                         r"([*! ]) +[✔✘?+x]{2}$",
                          line)
         if found:
             parts = found.groups()
@@ -281,13 +282,14 @@ def test_any_size():
 # ---- the small things of a script ----
 
 def test_script_words():
-    """An unknown command, key, size or file ends with status 2 and its line."""
+    """An unknown command, key or size ends with status 2 and its line, a dump that cannot be written with 4."""
     with Place() as place:
         for line, what in (("frobnicate", "frobnicate"), ("key Nokey", "Nokey"), ("resize 80", "80"), ("resize 0 5", ""),
                            ("resize 100000 5", ""), ("resize a b", ""), ("wait", ""), ("wait long", ""),
                            ("dump no/such/folder/file.txt", "no/such/folder/file.txt"), ("Dump x", "Dump")):
             done = run_script(place.path, f"# a comment\n\nkey 2\n{line}\nkey q\n", "fast.yaml")
-            expect(done.status == USAGE, f"'{line}': status {done.status}, 2 wanted", done)
+            wanted = OUTPUT if line.startswith("dump") else USAGE
+            expect(done.status == wanted, f"'{line}': status {done.status}, {wanted} wanted", done)
             expect(done.err.startswith("play.txt:4: ") and what in done.err, f"'{line}'", done)
             expect_equal(done.err.count("\n"), 1, "lines on standard error")
         done = run_script(place.path, "key 2\n", "fast.yaml", "--script", "none.txt")
@@ -421,7 +423,7 @@ def test_control_edit():
     expect(">" not in screens[3].now.split("passes")[0], "an accepted energy that was not given:", screens[3])
     screens[5].has("At 80 m")
     for at in (1, 3, 5):
-        expect_in("1024 rocks", screens[at].now)
+        expect(re.search(r"^= ±0 % \d+ rocks", screens[at].now, re.M), screens[at])
 
 
 def test_undo():
@@ -539,8 +541,7 @@ def test_message_whole():
         dump
         resize 200 50
         dump""")
-    for word in refused[1].note.split():
-        expect_in(word, refused[0].text, "at 80 columns")
+    expect_equal(refused[0].note, refused[1].note, "at 80 columns, and at 200")
 
 
 def test_escape():
@@ -692,12 +693,12 @@ def test_cohorts():
         dump
         key a
         dump
-        find shoots[0]
+        find shoots[1]
         key d d
         dump
         key a
         dump""")
-    trees = [re.findall(r"^\d +(\S+)", s.body.split("Single trees")[1], re.M) for s in screens]
+    trees = [re.findall(r"^\d +([\d.]+) +[\d.]+ +[\d.]+ +[-\d.]+ ", s.body.split("Single trees")[1], re.M) for s in screens]
     expect_equal(trees[0], ["80", "80", "20"], "trees after y")
     expect_equal(len(trees[1]), 4, "trees after a")
     expect_equal(trees[2], [], "trees after d d d d")
@@ -877,8 +878,7 @@ def test_presets():
     for name, share in MARCHE.items():
         line = next((x for x in wide.text.split("\n") if re.search(rf"[│|] {name} ", x)), "")
         expect_in(share, line, f"{name} at 120 columns")
-        line = next((x for x in narrow.text.split("\n") if re.search(rf"[│|] {name} ", x)), "")
-        expect_in(share, line, f"{name} at 80 columns")
+        expect_in(share, narrow.popup, f"{name} at 80 columns")
     first, second, chosen, undone = fast("""key 2
         wait idle
         key p
@@ -895,9 +895,10 @@ def test_presets():
         clear
         dump""")
     for screen in (first, second):
-        screen.has("Stand of this belt", "stools,", "stems,", "trees per ha; basal area", "with this rock: ADC", "free run",
-                   "kJ per 100 m")
-    expect(first.text.split("with this rock")[1][:60] != second.text.split("with this rock")[1][:60], "the preview stays")
+        screen.has("Stand of this belt")
+        for part in ("stools,", "stems,", "trees per ha; basal area", "with this rock: ADC", "free run", "100 m"):
+            expect_in(part, screen.popup, "preview")
+    expect(first.popup.split("ads-1")[0] != second.popup.split("ads-1")[0], "the preview stays as it was")
     expect_equal(chosen.row("^system")[-1], "simple-coppice", "system")
     chosen.has("simple coppice")
     undone.has("Stand of belt 1: upper")
@@ -928,7 +929,7 @@ def test_new_typed():
             type mill.yaml
             key Enter
             dump""")
-        screens[0].has("New scene", "profile (CSV file or points)", "ground (talus, cliff", "rock: diameter, m",
+        screens[0].has("New scene", "profile (CSV file or points)", "ground", "rock: diameter, m",
                        "counted at x, m", "that bears, kJ", "stand on the whole way", "Esc: never mind")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0.9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
@@ -1135,28 +1136,20 @@ def test_save_as_exists():
 
 def test_changed_on_disk():
     """s on a file that has changed on disk asks: never mind, another name, or over it."""
-    other = FAST.replace("title: fast", "title: theirs")
-    edit = "key 2\nfind stools.per_ha\nset 1234\n"
-    # The script writes the very file it edits: 'dump' does it from within.
-    for keys, wanted in (("key Enter", "theirs"), ("key Down Enter Ctrl-U\ntype mine.yaml\nkey Enter", "theirs"),
-                         ("key End Enter", "mine"), ("key Esc", "theirs")):
+    for keys, mine in (("key Enter", False), ("key Esc", False), ("key End Enter", True),
+                       ("key Down Enter Ctrl-U\ntype mine.yaml\nkey Enter", False)):
         with Place() as place:
-            script = f"{edit}dump fast.yaml\nkey s\ndump asked.txt\n" + keys + "\ndump after.txt\n"
-            script = "\n".join("\n".join(["key /", "key Ctrl-U", f"type {x[5:]}", "key Enter"]) if x.startswith("find ")
-                               else "\n".join(["key Enter", "key Ctrl-U", f"type {x[4:]}", "key Enter"])
-                               if x.startswith("set ") else x for x in script.split("\n"))
-            done = run_script(place.path, script, "fast.yaml")
-            expect(done.status == DONE, done)
-            expect_in("The file has changed on disk since it was read", place.text("asked.txt"))
+            # The script itself writes other bytes into the file that is open.
+            asked = place.play(f"key 2\nfind stools.per_ha\nset 1234\ndump fast.yaml\nkey s\ndump\n{keys}")[0]
+            asked.has("The file has changed on disk since it was read")
             now = place.text("fast.yaml")
-            if wanted == "mine":
+            if mine:
                 expect_in("per_ha: 1234", now, keys)
                 check_good(place.path, "fast.yaml")
             else:
                 expect(now.startswith(" 1 slope"), f"{keys}: the file was written over:", now[:400])
             if "mine.yaml" in keys:
                 expect_in("per_ha: 1234", place.text("mine.yaml"))
-    expect(other != FAST)
 
 
 def test_read_only():
@@ -1250,12 +1243,9 @@ def test_export_command():
     """w: the batch command that is shown gives the same figures."""
     with Place() as place:
         screen, command = place.play("wait idle\ndump\nkey w End Enter\ndump", "paper-site")
-        line = next(x for x in command.text.split("\n") if "ceduo --batch" in x)
-        found = re.search(r"ceduo (--batch -n (\d+)) '(.*?)'", re.sub(r"\s*[│|]\n\s*[│|]\s*", "", command.text)) or \
-            re.search(r"ceduo (--batch -n (\d+)) ", line)
+        found = re.search(r"ceduo --batch -n (\d+) ", command.popup)
         expect(found, "no command in the", command)
-        from harness import results
-        batch = results("-n", found.group(2), "paper-site")[0]
+        batch = results("-n", found.group(1), "paper-site")[0]
         control = batch["options"][0]["controls"][0]
         expect_equal(round(control["bare"]["reach_probability"] * 1000), round(screen.figure(" pass")), "pass")
         expect_near(control["bare"]["energy_kJ"]["mean"], screen.figure(" energy"), 0.06, "energy")
@@ -1323,7 +1313,7 @@ def test_help():
 
 def test_help_scrolls():
     """The help can be read to its end at 80x24."""
-    pages = fast("key ?\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey g\ndump\nkey q\ndump")
+    pages = fast("key ?\ndump\n" + "key PgDn\ndump\n" * 5 + "key g\ndump\nkey q\ndump")
     text = "\n".join(p.text for p in pages[:6])
     for name, word, word2, bar, what in actions():
         expect_in(what, text, name)
@@ -1377,7 +1367,7 @@ def test_counts_refused():
 
 def test_keys_at_once():
     """Keys that come all at once do the same as one by one with the screen drawn in between."""
-    slow = fast("key 2\nwait idle\nkey Down\ndump\nkey p\ndump\nkey End\ndump\nkey Enter\ndump\nwait idle\nclear\ndump")[-1]
+    slow = fast("".join(f"key {k}\ndump\n" for k in ("2", "Down", "p", "End", "Enter")) + "wait idle\nclear\ndump")[-1]
     quick = fast("key 2 Down p End Enter\nwait idle\nclear\ndump")[0]
     expect_equal(quick.text, slow.text, "view 2, the second belt's stand from a preset")
     keys = ["5", "Down", "y", ">", "2", "Down", "Down", "Down", "+", "1", "G", "4", "j", "5", "Up", "d"]
@@ -1395,7 +1385,7 @@ def test_new_is_data():
         expect("New scene" in refused.text or refused.title.endswith(" fast"), f"{text!r} was taken as YAML:", refused)
 
 
-def test_fields_read_slowly():
+def test_popups_small():
     """Popups over the smallest screen stay within it."""
     for keys in ("?", "p", "n", "o", "w", "c", "/", "s"):
         fast(f"wait idle\nkey 2\nresize 60 20\nkey {keys}\ndump", "paper-site")[0].whole()
