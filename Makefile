@@ -67,7 +67,7 @@ $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR='"$(DATADIR)"'
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux locales
 
 deps:
 	@missing=; for p in $(DEBIAN); do \

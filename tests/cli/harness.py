@@ -75,7 +75,7 @@ def environment(**changes):
     for name in list(env):
         if name.startswith("LC_") or name in ("LANG", "LANGUAGE", "NO_COLOR", "XDG_DATA_HOME", "XDG_DATA_DIRS"):
             del env[name]
-    env.update({"LC_ALL": "C.UTF-8", "TERM": "xterm-256color", "HOME": "/nonexistent"})
+    env.update({"LC_ALL": "C.UTF-8", "TERM": "xterm-256color", "HOME": "/nonexistent", "XDG_STATE_HOME": "/dev/null/none"})
     for name, value in changes.items():
         if value is None:
             env.pop(name, None)
