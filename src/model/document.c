@@ -194,10 +194,12 @@ static const struct node *parse(struct document *d, const char *name, const char
     struct source *source = ceduo_arena_take(&d->file.arena, sizeof *source);
     char *copy = ceduo_arena_string(&d->file.arena, text);
     char *title = ceduo_arena_string(&d->file.arena, name);
+    /* a copy: the document may be saved elsewhere, what was typed is looked for where it was typed */
+    char *beside = d->path ? ceduo_arena_string(&d->file.arena, d->path) : NULL;
     if (!source || !copy || !title)
         return NULL;
     *source = (struct source){
-        .name = title, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = d->path};
+        .name = title, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = beside};
     return ceduo_yaml_read(&d->file.arena, source, problems);
 }
 
