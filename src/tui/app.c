@@ -267,7 +267,7 @@ bool ceduo_app_open_text(struct app *app, const char *text)
     return take_opened(app, &next, ceduo_document_new(&next, text, &problems), &problems);
 }
 
-bool ceduo_app_save_to(struct app *app, const char *path)
+static bool save_to(struct app *app, const char *path)
 {
     bool anew;
     if (ceduo_document_is_shipped(path)) {
@@ -286,18 +286,22 @@ bool ceduo_app_save_to(struct app *app, const char *path)
     return true;
 }
 
+bool ceduo_app_save_to(struct app *app, const char *path)
+{
+    char *copy = strdup(path); /* it may be the document's own, which saving makes anew */
+    bool good = copy && save_to(app, copy);
+    free(copy);
+    return good;
+}
+
 void ceduo_app_save(struct app *app)
 {
     if (!app->document.path || app->document.shipped)
         ceduo_popup_save_as(app);
     else if (ceduo_document_changed_on_disk(&app->document))
         ceduo_popup_changed_on_disk(app);
-    else { /* a copy: saving makes the document's own anew */
-        char *path = strdup(app->document.path);
-        if (path)
-            ceduo_app_save_to(app, path);
-        free(path);
-    }
+    else
+        ceduo_app_save_to(app, app->document.path);
 }
 
 /* ---- editing fields ---- */
