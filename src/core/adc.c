@@ -3,37 +3,30 @@
 
 #include <math.h>
 
+#include "strata.h"
+
 static const double PI = 3.14159265358979323846;
 
-#define HECTARE 1e4 /* m2 */
-
-/* Sums over stems: how many, of how much diameter, and their share of energy. */
-struct stratum {
-    double n, n_d, n_w; /* per ha: count, count × dbh, count × energy of a contact */
-};
-
-static struct stratum add_up(const struct ceduo_stand *stand, const struct ceduo_stems *stems, size_t n)
+/* Mean dbh over some kinds of stem; 0 where there are none. */
+static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struct ceduo_stems *more, size_t m)
 {
-    struct stratum s = {0, 0, 0};
-    for (size_t i = 0; i < n; i++) {
-        s.n += stems[i].per_ha;
-        s.n_d += stems[i].per_ha * stems[i].dbh;
-        s.n_w += stems[i].per_ha * ceduo_contact_energy(stand, &stems[i]);
+    double count = 0, sum = 0;
+    for (size_t i = 0; i < n + m; i++) {
+        const struct ceduo_stems *s = i < n ? &stems[i] : &more[i - n];
+        count += s->per_ha;
+        sum += s->per_ha * s->dbh;
     }
-    return s;
+    return count > 0 ? sum / count : 0;
 }
 
 static double mean_shoot_dbh(const struct ceduo_stand *stand)
 {
-    struct stratum s = add_up(stand, stand->shoots, stand->shoots_count);
-    return s.n > 0 ? s.n_d / s.n : 0;
+    return mean_dbh_of(stand->shoots, stand->shoots_count, NULL, 0);
 }
 
 static double mean_dbh(const struct ceduo_stand *stand)
 {
-    struct stratum c = add_up(stand, stand->shoots, stand->shoots_count);
-    struct stratum t = add_up(stand, stand->trees, stand->trees_count);
-    return c.n + t.n > 0 ? (c.n_d + t.n_d) / (c.n + t.n) : 0;
+    return mean_dbh_of(stand->shoots, stand->shoots_count, stand->trees, stand->trees_count);
 }
 
 double ceduo_stool_radius(unsigned n, double s)
@@ -53,33 +46,61 @@ double ceduo_stool_perimeter(double shoots_per_stool, double s)
     return part > 0 ? (1 - part) * p + part * perimeter_of(whole + 1, s) : p;
 }
 
-/* Width in metres that a stool offers to a rock of diameter b, in one of the forms. */
-static double stool_width(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
+/* ---- strata ---- */
+
+/* Width in metres that a stool offers beyond the rock's diameter, in one of the forms that take it as one. */
+static double stool_width(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    double d = mean_shoot_dbh(stand), n = ceduo_stand_shoots(stand) / stand->stools_per_ha;
     switch (rule) {
     case CEDUO_GSTEIGER_STOOLS:
-        return b + mean_dbh(stand);
-    case CEDUO_GSTEIGER_STEMS:
-        return n * (b + d);
+        return mean_dbh(stand);
     case CEDUO_INTERCEPTION:
-        return b + d + stand->spacing;
+        return mean_shoot_dbh(stand) + stand->spacing;
     default:
-        return b + d + ceduo_stool_perimeter(n, stand->spacing) / PI;
+        return mean_shoot_dbh(stand) +
+               ceduo_stool_perimeter(ceduo_stand_shoots(stand) / stand->stools_per_ha, stand->spacing) / PI;
     }
 }
 
-static double tree_width(const struct ceduo_stand *stand, const struct ceduo_stems *tree, double b, enum ceduo_rule rule)
+static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return b + (rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : tree->dbh);
+    double count = 0, energy = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++) {
+        count += stand->shoots[i].per_ha;
+        energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
+    }
+    return (struct stratum){stand->stools_per_ha, stool_width(stand, rule), energy / count};
 }
 
-/* The form's denominator, m per ha: A/ADC. */
+/* How many strata the shoots make. */
+static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
+{
+    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : stand->shoots_count > 0;
+}
+
+size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
+{
+    return shoot_strata(stand, rule) + stand->trees_count;
+}
+
+struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i)
+{
+    size_t shoots = shoot_strata(stand, rule);
+    if (i < shoots && rule != CEDUO_GSTEIGER_STEMS)
+        return stools_as_one(stand, rule);
+    const struct ceduo_stems *s = i < shoots ? &stand->shoots[i] : &stand->trees[i - shoots];
+    double width = rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : s->dbh;
+    return (struct stratum){s->per_ha, width, ceduo_contact_energy(stand, s)};
+}
+
+/* The form's denominator for a rock of diameter b, m per ha: A/ADC. */
 static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
-    double sum = stand->shoots_count > 0 ? stand->stools_per_ha * stool_width(stand, b, rule) : 0;
-    for (size_t i = 0; i < stand->trees_count; i++)
-        sum += stand->trees[i].per_ha * tree_width(stand, &stand->trees[i], b, rule);
+    double sum = 0;
+    for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
+        struct stratum s = ceduo_stratum(stand, rule, i);
+        sum += s.per_ha * (b + s.width);
+    }
     return sum;
 }
 
@@ -116,16 +137,9 @@ double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ce
 {
     rule = ceduo_adc_rule(stand, b, rule);
     double sum = 0;
-    if (stand->shoots_count > 0 && rule == CEDUO_GSTEIGER_STEMS) {
-        for (size_t i = 0; i < stand->shoots_count; i++) /* each cohort is its own stratum */
-            sum += stand->shoots[i].per_ha * (b + stand->shoots[i].dbh) * ceduo_contact_energy(stand, &stand->shoots[i]);
-    } else if (stand->shoots_count > 0) {
-        struct stratum s = add_up(stand, stand->shoots, stand->shoots_count);
-        sum += stand->stools_per_ha * stool_width(stand, b, rule) * (s.n_w / s.n);
-    }
-    for (size_t i = 0; i < stand->trees_count; i++) {
-        const struct ceduo_stems *t = &stand->trees[i];
-        sum += t->per_ha * tree_width(stand, t, b, rule) * ceduo_contact_energy(stand, t);
+    for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
+        struct stratum s = ceduo_stratum(stand, rule, i);
+        sum += s.per_ha * (b + s.width) * s.energy;
     }
     return sum / HECTARE;
 }
