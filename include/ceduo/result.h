@@ -3,41 +3,59 @@
 #define CEDUO_RESULT_H
 
 #include "assess.h"
-#include "run.h"
+#include "pool.h"
+
+/* What a run found, read from it: plain columns, one entry for each control. */
+struct ceduo_flown {
+    uint64_t rocks; /* 0: nothing is known */
+    size_t controls;
+    struct ceduo_arrivals *arrivals;
+    struct ceduo_ends ends;
+};
+
+/* CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+enum ceduo_status ceduo_flown_read(const struct ceduo_run *run, size_t controls, struct ceduo_flown *flown);
+enum ceduo_status ceduo_flown_copy(const struct ceduo_flown *from, struct ceduo_flown *to);
+void ceduo_flown_free(struct ceduo_flown *flown);
 
 /* What is found for one option. */
 struct ceduo_option_result {
     struct ceduo_stand_result *stands; /* one for each belt */
     struct ceduo_index *controls;      /* one for each control, in the scene's order */
+    struct ceduo_flown wooded;         /* through its forest; with the contact model index: without forest */
+    struct ceduo_difference *differences; /* of that to the first option; all NaN where not known */
 };
 
 /* All that is found for a scene: plain columns, to be shown or written. */
 struct ceduo_result {
     const struct ceduo_scene *scene;
     struct ceduo_rock rock; /* of the means */
-    uint64_t rocks, contacts;
-    struct ceduo_arrivals *bare; /* one for each control: without forest, the same for all options */
-    struct ceduo_ends ends;
-    size_t last_control;         /* the one farthest along x */
+    bool wooded;            /* rocks went through the forests; otherwise the contact model is index */
+    struct ceduo_flown bare; /* without forest, the same for all options */
+    size_t last_control;     /* the one farthest along x */
     size_t options_count;
     struct ceduo_option_result *options;
 };
 
-/* Reads a run and assesses every option. The scene and the run must outlive the call, the scene the result.
+/* Reads the runs of a pool, which ceduo_pool_fill() has filled, and assesses every option. The scene must outlive the result.
  * CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_run *run,
+enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
                                       struct ceduo_result **result);
 
-/* The same from figures that were read from a run before: `bare` has one entry for each control of the scene. */
-enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, uint64_t rocks, uint64_t contacts,
-                                      const struct ceduo_arrivals *bare, const struct ceduo_ends *ends,
-                                      struct ceduo_result **result);
+/* The same from what was read before: without forest, and of each option through its forest, NULL where that is not known
+ * yet. `differences`: one for each option and control, in rows by option. With the contact model index neither of the two
+ * is looked at. */
+enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
+                                      const struct ceduo_flown *const *wooded,
+                                      const struct ceduo_difference *differences, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
-#define CEDUO_FEW_ROCKS 100 /* arrivals below which a mean is not waited for */
+/* What arrives at a control through the forest of an option; NULL with the contact model index and where it is not known
+ * yet. */
+const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control);
 
-/* Makes a run longer, doubling it from one block on, until the 95 % half-width of the mean energy at every control that
- * at least CEDUO_FEW_ROCKS rocks reach is below `tolerance` of it, or `most` rocks are done. `*met`: whether it is. */
-enum ceduo_status ceduo_run_until(struct ceduo_run *run, size_t controls, double tolerance, uint64_t most, bool *met);
+/* Rocks flown in each run, and the most that are unfinished in one of them. */
+uint64_t ceduo_result_rocks(const struct ceduo_result *result);
+uint64_t ceduo_result_unfinished(const struct ceduo_result *result);
 
 #endif

@@ -9,14 +9,16 @@
 #include "statistics.h"
 #include "way.h"
 
-/* A run: many rocks of one scene over its slope without forest. It can be made longer, and read at any time between. */
+/* A run: many rocks of one scene over its slope, without forest or through that of one option. It can be made longer,
+ * and read at any time between. */
 struct ceduo_run;
 
 #define CEDUO_BLOCK_ROCKS 1024                       /* rocks summed as one */
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
 struct ceduo_run_def {
-    const struct ceduo_scene *scene; /* checked; must outlive the run */
+    const struct ceduo_scene *scene; /* checked; what it points to must outlive the run */
+    const struct ceduo_option *option; /* whose forest the rocks go through; NULL: none. It must outlive the run */
     unsigned threads;                /* >= 1; the results do not depend on it */
     uint64_t rocks_most;             /* no longer than this will it be made */
     size_t cells;                    /* envelopes at this many places, 0: none */
@@ -27,7 +29,7 @@ struct ceduo_run_def {
     void *context;
 };
 
-/* One thread, the scene's rocks, no envelopes, CEDUO_EXACT_BYTES. */
+/* No forest, one thread, the scene's rocks, no envelopes, CEDUO_EXACT_BYTES. */
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene);
 
 /* A run without rocks yet. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
@@ -41,6 +43,14 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks);
 uint64_t ceduo_run_rocks(const struct ceduo_run *run);
 uint64_t ceduo_run_contacts(const struct ceduo_run *run); /* ground contacts of all rocks */
 
+/* Stems on the ways of all rocks. */
+struct ceduo_stem_counts {
+    uint64_t drawn; /* made up along the ways */
+    uint64_t hit;   /* stems, or contacts of the contact model poisson */
+    uint64_t met;   /* stools and single trees of which a stem was hit */
+};
+struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);
+
 /* What arrives at a control. Means and percentiles are over the rocks that reached it. */
 struct ceduo_arrivals {
     uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
@@ -48,6 +58,7 @@ struct ceduo_arrivals {
     double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     double energy_per_released, energy_per_released_se;           /* J */
+    double contacts, contacts_se;                                 /* with stems, of those that reached; NaN: bare run */
     bool exact;                                                   /* percentiles from every sample */
 };
 
@@ -57,7 +68,23 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 /* Only the moments, without percentiles: cheap. */
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
 
-/* How the ways ended, and where those ended that came to rest. */
+/* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
+struct ceduo_paired {
+    double mean, se; /* NaN where it does not exist */
+};
+struct ceduo_difference {
+    struct ceduo_paired reach_probability, exceed_probability;
+    struct ceduo_paired energy_per_released; /* J */
+};
+
+/* `run` less `baseline`: two runs of one scene, with as many rocks (all NaN where one is longer). Because both fly the same rocks the error of a
+ * difference is far smaller than those of the two figures. In runs too long to keep their samples the standard error
+ * comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept. */
+#define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
+struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
+                                             size_t control);
+
+/* How the ways ended, and where those ended that came to rest or were stopped by stems. */
 struct ceduo_ends {
     uint64_t count[CEDUO_ENDS];
     struct ceduo_moments stop_x;

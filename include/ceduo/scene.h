@@ -49,7 +49,12 @@ struct ceduo_option {
     struct ceduo_belt *belts;
 };
 
-enum ceduo_contact_model { CEDUO_INDEX };
+/* What becomes of a rock among stems. */
+enum ceduo_contact_model {
+    CEDUO_INDEX,   /* nothing: only Eq. 5 of Ciabocco et al. 2009 is computed */
+    CEDUO_POISSON, /* contacts at random, as many as the rule of the ADC says, each takes its stratum's mean energy */
+    CEDUO_STEMS    /* stools and trees stand at random in the plane, each stem on the way is hit by itself */
+};
 
 struct ceduo_simulation {
     enum ceduo_law law;

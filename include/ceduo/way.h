@@ -7,7 +7,7 @@
 #include "scene.h"
 
 /* How a rock's way ends. */
-enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_ENDS };
+enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_STOPPED_BY_STEMS, CEDUO_ENDS };
 
 /* More contacts than this and a rock counts as unfinished. */
 #define CEDUO_CONTACTS_MOST 1000000
@@ -23,11 +23,30 @@ struct ceduo_piece {
     uint64_t contacts; /* ground contacts before it */
 };
 
+/* A stem that a rock came to. Coordinates relative to the slope's first vertex. */
+struct ceduo_stem_passed {
+    double x, y;        /* m: place along the way, offset from it to the side; y NaN with the contact model poisson */
+    double dbh, height; /* m; NaN and infinite with poisson */
+    bool shoot;         /* of a stool; otherwise a single tree */
+    uint64_t stool;     /* the same number for the shoots of one stool */
+    bool hit;           /* otherwise the rock flew over it */
+    double clearance;   /* m: the rock's underside above the ground there */
+    double before, taken; /* J: energy of the rock as it came, and what the stem took of it; 0 where it was not hit */
+};
+
+/* Who looks on as a rock goes its way: each may be NULL. */
+struct ceduo_watch {
+    void (*piece)(void *context, const struct ceduo_piece *piece);      /* each piece of the way, in order */
+    void (*stem)(void *context, const struct ceduo_stem_passed *stem); /* each stem, after the piece that leads to it */
+    void *context;
+};
+
 /* What a rock brings to a place. Coordinates relative to the slope's first vertex. */
 struct ceduo_crossing {
     bool reached;
     double vx, vz, spin; /* as it comes in */
     double height;       /* m, clearance of the underside above the ground */
+    uint64_t stems_hit;  /* before it */
 };
 
 struct ceduo_way {
@@ -35,23 +54,26 @@ struct ceduo_way {
     double x0, z0, vx0, vz0, spin0; /* as released */
     enum ceduo_end end;
     double x, z; /* where it ended */
-    uint64_t contacts;
+    uint64_t contacts;    /* with the ground */
+    uint64_t stems_hit;   /* or contacts of the contact model poisson */
+    uint64_t stools_met;  /* stools and single trees of which a stem was hit */
+    uint64_t stems_drawn; /* that were made up for this way */
 };
 
-/* Follows rock number `rock` of a scene without forest, the same rock that a run of that scene flies. `visit` (may be
- * NULL) is called for each piece in order. `crossings` (may be NULL) holds one entry for each control, in their order.
- * The scene must have passed ceduo_scene_check(). CEDUO_NO_MEMORY, otherwise CEDUO_OK. */
-enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, uint64_t rock,
-                                   void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
-                                   struct ceduo_way *way, struct ceduo_crossing *crossings);
+/* Follows rock number `rock` of a scene through the forest of `option` (NULL: without forest), the same rock that a run
+ * flies. `watch` may be NULL. `crossings` (may be NULL) holds one entry for each control, in their order. The scene must
+ * have passed ceduo_scene_check(). CEDUO_NO_MEMORY, otherwise CEDUO_OK. */
+enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                   const struct ceduo_watch *watch, struct ceduo_way *way,
+                                   struct ceduo_crossing *crossings);
 
-/* The same for many rocks: what they share of the scene is prepared once. NULL without memory, or where the scene has not
- * passed ceduo_scene_check(). */
+/* The same for many rocks, one at a time: what they share of the scene is prepared once. NULL without memory, or where
+ * the scene has not passed ceduo_scene_check(). */
 struct ceduo_follower;
-struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene);
-enum ceduo_status ceduo_follower_follow(const struct ceduo_follower *follower, uint64_t rock,
-                                        void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
-                                        struct ceduo_way *way, struct ceduo_crossing *crossings);
+struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
+enum ceduo_status ceduo_follower_follow(struct ceduo_follower *follower, uint64_t rock,
+                                        const struct ceduo_watch *watch, struct ceduo_way *way,
+                                        struct ceduo_crossing *crossings);
 void ceduo_follower_free(struct ceduo_follower *follower);
 
 /* The facet draw, uniform in [0, 1), of contact number `contact` of a rock: Threefry 2x64 (Salmon et al. 2011). */

@@ -204,18 +204,20 @@ static enum exit_status write_report(const struct arguments *a, const struct ced
     return EXIT_DONE;
 }
 
-static enum exit_status report_run(const struct arguments *a, const struct scene_file *file, const struct ceduo_run *run,
-                                   struct ceduo_report *report, double start, struct text *out)
+static enum exit_status report_run(const struct arguments *a, const struct scene_file *file,
+                                   const struct ceduo_pool *pool, struct ceduo_report *report, double start,
+                                   struct text *out)
 {
     struct ceduo_result *result;
-    if (ceduo_result_create(&file->scene, run, &result) != CEDUO_OK) {
+    if (ceduo_result_create(&file->scene, pool, &result) != CEDUO_OK) {
         complain(file->path, _("out of memory"));
         return EXIT_RUN;
     }
     report->result = result;
+    report->work = ceduo_pool_work(pool);
     report->seconds = now() - start;
     enum exit_status status = write_report(a, report, out);
-    if (result->ends.count[CEDUO_UNFINISHED] * 1000 > result->rocks)
+    if (ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result))
         status = worse(status, EXIT_RUN);
     ceduo_result_free(result);
     return status;
@@ -283,17 +285,23 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     }
 }
 
-static enum exit_status plot_run(const struct arguments *a, const struct scene_file *file, const struct ceduo_run *run,
-                                 const struct ceduo_run_def *def, struct text *out)
+static enum exit_status plot_run(const struct arguments *a, const struct scene_file *file,
+                                 const struct ceduo_pool *pool, const struct ceduo_run_def *def, struct text *out)
 {
     struct ceduo_outlook *outlook;
-    size_t trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0;
-    if (ceduo_outlook_create(&file->scene, run, NULL, def->cells, def->cell_x, trails, &outlook) != CEDUO_OK) {
+    struct ceduo_outlook_def from = {.scene = &file->scene,
+                                     .figures = pool,
+                                     .pictures = pool,
+                                     .cells = def->cells,
+                                     .cell_x = def->cell_x,
+                                     .trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0};
+    if (ceduo_outlook_create(&from, &outlook) != CEDUO_OK) {
         complain(file->path, _("out of memory"));
         return EXIT_RUN;
     }
     add_plots(a, &file->scene, outlook, out);
-    bool unfinished = outlook->ends.count[CEDUO_UNFINISHED] * 1000 > outlook->rocks;
+    const struct ceduo_flown *bare = &outlook->bare->flown;
+    bool unfinished = bare->ends.count[CEDUO_UNFINISHED] * 1000 > bare->rocks;
     ceduo_outlook_free(outlook);
     return unfinished ? EXIT_RUN : EXIT_DONE;
 }
@@ -315,22 +323,23 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
     def.cell_x = cell_x;
     struct ceduo_report report = {
         .file = file, .remarks = {.tolerance = a->tolerance, .ground_assumed = file->ground_assumed}};
-    struct ceduo_run *run;
-    enum ceduo_status status = ceduo_run_create(&def, &run);
+    struct ceduo_pool *pool;
+    enum ceduo_status status = ceduo_pool_create(&def, &pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_fill(pool);
     if (status == CEDUO_OK && a->tolerance > 0)
-        status = ceduo_run_until(run, file->scene.controls_count, a->tolerance, def.rocks_most,
-                                 &report.remarks.tolerance_met);
+        status = ceduo_pool_until(pool, a->tolerance, def.rocks_most, &report.remarks.tolerance_met);
     else if (status == CEDUO_OK)
-        status = ceduo_run_extend(run, def.rocks_most);
+        status = ceduo_pool_extend(pool, def.rocks_most);
     end_progress(&progress);
     enum exit_status done = EXIT_RUN;
     if (status == CEDUO_OK && a->plot != CEDUO_PLOT_NONE)
-        done = plot_run(a, file, run, &def, out);
+        done = plot_run(a, file, pool, &def, out);
     else if (status == CEDUO_OK)
-        done = report_run(a, file, run, &report, progress.start, out);
+        done = report_run(a, file, pool, &report, progress.start, out);
     else if (status != CEDUO_CANCELLED)
         complain(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
-    ceduo_run_free(run);
+    ceduo_pool_free(pool);
     return done;
 }
 

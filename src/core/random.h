@@ -18,17 +18,22 @@ enum random_kind {
     RANDOM_FACET,
     RANDOM_RELEASE, /* events: x, height, vx, vz, spin */
     RANDOM_ROCK,    /* events: diameter, height, volume, mass, density, axes */
-    RANDOM_GROUND   /* events: Rn, Rt */
+    RANDOM_GROUND,  /* events: Rn, Rt */
+    RANDOM_STEM,    /* of a stool or tree: its gap and offset; events: stratum, side, number */
+    RANDOM_STOOL,   /* how many shoots, the ring's turn; of a tree: which of its laws of diameter */
+    RANDOM_SHOOT,   /* a shoot's cohort; its number from bit 8 on */
+    RANDOM_DBH      /* a stem's diameter; likewise, and from bit 32 on how many were used */
 };
 
 struct random_pair {
     double u[2];
 };
 
-/* Two uniform numbers in [0, 1): Threefry 2x64 keyed by seed and rock (Salmon et al. 2011). */
-static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint64_t event, enum random_kind kind)
+/* Two uniform numbers in [0, 1): Threefry 2x64 keyed by seed and rock (Salmon et al. 2011). `kind`: an enum random_kind,
+ * in some with a number above its low eight bits. */
+static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint64_t event, uint64_t kind)
 {
-    threefry2x64_ctr_t c = {{event, (uint64_t)kind}};
+    threefry2x64_ctr_t c = {{event, kind}};
     threefry2x64_key_t k = {{seed, rock}};
     threefry2x64_ctr_t r = threefry2x64(c, k);
     return (struct random_pair){{(double)(r.v[0] >> 11) * 0x1p-53, (double)(r.v[1] >> 11) * 0x1p-53}};

@@ -16,23 +16,25 @@ enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 
 /* What is summed at one control. Released rocks that do not arrive are known from the counts. */
 struct sums {
-    struct ceduo_moments of[QUANTITIES];
+    struct ceduo_moments of[QUANTITIES], contacts; /* contacts: stems hit before */
     uint64_t exceeded, unfinished;
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
 struct block {
     uint64_t contacts, ends[CEDUO_ENDS];
+    struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;
     struct sums *controls;
 };
 
 struct ceduo_run {
     struct ceduo_run_def def;
-    const struct ceduo_scene *scene;
+    struct ceduo_scene scene;
     struct ceduo_rock mean;
     struct ground ground;
     struct marks marks;
+    struct wood wood;
     size_t controls;
     int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
     uint64_t rocks;        /* done */
@@ -43,6 +45,8 @@ struct ceduo_run {
     uint64_t room;         /* rocks that the samples have room for */
     double *samples;       /* [control][quantity][room], NaN where a rock did not arrive */
     double *stops;         /* [room], NaN where a rock did not stop */
+    uint64_t pairs_room;   /* where samples are not kept: the first rocks' energies, for differences */
+    double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
     struct histogram *bins; /* [control][quantity], then one of the stops */
     struct envelope_cell *cells;
 };
@@ -51,6 +55,7 @@ struct ceduo_run {
 struct worker {
     struct ceduo_run *run;
     struct walker walker;
+    struct stems stems;
     struct block *block;
     uint64_t rock;
     struct histogram *bins;
@@ -90,12 +95,16 @@ static void block_clear(struct block *b, size_t controls)
 static void block_merge(struct block *into, const struct block *from, size_t controls)
 {
     into->contacts += from->contacts;
+    into->stems.drawn += from->stems.drawn;
+    into->stems.hit += from->stems.hit;
+    into->stems.met += from->stems.met;
     for (int e = 0; e < CEDUO_ENDS; e++)
         into->ends[e] += from->ends[e];
     ceduo_moments_merge(&into->stop_x, &from->stop_x);
     for (size_t c = 0; c < controls; c++) {
         for (int q = 0; q < QUANTITIES; q++)
             ceduo_moments_merge(&into->controls[c].of[q], &from->controls[c].of[q]);
+        ceduo_moments_merge(&into->controls[c].contacts, &from->controls[c].contacts);
         into->controls[c].exceeded += from->controls[c].exceeded;
         into->controls[c].unfinished += from->controls[c].unfinished;
     }
@@ -129,6 +138,8 @@ static void keep_sample(struct worker *w, size_t control, const double values[QU
         else if (!ceduo_histogram_add(bins_of(w->bins, run, control, q), values[q]))
             w->no_memory = true;
     }
+    if (w->rock < run->pairs_room)
+        run->pairs[control * run->pairs_room + w->rock] = values[ENERGY];
 }
 
 static void on_cross(void *context, size_t mark, const struct ceduo_crossing *c)
@@ -148,7 +159,9 @@ static void on_cross(void *context, size_t mark, const struct ceduo_crossing *c)
     struct sums *sums = &w->block->controls[what];
     for (int q = 0; q < QUANTITIES; q++)
         ceduo_moments_add(&sums->of[q], values[q]);
-    sums->exceeded += energy > run->scene->controls[what].accepted; /* never, where that is NaN */
+    if (w->walker.stems)
+        ceduo_moments_add(&sums->contacts, (double)c->stems_hit);
+    sums->exceeded += energy > run->scene.controls[what].accepted; /* never, where that is NaN */
     keep_sample(w, what, values);
 }
 
@@ -162,6 +175,8 @@ static void note_unfinished(struct worker *w)
 
 static void clear_samples(struct ceduo_run *run, uint64_t rock)
 {
+    for (size_t c = 0; rock < run->pairs_room && c < run->controls; c++)
+        run->pairs[c * run->pairs_room + rock] = NAN;
     if (!run->exact)
         return;
     for (size_t c = 0; c < run->controls; c++)
@@ -186,13 +201,19 @@ static void fly_rock(struct worker *w, uint64_t number)
     w->rock = number;
     clear_samples(run, number);
     enum ceduo_status status =
-        ceduo_walk_release(&w->walker, run->scene, &run->ground, &run->marks, &run->mean, number);
-    enum ceduo_end end = status == CEDUO_OK ? ceduo_walk(&w->walker, run->scene->simulation.law) : CEDUO_UNFINISHED;
+        ceduo_walk_release(&w->walker, &run->scene, &run->ground, &run->marks, &run->mean, number);
+    enum ceduo_end end = status == CEDUO_OK ? ceduo_walk(&w->walker, run->scene.simulation.law) : CEDUO_UNFINISHED;
+    if (w->walker.stems) {
+        w->no_memory |= w->stems.no_memory;
+        w->block->stems.drawn += w->stems.drawn;
+        w->block->stems.hit += w->walker.stems_hit;
+        w->block->stems.met += w->walker.stools_met;
+    }
     w->block->contacts += w->walker.contacts;
     w->block->ends[end]++;
     if (end == CEDUO_UNFINISHED)
         note_unfinished(w);
-    if (end == CEDUO_AT_REST)
+    if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         note_stop(w, w->walker.at.x);
 }
 
@@ -234,6 +255,11 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     w->walker.cross = on_cross;
     w->walker.context = w;
     w->walker.cancel = run->def.cancel;
+    if (!run->wood.bare) {
+        if (!ceduo_stems_init(&w->stems, &run->wood, run->scene.simulation.contact_model == CEDUO_POISSON))
+            return false;
+        w->walker.stems = &w->stems;
+    }
     size_t bins = run->controls * (size_t)run->kept + 1;
     if (!run->exact && !(w->bins = calloc(bins, sizeof *w->bins)))
         return false;
@@ -247,6 +273,7 @@ static void worker_release(struct worker *w)
         ceduo_histogram_clear(&w->bins[i]);
     free(w->bins);
     free(w->cells);
+    ceduo_stems_release(&w->stems);
 }
 
 static bool worker_merge(struct worker *w)
@@ -363,12 +390,38 @@ static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
     return true;
 }
 
+/* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
+static double energy_of(const struct ceduo_run *run, size_t control, uint64_t rock)
+{
+    if (run->kept == QUANTITIES)
+        return samples_of(run, control, ENERGY)[rock];
+    double speed = samples_of(run, control, SPEED)[rock];
+    return 0.5 * run->mean.mass * (speed * speed);
+}
+
+/* Where samples are kept no more, the first rocks' energies stay. */
+static bool keep_pairs(struct ceduo_run *run)
+{
+    if (run->controls == 0)
+        return true;
+    uint64_t room = run->def.exact_bytes / sizeof(double) / run->controls;
+    room = room < CEDUO_PAIRED_ROCKS ? room : CEDUO_PAIRED_ROCKS;
+    run->pairs = malloc(((size_t)room * run->controls + 1) * sizeof(double));
+    if (!run->pairs)
+        return false;
+    run->pairs_room = room;
+    for (size_t c = 0; c < run->controls; c++)
+        for (uint64_t r = 0; r < run->rocks && r < room; r++)
+            run->pairs[c * room + r] = energy_of(run, c, r);
+    return true;
+}
+
 /* From samples to histograms: there are now too many rocks to keep. */
 static bool bin_samples(struct ceduo_run *run)
 {
     size_t c = columns(run);
     run->bins = calloc(c, sizeof *run->bins);
-    if (!run->bins)
+    if (!run->bins || !keep_pairs(run))
         return false;
     for (size_t i = 0; run->samples && i < c; i++)
         for (uint64_t r = 0; r < run->rocks; r++) {
@@ -414,7 +467,7 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 static bool allocate(struct ceduo_run *run)
 {
     const struct ceduo_run_def *def = &run->def;
-    const struct ceduo_scene *scene = run->scene;
+    const struct ceduo_scene *scene = &run->scene;
     bool ok = block_init(&run->whole, run->controls) && block_init(&run->tail, run->controls);
     run->slots = calloc(CHUNK_BLOCKS, sizeof *run->slots);
     ok = ok && run->slots;
@@ -422,6 +475,7 @@ static bool allocate(struct ceduo_run *run)
         ok = block_init(&run->slots[i], run->controls);
     if (def->cells > 0)
         ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
+    ok = ok && ceduo_wood_init(&run->wood, &scene->simulation, def->option, run->mean.mean_diameter);
     ok = ok && ceduo_marks_init(&run->marks, scene, def->cells, def->cell_x);
     return ok && ceduo_ground_init(&run->ground, &scene->slope, scene->simulation.gravity, run->mean.radius,
                                    ceduo_rock_varies(&scene->rock));
@@ -438,7 +492,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         return CEDUO_NO_MEMORY;
     run->def = *def;
     run->def.threads = def->threads > 0 ? def->threads : 1;
-    run->scene = def->scene;
+    run->scene = *def->scene;
     run->controls = def->scene->controls_count;
     run->exact = true;
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_rock_varies(&def->scene->rock);
@@ -465,7 +519,9 @@ void ceduo_run_free(struct ceduo_run *run)
         ceduo_histogram_clear(&run->bins[i]);
     free(run->bins);
     free(run->samples);
+    free(run->pairs);
     free(run->cells);
+    ceduo_wood_release(&run->wood);
     ceduo_marks_release(&run->marks);
     ceduo_ground_release(&run->ground);
     free(run);
@@ -483,12 +539,19 @@ uint64_t ceduo_run_contacts(const struct ceduo_run *run)
     return run->whole.contacts + run->tail.contacts;
 }
 
+struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run)
+{
+    const struct ceduo_stem_counts *a = &run->whole.stems, *b = &run->tail.stems;
+    return (struct ceduo_stem_counts){a->drawn + b->drawn, a->hit + b->hit, a->met + b->met};
+}
+
 static struct sums sums_at(const struct ceduo_run *run, size_t control)
 {
     struct sums s = run->whole.controls[control];
     const struct sums *tail = &run->tail.controls[control];
     for (int q = 0; q < QUANTITIES; q++)
         ceduo_moments_merge(&s.of[q], &tail->of[q]);
+    ceduo_moments_merge(&s.contacts, &tail->contacts);
     s.exceeded += tail->exceeded;
     s.unfinished += tail->unfinished;
     return s;
@@ -551,13 +614,15 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     if (s.unfinished > 0)
         ceduo_wilson(a->reached + s.unfinished, run->rocks, &unused, &a->reach_hi);
     a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
-    if (!isnan(run->scene->controls[control].accepted)) {
+    if (!isnan(run->scene.controls[control].accepted)) {
         a->exceed_probability = (double)a->exceeded / released;
         ceduo_wilson(a->exceeded, run->rocks, &a->exceed_lo, &a->exceed_hi);
         if (s.unfinished > 0)
             ceduo_wilson(a->exceeded + s.unfinished, run->rocks, &unused, &a->exceed_hi);
     }
     per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
+    a->contacts = !run->wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
+    a->contacts_se = run->wood.bare ? NAN : ceduo_moments_se(&s.contacts);
     double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
     if (!scratch)
         return CEDUO_NO_MEMORY;
@@ -579,6 +644,51 @@ void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *rea
     *reached = s.of[ENERGY].n;
     *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
     *se = ceduo_moments_se(&s.of[ENERGY]);
+}
+
+/* ---- differences ---- */
+
+/* Of the rocks whose energies are known. */
+static uint64_t paired_rocks(const struct ceduo_run *run)
+{
+    return run->exact || run->rocks < run->pairs_room ? run->rocks : run->pairs_room;
+}
+
+static double paired_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
+{
+    return run->exact ? energy_of(run, control, rock) : run->pairs[control * run->pairs_room + rock];
+}
+
+/* A mean of all rocks with the spread of those that are paired. */
+static struct ceduo_paired paired(double mean, const struct ceduo_moments *m, uint64_t rocks)
+{
+    return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks)};
+}
+
+struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
+                                             size_t control)
+{
+    struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};
+    double accepted = run->scene.controls[control].accepted, n = (double)run->rocks;
+    const struct ceduo_paired unknown = {NAN, NAN};
+    if (run->rocks != baseline->rocks)
+        return (struct ceduo_difference){unknown, unknown, unknown};
+    uint64_t a = paired_rocks(run), b = paired_rocks(baseline), rocks = a < b ? a : b;
+    for (uint64_t r = 0; r < rocks; r++) {
+        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
+        ceduo_moments_add(&reach, (double)!isnan(e) - (double)!isnan(f));
+        ceduo_moments_add(&exceed, (double)(e > accepted) - (double)(f > accepted));
+        ceduo_moments_add(&energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
+    }
+    struct sums s = sums_at(run, control), t = sums_at(baseline, control);
+    const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
+    struct ceduo_difference d = {
+        .reach_probability = paired(((double)e->n - (double)f->n) / n, &reach, run->rocks),
+        .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &exceed, run->rocks),
+        .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &energy, run->rocks)};
+    if (isnan(accepted))
+        d.exceed_probability = unknown;
+    return d;
 }
 
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)

@@ -8,7 +8,7 @@ struct ceduo_simulation ceduo_simulation_default(void)
     return (struct ceduo_simulation){.law = CEDUO_LAW_LUMPED,
                                      .rocks = 1000,
                                      .seed = 1,
-                                     .contact_model = CEDUO_INDEX,
+                                     .contact_model = CEDUO_STEMS,
                                      .rule = CEDUO_RULE_AUTO,
                                      .threshold = CEDUO_THRESHOLD_M,
                                      .gravity = CEDUO_GRAVITY,

@@ -9,13 +9,19 @@
 #define PAUSE 4000 /* contacts; the most are a multiple of it */
 _Static_assert(CEDUO_CONTACTS_MOST % PAUSE == 0, "a way ends at a pause");
 
-enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT };
+enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
 
 /* ---- release ---- */
 
 static inline void set_next_x(struct walker *w)
 {
     w->next_x = w->next_mark < w->marks->n ? w->marks->x[w->next_mark] : INFINITY;
+}
+
+static inline void set_next_stems(struct walker *w)
+{
+    w->stem_ahead = w->stems->side[0].next;
+    w->stem_behind = -w->stems->side[1].next;
 }
 
 static enum ceduo_status draw_rock(struct walker *w, const struct ceduo_scene *scene, const struct ceduo_rock *mean)
@@ -68,6 +74,13 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
         w->next_mark++;
     set_next_x(w);
+    w->stems_hit = w->stools_met = 0;
+    w->stem_ahead = INFINITY;
+    w->stem_behind = -INFINITY;
+    if (w->stems) {
+        ceduo_stems_begin(w->stems, w->seed, number, w->rock.mean_diameter, x);
+        set_next_stems(w);
+    }
     return CEDUO_OK;
 }
 
@@ -75,7 +88,8 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
 
 static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)
 {
-    struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0};
+    struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0,
+                               .stems_hit = w->stems_hit};
     w->cross(w->context, w->next_mark++, &c);
     set_next_x(w);
 }
@@ -105,7 +119,7 @@ SELDOM void show_flight(const struct walker *w, struct flight at, double x1, dou
                             .spin = w->spin,
                             .seconds = seconds,
                             .contacts = w->contacts};
-    w->visit(w->context, &p);
+    w->watch->piece(w->watch->context, &p);
 }
 
 HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
@@ -113,13 +127,114 @@ HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
     double vz = at->vz - w->g->gravity * l->t;
     if (w->next_x <= l->x && at->vx > 0)
         pass_in_flight(w, *at, l->x, l->t);
-    if (w->visit)
+    if (w->watch && w->watch->piece)
         show_flight(w, *at, l->x, l->z, vz, l->t);
     at->x = l->x;
     at->z = l->z;
     at->vz = vz;
     at->segment = l->segment;
     at->on_ground = true;
+}
+
+/* ---- stems ---- */
+
+SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
+                      double taken)
+{
+    struct ceduo_stem_passed p = {.x = x,
+                                  .y = stem->y,
+                                  .dbh = stem->dbh,
+                                  .height = stem->height,
+                                  .shoot = stem->shoot,
+                                  .stool = stem->stool,
+                                  .hit = clearance < stem->height,
+                                  .clearance = clearance,
+                                  .before = before,
+                                  .taken = taken};
+    w->watch->stem(w->watch->context, &p);
+}
+
+/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or no memory. */
+static bool take_stem(struct walker *w, int side, struct stem *stem)
+{
+    bool taken = ceduo_stems_take(w->stems, side, stem);
+    set_next_stems(w);
+    w->cancelled |= w->stems->no_memory;
+    return taken && !w->cancelled;
+}
+
+/* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
+static double hit_stem(struct walker *w, const struct stem *stem, double x, double clearance, double energy)
+{
+    double cost = ceduo_stem_energy(stem, w->rock.mean_diameter);
+    w->stems_hit++;
+    w->stools_met += !stem->met;
+    if (!stem->met)
+        ceduo_stems_note_hit(w->stems, stem);
+    bool stops = !(cost < energy);
+    if (w->watch && w->watch->stem)
+        show_stem(w, stem, x, clearance, energy, stops ? energy : cost);
+    return stops ? 0 : sqrt(1 - cost / energy);
+}
+
+/* The segment under x, which lies between segments a and b. */
+static size_t segment_between(const struct ground *g, size_t a, size_t b, double x)
+{
+    size_t lo = a < b ? a : b, hi = (a < b ? b : a) + 1;
+    while (hi - lo > 1) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (g->x[mid] <= x)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit. True where one stops the rock
+ * (or the way is given up), at `at`. */
+static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l)
+{
+    const struct ground *g = w->g;
+    int side = at->vx > 0 ? 0 : 1;
+    while (at->vx != 0 && (side == 0 ? w->stem_ahead <= l->x : w->stem_behind >= l->x)) {
+        double x = side == 0 ? w->stem_ahead : w->stem_behind;
+        struct stem stem;
+        if (!take_stem(w, side, &stem)) {
+            if (w->cancelled)
+                return true;
+            continue;
+        }
+        double t = (x - at->x) / at->vx;
+        t = t < 0 ? 0 : t < l->t ? t : l->t;
+        struct landing here = {.t = t, .x = x, .z = at->z + (at->vz - g->half_g * t) * t};
+        here.segment = segment_between(g, at->segment, l->segment, x);
+        double clearance = here.z - ground_height(g, here.segment, x);
+        clearance = clearance > 0 ? clearance : 0;
+        if (!(clearance < stem.height)) {
+            if (w->watch && w->watch->stem)
+                show_stem(w, &stem, x, clearance, 0, 0);
+            continue;
+        }
+        fly(w, at, &here);
+        at->on_ground = false;
+        double energy = 0.5 * w->rock.mass * (at->vx * at->vx + at->vz * at->vz) +
+                        0.5 * w->rock.moment * (w->spin * w->spin);
+        double share = hit_stem(w, &stem, x, clearance, energy);
+        at->vx *= share;
+        at->vz *= share;
+        w->spin *= share;
+        if (!(share > 0))
+            return true;
+        *l = next_landing(g, at);
+    }
+    return false;
+}
+
+/* Whether a stem lies on the way to x, or perhaps does. */
+HOT bool stem_on_way(const struct walker *w, double x)
+{
+    return x >= w->stem_ahead || x <= w->stem_behind;
 }
 
 /* ---- contact ---- */
@@ -302,22 +417,59 @@ SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, dou
                             .vz1 = u1 * s->s,
                             .spin = w->k > 0 ? u / w->rock.radius : 0,
                             .contacts = w->contacts};
-    w->visit(w->context, &p);
+    w->watch->piece(w->watch->context, &p);
 }
 
-/* Moves along the segment by ds and notes what is passed; exactly onto its end where `to_end`. */
-static void roll_piece(struct walker *w, struct roll *r, double ds, double u2_end, bool to_end)
+/* Moves along the segment by ds to a point and notes what is passed. */
+static void roll_to(struct walker *w, struct roll *r, double ds, double u2_end, double x, double z)
 {
-    double x, z;
-    roll_point(w, r->dir, ds, to_end, &x, &z);
     if (r->dir > 0 && w->next_x <= x)
         pass_in_roll(w, r, ds, u2_end, x);
-    if (w->visit)
+    if (w->watch && w->watch->piece)
         show_roll(w, r, u2_end, x, z);
     r->u2 = u2_end;
     w->at.x = x;
     w->at.z = z;
     set_rolling_speed(w, r);
+}
+
+/* The same, exactly onto the segment's end where `to_end`. */
+static void roll_piece(struct walker *w, struct roll *r, double ds, double u2_end, bool to_end)
+{
+    double x, z;
+    roll_point(w, r->dir, ds, to_end, &x, &z);
+    roll_to(w, r, ds, u2_end, x, z);
+}
+
+enum at_stem { NO_STEM, PASSED_STEM, STOPPED_AT_STEM };
+
+/* Rolls to the next stem, if it is met within the next ds metres, over which u2 changes by `rate` a metre. The rest of
+ * the roll goes on behind it. */
+static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, struct roll *r, double ds, double rate)
+{
+    const struct ground *g = w->g;
+    size_t j = w->at.segment;
+    double x_end, z_end;
+    roll_point(w, r->dir, ds, false, &x_end, &z_end);
+    for (;;) {
+        double x = r->dir > 0 ? w->stem_ahead : w->stem_behind;
+        if (r->dir > 0 ? !(x <= x_end) : !(x >= x_end))
+            return NO_STEM;
+        struct stem stem;
+        if (!take_stem(w, r->dir > 0 ? 0 : 1, &stem)) {
+            if (w->cancelled)
+                return STOPPED_AT_STEM;
+            continue;
+        }
+        double z = ground_height(g, j, x), way = ground_length(&g->segments[j], w->at.x, w->at.z, x, z);
+        double u2 = r->u2 + rate * way;
+        roll_to(w, r, way, u2 > 0 ? u2 : 0, x, z);
+        r->left -= way;
+        double share = hit_stem(w, &stem, x, 0, 0.5 * w->rock.mass * r->u2 * (1 + w->k));
+        r->u2 *= share * share;
+        set_rolling_speed(w, r);
+        return share > 0 ? PASSED_STEM : STOPPED_AT_STEM;
+    }
 }
 
 /* At the end of the segment: onto the next one, off the profile, or into the air. `l` is set where it takes off. */
@@ -361,11 +513,24 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
         double ds = to_end < r.left ? to_end : r.left;
         double rate = 2 * g->gravity * (-r.dir * s->s - s->mu * s->c) / (1 + w->k);
         double u2 = r.u2 + rate * ds;
-        if (ds > 0 && rate <= 0 && !(u2 > 0)) {
+        bool stands = ds > 0 && rate <= 0 && !(u2 > 0);
+        if (stands) {
             double stop = rate < 0 ? -r.u2 / rate : 0;
             if (stop <= 4 * DBL_EPSILON * (fabs(w->at.x) + fabs(w->at.z)))
                 stop = 0; /* not a place of its own: rounding must not lift the rock */
-            roll_piece(w, &r, stop < ds ? stop : ds, 0, false);
+            ds = stop < ds ? stop : ds;
+        }
+        if (w->stems && ds > 0) {
+            enum at_stem then = roll_to_stem(w, &r, ds, rate);
+            if (then == STOPPED_AT_STEM)
+                return STOPPED;
+            if (then == PASSED_STEM && r.left > 0)
+                continue;
+            if (then == PASSED_STEM)
+                return ROLLED;
+        }
+        if (stands) {
+            roll_piece(w, &r, ds, 0, false);
             return STANDS;
         }
         roll_piece(w, &r, ds, u2, ds == to_end);
@@ -456,7 +621,7 @@ SELDOM bool has_enough(struct walker *w)
 }
 
 /* All that follows on the ground after a contact from which the rock rolls, to the next contact, flight or the end. */
-enum after_ground { GROUND_CONTACT, GROUND_FLIES, GROUND_RESTS, GROUND_LEAVES, GROUND_TOO_MANY };
+enum after_ground { GROUND_CONTACT, GROUND_FLIES, GROUND_RESTS, GROUND_LEAVES, GROUND_STOPPED, GROUND_TOO_MANY };
 
 SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct landing *l)
 {
@@ -472,6 +637,8 @@ SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct lan
         w->contacts++;
         then = roll_on(w, 0, l);
     }
+    if (then == STOPPED)
+        return w->cancelled ? GROUND_TOO_MANY : GROUND_STOPPED;
     return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
@@ -486,6 +653,10 @@ HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
         l = next_landing(w->g, &at);
     for (;;) {
         if (flies) {
+            if (stem_on_way(w, l.x) && fly_past_stems(w, &at, &l)) {
+                w->at = at;
+                return w->cancelled ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
+            }
             fly(w, &at, &l);
             if (l.left) {
                 w->at = at;
@@ -516,6 +687,8 @@ HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
             return CEDUO_AT_REST;
         case GROUND_LEAVES:
             return CEDUO_LEFT_SLOPE;
+        case GROUND_STOPPED:
+            return CEDUO_STOPPED_BY_STEMS;
         case GROUND_TOO_MANY:
             return CEDUO_UNFINISHED;
         case GROUND_CONTACT:

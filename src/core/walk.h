@@ -10,6 +10,7 @@
 #include "marks.h"
 #include "random.h"
 #include "sincos.h"
+#include "stems.h"
 
 /* One rock under way. */
 struct walker {
@@ -27,16 +28,20 @@ struct walker {
     uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
     size_t next_mark;
     double next_x;    /* of that mark, infinite behind the last */
+    struct stems *stems;       /* NULL: no forest */
+    double stem_ahead, stem_behind; /* x of the next stem either way; infinite: none */
+    uint64_t stems_hit, stools_met;
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     void (*cross)(void *context, size_t mark, const struct ceduo_crossing *crossing);
-    void (*visit)(void *context, const struct ceduo_piece *piece); /* NULL: nobody looks */
-    void *context;
+    const struct ceduo_watch *watch; /* NULL: nobody looks */
+    void *context;                   /* of cross */
     const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
-    bool cancelled;            /* it was raised: the way is not at its end */
+    bool cancelled;            /* it was raised, or memory ran out: the way is not at its end */
 };
 
-/* Draws rock number `number` of the scene and puts it at its release. */
+/* Draws rock number `number` of the scene and puts it at its release. walker.stems and those who look on are the
+ * caller's to set before. */
 enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene *scene, const struct ground *g,
                                      const struct marks *marks, const struct ceduo_rock *mean, uint64_t number);
 

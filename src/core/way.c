@@ -6,25 +6,16 @@
 
 #include "walk.h"
 
-struct watcher {
-    void (*visit)(void *context, const struct ceduo_piece *piece);
-    void *context;
+struct noter {
     const struct marks *marks;
     struct ceduo_crossing *crossings;
 };
 
-static void watch_piece(void *context, const struct ceduo_piece *piece)
+static void note_crossing(void *context, size_t mark, const struct ceduo_crossing *crossing)
 {
-    struct watcher *watcher = context;
-    if (watcher->visit)
-        watcher->visit(watcher->context, piece);
-}
-
-static void watch_crossing(void *context, size_t mark, const struct ceduo_crossing *crossing)
-{
-    struct watcher *watcher = context;
-    if (watcher->crossings)
-        watcher->crossings[watcher->marks->what[mark]] = *crossing;
+    struct noter *noter = context;
+    if (noter->crossings)
+        noter->crossings[noter->marks->what[mark]] = *crossing;
 }
 
 struct ceduo_follower {
@@ -32,29 +23,34 @@ struct ceduo_follower {
     struct ceduo_rock mean;
     struct ground ground;
     struct marks marks;
+    struct wood wood;
+    struct stems stems;
 };
 
-struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene)
+struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
     struct ceduo_follower *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
     f->scene = scene;
+    const struct ceduo_simulation *simulation = &scene->simulation;
     bool good = ceduo_rock_of_means(&scene->rock, &f->mean) == CEDUO_OK && ceduo_marks_init(&f->marks, scene, 0, NULL) &&
-                ceduo_ground_init(&f->ground, &scene->slope, scene->simulation.gravity, f->mean.radius,
-                                  ceduo_rock_varies(&scene->rock));
+                ceduo_ground_init(&f->ground, &scene->slope, simulation->gravity, f->mean.radius,
+                                  ceduo_rock_varies(&scene->rock)) &&
+                ceduo_wood_init(&f->wood, simulation, option, f->mean.mean_diameter) &&
+                ceduo_stems_init(&f->stems, &f->wood, simulation->contact_model == CEDUO_POISSON);
     if (good)
         return f;
     ceduo_follower_free(f);
     return NULL;
 }
 
-enum ceduo_status ceduo_follower_follow(const struct ceduo_follower *f, uint64_t rock,
-                                        void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
+enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock, const struct ceduo_watch *watch,
                                         struct ceduo_way *way, struct ceduo_crossing *crossings)
 {
-    struct watcher watcher = {visit, context, &f->marks, crossings};
-    struct walker w = {.visit = watch_piece, .cross = watch_crossing, .context = &watcher};
+    struct noter noter = {&f->marks, crossings};
+    struct walker w = {
+        .watch = watch, .cross = note_crossing, .context = &noter, .stems = f->wood.bare ? NULL : &f->stems};
     if (crossings)
         memset(crossings, 0, f->scene->controls_count * sizeof *crossings);
     enum ceduo_status status = ceduo_walk_release(&w, f->scene, &f->ground, &f->marks, &f->mean, rock);
@@ -70,29 +66,34 @@ enum ceduo_status ceduo_follower_follow(const struct ceduo_follower *f, uint64_t
     way->x = w.at.x;
     way->z = w.at.z;
     way->contacts = w.contacts;
-    return CEDUO_OK;
+    way->stems_hit = w.stems_hit;
+    way->stools_met = w.stools_met;
+    way->stems_drawn = w.stems ? w.stems->drawn : 0;
+    return w.cancelled ? CEDUO_NO_MEMORY : CEDUO_OK;
 }
 
 void ceduo_follower_free(struct ceduo_follower *f)
 {
     if (!f)
         return;
+    ceduo_stems_release(&f->stems);
+    ceduo_wood_release(&f->wood);
     ceduo_ground_release(&f->ground);
     ceduo_marks_release(&f->marks);
     free(f);
 }
 
-enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, uint64_t rock,
-                                   void (*visit)(void *context, const struct ceduo_piece *piece), void *context,
-                                   struct ceduo_way *way, struct ceduo_crossing *crossings)
+enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                   const struct ceduo_watch *watch, struct ceduo_way *way,
+                                   struct ceduo_crossing *crossings)
 {
     struct ceduo_rock mean;
     if (ceduo_rock_of_means(&scene->rock, &mean) != CEDUO_OK)
         return CEDUO_BAD_ROCK;
-    struct ceduo_follower *f = ceduo_follower_create(scene);
+    struct ceduo_follower *f = ceduo_follower_create(scene, option);
     if (!f)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = ceduo_follower_follow(f, rock, visit, context, way, crossings);
+    enum ceduo_status status = ceduo_follower_follow(f, rock, watch, way, crossings);
     ceduo_follower_free(f);
     return status;
 }

@@ -22,12 +22,12 @@ const char *const ceduo_law_names[] = {
 #undef X
 };
 const char *const ceduo_rule_names[] = {"auto", "gsteiger-stools", "gsteiger-stems", "interception", "crofton"};
-const char *const ceduo_contact_model_names[] = {"index"};
+const char *const ceduo_contact_model_names[] = {"index", "poisson", "stems"};
 
 static const struct choices shapes = {ceduo_shape_names, 4}, facets = {ceduo_facets_names, 2},
                             systems = {ceduo_system_names, 6}, energies = {ceduo_energy_names, 2},
                             laws = {ceduo_law_names, CEDUO_LAW_COUNT}, rules = {ceduo_rule_names, 5},
-                            contact_models = {ceduo_contact_model_names, 1};
+                            contact_models = {ceduo_contact_model_names, 3};
 
 /* Names that the core keeps in tables of its own, in its order; a test holds them together. */
 static const char *const species_names[] = {
@@ -293,7 +293,9 @@ static const struct field simulation_fields[] = {
         N_("rocks simulated")),
     NUM("seed", FIELD_COUNT, AT(simulation_form, seed), "", 1, 0, 9007199254740992.0, 0, "1",
         N_("seed of the random numbers")),
-    WORD("contact_model", AT(simulation_form, contact_model), 0, "index", N_("how rocks meet stems"), &contact_models),
+    WORD("contact_model", AT(simulation_form, contact_model), 0, "stems",
+         N_("how rocks meet stems: each by itself, as a Poisson process at the rule's rate, or not (index)"),
+         &contact_models),
     WORD("rule", AT(simulation_form, rule), 0, "auto", N_("form of the ADC; auto is the paper's rule"), &rules),
     NUM("threshold_m", FIELD_NUMBER, AT(simulation_form, threshold), "m", 1, 0, 1e6, FIELD_ABOVE, "30",
         N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),

@@ -8,8 +8,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "ceduo/result.h"
-#include "run_key.h"
+#include "ceduo/key.h"
 
 struct worker {
     pthread_t thread;
@@ -21,10 +20,13 @@ struct worker {
     /* under the lock */
     bool quit, requested, busy, failed;
     struct ceduo_scene scene; /* asked for last */
-    uint64_t key;             /* of its run */
+    size_t shown;
+    uint64_t key;             /* of its runs */
     struct ceduo_outlook *outlook;
     uint64_t rocks, runs, rocks_flown;
     double asked, seconds;
+    /* the thread's own: what is kept from request to request */
+    struct flight_plan *plan;
 };
 
 static double now(void)
@@ -41,45 +43,114 @@ static void tell(struct worker *w)
         return; /* full: news is waiting to be read anyway */
 }
 
-static bool precise(const struct ceduo_outlook *o)
+/* ---- the runs of a scene ---- */
+
+/* Short runs with envelopes for the pictures, long ones for the figures; and what was last made of them. */
+struct flight_plan {
+    struct ceduo_scene scene;
+    uint64_t scene_key;
+    struct ceduo_pool *pictures, *figures;
+    double cells[CEDUO_OUTLOOK_CELLS];
+    size_t cells_count;
+    struct ceduo_outlook *last;
+};
+
+static void free_plan(struct flight_plan *plan)
 {
-    if (o->rocks < WORKER_PICTURE_ROCKS) /* a chance is never known from so few */
-        return false;
-    for (size_t i = 0; i < o->controls; i++) {
-        const struct ceduo_arrivals *a = &o->arrivals[i];
+    if (!plan)
+        return;
+    ceduo_outlook_free(plan->last);
+    ceduo_pool_free(plan->figures);
+    ceduo_pool_free(plan->pictures);
+    free(plan);
+}
+
+static struct flight_plan *new_plan(struct worker *w, const struct ceduo_scene *scene)
+{
+    struct flight_plan *plan = calloc(1, sizeof *plan);
+    if (!plan)
+        return NULL;
+    plan->scene = *scene;
+    plan->scene_key = ceduo_scene_key(scene);
+    struct ceduo_run_def def = ceduo_run_def_default(scene);
+    def.threads = w->threads;
+    def.rocks_most = WORKER_ROCKS_MOST;
+    def.cancel = &w->cancel;
+    bool good = ceduo_pool_create(&def, &plan->figures) == CEDUO_OK;
+    plan->cells_count = ceduo_outlook_places(scene, plan->cells);
+    def.cells = plan->cells_count;
+    def.cell_x = plan->cells;
+    if (good && ceduo_pool_create(&def, &plan->pictures) == CEDUO_OK)
+        return plan;
+    free_plan(plan);
+    return NULL;
+}
+
+/* The plan for a scene: the last one where only forests have changed. */
+static bool prepare_plan(struct worker *w, const struct ceduo_scene *scene)
+{
+    struct flight_plan *plan = w->plan;
+    if (plan && plan->scene_key == ceduo_scene_key(scene)) {
+        plan->scene = *scene;
+        ceduo_pool_turn(plan->figures, scene);
+        ceduo_pool_turn(plan->pictures, scene);
+        return true;
+    }
+    free_plan(plan);
+    w->plan = new_plan(w, scene);
+    return w->plan != NULL;
+}
+
+/* ---- flying ---- */
+
+static bool is_precise(const struct ceduo_sight *s)
+{
+    for (size_t i = 0; i < s->flown.controls; i++) {
+        const struct ceduo_arrivals *a = &s->flown.arrivals[i];
         if (a->reached >= CEDUO_FEW_ROCKS && !(CEDUO_Z95 * a->energy.se <= WORKER_TOLERANCE * a->energy.mean))
             return false;
     }
     return true;
 }
 
-/* The runs of one request: a short one with envelopes for the pictures, a long one for the figures. */
-struct flight_plan {
-    const struct ceduo_scene *scene;
-    struct ceduo_run *pictures, *figures;
-    double cells[CEDUO_OUTLOOK_CELLS];
-    size_t cells_count;
-};
+static bool precise(const struct ceduo_outlook *o)
+{
+    bool good = is_precise(o->bare);
+    for (size_t i = 0; i < o->options; i++)
+        good = good && (!o->wooded[i] || is_precise(o->wooded[i]));
+    return good;
+}
 
 /* Hands over what is known so far. */
-static bool publish(struct worker *w, const struct flight_plan *plan, const struct ceduo_run *run, bool *enough)
+static bool publish(struct worker *w, struct ceduo_outlook **outlook)
 {
-    struct ceduo_outlook *o;
-    if (ceduo_outlook_create(plan->scene, run, plan->pictures, plan->cells_count, plan->cells, CEDUO_OUTLOOK_TRAILS,
-                             &o) != CEDUO_OK)
+    struct flight_plan *plan = w->plan;
+    struct ceduo_outlook *o, *mine;
+    struct ceduo_outlook_def def = {.scene = &plan->scene,
+                                    .figures = plan->figures,
+                                    .pictures = plan->pictures,
+                                    .cells = plan->cells_count,
+                                    .cell_x = plan->cells,
+                                    .trails = CEDUO_OUTLOOK_TRAILS,
+                                    .last = plan->last};
+    if (ceduo_outlook_create(&def, &mine) != CEDUO_OK)
         return false;
-    *enough = precise(o);
+    ceduo_outlook_free(plan->last);
+    def.last = plan->last = mine;
+    if (ceduo_outlook_create(&def, &o) != CEDUO_OK)
+        return false;
     pthread_mutex_lock(&w->lock);
     if (w->requested) { /* stale already */
         ceduo_outlook_free(o);
     } else {
         ceduo_outlook_free(w->outlook);
         w->outlook = o;
-        w->rocks = o->rocks;
+        w->rocks = o->bare->flown.rocks;
         w->seconds = now() - w->asked;
     }
     pthread_mutex_unlock(&w->lock);
     tell(w);
+    *outlook = mine;
     return true;
 }
 
@@ -90,39 +161,57 @@ static void count_rocks(struct worker *w, uint64_t rocks)
     pthread_mutex_unlock(&w->lock);
 }
 
-/* Flies one request in steps, each ten times the one before, until it is precise or stale. */
-static bool fly_plan(struct worker *w, struct flight_plan *plan)
+/* Makes the run of one forest as long as `rocks`. */
+static enum ceduo_status fly_forest(struct worker *w, const struct ceduo_option *option, uint64_t rocks)
 {
-    bool enough = false;
-    for (uint64_t rocks = WORKER_FIRST_ROCKS; !enough && !atomic_load(&w->cancel); rocks *= 10) {
-        struct ceduo_run *run = rocks <= WORKER_PICTURE_ROCKS ? plan->pictures : plan->figures;
-        uint64_t before = ceduo_run_rocks(run);
-        enum ceduo_status status = ceduo_run_extend(run, rocks);
-        count_rocks(w, ceduo_run_rocks(run) - before);
-        if (status == CEDUO_CANCELLED)
-            return true;
-        if (status != CEDUO_OK || !publish(w, plan, run, &enough))
-            return false;
-        enough |= rocks * 10 > WORKER_ROCKS_MOST;
-    }
-    return true;
+    struct flight_plan *plan = w->plan;
+    struct ceduo_pool *pool = rocks <= WORKER_PICTURE_ROCKS ? plan->pictures : plan->figures;
+    struct ceduo_run *run, *pictures;
+    enum ceduo_status status = ceduo_pool_run(pool, option, &run);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_run(plan->pictures, option, &pictures);
+    if (status != CEDUO_OK)
+        return status;
+    uint64_t before = ceduo_run_rocks(run);
+    status = ceduo_run_extend(run, rocks);
+    count_rocks(w, ceduo_run_rocks(run) - before);
+    return status;
 }
 
-static bool fly(struct worker *w, const struct ceduo_scene *scene)
+/* Flies one request in steps, each ten times the one before, until it is precise or stale: what is looked at first. */
+static enum ceduo_status fly_plan(struct worker *w, size_t shown)
 {
-    struct flight_plan plan = {.scene = scene};
-    struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.threads = w->threads;
-    def.rocks_most = WORKER_ROCKS_MOST;
-    def.cancel = &w->cancel;
-    bool good = ceduo_run_create(&def, &plan.figures) == CEDUO_OK;
-    plan.cells_count = ceduo_outlook_places(scene, plan.cells);
-    def.cells = plan.cells_count;
-    def.cell_x = plan.cells;
-    good = good && ceduo_run_create(&def, &plan.pictures) == CEDUO_OK && fly_plan(w, &plan);
-    ceduo_run_free(plan.figures);
-    ceduo_run_free(plan.pictures);
-    return good;
+    const struct ceduo_scene *scene = &w->plan->scene;
+    bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
+    bool enough = false;
+    struct ceduo_outlook *o;
+    for (uint64_t rocks = WORKER_FIRST_ROCKS; !enough; rocks *= 10) {
+        enum ceduo_status status = fly_forest(w, NULL, rocks);
+        if (status == CEDUO_OK && wooded)
+            status = fly_forest(w, &scene->options[shown], rocks);
+        if (status == CEDUO_OK && wooded && scene->options_count > 1) {
+            if (!publish(w, &o))
+                return CEDUO_NO_MEMORY;
+            for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
+                status = fly_forest(w, &scene->options[i], rocks);
+        }
+        if (status != CEDUO_OK)
+            return status;
+        if (!publish(w, &o))
+            return CEDUO_NO_MEMORY;
+        if (atomic_load(&w->cancel))
+            return CEDUO_CANCELLED;
+        enough = rocks * 10 > WORKER_ROCKS_MOST || (rocks >= WORKER_PICTURE_ROCKS && precise(o));
+    }
+    return CEDUO_OK;
+}
+
+static bool fly(struct worker *w, const struct ceduo_scene *scene, size_t shown)
+{
+    if (!prepare_plan(w, scene))
+        return false;
+    enum ceduo_status status = fly_plan(w, shown);
+    return status == CEDUO_OK || status == CEDUO_CANCELLED;
 }
 
 static void *work(void *argument)
@@ -139,11 +228,12 @@ static void *work(void *argument)
         if (w->quit)
             break;
         struct ceduo_scene scene = w->scene;
+        size_t shown = w->shown;
         w->requested = false;
         w->runs++;
         atomic_store(&w->cancel, false);
         pthread_mutex_unlock(&w->lock);
-        bool good = fly(w, &scene);
+        bool good = fly(w, &scene, shown);
         pthread_mutex_lock(&w->lock);
         w->failed |= !good;
     }
@@ -182,6 +272,7 @@ void ceduo_worker_free(struct worker *w)
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
+    free_plan(w->plan);
     ceduo_outlook_free(w->outlook);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);
@@ -195,12 +286,21 @@ unsigned ceduo_worker_threads(const struct worker *w)
     return w->threads;
 }
 
-void ceduo_worker_request(struct worker *w, const struct ceduo_scene *scene)
+uint64_t ceduo_worker_key(const struct ceduo_scene *scene)
 {
-    uint64_t key = ceduo_run_key(scene);
+    uint64_t key = ceduo_scene_key(scene);
+    for (size_t i = 0; i < scene->options_count; i++)
+        key = key * 1099511628211u ^ ceduo_option_key(&scene->simulation, &scene->options[i]);
+    return key * 1099511628211u ^ scene->options_count ^ (uint64_t)scene->simulation.contact_model << 32;
+}
+
+void ceduo_worker_request(struct worker *w, const struct ceduo_scene *scene, size_t shown)
+{
+    uint64_t key = ceduo_worker_key(scene);
     pthread_mutex_lock(&w->lock);
     if (key != w->key || w->runs == 0) { /* otherwise nothing that the rocks meet has changed */
         w->scene = *scene;
+        w->shown = shown;
         w->key = key;
         w->requested = w->busy = true;
         w->failed = false;

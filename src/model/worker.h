@@ -21,16 +21,20 @@ struct worker *ceduo_worker_create(unsigned threads);
 void ceduo_worker_free(struct worker *worker);
 unsigned ceduo_worker_threads(const struct worker *worker);
 
-/* Asks for the run of a scene. What the scene points to must stay until the worker is freed (an arena that is never
+/* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
+uint64_t ceduo_worker_key(const struct ceduo_scene *scene);
+
+/* Asks for the runs of a scene, those of option `shown` and without forest first. Runs of forests that have not changed
+ * since the last request are kept. What the scene points to must stay until the worker is freed (an arena that is never
  * emptied); the struct itself is copied. */
-void ceduo_worker_request(struct worker *worker, const struct ceduo_scene *scene);
+void ceduo_worker_request(struct worker *worker, const struct ceduo_scene *scene, size_t shown);
 
 /* A file descriptor that becomes readable when there is news; read by ceduo_worker_news(). */
 int ceduo_worker_fd(const struct worker *worker);
 
 struct worker_news {
     struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
-    uint64_t key;                  /* of its run: ceduo_run_key() */
+    uint64_t key;                  /* of its scene: ceduo_worker_key() */
     bool busy;                     /* still refining */
     uint64_t rocks;                /* of the newest */
     double seconds;                /* since the request */

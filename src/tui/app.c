@@ -10,7 +10,6 @@
 #include "io/emit.h"
 #include "io/forms.h"
 #include "io/intl.h"
-#include "model/run_key.h"
 #include "now.h"
 
 const struct app_view *const ceduo_views[VIEWS] = {&ceduo_view_slope, &ceduo_view_stand, &ceduo_view_rock,
@@ -76,11 +75,17 @@ void ceduo_app_forest(const struct app *app, char *path, size_t size)
         snprintf(path, size, "forest");
 }
 
+/* Whether what was flown is of a scene like this one: an edit may have added a control or an option. */
+static bool outlook_fits(const struct app *app)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    return app->outlook && app->outlook->controls == s->controls_count && app->outlook->options == s->options_count;
+}
+
 struct ceduo_picture ceduo_app_picture(const struct app *app)
 {
-    bool fits = app->outlook && app->outlook->controls == app->document.file.scene.controls_count;
     return (struct ceduo_picture){.scene = &app->document.file.scene,
-                                  .outlook = fits ? app->outlook : NULL,
+                                  .outlook = outlook_fits(app) ? app->outlook : NULL,
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_plot_last_control(&app->document.file.scene),
@@ -93,11 +98,15 @@ static void refresh_result(struct app *app)
     ceduo_result_free(app->result);
     app->result = NULL;
     const struct ceduo_scene *scene = &app->document.file.scene;
-    if (!app->outlook || app->outlook->controls != scene->controls_count)
+    const struct ceduo_outlook *o = app->outlook;
+    if (!outlook_fits(app) || !o->bare)
         return;
-    if (ceduo_result_assess(scene, app->outlook->rocks, app->outlook->contacts, app->outlook->arrivals,
-                            &app->outlook->ends, &app->result) != CEDUO_OK)
+    const struct ceduo_flown **wooded = calloc(o->options + 1, sizeof *wooded);
+    for (size_t i = 0; wooded && i < o->options; i++)
+        wooded[i] = o->wooded[i] ? &o->wooded[i]->flown : NULL;
+    if (!wooded || ceduo_result_assess(scene, &o->bare->flown, wooded, o->differences, &app->result) != CEDUO_OK)
         app->result = NULL;
+    free(wooded);
 }
 
 /* The scene has changed: what the rocks meet is asked for anew, the rest follows at once. */
@@ -109,9 +118,9 @@ static void refresh(struct app *app)
     const struct ceduo_option *o = ceduo_app_option(app);
     if (app->belt >= o->belts_count)
         app->belt = o->belts_count > 0 ? o->belts_count - 1 : 0;
-    uint64_t key = ceduo_run_key(scene);
+    uint64_t key = ceduo_worker_key(scene);
     if (key != app->outlook_key) {
-        ceduo_worker_request(app->worker, scene);
+        ceduo_worker_request(app->worker, scene, app->option);
         app->outlook_key = key;
         app->busy = true;
     }
@@ -622,10 +631,19 @@ static void say_steps(struct app *app)
     ceduo_text_free(&text);
 }
 
+bool ceduo_app_follow(struct app *app, uint64_t rock)
+{
+    uint64_t key = app->outlook_key ^ (uint64_t)(app->option + 1) * 1099511628211u;
+    bool good = ceduo_steps_follow(&app->steps, &app->document.file.scene, ceduo_app_option(app), key, rock);
+    if (!good)
+        ceduo_steps_free(&app->steps);
+    return good;
+}
+
 void ceduo_app_show_rock(struct app *app, uint64_t rock)
 {
     app->rock = rock;
-    if (ceduo_steps_follow(&app->steps, &app->document.file.scene, app->outlook_key, rock))
+    if (ceduo_app_follow(app, rock))
         say_steps(app);
 }
 

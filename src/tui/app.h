@@ -106,6 +106,9 @@ void ceduo_app_forest(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
+/* Follows the way of a rock through the forest of the option shown, unless it is that way already. */
+bool ceduo_app_follow(struct app *app, uint64_t rock);
+
 /* Shows the way of another rock, or `by` pieces more of it, and says what happens there. */
 void ceduo_app_show_rock(struct app *app, uint64_t rock);
 void ceduo_app_step_rock(struct app *app, int by);

@@ -137,7 +137,7 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
     ceduo_text_format(&text, "%s ", app->busy ? "\xe2\x80\xa6" : "=");
     if (a->reached > 0)
         ceduo_text_format(&text, "\xc2\xb1%.2g %% ", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
-    ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)app->result->rocks);
+    ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)ceduo_result_rocks(app->result));
     line(pen, CEDUO_ROLE_DIM, "%s", text.bytes ? text.bytes : "");
     ceduo_text_free(&text);
 }
@@ -153,9 +153,9 @@ void ceduo_now_draw(struct app *app, struct ceduo_area area)
     const struct ceduo_result *r = app->result;
     size_t c = r->last_control;
     const struct ceduo_option_result *found = ceduo_app_found(app);
-    put_arrivals(&pen, &r->scene->controls[c], &r->bare[c]);
+    put_arrivals(&pen, &r->scene->controls[c], &r->bare.arrivals[c]);
     put_lights(&pen, &found->controls[c], r->scene->simulation.threshold);
     put_index(&pen, &found->controls[c]);
-    put_mark(&pen, &r->bare[c]);
+    put_mark(&pen, &r->bare.arrivals[c]);
     put_warnings(&pen);
 }

@@ -554,7 +554,7 @@ void ceduo_popup_counts(struct app *app)
 static void put_command(struct app *app, struct text *text)
 {
     struct document *d = &app->document;
-    uint64_t rocks = app->result ? app->result->rocks : d->file.scene.simulation.rocks;
+    uint64_t rocks = app->result ? ceduo_result_rocks(app->result) : d->file.scene.simulation.rocks;
     ceduo_text_format(text, "ceduo --batch -n %llu '", (unsigned long long)rocks);
     for (const char *c = d->path ? d->path : "scene.yaml"; *c; c++)
         ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1); /* as a shell reads it */

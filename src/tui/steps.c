@@ -25,6 +25,22 @@ static void add_piece(void *context, const struct ceduo_piece *piece)
     s->pieces[s->n++] = *piece;
 }
 
+static void add_stem(void *context, const struct ceduo_stem_passed *stem)
+{
+    struct steps *s = context;
+    if (s->n >= PIECES_MOST)
+        return;
+    if (s->stems_count == s->stems_room) {
+        size_t room = s->stems_room ? 2 * s->stems_room : 64;
+        struct step_stem *stems = realloc(s->stems, room * sizeof *stems);
+        if (!stems)
+            return;
+        s->stems = stems;
+        s->stems_room = room;
+    }
+    s->stems[s->stems_count++] = (struct step_stem){s->n, *stem};
+}
+
 static void add_point(struct ceduo_trail *t, double x, double z)
 {
     t->x[t->n] = x;
@@ -56,14 +72,16 @@ static bool draw_trail(struct steps *s, double gravity)
     return true;
 }
 
-bool ceduo_steps_follow(struct steps *s, const struct ceduo_scene *scene, uint64_t key, uint64_t rock)
+bool ceduo_steps_follow(struct steps *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
+                        uint64_t key, uint64_t rock)
 {
     bool same = s->n > 0 && s->key == key && s->rock == rock;
     if (!same) {
-        s->n = s->at = 0;
+        s->n = s->at = s->stems_count = 0;
         s->key = key;
         s->rock = rock;
-        if (ceduo_way_follow(scene, rock, add_piece, s, &s->way, NULL) != CEDUO_OK)
+        const struct ceduo_watch watch = {.piece = add_piece, .stem = add_stem, .context = s};
+        if (ceduo_way_follow(scene, option, rock, &watch, &s->way, NULL) != CEDUO_OK)
             return false;
     }
     return draw_trail(s, scene->simulation.gravity);
@@ -79,9 +97,12 @@ void ceduo_steps_move(struct steps *s, int by)
 
 static void say_end(const struct steps *s, double origin, struct text *text)
 {
-    static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever")};
+    static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
+                                                 N_("is stopped by stems")};
     ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
                       _(ends[s->way.end]), s->way.x + origin, (unsigned long long)s->way.contacts);
+    if (s->way.stems_drawn > 0)
+        ceduo_text_format(text, _(", %llu stems hit"), (unsigned long long)s->way.stems_hit);
 }
 
 void ceduo_steps_say(const struct steps *s, const struct ceduo_scene *scene, double origin, struct text *text)
@@ -107,6 +128,7 @@ void ceduo_steps_say(const struct steps *s, const struct ceduo_scene *scene, dou
 void ceduo_steps_free(struct steps *s)
 {
     free(s->pieces);
+    free(s->stems);
     ceduo_trail_free(&s->trail);
     *s = (struct steps){0};
 }

@@ -5,17 +5,27 @@
 #include "io/text.h"
 #include "view/outlook.h"
 
+/* A stem that the rock comes to at the end of piece number `piece`. */
+struct step_stem {
+    size_t piece;
+    struct ceduo_stem_passed stem;
+};
+
 /* The way of one rock, piece by piece: flights, and rolls along the ground. */
 struct steps {
     uint64_t key, rock; /* of the run and the rock that they were followed for */
     size_t n, room, at; /* pieces; how many of them are shown, 0: all */
     struct ceduo_piece *pieces;
+    struct step_stem *stems; /* that it comes to */
+    size_t stems_count, stems_room;
     struct ceduo_way way;
     struct ceduo_trail trail; /* what is shown of it */
 };
 
-/* Follows rock number `rock` of the scene, whose run has this key, unless it is that way already. False without memory. */
-bool ceduo_steps_follow(struct steps *steps, const struct ceduo_scene *scene, uint64_t key, uint64_t rock);
+/* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that way
+ * already. False without memory. */
+bool ceduo_steps_follow(struct steps *steps, const struct ceduo_scene *scene, const struct ceduo_option *option,
+                        uint64_t key, uint64_t rock);
 
 /* A piece further or back. */
 void ceduo_steps_move(struct steps *steps, int by);

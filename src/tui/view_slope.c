@@ -62,8 +62,7 @@ static void build(struct app *app, struct form *form)
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
 {
-    if (!ceduo_steps_follow(&app->steps, &app->document.file.scene, app->outlook_key, app->rock))
-        ceduo_steps_free(&app->steps);
+    ceduo_app_follow(app, app->rock);
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_span span;
     bool alone = app->pane == 1;

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ceduo/key.h"
+
 /* ---- ways ---- */
 
 #define TRAIL_POINTS_MOST  20000 /* of a rock that hops on and on: what comes later is left out */
@@ -62,7 +64,7 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
     add_point(t, p->x1, p->z1, false);
 }
 
-static enum ceduo_status trace(const struct ceduo_follower *follower, const struct ceduo_scene *scene, uint64_t rock,
+static enum ceduo_status trace(struct ceduo_follower *follower, const struct ceduo_scene *scene, uint64_t rock,
                                struct ceduo_trail *trail)
 {
     const struct ceduo_slope *slope = &scene->slope;
@@ -71,16 +73,18 @@ static enum ceduo_status trace(const struct ceduo_follower *follower, const stru
                             .gravity = scene->simulation.gravity,
                             .step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION};
     struct ceduo_way way;
-    enum ceduo_status status = ceduo_follower_follow(follower, rock, trace_piece, &tracer, &way, NULL);
+    const struct ceduo_watch watch = {.piece = trace_piece, .context = &tracer};
+    enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way, NULL);
     if (status == CEDUO_OK)
         add_point(&tracer, way.x, way.z, true);
     return tracer.failed ? CEDUO_NO_MEMORY : status;
 }
 
-enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, uint64_t rock, struct ceduo_trail *trail)
+enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                     struct ceduo_trail *trail)
 {
     *trail = (struct ceduo_trail){0};
-    struct ceduo_follower *follower = ceduo_follower_create(scene);
+    struct ceduo_follower *follower = ceduo_follower_create(scene, option);
     enum ceduo_status status = follower ? trace(follower, scene, rock, trail) : CEDUO_NO_MEMORY;
     ceduo_follower_free(follower);
     return status;
@@ -93,15 +97,14 @@ void ceduo_trail_free(struct ceduo_trail *trail)
     *trail = (struct ceduo_trail){0};
 }
 
-static enum ceduo_status follow_trails(const struct ceduo_scene *scene, size_t trails, struct ceduo_outlook *o)
+static enum ceduo_status follow_trails(struct ceduo_follower *follower, const struct ceduo_scene *scene, size_t trails,
+                                       struct ceduo_sight *s)
 {
-    trails = trails < o->rocks ? trails : (size_t)o->rocks;
-    o->trails = calloc(trails + 1, sizeof *o->trails);
-    struct ceduo_follower *follower = o->trails ? ceduo_follower_create(scene) : NULL;
-    enum ceduo_status status = follower ? CEDUO_OK : CEDUO_NO_MEMORY;
+    trails = trails < s->flown.rocks ? trails : (size_t)s->flown.rocks;
+    s->trails = calloc(trails + 1, sizeof *s->trails);
+    enum ceduo_status status = s->trails ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < trails && status == CEDUO_OK; i++)
-        status = trace(follower, scene, i, &o->trails[o->trails_count++]);
-    ceduo_follower_free(follower);
+        status = trace(follower, scene, i, &s->trails[s->trails_count++]);
     return status;
 }
 
@@ -117,54 +120,38 @@ size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x)
     return CEDUO_OUTLOOK_CELLS;
 }
 
-static enum ceduo_status read_envelopes(const struct ceduo_run *run, size_t cells, const double *cell_x,
-                                        struct ceduo_outlook *o)
-{
-    o->cell_x = malloc((cells + 1) * sizeof *o->cell_x);
-    o->envelopes = calloc(cells + 1, sizeof *o->envelopes);
-    if (!o->cell_x || !o->envelopes)
-        return CEDUO_NO_MEMORY;
-    o->cells = cells;
-    for (size_t i = 0; i < cells; i++) {
-        o->cell_x[i] = cell_x[i];
-        ceduo_run_envelope(run, i, &o->envelopes[i]);
-    }
-    return CEDUO_OK;
-}
-
-/* ---- energies ---- */
+/* ---- one run ---- */
 
 #define FLOWN_MOST 4000 /* rocks flown once more where a run is too long to keep its samples */
 
-static enum ceduo_status fly_energies(const struct ceduo_scene *scene, struct ceduo_outlook *o)
+static enum ceduo_status fly_energies(struct ceduo_follower *follower, struct ceduo_sight *s)
 {
-    uint64_t rocks = o->rocks < FLOWN_MOST ? o->rocks : FLOWN_MOST;
-    struct ceduo_crossing *crossings = calloc(o->controls + 1, sizeof *crossings);
-    struct ceduo_follower *follower = crossings ? ceduo_follower_create(scene) : NULL;
-    enum ceduo_status status = follower ? CEDUO_OK : CEDUO_NO_MEMORY;
+    size_t controls = s->flown.controls;
+    uint64_t rocks = s->flown.rocks < FLOWN_MOST ? s->flown.rocks : FLOWN_MOST;
+    struct ceduo_crossing *crossings = calloc(controls + 1, sizeof *crossings);
+    enum ceduo_status status = crossings ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (uint64_t rock = 0; rock < rocks && status == CEDUO_OK; rock++) {
         struct ceduo_way way;
-        status = ceduo_follower_follow(follower, rock, NULL, NULL, &way, crossings);
-        for (size_t c = 0; c < o->controls && status == CEDUO_OK; c++) {
+        status = ceduo_follower_follow(follower, rock, NULL, &way, crossings);
+        for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
             const struct ceduo_crossing *at = &crossings[c];
             double energy = 0.5 * way.rock.mass * (at->vx * at->vx + at->vz * at->vz) +
                             0.5 * way.rock.moment * (at->spin * at->spin);
             if (at->reached)
-                o->energies[c].values[o->energies[c].n++] = energy;
+                s->energies[c].values[s->energies[c].n++] = energy;
         }
     }
-    ceduo_follower_free(follower);
     free(crossings);
     return status;
 }
 
-static enum ceduo_status read_energies(const struct ceduo_scene *scene, const struct ceduo_run *run,
-                                       struct ceduo_outlook *o)
+static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run,
+                                       struct ceduo_sight *s)
 {
     bool kept = true;
-    for (size_t c = 0; c < o->controls; c++) {
-        struct ceduo_energies *e = &o->energies[c];
-        uint64_t reached = o->arrivals[c].reached;
+    for (size_t c = 0; c < s->flown.controls; c++) {
+        struct ceduo_energies *e = &s->energies[c];
+        uint64_t reached = s->flown.arrivals[c].reached;
         size_t most = reached < CEDUO_OUTLOOK_SAMPLE ? (size_t)reached : CEDUO_OUTLOOK_SAMPLE;
         e->values = malloc(((most > FLOWN_MOST ? most : FLOWN_MOST) + 1) * sizeof *e->values);
         if (!e->values)
@@ -172,43 +159,141 @@ static enum ceduo_status read_energies(const struct ceduo_scene *scene, const st
         e->n = ceduo_run_energies(run, c, e->values, most);
         kept &= e->n > 0 || reached == 0;
     }
-    for (size_t c = 0; c < o->controls && !kept; c++)
-        o->energies[c].n = 0;
-    return kept ? CEDUO_OK : fly_energies(scene, o);
+    for (size_t c = 0; c < s->flown.controls && !kept; c++)
+        s->energies[c].n = 0;
+    return kept ? CEDUO_OK : fly_energies(follower, s);
 }
 
-static enum ceduo_status read_controls(const struct ceduo_scene *scene, const struct ceduo_run *run,
-                                       struct ceduo_outlook *o)
+static void let_go(struct ceduo_sight *s)
 {
-    size_t n = scene->controls_count;
-    o->arrivals = calloc(n + 1, sizeof *o->arrivals);
-    o->energies = calloc(n + 1, sizeof *o->energies);
-    if (!o->arrivals || !o->energies)
-        return CEDUO_NO_MEMORY;
-    o->controls = n;
-    enum ceduo_status status = CEDUO_OK;
-    for (size_t c = 0; c < n && status == CEDUO_OK; c++)
-        status = ceduo_run_arrivals(run, c, &o->arrivals[c]);
-    return status == CEDUO_OK ? read_energies(scene, run, o) : status;
+    if (!s || atomic_fetch_sub(&s->references, 1) != 1)
+        return;
+    free(s->envelopes);
+    for (size_t c = 0; s->energies && c < s->flown.controls; c++)
+        free(s->energies[c].values);
+    free(s->energies);
+    for (size_t i = 0; i < s->trails_count; i++)
+        ceduo_trail_free(&s->trails[i]);
+    free(s->trails);
+    ceduo_flown_free(&s->flown);
+    free(s);
 }
 
-enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const struct ceduo_run *run,
-                                       const struct ceduo_run *with_cells, size_t cells, const double *cell_x,
-                                       size_t trails, struct ceduo_outlook **outlook)
+static enum ceduo_status read_sight(const struct ceduo_outlook_def *def, const struct ceduo_option *option,
+                                    const struct ceduo_run *run, const struct ceduo_run *pictures, struct ceduo_sight *s)
+{
+    size_t controls = def->scene->controls_count;
+    enum ceduo_status status = ceduo_flown_read(run, controls, &s->flown);
+    if (status != CEDUO_OK)
+        return status;
+    s->energies = calloc(controls + 1, sizeof *s->energies);
+    s->envelopes = calloc(def->cells + 1, sizeof *s->envelopes);
+    struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
+    status = s->energies && s->envelopes && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < def->cells && status == CEDUO_OK; i++)
+        ceduo_run_envelope(pictures, i, &s->envelopes[i]);
+    if (status == CEDUO_OK)
+        status = read_energies(follower, run, s);
+    if (status == CEDUO_OK)
+        status = follow_trails(follower, def->scene, def->trails, s);
+    ceduo_follower_free(follower);
+    return status;
+}
+
+/* ---- all runs ---- */
+
+/* The run of a forest that figures are read from. */
+static const struct ceduo_run *longest_run(const struct ceduo_outlook_def *def, const struct ceduo_option *option)
+{
+    const struct ceduo_run *a = ceduo_pool_find(def->figures, option), *b = ceduo_pool_find(def->pictures, option);
+    uint64_t in_a = a ? ceduo_run_rocks(a) : 0, in_b = b ? ceduo_run_rocks(b) : 0;
+    return in_b > 0 && in_b >= in_a ? b : in_a > 0 ? a : NULL;
+}
+
+static bool is_same(const struct ceduo_sight *s, uint64_t key, uint64_t rocks, uint64_t picture_rocks)
+{
+    return s && s->key == key && s->flown.rocks == rocks && s->picture_rocks == picture_rocks;
+}
+
+static struct ceduo_sight *find_sight(const struct ceduo_outlook *o, uint64_t key, uint64_t rocks, uint64_t pictures)
+{
+    if (!o)
+        return NULL;
+    if (is_same(o->bare, key, rocks, pictures))
+        return o->bare;
+    for (size_t i = 0; i < o->options; i++)
+        if (is_same(o->wooded[i], key, rocks, pictures))
+            return o->wooded[i];
+    return NULL;
+}
+
+/* A new reference to what is to be seen of a forest, NULL where it was not flown yet. */
+static enum ceduo_status get_sight(const struct ceduo_outlook_def *def, const struct ceduo_outlook *o,
+                                   const struct ceduo_option *option, struct ceduo_sight **sight)
+{
+    const struct ceduo_run *run = longest_run(def, option), *pictures = ceduo_pool_find(def->pictures, option);
+    *sight = NULL;
+    if (!run)
+        return CEDUO_OK;
+    uint64_t key = ceduo_option_key(&def->scene->simulation, option), rocks = ceduo_run_rocks(run);
+    uint64_t picture_rocks = pictures ? ceduo_run_rocks(pictures) : 0;
+    struct ceduo_sight *s = find_sight(o, key, rocks, picture_rocks);
+    s = s ? s : find_sight(def->last, key, rocks, picture_rocks);
+    if (s) {
+        atomic_fetch_add(&s->references, 1);
+        *sight = s;
+        return CEDUO_OK;
+    }
+    s = calloc(1, sizeof *s);
+    if (!s)
+        return CEDUO_NO_MEMORY;
+    atomic_init(&s->references, 1);
+    s->key = key;
+    s->picture_rocks = picture_rocks;
+    enum ceduo_status status = read_sight(def, option, run, pictures, s);
+    if (status == CEDUO_OK)
+        *sight = s;
+    else
+        let_go(s);
+    return status;
+}
+
+static void read_differences(const struct ceduo_outlook_def *def, struct ceduo_outlook *o, size_t option)
+{
+    const struct ceduo_scene *scene = def->scene;
+    const struct ceduo_run *run = longest_run(def, &scene->options[option]);
+    const struct ceduo_run *baseline = longest_run(def, &scene->options[0]);
+    const struct ceduo_paired unknown = {NAN, NAN};
+    for (size_t c = 0; c < o->controls; c++)
+        o->differences[option * o->controls + c] = run && baseline
+                                                       ? ceduo_run_difference(run, baseline, c)
+                                                       : (struct ceduo_difference){unknown, unknown, unknown};
+}
+
+enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook)
 {
     *outlook = NULL;
     struct ceduo_outlook *o = calloc(1, sizeof *o);
     if (!o)
         return CEDUO_NO_MEMORY;
-    o->rocks = ceduo_run_rocks(run);
-    o->contacts = ceduo_run_contacts(run);
-    enum ceduo_status status = read_envelopes(with_cells ? with_cells : run, cells, cell_x, o);
-    if (status == CEDUO_OK)
-        status = read_controls(scene, run, o);
-    if (status == CEDUO_OK)
-        status = ceduo_run_ends(run, &o->ends);
-    if (status == CEDUO_OK)
-        status = follow_trails(scene, trails, o);
+    const struct ceduo_scene *scene = def->scene;
+    o->controls = scene->controls_count;
+    o->cell_x = malloc((def->cells + 1) * sizeof *o->cell_x);
+    o->wooded = calloc(scene->options_count + 1, sizeof *o->wooded);
+    o->differences = calloc(scene->options_count * o->controls + 1, sizeof *o->differences);
+    enum ceduo_status status = o->cell_x && o->wooded && o->differences ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK) {
+        o->cells = def->cells;
+        o->options = scene->options_count;
+        for (size_t i = 0; i < def->cells; i++)
+            o->cell_x[i] = def->cell_x[i];
+        status = get_sight(def, o, NULL, &o->bare);
+    }
+    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
+    for (size_t i = 0; flies && i < o->options && status == CEDUO_OK; i++) {
+        status = get_sight(def, o, &scene->options[i], &o->wooded[i]);
+        read_differences(def, o, i);
+    }
     if (status == CEDUO_OK)
         *outlook = o;
     else
@@ -220,14 +305,19 @@ void ceduo_outlook_free(struct ceduo_outlook *o)
 {
     if (!o)
         return;
+    let_go(o->bare);
+    for (size_t i = 0; i < o->options; i++)
+        let_go(o->wooded[i]);
+    free(o->wooded);
+    free(o->differences);
     free(o->cell_x);
-    free(o->envelopes);
-    free(o->arrivals);
-    for (size_t c = 0; c < o->controls; c++)
-        free(o->energies[c].values);
-    free(o->energies);
-    for (size_t i = 0; i < o->trails_count; i++)
-        ceduo_trail_free(&o->trails[i]);
-    free(o->trails);
     free(o);
+}
+
+const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, const struct ceduo_scene *scene,
+                                              size_t option)
+{
+    if (!o || scene->simulation.contact_model == CEDUO_INDEX)
+        return o ? o->bare : NULL;
+    return option < o->options ? o->wooded[option] : NULL;
 }

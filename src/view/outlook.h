@@ -2,12 +2,13 @@
 #ifndef CEDUO_OUTLOOK_H
 #define CEDUO_OUTLOOK_H
 
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ceduo/run.h"
+#include "ceduo/result.h"
 
-/* What a run gives for pictures: plain columns, never changed once they are made, so that one thread may make them and
+/* What runs give for pictures: plain columns, never changed once they are made, so that one thread may make them and
  * another draw them. All x and z are relative to the slope's first vertex. */
 
 /* A rock's way as a polyline, its flights sampled finely enough for any picture. */
@@ -22,17 +23,25 @@ struct ceduo_energies {
     double *values; /* J */
 };
 
-struct ceduo_outlook {
-    uint64_t rocks, contacts; /* of the run */
-    size_t cells;
-    double *cell_x;
+/* One run, as it was at some moment. It is shared: each who keeps it has a reference. */
+struct ceduo_sight {
+    atomic_uint references;
+    uint64_t key;           /* ceduo_option_key() of its forest */
+    struct ceduo_flown flown;
+    uint64_t picture_rocks; /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
-    size_t controls;                  /* of the scene, when it was made */
-    struct ceduo_arrivals *arrivals;  /* one for each control */
     struct ceduo_energies *energies;  /* one for each control: the first CEDUO_OUTLOOK_SAMPLE at most */
-    struct ceduo_ends ends;
     size_t trails_count;
-    struct ceduo_trail *trails; /* of the first rocks */
+    struct ceduo_trail *trails;       /* of the first rocks */
+};
+
+/* All runs of a scene. */
+struct ceduo_outlook {
+    size_t cells, controls, options;
+    double *cell_x;
+    struct ceduo_sight *bare;             /* without forest */
+    struct ceduo_sight **wooded;          /* through the forest of each option; NULL: not known (yet) */
+    struct ceduo_difference *differences; /* of those to the first option: options × controls, in rows by option */
 };
 
 #define CEDUO_OUTLOOK_CELLS  200    /* places along the slope where a run should keep envelopes */
@@ -43,17 +52,33 @@ struct ceduo_outlook {
  * many: none where the release may lie at the end. */
 size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x);
 
-/* Reads a run of `scene`, and follows its first `trails` rocks. The envelopes come from `with_cells`, a run of the same
- * rocks that was made with these cells and may be shorter: they make a run five times as slow, and a picture needs no
- * more than some thousand rocks. NULL: `run` itself. CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_outlook_create(const struct ceduo_scene *scene, const struct ceduo_run *run,
-                                       const struct ceduo_run *with_cells, size_t cells, const double *cell_x,
-                                       size_t trails, struct ceduo_outlook **outlook);
+/* What an outlook is made from. */
+struct ceduo_outlook_def {
+    const struct ceduo_scene *scene;
+    const struct ceduo_pool *figures;  /* the runs; those of options may be missing, or not be flown yet */
+    const struct ceduo_pool *pictures; /* runs of the same rocks with envelopes, which may be shorter: envelopes make a
+                                        * run five times as slow, and a picture needs no more than some thousand rocks;
+                                        * where one is as long or longer, figures are read from it too */
+    size_t cells;
+    const double *cell_x;
+    size_t trails;                     /* ways that are followed for each */
+    const struct ceduo_outlook *last;  /* whose sights are taken over where nothing has changed; NULL: none. It must be
+                                        * of the same scene but for its forests */
+};
+
+/* CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook);
 void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
 
-/* The way of one rock, the one that a run of the scene flies under this number. CEDUO_NO_MEMORY or CEDUO_OK; free the
- * trail in any case. */
-enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, uint64_t rock, struct ceduo_trail *trail);
+/* What is to be seen of an option: through its forest, with the contact model index without forest; NULL: not known
+ * yet. */
+const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *outlook, const struct ceduo_scene *scene,
+                                              size_t option);
+
+/* The way of one rock through the forest of `option` (NULL: none), the one that a run flies under this number.
+ * CEDUO_NO_MEMORY or CEDUO_OK; free the trail in any case. */
+enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                     struct ceduo_trail *trail);
 void ceduo_trail_free(struct ceduo_trail *trail);
 
 #endif

@@ -31,9 +31,9 @@ static const struct {
     bool needs_run, needs_cells, by_option;
 } kinds[CEDUO_PLOTS] = {
     [CEDUO_PLOT_PROFILE] = {"profile", draw_profile, true, false, true},
-    [CEDUO_PLOT_ENERGY] = {"energy", draw_energy, true, true, false},
-    [CEDUO_PLOT_HEIGHT] = {"height", draw_height, true, true, false},
-    [CEDUO_PLOT_HISTOGRAM] = {"histogram", ceduo_plot_histogram, true, false, false},
+    [CEDUO_PLOT_ENERGY] = {"energy", draw_energy, true, true, true},
+    [CEDUO_PLOT_HEIGHT] = {"height", draw_height, true, true, true},
+    [CEDUO_PLOT_HISTOGRAM] = {"histogram", ceduo_plot_histogram, true, false, true},
     [CEDUO_PLOT_ADC] = {"adc", ceduo_plot_adc, false, false, true},
     [CEDUO_PLOT_STAND] = {"stand", ceduo_plot_stand, false, false, true},
     [CEDUO_PLOT_COMPARE] = {"compare", ceduo_plot_compare, true, false, false},
@@ -71,35 +71,48 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
 
 /* ---- titles ---- */
 
-static void title_of_option(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
+/* What stands after the option's name. */
+static void put_subject(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p, const char *where)
 {
-    const struct ceduo_option *option = ceduo_plot_option(p);
     const struct ceduo_belt *belt = ceduo_plot_belt(p);
-    ceduo_text_put(text, option && option->name ? option->name : "");
-    if (plot == CEDUO_PLOT_PROFILE)
-        ceduo_text_put(text, _(": slope, forest, and ways without forest"));
-    else if (plot == CEDUO_PLOT_ADC)
-        ceduo_text_put(text, _(": average distance between contacts, m"));
-    else
-        ceduo_text_format(text, _(": %s, from above"), belt && belt->name ? belt->name : _("no forest"));
+    bool wooded = ceduo_plot_wooded(p);
+    switch (plot) {
+    case CEDUO_PLOT_PROFILE:
+        ceduo_text_put(text, wooded ? _("slope, forest, and ways through it") : _("slope, forest, and ways without forest"));
+        break;
+    case CEDUO_PLOT_ADC:
+        ceduo_text_put(text, _("average distance between contacts, m"));
+        break;
+    case CEDUO_PLOT_HEIGHT:
+        ceduo_text_put(text, wooded ? _("height of the rocks above the ground, with and without forest")
+                                    : _("height of the rocks above the ground, without forest"));
+        break;
+    case CEDUO_PLOT_ENERGY:
+        ceduo_text_put(text, wooded ? _("energy of the rocks, with and without forest")
+                                    : _("energy of the rocks, without forest"));
+        break;
+    case CEDUO_PLOT_HISTOGRAM:
+        ceduo_text_format(text, wooded ? _("energy at %s, with and without forest") : _("energy at %s, without forest"),
+                          where);
+        break;
+    default:
+        ceduo_text_format(text, _("%s, from above"), belt && belt->name ? belt->name : _("no forest"));
+    }
 }
 
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
 {
     struct text place = {0};
     const struct ceduo_control *control = ceduo_plot_control(p);
+    const struct ceduo_option *option = ceduo_plot_option(p);
     if (control)
         ceduo_plot_control_name(&place, control);
     const char *where = place.bytes ? place.bytes : _("no control");
-    if (kinds[plot].by_option)
-        title_of_option(text, plot, p);
-    else if (plot == CEDUO_PLOT_HEIGHT)
-        ceduo_text_put(text, _("Height of the rocks above the ground, without forest"));
-    else if (plot == CEDUO_PLOT_ENERGY)
-        ceduo_text_put(text, _("Energy of the rocks, without forest"));
-    else if (plot == CEDUO_PLOT_HISTOGRAM)
-        ceduo_text_format(text, _("Energy at %s, without forest"), where);
-    else if (plot == CEDUO_PLOT_COMPARE)
+    if (plot == CEDUO_PLOT_COMPARE) {
         ceduo_text_format(text, _("Options side by side, up to %s"), where);
+    } else {
+        ceduo_text_format(text, "%s: ", option && option->name ? option->name : "");
+        put_subject(text, plot, p, where);
+    }
     ceduo_text_free(&place);
 }

@@ -50,10 +50,10 @@ struct histogram {
     struct ceduo_canvas *canvas;
     const struct ceduo_area *area;
     const struct ceduo_control *control;
-    const struct ceduo_arrivals *arrivals;
+    const struct ceduo_arrivals *arrivals, *bare; /* bare NULL: there is nothing to be held against */
     struct bins bins;
     int top, label, bar, numbers, marks; /* row of the first bar; columns they take */
-    size_t n, *counts;
+    size_t n, *counts, bare_n, *bare_counts;
 };
 
 static void bin_label(const struct histogram *h, int i, struct text *text)
@@ -96,8 +96,19 @@ static enum ceduo_role role_of(const struct histogram *h, int i)
 
 /* ---- rows ---- */
 
+/* Of 1000 released, those in bin i. */
+static double per_1000(const struct ceduo_arrivals *a, const size_t *counts, size_t n, int i)
+{
+    return n > 0 ? 1000 * a->reach_probability * (double)counts[i] / (double)n : 0;
+}
+
 static void number_of(const struct histogram *h, int i, struct text *text)
 {
+    if (h->bare) {
+        ceduo_text_format(text, "%.0f (%.0f)", per_1000(h->arrivals, h->counts, h->n, i),
+                          per_1000(h->bare, h->bare_counts, h->bare_n, i));
+        return;
+    }
     ceduo_text_format(text, "%zu  %.1f %%", h->counts[i], 100.0 * (double)h->counts[i] / (double)h->n);
 }
 
@@ -115,7 +126,13 @@ static int widest(const struct histogram *h, void (*write)(const struct histogra
     return width;
 }
 
-static void draw_row(const struct histogram *h, int i, size_t most)
+/* What the bars are drawn to: counts, or with two runs those of 1000 released. */
+static double length_of(const struct histogram *h, int i)
+{
+    return h->bare ? per_1000(h->arrivals, h->counts, h->n, i) : (double)h->counts[i];
+}
+
+static void draw_row(const struct histogram *h, int i, double most)
 {
     int row = h->top + i, column = h->area->left + h->label + 1;
     struct text label = {0}, number = {0}, marks = {0};
@@ -123,7 +140,12 @@ static void draw_row(const struct histogram *h, int i, size_t most)
     number_of(h, i, &number);
     marks_of(h, i, &marks);
     ceduo_plot_put_right(h->canvas, column - 2, row, h->label, CEDUO_ROLE_AXIS, label.bytes ? label.bytes : "");
-    ceduo_canvas_bar(h->canvas, column, row, h->bar, (double)h->counts[i] / (double)most, role_of(h, i));
+    ceduo_canvas_bar(h->canvas, column, row, h->bar, length_of(h, i) / most, role_of(h, i));
+    if (h->bare && h->bare_counts[i] > 0) {
+        int at = column + (int)fmin(floor(per_1000(h->bare, h->bare_counts, h->bare_n, i) / most * h->bar), h->bar - 1);
+        if (ceduo_canvas_glyph(h->canvas, at, row) == ' ')
+            ceduo_canvas_label(h->canvas, at, row, CEDUO_ROLE_BARE, "\xe2\x94\x82");
+    }
     column += h->bar + 1;
     ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT,
                          number.bytes ? number.bytes : "");
@@ -135,9 +157,12 @@ static void draw_row(const struct histogram *h, int i, size_t most)
 
 static void draw_rows(struct histogram *h)
 {
-    size_t most = 1;
-    for (int i = 0; i < h->bins.count; i++)
-        most = h->counts[i] > most ? h->counts[i] : most;
+    double most = 0;
+    for (int i = 0; i < h->bins.count; i++) {
+        most = fmax(most, length_of(h, i));
+        if (h->bare)
+            most = fmax(most, per_1000(h->bare, h->bare_counts, h->bare_n, i));
+    }
     h->label = widest(h, bin_label);
     h->numbers = widest(h, number_of);
     h->marks = widest(h, marks_of);
@@ -162,13 +187,21 @@ static void put_head(const struct histogram *h)
 {
     const struct ceduo_arrivals *a = h->arrivals;
     struct text text = {0};
-    ceduo_text_format(&text, _("n = %llu of %llu rocks arrive"), (unsigned long long)a->reached,
-                      (unsigned long long)a->released);
-    if (!isnan(a->exceed_probability))
-        ceduo_text_format(&text, _("; of 1000 released, %.0f with more than %g kJ"), a->exceed_probability * 1000,
-                          h->control->accepted * KILO);
-    if (h->n < a->reached)
-        ceduo_text_format(&text, _("; drawn: the first %zu"), h->n);
+    if (h->bare) {
+        ceduo_text_format(&text, _("of 1000 released %.0f arrive (\xe2\x94\x82 bare %.0f)"), a->reach_probability * 1000,
+                          h->bare->reach_probability * 1000);
+        if (!isnan(a->exceed_probability))
+            ceduo_text_format(&text, _(", %.0f (%.0f) with more than %g kJ"), a->exceed_probability * 1000,
+                              h->bare->exceed_probability * 1000, h->control->accepted * KILO);
+    } else {
+        ceduo_text_format(&text, _("n = %llu of %llu rocks arrive"), (unsigned long long)a->reached,
+                          (unsigned long long)a->released);
+        if (!isnan(a->exceed_probability))
+            ceduo_text_format(&text, _("; of 1000 released, %.0f with more than %g kJ"), a->exceed_probability * 1000,
+                              h->control->accepted * KILO);
+        if (h->n < a->reached)
+            ceduo_text_format(&text, _("; drawn: the first %zu"), h->n);
+    }
     ceduo_plot_put(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT,
                    text.bytes ? text.bytes : "");
     ceduo_text_free(&text);
@@ -180,44 +213,63 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Puts the energies into bins; false without memory. */
-static bool count(struct histogram *h, const struct ceduo_energies *e, int rows)
+static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)
 {
-    double *sorted = malloc(e->n * sizeof *sorted);
+    size_t *counts = calloc((size_t)bins->count, sizeof *counts);
+    for (size_t i = 0; counts && i < e->n; i++)
+        counts[bin_of(bins, e->values[i] * KILO)]++;
+    return counts;
+}
+
+/* Puts the energies into bins that both kinds of rocks share; false without memory. */
+static bool count(struct histogram *h, const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
+{
+    size_t n = e->n + (bare ? bare->n : 0);
+    double *sorted = malloc((n + 1) * sizeof *sorted);
     if (!sorted)
         return false;
-    memcpy(sorted, e->values, e->n * sizeof *sorted);
-    qsort(sorted, e->n, sizeof *sorted, by_value);
-    double p99 = sorted[ceduo_quantile_rank(e->n, 0.99) - 1];
-    h->bins = bins_for(sorted[0] * KILO, p99 * KILO, sorted[e->n - 1] * KILO, rows);
+    if (e->n > 0)
+        memcpy(sorted, e->values, e->n * sizeof *sorted);
+    if (bare && bare->n > 0)
+        memcpy(sorted + e->n, bare->values, bare->n * sizeof *sorted);
+    qsort(sorted, n, sizeof *sorted, by_value);
+    double p99 = sorted[ceduo_quantile_rank(n, 0.99) - 1];
+    h->bins = bins_for(sorted[0] * KILO, p99 * KILO, sorted[n - 1] * KILO, rows);
     free(sorted);
     h->n = e->n;
-    h->counts = calloc((size_t)h->bins.count, sizeof *h->counts);
-    for (size_t i = 0; h->counts && i < e->n; i++)
-        h->counts[bin_of(&h->bins, e->values[i] * KILO)]++;
-    return h->counts != NULL;
+    h->counts = count_in(&h->bins, e);
+    if (bare) {
+        h->bare_n = bare->n;
+        h->bare_counts = count_in(&h->bins, bare);
+    }
+    return h->counts && (!bare || h->bare_counts);
 }
 
 void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                           const struct ceduo_picture *picture)
 {
+    size_t c = picture->control;
+    const struct ceduo_sight *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
+    bool wooded = ceduo_plot_wooded(picture);
     struct histogram h = {.canvas = canvas,
                           .area = area,
                           .control = ceduo_plot_control(picture),
-                          .arrivals = ceduo_plot_arrivals(picture, picture->control)};
+                          .arrivals = ceduo_plot_arrivals(picture, c),
+                          .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL};
     bool head = area->height >= 4;
     int rows = area->height - head - (area->height >= 10);
     if (!h.control) {
         ceduo_plot_words(canvas, area, _("no control"));
-    } else if (!h.arrivals) {
+    } else if (!h.arrivals || (wooded && !h.bare)) {
         ceduo_plot_words(canvas, area, _("not computed yet"));
-    } else if (picture->outlook->energies[picture->control].n == 0) {
+    } else if (sight->energies[c].n == 0 && bare->energies[c].n == 0) {
         ceduo_plot_words(canvas, area, _("no rock arrives"));
-    } else if (rows >= 1 && count(&h, &picture->outlook->energies[picture->control], rows)) {
+    } else if (rows >= 1 && count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows)) {
         h.top = area->top + head + (area->height >= 10);
         if (head)
             put_head(&h);
         draw_rows(&h);
     }
     free(h.counts);
+    free(h.bare_counts);
 }

@@ -36,11 +36,11 @@ static void note_scale(struct notes *n, double factor)
 
 static void note_ways(struct notes *n)
 {
-    const struct ceduo_outlook *o = n->picture->outlook;
-    if (!o || o->trails_count == 0)
+    const struct ceduo_sight *s = ceduo_plot_sight(n->picture);
+    if (!s || s->trails_count == 0)
         return;
-    note(n, CEDUO_ROLE_CLOUD, _("%zu ways of %llu"), o->trails_count, (unsigned long long)o->rocks);
-    note(n, CEDUO_ROLE_CLOUD, _("without forest"));
+    note(n, CEDUO_ROLE_CLOUD, _("%zu ways of %llu"), s->trails_count, (unsigned long long)s->flown.rocks);
+    note(n, CEDUO_ROLE_CLOUD, ceduo_plot_wooded(n->picture) ? _("through the wood") : _("without forest"));
 }
 
 static void note_belt(struct notes *n, const struct ceduo_belt *belt)
@@ -65,13 +65,21 @@ static void note_belt(struct notes *n, const struct ceduo_belt *belt)
 
 static void note_control(struct notes *n, size_t c)
 {
-    const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c);
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c), *bare = ceduo_plot_bare_arrivals(n->picture, c);
     char room[CEDUO_NUMBER_ROOM];
-    if (!a || n->row + 2 >= n->end)
+    if (!a || !bare || n->row + 2 >= n->end)
         return;
     n->row++;
-    note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"),
-         ceduo_number_shortest(n->picture->scene->controls[c].x_given, room));
+    ceduo_number_shortest(n->picture->scene->controls[c].x_given, room);
+    if (ceduo_plot_wooded(n->picture)) {
+        note(n, CEDUO_ROLE_CONTROL, _("At %s m, wood (bare)"), room);
+        note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
+        if (!isnan(a->exceed_probability))
+            note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) > %g kJ"), a->exceed_probability * 1000,
+                 bare->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
+        return;
+    }
+    note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"), room);
     note(n, CEDUO_ROLE_TEXT, _(" %.0f of 1000 arrive"), a->reach_probability * 1000);
     if (!isnan(a->exceed_probability))
         note(n, CEDUO_ROLE_TEXT, _(" %.0f with > %g kJ"), a->exceed_probability * 1000,

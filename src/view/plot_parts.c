@@ -102,9 +102,34 @@ const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *p)
     return p->control < p->scene->controls_count ? &p->scene->controls[p->control] : NULL;
 }
 
+const struct ceduo_sight *ceduo_plot_sight(const struct ceduo_picture *p)
+{
+    return ceduo_outlook_sight(p->outlook, p->scene, p->option);
+}
+
+const struct ceduo_sight *ceduo_plot_bare(const struct ceduo_picture *p)
+{
+    return p->outlook ? p->outlook->bare : NULL;
+}
+
+static const struct ceduo_arrivals *arrivals_of(const struct ceduo_sight *s, size_t control)
+{
+    return s && control < s->flown.controls ? &s->flown.arrivals[control] : NULL;
+}
+
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_picture *p, size_t control)
 {
-    return p->outlook && control < p->outlook->controls ? &p->outlook->arrivals[control] : NULL;
+    return arrivals_of(ceduo_plot_sight(p), control);
+}
+
+const struct ceduo_arrivals *ceduo_plot_bare_arrivals(const struct ceduo_picture *p, size_t control)
+{
+    return arrivals_of(ceduo_plot_bare(p), control);
+}
+
+bool ceduo_plot_wooded(const struct ceduo_picture *p)
+{
+    return p->scene->simulation.contact_model != CEDUO_INDEX;
 }
 
 struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene)

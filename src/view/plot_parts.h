@@ -33,7 +33,15 @@ void ceduo_plot_control_name(struct text *text, const struct ceduo_control *cont
 const struct ceduo_option *ceduo_plot_option(const struct ceduo_picture *picture);
 const struct ceduo_belt *ceduo_plot_belt(const struct ceduo_picture *picture);
 const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *picture);
+/* What is to be seen of the picture's option (through its forest; bare with the contact model index), and without forest;
+ * NULL where it is not known. The arrivals likewise. */
+const struct ceduo_sight *ceduo_plot_sight(const struct ceduo_picture *picture);
+const struct ceduo_sight *ceduo_plot_bare(const struct ceduo_picture *picture);
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_picture *picture, size_t control);
+const struct ceduo_arrivals *ceduo_plot_bare_arrivals(const struct ceduo_picture *picture, size_t control);
+
+/* Whether rocks go through the forest: false with the contact model index. */
+bool ceduo_plot_wooded(const struct ceduo_picture *picture);
 
 /* The rock whose sizes are the means; mean diameter NaN where the scene has none. */
 struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene);

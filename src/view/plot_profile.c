@@ -52,8 +52,9 @@ static struct range range_of(const struct ceduo_picture *p)
     double x = p->scene->release.x.mean;
     if (x >= r.x_lo && x <= r.x_hi)
         widen(&r, ceduo_slope_height(slope, x) + p->scene->release.height.mean);
-    for (size_t i = 0; p->outlook && i < p->outlook->trails_count; i++)
-        widen_by_trail(&r, &p->outlook->trails[i]);
+    const struct ceduo_sight *sight = ceduo_plot_sight(p);
+    for (size_t i = 0; sight && i < sight->trails_count; i++)
+        widen_by_trail(&r, &sight->trails[i]);
     if (p->selected)
         widen_by_trail(&r, p->selected);
     const struct ceduo_option *option = ceduo_plot_option(p);
@@ -154,10 +155,10 @@ static void draw_forest(const struct profile *p)
 
 static void draw_ways(const struct profile *p)
 {
-    const struct ceduo_outlook *o = p->picture->outlook;
-    if (o && ceduo_canvas_density_start(p->canvas)) {
-        for (size_t i = 0; i < o->trails_count; i++)
-            ceduo_canvas_density_add_polyline(p->canvas, &p->frame, o->trails[i].n, o->trails[i].x, o->trails[i].z);
+    const struct ceduo_sight *s = ceduo_plot_sight(p->picture);
+    if (s && ceduo_canvas_density_start(p->canvas)) {
+        for (size_t i = 0; i < s->trails_count; i++)
+            ceduo_canvas_density_add_polyline(p->canvas, &p->frame, s->trails[i].n, s->trails[i].x, s->trails[i].z);
         ceduo_canvas_density_show(p->canvas, RARE);
     }
     const struct ceduo_trail *t = p->picture->selected;

@@ -11,6 +11,7 @@ struct curve {
     const char *name;
     enum ceduo_role role;
     int every; /* 1: a line; otherwise a dot in every so many columns of dots */
+    bool bare; /* of the rocks without forest */
     double (*of)(const struct ceduo_envelope *cell);
 };
 
@@ -21,6 +22,7 @@ struct strip {
     const struct curve *curves; /* the highest first */
     int count;
     const char *unit, *caption;
+    bool energy;
     struct ceduo_frame frame;
     double from, to; /* the stretch */
 };
@@ -61,17 +63,36 @@ static double energy_p95(const struct ceduo_envelope *e)
 }
 
 static const struct curve height_curves[] = {
-    {N_("max"), CEDUO_ROLE_BARE, 4, height_max},
-    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, height_p95},
-    {N_("p50"), CEDUO_ROLE_MEAN, 1, height_p50},
+    {N_("max"), CEDUO_ROLE_BARE, 4, false, height_max},
+    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, height_p95},
+    {N_("p50"), CEDUO_ROLE_MEAN, 1, false, height_p50},
 };
 
 static const struct curve energy_curves[] = {
-    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, energy_p95},
-    {N_("mean"), CEDUO_ROLE_MEAN, 1, energy_mean},
-    {N_("p50"), CEDUO_ROLE_BARE, 4, energy_p50},
-    {N_("p5"), CEDUO_ROLE_ENVELOPE, 2, energy_p5},
+    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, energy_p95},
+    {N_("mean"), CEDUO_ROLE_MEAN, 1, false, energy_mean},
+    {N_("p50"), CEDUO_ROLE_BARE, 4, false, energy_p50},
+    {N_("p5"), CEDUO_ROLE_ENVELOPE, 2, false, energy_p5},
 };
+
+/* Through the forest, with those of the bare slope behind. */
+static const struct curve wooded_height_curves[] = {
+    {N_("bare"), CEDUO_ROLE_BARE, 3, true, height_p95},
+    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, height_p95},
+    {N_("p50"), CEDUO_ROLE_MEAN, 1, false, height_p50},
+};
+
+static const struct curve wooded_energy_curves[] = {
+    {N_("bare"), CEDUO_ROLE_BARE, 4, true, energy_p95},
+    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, energy_p95},
+    {N_("bare"), CEDUO_ROLE_BARE, 3, true, energy_mean},
+    {N_("mean"), CEDUO_ROLE_MEAN, 1, false, energy_mean},
+};
+
+static const struct ceduo_envelope *cells_of(const struct strip *s, const struct curve *curve)
+{
+    return (curve->bare ? ceduo_plot_bare(s->picture) : ceduo_plot_sight(s->picture))->envelopes;
+}
 
 static bool shown(const struct strip *s, size_t cell)
 {
@@ -91,13 +112,14 @@ static int by_value(const void *a, const void *b)
 static size_t largest_of(const struct strip *s, double *largest, double *at, double *usual)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
+    const struct ceduo_envelope *cells = cells_of(s, &s->curves[0]);
     double *values = malloc((o->cells + 1) * sizeof *values);
     size_t n = 0;
     *largest = *at = *usual = 0;
     for (size_t i = 0; values && i < o->cells; i++) {
-        if (!shown(s, i) || o->envelopes[i].passed == 0)
+        if (!shown(s, i) || cells[i].passed == 0)
             continue;
-        double v = s->curves[0].of(&o->envelopes[i]);
+        double v = s->curves[0].of(&cells[i]);
         if (v > *largest)
             *at = o->cell_x[i];
         *largest = fmax(*largest, v);
@@ -131,7 +153,7 @@ static bool scale(struct strip *s, double *cut, double *cut_at)
         return false;
     double top = largest > 1.5 * 1.15 * usual && usual > 0 ? 1.15 * usual : 1.05 * largest;
     *cut = top < largest ? largest : NAN;
-    if (s->curves == energy_curves)
+    if (s->energy)
         top = fmax(top, 1.1 * highest_accepted(s, 2 * top));
     s->frame.y0 = 0;
     s->frame.y1 = top > 0 ? top : 1;
@@ -154,9 +176,10 @@ static void draw_dots(struct strip *s, const struct curve *curve, double ax, dou
 static void draw_curve(struct strip *s, const struct curve *curve)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
+    const struct ceduo_envelope *cells = cells_of(s, curve);
     for (size_t i = 1; i < o->cells; i++) {
         double ax = o->cell_x[i - 1], bx = o->cell_x[i];
-        double ay = curve->of(&o->envelopes[i - 1]), by = curve->of(&o->envelopes[i]);
+        double ay = curve->of(&cells[i - 1]), by = curve->of(&cells[i]);
         if (isnan(ay) || isnan(by))
             continue;
         if (curve->every == 1)
@@ -171,7 +194,7 @@ static int end_row(const struct strip *s, const struct curve *curve)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
     for (size_t i = o->cells; i-- > 0;) {
-        double y = curve->of(&o->envelopes[i]);
+        double y = curve->of(&cells_of(s, curve)[i]);
         int column, row;
         if (!shown(s, i) || isnan(y))
             continue;
@@ -221,7 +244,7 @@ static void draw_controls(const struct strip *s)
     const struct ceduo_scene *scene = s->picture->scene;
     for (size_t c = 0; c < scene->controls_count; c++) {
         ceduo_canvas_rule_x(s->canvas, &s->frame, CEDUO_ROLE_CONTROL, scene->controls[c].x);
-        if (s->curves == energy_curves)
+        if (s->energy)
             draw_accepted(s, &scene->controls[c]);
     }
 }
@@ -269,7 +292,7 @@ static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis
     ceduo_plot_stretch(s->picture, &s->from, &s->to);
     s->from = span ? span->x0 : s->from;
     s->to = span ? span->x1 : s->to;
-    if (!s->picture->outlook) {
+    if (!ceduo_plot_sight(s->picture) || !ceduo_plot_bare(s->picture)) {
         ceduo_plot_words(s->canvas, s->area, _("not computed yet"));
         return;
     }
@@ -298,25 +321,28 @@ static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis
 void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis)
 {
+    bool wooded = ceduo_plot_wooded(picture);
     struct strip s = {.canvas = canvas,
                       .area = area,
                       .picture = picture,
-                      .curves = height_curves,
+                      .curves = wooded ? wooded_height_curves : height_curves,
                       .count = 3,
                       .unit = _("m"),
-                      .caption = _("height above the ground, m")};
+                      .caption = wooded ? _("height above the ground, m; bare: 95 %") : _("height above the ground, m")};
     draw_strip(&s, span, axis);
 }
 
 void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis)
 {
+    bool wooded = ceduo_plot_wooded(picture);
     struct strip s = {.canvas = canvas,
                       .area = area,
                       .picture = picture,
-                      .curves = energy_curves,
+                      .curves = wooded ? wooded_energy_curves : energy_curves,
                       .count = 4,
+                      .energy = true,
                       .unit = _("kJ"),
-                      .caption = _("energy, kJ")};
+                      .caption = wooded ? _("energy, kJ; bare: 95 % and mean") : _("energy, kJ")};
     draw_strip(&s, span, axis);
 }

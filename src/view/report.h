@@ -12,7 +12,8 @@ struct ceduo_report {
     const struct scene_file *file;
     const struct ceduo_result *result;
     struct ceduo_run_remarks remarks;
-    double seconds; /* that the run took */
+    struct ceduo_work work;
+    double seconds; /* that the runs took */
 };
 
 /* The page that a forester reads first; 80 columns. `plain`: ASCII alone. */

@@ -121,7 +121,7 @@ static void scene_cells(struct row *row, const struct ceduo_report *report)
     string(row, "scene", report->file->path);
     string(row, "title", r->scene->title);
     count(row, "seed", r->scene->simulation.seed);
-    count(row, "rocks", r->rocks);
+    count(row, "rocks", ceduo_result_rocks(r));
     string(row, "law", ceduo_words_law(r->scene->simulation.law));
     row->group = "rock";
     number(row, "mass_kg", r->rock.mass);
@@ -156,12 +156,13 @@ static void index_cells(struct row *row, const struct ceduo_index *index)
     number(row, "measured_kJ", index->measured * KILO);
 }
 
-static void end_cells(struct row *row, const struct ceduo_report *report)
+static void end_cells(struct row *row, const struct ceduo_report *report, size_t option)
 {
-    const struct ceduo_ends *e = &report->result->ends;
-    double n = (double)report->result->rocks, origin = report->file->origin_x;
+    const struct ceduo_flown *f = &report->result->options[option].wooded;
+    const struct ceduo_ends *e = &f->ends;
+    double n = (double)f->rocks, origin = report->file->origin_x;
     row->group = "ends";
-    number(row, "stopped_by_stems", 0);
+    number(row, "stopped_by_stems", (double)e->count[CEDUO_STOPPED_BY_STEMS] / n);
     number(row, "came_to_rest", (double)e->count[CEDUO_AT_REST] / n);
     number(row, "left_slope", (double)e->count[CEDUO_LEFT_SLOPE] / n);
     count(row, "unfinished", e->count[CEDUO_UNFINISHED]);
@@ -209,7 +210,10 @@ static void control_row(struct row *row, const struct ceduo_report *report, size
     const struct ceduo_arrivals nothing = {.reach_probability = NAN, .reach_lo = NAN, .reach_hi = NAN,
                                            .exceed_probability = NAN, .exceed_lo = NAN, .exceed_hi = NAN,
                                            .speed = none, .energy = none, .translation = none, .height = none,
-                                           .energy_per_released = NAN, .energy_per_released_se = NAN};
+                                           .energy_per_released = NAN, .energy_per_released_se = NAN,
+                                           .contacts = NAN, .contacts_se = NAN};
+    const struct ceduo_arrivals *through = ceduo_result_wooded(r, option, control);
+    through = through ? through : &nothing;
     scene_cells(row, report);
     string(row, "option", r->scene->options[option].name);
     summary_cells(row, &found->controls[r->last_control]);
@@ -217,18 +221,22 @@ static void control_row(struct row *row, const struct ceduo_report *report, size
     number(row, "x_m", c->x_given);
     string(row, "name", c->name);
     number(row, "accepted_kJ", c->accepted * KILO);
-    arrivals(row, &bare, &r->bare[control]);
+    arrivals(row, &bare, &r->bare.arrivals[control]);
     index_cells(row, &found->controls[control]);
-    arrivals(row, &wooded, &nothing);
-    pair(row, "wooded.contacts", NAN, NAN);
+    arrivals(row, &wooded, through);
+    pair(row, "wooded.contacts", through->contacts, through->contacts_se);
     row->group = "lights";
     string(row, "contact", ceduo_words_light(found->controls[control].contact));
     string(row, "free_run", ceduo_words_light(found->controls[control].free_run));
     string(row, "energy", ceduo_words_light(found->controls[control].energy));
-    end_cells(row, report);
-    pair(row, "difference.reach_probability", NAN, NAN);
-    pair(row, "difference.exceed_probability", NAN, NAN);
-    pair(row, "difference.energy_per_released_kJ", NAN, NAN);
+    end_cells(row, report, option);
+    const struct ceduo_paired none_paired = {NAN, NAN};
+    struct ceduo_difference d = {none_paired, none_paired, none_paired};
+    if (option > 0)
+        d = found->differences[control];
+    pair(row, "difference.reach_probability", d.reach_probability.mean, d.reach_probability.se);
+    pair(row, "difference.exceed_probability", d.exceed_probability.mean, d.exceed_probability.se);
+    pair(row, "difference.energy_per_released_kJ", d.energy_per_released.mean * KILO, d.energy_per_released.se * KILO);
     warning_cell(row, report, option);
     ceduo_text_char(row->text, '\n');
     row->more = false;
@@ -282,8 +290,9 @@ void ceduo_report_csv_header(struct text *text, bool stands)
     struct ceduo_arrivals bare = {0};
     struct ceduo_stand_result stand = {0};
     struct ceduo_index index = {0};
-    struct ceduo_option_result found = {&stand, &index};
-    struct ceduo_result result = {.scene = &scene, .bare = &bare, .options = &found};
+    struct ceduo_difference difference = {{0, 0}, {0, 0}, {0, 0}};
+    struct ceduo_option_result found = {.stands = &stand, .controls = &index, .differences = &difference};
+    struct ceduo_result result = {.scene = &scene, .bare = {.arrivals = &bare}, .options = &found};
     struct scene_file file = {0};
     struct ceduo_report report = {.file = &file, .result = &result};
     struct row row = {.text = text, .header = true};

@@ -27,7 +27,15 @@ static void distribution(struct json *j, const char *key, const struct ceduo_dis
     ceduo_json_close(j, '}');
 }
 
-static void arrivals(struct json *j, const char *key, const struct ceduo_arrivals *a)
+static void pair(struct json *j, const char *key, double mean, double se)
+{
+    ceduo_json_open(j, key, '{');
+    ceduo_json_number(j, "mean", mean);
+    ceduo_json_number(j, "se", se);
+    ceduo_json_close(j, '}');
+}
+
+static void arrivals(struct json *j, const char *key, const struct ceduo_arrivals *a, bool wooded)
 {
     ceduo_json_open(j, key, '{');
     ceduo_json_count(j, "rocks_reached", a->reached);
@@ -41,10 +49,9 @@ static void arrivals(struct json *j, const char *key, const struct ceduo_arrival
     distribution(j, "energy_kJ", &a->energy, KILO);
     distribution(j, "translation_kJ", &a->translation, KILO);
     distribution(j, "height_m", &a->height, 1);
-    ceduo_json_open(j, "energy_per_released_kJ", '{');
-    ceduo_json_number(j, "mean", a->energy_per_released * KILO);
-    ceduo_json_number(j, "se", a->energy_per_released_se * KILO);
-    ceduo_json_close(j, '}');
+    pair(j, "energy_per_released_kJ", a->energy_per_released * KILO, a->energy_per_released_se * KILO);
+    if (wooded)
+        pair(j, "contacts", a->contacts, a->contacts_se);
     ceduo_json_close(j, '}');
 }
 
@@ -94,15 +101,17 @@ static void summary(struct json *j, const struct ceduo_index *s)
     ceduo_json_close(j, '}');
 }
 
-static void control(struct json *j, const struct ceduo_control *c, const struct ceduo_arrivals *bare,
-                    const struct ceduo_index *index)
+static void control(struct json *j, const struct ceduo_result *r, size_t i, size_t k)
 {
+    const struct ceduo_control *c = &r->scene->controls[k];
+    const struct ceduo_index *index = &r->options[i].controls[k];
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, i, k);
     bool reached = !isnan(index->residual);
     ceduo_json_open(j, NULL, '{');
     ceduo_json_number(j, "x_m", c->x_given);
     ceduo_json_string(j, "name", c->name);
     ceduo_json_number(j, "accepted_kJ", c->accepted * KILO);
-    arrivals(j, "bare", bare);
+    arrivals(j, "bare", &r->bare.arrivals[k], false);
     ceduo_json_open(j, "index", '{');
     ceduo_json_number(j, "dissipated_kJ", index->dissipated * KILO);
     ceduo_json_number(j, "residual_kJ", index->residual * KILO);
@@ -113,7 +122,10 @@ static void control(struct json *j, const struct ceduo_control *c, const struct 
     if (!isnan(index->measured))
         ceduo_json_number(j, "measured_kJ", index->measured * KILO);
     ceduo_json_close(j, '}');
-    ceduo_json_null(j, "wooded");
+    if (wooded)
+        arrivals(j, "wooded", wooded, true);
+    else
+        ceduo_json_null(j, "wooded");
     ceduo_json_open(j, "lights", '{');
     ceduo_json_string(j, "contact", ceduo_words_light(index->contact));
     ceduo_json_string(j, "free_run", ceduo_words_light(index->free_run));
@@ -122,12 +134,13 @@ static void control(struct json *j, const struct ceduo_control *c, const struct 
     ceduo_json_close(j, '}');
 }
 
-static void ends(struct json *j, const struct ceduo_report *report)
+static void ends(struct json *j, const struct ceduo_report *report, size_t i)
 {
-    const struct ceduo_ends *e = &report->result->ends;
-    double n = (double)report->result->rocks, origin = report->file->origin_x;
+    const struct ceduo_flown *f = &report->result->options[i].wooded;
+    const struct ceduo_ends *e = &f->ends;
+    double n = (double)f->rocks, origin = report->file->origin_x;
     ceduo_json_open(j, "ends", '{');
-    ceduo_json_number(j, "stopped_by_stems", 0);
+    ceduo_json_number(j, "stopped_by_stems", (double)e->count[CEDUO_STOPPED_BY_STEMS] / n);
     ceduo_json_number(j, "came_to_rest", (double)e->count[CEDUO_AT_REST] / n);
     ceduo_json_number(j, "left_slope", (double)e->count[CEDUO_LEFT_SLOPE] / n);
     ceduo_json_count(j, "unfinished", e->count[CEDUO_UNFINISHED]);
@@ -157,20 +170,38 @@ static void option(struct json *j, const struct ceduo_report *report, size_t i)
     summary(j, &found->controls[r->last_control]);
     ceduo_json_open(j, "controls", '[');
     for (size_t k = 0; k < r->scene->controls_count; k++)
-        control(j, &r->scene->controls[k], &r->bare[k], &found->controls[k]);
+        control(j, r, i, k);
     ceduo_json_close(j, ']');
-    ends(j, report);
+    ends(j, report, i);
+    ceduo_json_close(j, '}');
+}
+
+static void paired(struct json *j, const char *key, struct ceduo_paired d, double scale)
+{
+    pair(j, key, d.mean * scale, d.se * scale);
+}
+
+static void difference(struct json *j, const struct ceduo_result *r, size_t i, size_t k)
+{
+    const struct ceduo_difference *d = &r->options[i].differences[k];
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "option", r->scene->options[i].name);
+    ceduo_json_string(j, "against", r->scene->options[0].name);
+    ceduo_json_number(j, "x_m", r->scene->controls[k].x_given);
+    paired(j, "reach_probability", d->reach_probability, 1);
+    paired(j, "exceed_probability", d->exceed_probability, 1);
+    paired(j, "energy_per_released_kJ", d->energy_per_released, KILO);
     ceduo_json_close(j, '}');
 }
 
 static void work(struct json *j, const struct ceduo_report *report)
 {
     ceduo_json_open(j, "work", '{');
-    ceduo_json_count(j, "rocks_flown", report->result->rocks);
-    ceduo_json_count(j, "contacts", report->result->contacts);
-    ceduo_json_count(j, "stems_drawn", 0);
-    ceduo_json_count(j, "runs", 1);
-    ceduo_json_count(j, "runs_reused", report->result->scene->options_count - 1);
+    ceduo_json_count(j, "rocks_flown", report->work.rocks);
+    ceduo_json_count(j, "contacts", report->work.contacts);
+    ceduo_json_count(j, "stems_drawn", report->work.stems.drawn);
+    ceduo_json_count(j, "runs", report->work.runs);
+    ceduo_json_count(j, "runs_reused", report->work.reused);
     ceduo_json_number(j, "seconds", report->seconds);
     ceduo_json_close(j, '}');
 }
@@ -185,7 +216,7 @@ void ceduo_report_json(struct text *text, const struct ceduo_report *report)
     ceduo_json_string(j, "scene", report->file->path);
     ceduo_json_string(j, "title", r->scene->title);
     ceduo_json_count(j, "seed", r->scene->simulation.seed);
-    ceduo_json_count(j, "rocks", r->rocks);
+    ceduo_json_count(j, "rocks", ceduo_result_rocks(r));
     ceduo_json_string(j, "law", ceduo_words_law(r->scene->simulation.law));
     ceduo_json_open(j, "rock", '{');
     ceduo_json_number(j, "mass_kg", r->rock.mass);
@@ -201,6 +232,9 @@ void ceduo_report_json(struct text *text, const struct ceduo_report *report)
         option(j, report, i);
     ceduo_json_close(j, ']');
     ceduo_json_open(j, "differences", '[');
+    for (size_t i = 1; i < r->scene->options_count; i++)
+        for (size_t k = 0; k < r->scene->controls_count; k++)
+            difference(j, r, i, k);
     ceduo_json_close(j, ']');
     work(j, report);
     ceduo_json_close(j, '}');

@@ -147,7 +147,7 @@ static void put_head(struct page *p)
     put_wrapped(p, "", 0, r->scene->title);
     put_rock(p);
     put_slope(p);
-    ceduo_text_format(p->text, _("Rocks    %llu, seed %llu\n"), (unsigned long long)r->rocks,
+    ceduo_text_format(p->text, _("Rocks    %llu, seed %llu\n"), (unsigned long long)ceduo_result_rocks(r),
                       (unsigned long long)r->scene->simulation.seed);
 }
 
@@ -397,11 +397,11 @@ static void put_option(struct page *p, size_t i)
     const char *rule = rule_of(o, found);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         put_place(p, &r->scene->controls[k], k);
-        put_arrivals(p, &r->bare[k]);
+        put_arrivals(p, &r->bare.arrivals[k]);
         if (k == 0)
             put_belts(p, o, found);
         put_contact_verdict(p, &found->controls[k]);
-        put_residual(p, &r->scene->controls[k], &r->bare[k], &found->controls[k], rule);
+        put_residual(p, &r->scene->controls[k], &r->bare.arrivals[k], &found->controls[k], rule);
     }
     for (size_t k = 0; k < o->belts_count; k++)
         ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], say_warning, p);

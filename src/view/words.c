@@ -136,19 +136,25 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
 {
     if (remarks->tolerance > 0 && !remarks->tolerance_met)
         say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
-                   (unsigned long long)result->rocks);
-    for (size_t i = 0; remarks->tolerance > 0 && i < result->scene->controls_count; i++)
-        if (result->bare[i].reached < CEDUO_FEW_ROCKS)
+                   (unsigned long long)ceduo_result_rocks(result));
+    for (size_t i = 0; remarks->tolerance > 0 && i < result->scene->controls_count; i++) {
+        uint64_t fewest = result->bare.arrivals[i].reached;
+        for (size_t k = 0; k < result->options_count; k++) {
+            const struct ceduo_arrivals *a = ceduo_result_wooded(result, k, i);
+            fewest = a && a->reached < fewest ? a->reached : fewest;
+        }
+        if (fewest < CEDUO_FEW_ROCKS)
             say_format(say, context,
                        _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
-                       result->scene->controls[i].x_given, (unsigned long long)result->bare[i].reached);
+                       result->scene->controls[i].x_given, (unsigned long long)fewest);
+    }
 }
 
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
                               say_function *say, void *context)
 {
     say_tolerance(result, remarks, say, context);
-    uint64_t unfinished = result->ends.count[CEDUO_UNFINISHED];
+    uint64_t unfinished = ceduo_result_unfinished(result);
     if (unfinished > 0)
         say_format(say, context,
                    ngettext("%llu rock was still moving after %d contacts and counts as unfinished: does the ground "
@@ -159,6 +165,6 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                    (unsigned long long)unfinished, CEDUO_CONTACTS_MOST);
     if (remarks->ground_assumed)
         say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
-    if (result->scene->controls_count > 0 && !result->bare[0].exact)
+    if (result->scene->controls_count > 0 && !result->bare.arrivals[0].exact)
         say_format(say, context, _("So many rocks: percentiles are read from a histogram, within 0.01 %%."));
 }

@@ -192,7 +192,9 @@ static void two_contacts_on_the_slope_of_table_3(void **state)
     site.scene.release.vx = ceduo_number(1);
     site.scene.release.vz = ceduo_number(0);
     walked.count = 0;
-    assert_int_equal(ceduo_way_follow(&site.scene, 0, keep, &walked, &walked.way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, &(struct ceduo_watch){.piece = keep, .context = &walked},
+                                      &walked.way, NULL),
+                     CEDUO_OK);
     assert_true(walked.count >= 3);
     const struct ceduo_piece *p = walked.pieces;
     assert_false(p[0].rolls || p[1].rolls || p[2].rolls);

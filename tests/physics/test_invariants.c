@@ -192,7 +192,9 @@ static void look_at_scene(struct line_scene *s, uint64_t number, struct tally *t
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
     w.k = s->scene.simulation.law == CEDUO_LAW_CRSP ? w.rock.k : 0;
-    assert_int_equal(ceduo_way_follow(&s->scene, number % 11, look_at_piece, &w, &way, &crossing), CEDUO_OK);
+    assert_int_equal(ceduo_way_follow(&s->scene, NULL, number % 11,
+                                      &(struct ceduo_watch){.piece = look_at_piece, .context = &w}, &way, &crossing),
+                     CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
         fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);
     expect_number(number, "energy of a flight changes by", w.energy_off, ENERGY);

@@ -61,7 +61,9 @@ static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct tr
     struct ceduo_way way;
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
-    assert_int_equal(ceduo_way_follow(scene, rock, note_piece, t, &way, &c), CEDUO_OK);
+    assert_int_equal(
+        ceduo_way_follow(scene, NULL, rock, &(struct ceduo_watch){.piece = note_piece, .context = t}, &way, &c),
+        CEDUO_OK);
     t->contacts = way.contacts;
     t->end = way.contacts > CONTACTS ? -1 : (int)way.end;
     t->x = way.x;

@@ -165,7 +165,7 @@ static void a_run_flies_the_rocks_that_can_be_followed(void **state)
     for (uint64_t rock = 0; rock < 1500; rock++) {
         struct ceduo_way way;
         struct ceduo_crossing c;
-        assert_int_equal(ceduo_way_follow(&site.scene, rock, NULL, NULL, &way, &c), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(&site.scene, NULL, rock, NULL, &way, &c), CEDUO_OK);
         contacts += way.contacts;
         if (!c.reached)
             continue;
@@ -379,8 +379,8 @@ static void cutting_segments_into_collinear_pieces_moves_no_statistic(void **sta
             uint64_t same = 0;
             for (uint64_t rock = 0; rock < looked_at; rock++) {
                 struct ceduo_way v, w;
-                assert_int_equal(ceduo_way_follow(&site.scene, rock, NULL, NULL, &v, NULL), CEDUO_OK);
-                assert_int_equal(ceduo_way_follow(&cut, rock, NULL, NULL, &w, NULL), CEDUO_OK);
+                assert_int_equal(ceduo_way_follow(&site.scene, NULL, rock, NULL, &v, NULL), CEDUO_OK);
+                assert_int_equal(ceduo_way_follow(&cut, NULL, rock, NULL, &w, NULL), CEDUO_OK);
                 same += v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6;
             }
             if (same < looked_at * 98 / 100)
@@ -487,7 +487,7 @@ static struct drawn draw_releases(const struct ceduo_scene *scene, uint64_t rock
     struct drawn d = {0};
     for (uint64_t rock = 0; rock < rocks; rock++) {
         struct ceduo_way w;
-        assert_int_equal(ceduo_way_follow(scene, rock, NULL, NULL, &w, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(scene, NULL, rock, NULL, &w, NULL), CEDUO_OK);
         ceduo_moments_add(&d.x, w.x0);
         ceduo_moments_add(&d.height, w.z0 - ceduo_slope_height(&scene->slope, w.x0));
         ceduo_moments_add(&d.vx, w.vx0);
@@ -585,7 +585,10 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
     for (uint64_t rock = 0; rock < 20000; rock++) {
         struct ceduo_way w;
         f.seen = false;
-        assert_int_equal(ceduo_way_follow(&flat.scene, rock, look_at_first_contact, &f, &w, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(&flat.scene, NULL, rock,
+                                          &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
+                                          NULL),
+                         CEDUO_OK);
         assert_true(f.seen);
     }
     expect_moments("Rn", &f.rn, .3, .05 * CUT_SD);
@@ -595,7 +598,10 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
     for (uint64_t rock = 0; rock < 20000; rock++) {
         struct ceduo_way w;
         f.seen = false;
-        assert_int_equal(ceduo_way_follow(&flat.scene, rock, look_at_first_contact, &f, &w, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(&flat.scene, NULL, rock,
+                                          &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
+                                          NULL),
+                         CEDUO_OK);
     }
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
     double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;

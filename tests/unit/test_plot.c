@@ -818,7 +818,7 @@ static void trails_follow_the_rocks(void **state)
         struct ceduo_trail t;
         struct ceduo_way way;
         assert_int_equal(ceduo_trail_follow(&s.scene, rock, &t), CEDUO_OK);
-        assert_int_equal(ceduo_way_follow(&s.scene, rock, NULL, NULL, &way, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(&s.scene, NULL, rock, NULL, &way, NULL), CEDUO_OK);
         assert_true(t.n >= 2);
         assert_true(t.x[0] == way.x0 && t.z[0] == way.z0);
         assert_true(t.x[t.n - 1] == way.x && t.z[t.n - 1] == way.z);

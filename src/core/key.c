@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "run_key.h"
+#include "ceduo/key.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
+
+#define START 14695981039346656037u
 
 static void mix(uint64_t *key, uint64_t value)
 {
@@ -41,9 +44,9 @@ static void mix_slope(uint64_t *key, const struct ceduo_slope *s)
     }
 }
 
-uint64_t ceduo_run_key(const struct ceduo_scene *scene)
+uint64_t ceduo_scene_key(const struct ceduo_scene *scene)
 {
-    uint64_t key = 14695981039346656037u;
+    uint64_t key = START;
     const struct ceduo_rock_def *r = &scene->rock;
     const struct ceduo_number *const numbers[] = {
         &r->diameter,       &r->height,           &r->volume,          &r->mass,
@@ -63,4 +66,51 @@ uint64_t ceduo_run_key(const struct ceduo_scene *scene)
     mix_double(&key, scene->simulation.gravity);
     mix(&key, scene->simulation.scale_rn);
     return key;
+}
+
+/* ---- forests ---- */
+
+/* What a hit takes goes in by what decides it: for brauner the volume and the work of breaking. */
+static void mix_stems(uint64_t *key, const struct ceduo_stand *stand, const struct ceduo_stems *s)
+{
+    mix_double(key, s->per_ha);
+    mix_double(key, s->dbh);
+    mix_double(key, s->dbh_sd);
+    mix_double(key, s->height);
+    mix_double(key, stand->energy == CEDUO_BRAUNER ? ceduo_contact_energy(stand, s) : stand->fracture_ratio);
+    mix(key, s->dbh_sd > 0 ? (uint64_t)(int64_t)stand->species : 0);
+    mix(key, s->dbh_sd > 0 && !isnan(s->volume));
+}
+
+static void mix_stand(uint64_t *key, const struct ceduo_stand *s)
+{
+    mix(key, (uint64_t)s->energy);
+    mix(key, s->shoots_count);
+    mix(key, s->trees_count);
+    if (s->shoots_count > 0) {
+        mix_double(key, s->stools_per_ha);
+        mix_double(key, s->spacing);
+    }
+    for (size_t i = 0; i < s->shoots_count; i++)
+        mix_stems(key, s, &s->shoots[i]);
+    for (size_t i = 0; i < s->trees_count; i++)
+        mix_stems(key, s, &s->trees[i]);
+}
+
+uint64_t ceduo_option_key(const struct ceduo_simulation *simulation, const struct ceduo_option *option)
+{
+    uint64_t key = START;
+    size_t stems = 0;
+    mix(&key, (uint64_t)simulation->contact_model);
+    mix(&key, simulation->contact_model == CEDUO_POISSON ? (uint64_t)simulation->rule : 0);
+    for (size_t i = 0; option && simulation->contact_model != CEDUO_INDEX && i < option->belts_count; i++) {
+        const struct ceduo_belt *b = &option->belts[i];
+        if (ceduo_stand_is_bare(&b->stand))
+            continue;
+        mix_double(&key, b->from);
+        mix_double(&key, b->to);
+        mix_stand(&key, &b->stand);
+        stems++;
+    }
+    return stems > 0 ? key : 0;
 }

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/pool.h"
+
+#include <stdlib.h>
+
+#include "ceduo/key.h"
+
+struct pooled {
+    uint64_t key;
+    uint64_t asked; /* when it was asked for last */
+    struct ceduo_run *run;
+};
+
+struct ceduo_pool {
+    struct ceduo_run_def def;
+    struct ceduo_scene scene;
+    size_t count, room;
+    struct pooled *runs;
+    uint64_t reused, asked;
+};
+
+enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **out)
+{
+    *out = NULL;
+    enum ceduo_status status = ceduo_scene_check(def->scene, NULL);
+    if (status != CEDUO_OK)
+        return status;
+    struct ceduo_pool *pool = calloc(1, sizeof *pool);
+    if (!pool)
+        return CEDUO_NO_MEMORY;
+    pool->def = *def;
+    pool->scene = *def->scene;
+    pool->def.scene = &pool->scene;
+    *out = pool;
+    return CEDUO_OK;
+}
+
+void ceduo_pool_free(struct ceduo_pool *pool)
+{
+    if (!pool)
+        return;
+    for (size_t i = 0; i < pool->count; i++)
+        ceduo_run_free(pool->runs[i].run);
+    free(pool->runs);
+    free(pool);
+}
+
+static enum ceduo_status add_run(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t key,
+                                 struct ceduo_run **run)
+{
+    if (pool->count == pool->room) {
+        size_t room = pool->room > 0 ? 2 * pool->room : 8;
+        struct pooled *runs = realloc(pool->runs, room * sizeof *runs);
+        if (!runs)
+            return CEDUO_NO_MEMORY;
+        pool->runs = runs;
+        pool->room = room;
+    }
+    struct ceduo_run_def def = pool->def;
+    def.option = key != 0 ? option : NULL;
+    enum ceduo_status status = ceduo_run_create(&def, run);
+    if (status == CEDUO_OK)
+        pool->runs[pool->count++] = (struct pooled){key, ++pool->asked, *run};
+    return status;
+}
+
+static struct pooled *find(const struct ceduo_pool *pool, uint64_t key)
+{
+    for (size_t i = 0; i < pool->count; i++)
+        if (pool->runs[i].key == key)
+            return &pool->runs[i];
+    return NULL;
+}
+
+struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option)
+{
+    const struct pooled *p = find(pool, ceduo_option_key(&pool->scene.simulation, option));
+    return p ? p->run : NULL;
+}
+
+enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run)
+{
+    uint64_t key = ceduo_option_key(&pool->scene.simulation, option);
+    struct pooled *p = find(pool, key);
+    if (!p)
+        return add_run(pool, option, key, run);
+    p->asked = ++pool->asked;
+    pool->reused++;
+    *run = p->run;
+    return CEDUO_OK;
+}
+
+static bool is_needed(const struct ceduo_pool *pool, uint64_t key)
+{
+    for (size_t i = 0; i < pool->scene.options_count; i++)
+        if (ceduo_option_key(&pool->scene.simulation, &pool->scene.options[i]) == key)
+            return true;
+    return key == 0;
+}
+
+/* Frees the run that was asked for longest ago of those that the scene does not need. */
+static void drop_oldest(struct ceduo_pool *pool)
+{
+    size_t oldest = SIZE_MAX;
+    for (size_t i = 0; i < pool->count; i++)
+        if (!is_needed(pool, pool->runs[i].key) &&
+            (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
+            oldest = i;
+    ceduo_run_free(pool->runs[oldest].run);
+    pool->runs[oldest] = pool->runs[--pool->count];
+}
+
+void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
+{
+    pool->scene = *scene;
+    size_t spare = 0;
+    for (size_t i = 0; i < pool->count; i++)
+        spare += !is_needed(pool, pool->runs[i].key);
+    for (; spare > CEDUO_POOL_SPARE; spare--)
+        drop_oldest(pool);
+}
+
+enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
+{
+    bool wooded = pool->scene.simulation.contact_model != CEDUO_INDEX;
+    enum ceduo_status status = CEDUO_OK;
+    struct ceduo_run *run;
+    for (size_t i = 0; i < pool->scene.options_count && status == CEDUO_OK; i++) {
+        status = ceduo_pool_run(pool, NULL, &run);
+        if (status == CEDUO_OK && wooded)
+            status = ceduo_pool_run(pool, &pool->scene.options[i], &run);
+    }
+    return status;
+}
+
+enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks)
+{
+    enum ceduo_status status = CEDUO_OK;
+    for (size_t i = 0; i < pool->count && status == CEDUO_OK; i++)
+        status = ceduo_run_extend(pool->runs[i].run, rocks);
+    return status;
+}
+
+static bool precise(const struct ceduo_run *run, size_t controls, double tolerance)
+{
+    for (size_t i = 0; i < controls; i++) {
+        uint64_t reached;
+        double mean, se;
+        ceduo_run_energy(run, i, &reached, &mean, &se);
+        if (reached >= CEDUO_FEW_ROCKS && !(CEDUO_Z95 * se <= tolerance * mean))
+            return false;
+    }
+    return true;
+}
+
+enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met)
+{
+    *met = false;
+    for (uint64_t rocks = CEDUO_BLOCK_ROCKS; !*met; rocks *= 2) {
+        enum ceduo_status status = ceduo_pool_extend(pool, rocks < most ? rocks : most);
+        if (status != CEDUO_OK)
+            return status;
+        *met = true;
+        for (size_t i = 0; i < pool->count && *met; i++)
+            *met = precise(pool->runs[i].run, pool->scene.controls_count, tolerance);
+        if (rocks >= most)
+            break;
+    }
+    return CEDUO_OK;
+}
+
+struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
+{
+    struct ceduo_work work = {.runs = pool->count, .reused = pool->reused};
+    for (size_t i = 0; i < pool->count; i++) {
+        const struct ceduo_run *run = pool->runs[i].run;
+        struct ceduo_stem_counts stems = ceduo_run_stems(run);
+        work.rocks += ceduo_run_rocks(run);
+        work.contacts += ceduo_run_contacts(run);
+        work.stems.drawn += stems.drawn;
+        work.stems.hit += stems.hit;
+        work.stems.met += stems.met;
+    }
+    return work;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_STEMS_H
+#define CEDUO_STEMS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "ceduo/rock.h"
+#include "wood.h"
+
+/* The stems in one rock's way, drawn as it comes to them. Stools and trees are Poisson processes in the plane, of which
+ * the rock sweeps a strip as wide as itself: what stands off the way is never made, and what is made is distributed as
+ * on a full map. Ahead of the release (side 0, along +x) and behind it (side 1) there is one such way each; places along
+ * side 1 are -x. Ground is covered once: a stem that was passed is gone. */
+
+struct stem {
+    double along, y;  /* m: place along the way, offset from it */
+    double dbh;       /* m; NaN where contacts have no diameter */
+    double height;    /* m */
+    const struct wood_kind *kind;
+    bool shoot;
+    bool met;         /* another shoot of its stool was hit before */
+    uint64_t stool;   /* which stool or tree it is, or belongs to */
+};
+
+/* The next of one stratum. */
+struct stream {
+    double at; /* m along the way, infinite behind the last */
+    size_t belt;
+    uint64_t drawn;
+    double offset; /* uniform in [0, 1) */
+};
+
+struct stems_side {
+    struct stream *streams; /* one for each stratum; the first of `stems` is the stools */
+    struct stem *waiting;   /* shoots of drawn stools that are in the way, the nearest last */
+    size_t count, room;
+    double next;            /* m along the way: no stem before */
+    size_t from;            /* the stream of that one; SIZE_MAX: it is waiting */
+};
+
+struct stems {
+    const struct wood *wood;
+    bool poisson;
+    uint64_t seed, number; /* of the rock */
+    double b;              /* its mean diameter, m */
+    double start;          /* x of its release */
+    struct stems_side side[2];
+    bool behind_ready;
+    bool no_memory;        /* the way is not to be used */
+    uint64_t drawn;        /* stems made up */
+};
+
+/* False without memory. */
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson);
+void ceduo_stems_release(struct stems *stems);
+
+/* Begins the way of rock `number`, of mean diameter b, released at x. */
+void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, double b, double x);
+
+/* Takes the next stem of a side and looks for the one after it; false where it was only now found out that none stands
+ * at side[].next. */
+bool ceduo_stems_take(struct stems *stems, int side, struct stem *stem);
+
+/* It was hit: other shoots of its stool, which wait, know of it. */
+void ceduo_stems_note_hit(struct stems *stems, const struct stem *stem);
+
+/* Energy (J) that a hit of this stem takes from a rock of diameter b: brauner's V·U (Eq. 3 of Ciabocco et al. 2009), the
+ * volume of a stem of its own diameter; or dorren's with the eccentricity of this hit (Dorren et al. 2006). */
+double ceduo_stem_energy(const struct stem *stem, double b);
+
+#endif

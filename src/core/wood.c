@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "wood.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "strata.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- kinds ---- */
+
+/* A diameter that a gamma law of this shape and scale goes beyond with a chance of less than exp(-37) = 1e-16, which no
+ * number of 53 bits can tell from never: P(X > shape scale (1 + t)) <= exp(-shape (t - log(1 + t))) (Chernoff 1952). */
+static double thickest(double shape, double scale)
+{
+    double lo = 0, hi = 1;
+    while (shape * (hi - log1p(hi)) < 37)
+        hi *= 2;
+    for (int i = 0; i < 60; i++) {
+        double mid = lo + (hi - lo) / 2;
+        if (shape * (mid - log1p(mid)) < 37)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return shape * scale * (1 + hi);
+}
+
+static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    struct wood_kind k = {
+        .stand = stand, .stems = stems, .dbh = stems->dbh, .most = stems->dbh, .height = stems->height, .energy = NAN};
+    if (stems->dbh_sd > 0) {
+        double ratio = stems->dbh / stems->dbh_sd;
+        k.shape = ratio * ratio;
+        k.scale = stems->dbh_sd / ratio;
+        k.most = thickest(k.shape, k.scale);
+    } else if (stand->energy == CEDUO_BRAUNER) {
+        k.energy = ceduo_contact_energy(stand, stems);
+    }
+    return k;
+}
+
+/* ---- stools ---- */
+
+/* Places of n shoots on a ring of radius 1, as cosine and sine. */
+static double *ring_of(unsigned n)
+{
+    double *ring = malloc((2 * (size_t)n + 1) * sizeof *ring);
+    for (unsigned i = 0; ring && i < n; i++) {
+        ring[2 * i] = cos(2 * PI * i / n);
+        ring[2 * i + 1] = sin(2 * PI * i / n);
+    }
+    return ring;
+}
+
+static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *stand, const struct wood_kind *kinds)
+{
+    struct wood_stools *s = &w->stools[belt];
+    double per_stool = ceduo_stand_shoots(stand) / stand->stools_per_ha;
+    s->n = (unsigned)floor(per_stool);
+    s->more = per_stool - floor(per_stool);
+    s->cohorts = stand->shoots_count;
+    s->kinds = kinds;
+    for (unsigned i = 0; i < (s->more > 0 ? 2 : 1); i++) {
+        double *ring = w->rings[2 * belt + i] = ring_of(s->n + i);
+        if (!ring)
+            return false;
+        s->ring[i] = ring;
+        s->radius[i] = ceduo_stool_radius(s->n + i, stand->spacing);
+    }
+    s->reach = fmax(s->radius[0], s->radius[1]);
+    for (size_t i = 0; i < s->cohorts; i++)
+        s->most = fmax(s->most, kinds[i].most);
+    w->reach = fmax(w->reach, s->reach);
+    return true;
+}
+
+/* ---- belts ---- */
+
+/* The stems of a belt in the plane: stools as one stratum, each class of trees as one. */
+static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *stand, struct wood_kind *kinds,
+                       struct wood_stratum *strata, struct wood_belt *to)
+{
+    double shoots = ceduo_stand_shoots(stand), before = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++) {
+        kinds[i] = kind_of(stand, &stand->shoots[i]);
+        before += stand->shoots[i].per_ha;
+        kinds[i].share_to = i + 1 < stand->shoots_count ? before / shoots : 1;
+    }
+    if (stand->shoots_count > 0) {
+        if (!make_stools(w, belt, stand, kinds))
+            return false;
+        const struct wood_stools *s = to->stools = &w->stools[belt];
+        double per_m2 = stand->stools_per_ha / HECTARE;
+        strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->most), per_m2, NULL};
+    }
+    for (size_t i = 0; i < stand->trees_count; i++) {
+        struct wood_kind *k = &kinds[stand->shoots_count + i];
+        *k = kind_of(stand, &stand->trees[i]);
+        double per_m2 = stand->trees[i].per_ha / HECTARE;
+        strata[1 + i] = (struct wood_stratum){per_m2 * k->dbh, per_m2, k};
+    }
+    to->strata_count = 1 + stand->trees_count;
+    return true;
+}
+
+/* Contacts of a belt as a Poisson process along the way, by the rule's rates (Eq. 2 of Ciabocco et al. 2009). */
+static void make_contacts(const struct ceduo_stand *stand, enum ceduo_rule rule, struct wood_kind *kinds,
+                          struct wood_stratum *strata, struct wood_belt *to)
+{
+    to->strata_count = ceduo_strata_count(stand, rule);
+    for (size_t i = 0; i < to->strata_count; i++) {
+        struct stratum s = ceduo_stratum(stand, rule, i);
+        kinds[i] = (struct wood_kind){.dbh = NAN, .height = INFINITY, .energy = s.energy};
+        strata[i] = (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, &kinds[i]};
+    }
+}
+
+static size_t kinds_in(const struct ceduo_belt *belt)
+{
+    return belt->stand.shoots_count + belt->stand.trees_count;
+}
+
+static bool allocate(struct wood *w, const struct ceduo_option *option)
+{
+    size_t kinds = 0;
+    for (size_t i = 0; i < option->belts_count; i++)
+        kinds += kinds_in(&option->belts[i]) + 1;
+    w->kinds = calloc(kinds + 1, sizeof *w->kinds);
+    w->strata_room = calloc(kinds + 1, sizeof *w->strata_room);
+    w->stools = calloc(option->belts_count + 1, sizeof *w->stools);
+    w->rings = calloc(2 * option->belts_count + 1, sizeof *w->rings);
+    w->along[0] = calloc(option->belts_count + 1, sizeof *w->along[0]);
+    w->along[1] = calloc(option->belts_count + 1, sizeof *w->along[1]);
+    w->belts = option->belts_count;
+    return w->kinds && w->strata_room && w->stools && w->rings && w->along[0] && w->along[1];
+}
+
+bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
+                     double b)
+{
+    *wood = (struct wood){.bare = true};
+    if (!option || simulation->contact_model == CEDUO_INDEX)
+        return true;
+    if (!allocate(wood, option))
+        goto fail;
+    size_t used = 0;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        struct wood_belt *to = &wood->along[0][i];
+        *to = (struct wood_belt){.from = belt->from, .to = belt->to, .strata = &wood->strata_room[used]};
+        if (ceduo_stand_is_bare(&belt->stand))
+            continue;
+        wood->bare = false;
+        if (simulation->contact_model == CEDUO_POISSON)
+            make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), &wood->kinds[used],
+                          &wood->strata_room[used], to);
+        else if (!make_stems(wood, i, &belt->stand, &wood->kinds[used], &wood->strata_room[used], to))
+            goto fail;
+        used += kinds_in(belt) + 1;
+        wood->strata = to->strata_count > wood->strata ? to->strata_count : wood->strata;
+    }
+    for (size_t i = 0; i < wood->belts; i++) {
+        const struct wood_belt *ahead = &wood->along[0][wood->belts - 1 - i];
+        wood->along[1][i] = *ahead;
+        wood->along[1][i].from = -ahead->to;
+        wood->along[1][i].to = -ahead->from;
+    }
+    return true;
+fail:
+    ceduo_wood_release(wood);
+    return false;
+}
+
+void ceduo_wood_release(struct wood *wood)
+{
+    for (size_t i = 0; wood->rings && i < 2 * wood->belts; i++)
+        free(wood->rings[i]);
+    free(wood->rings);
+    free(wood->stools);
+    free(wood->strata_room);
+    free(wood->kinds);
+    free(wood->along[0]);
+    free(wood->along[1]);
+    *wood = (struct wood){.bare = true};
+}
