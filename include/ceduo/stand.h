@@ -26,6 +26,27 @@ struct ceduo_stems {
     double age;    /* years; NaN: unknown */
 };
 
+/* Growth of a stem: dbh D(1 - exp(-k age)), height H(1 - exp(-m age)). All 0: unknown. */
+struct ceduo_curve {
+    double dbh_most, dbh_rate;       /* D, m, > 0; k, 1/year, > 0 */
+    double height_most, height_rate; /* H, m, > 0; m, 1/year, > 0 */
+};
+
+/* How a stand grows from year to year (assumed, see rotation.h). All 0: unknown, the stand stays as it is. */
+struct ceduo_growth {
+    struct ceduo_curve shoots, trees;
+    double shoots_young, shoots_old; /* shoots on a stool just after a cut, and in the end: >= shoots_old >= 1 */
+    double sdi_most;                 /* stand density index that the shoots are thinned to, > 0; 0: they are not */
+};
+
+/* How it is cut. */
+struct ceduo_cutting {
+    unsigned rotation;   /* years between two cuts; 0: never cut */
+    unsigned cohorts;    /* of shoots on a stool, of which each cut takes the oldest; 0 or 1: each cut takes all */
+    size_t stay_count;   /* ages of trees that stand after a cut */
+    double *stay_per_ha; /* how many, >= 0: those that are 1, 2, 3 … rotations old */
+};
+
 /* A stand. No stools and no trees: no forest. Stools and shoots come together. */
 struct ceduo_stand {
     enum ceduo_system system;
@@ -38,6 +59,8 @@ struct ceduo_stand {
     enum ceduo_energy_model energy;
     double u;              /* J/m3, brauner; NaN: the species' */
     double fracture_ratio; /* dorren */
+    struct ceduo_growth growth;
+    struct ceduo_cutting cutting;
 };
 
 /* Sums over a stand, per hectare. */

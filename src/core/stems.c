@@ -8,14 +8,11 @@
 #include <string.h>
 
 #include "random.h"
-#include "sincos.h"
 
-static const double PI = 3.14159265358979323846;
-
-/* The number of an event: which stratum, which side, the how-manieth. */
+/* The number of an event, never 0: which stratum, which side, the how-manieth. The side is its last bit. */
 static uint64_t event_of(size_t stratum, int side, uint64_t n)
 {
-    return ((uint64_t)stratum * 2 + (uint64_t)side) << 40 | n;
+    return (uint64_t)stratum << 41 | (n + 1) << 1 | (uint64_t)side;
 }
 
 /* What belongs to shoot i of a stool. */
@@ -67,9 +64,12 @@ static void advance(struct stems *s, int side, size_t stratum)
 {
     struct stream *stream = &s->side[side].streams[stratum];
     const struct wood_belt *belts = s->wood->along[side];
-    struct random_pair pair = random_pair(s->seed, s->number, event_of(stratum, side, stream->drawn++), RANDOM_STEM);
-    double left = -log(pair.u[0] + 0x1p-54), at = stream->at;
-    stream->offset = pair.u[1];
+    uint64_t event = event_of(stratum, side, stream->drawn++);
+    struct random_four four = random_four(s->seed, s->number, event, RANDOM_STEM);
+    double left = -log(four.first + 0x1p-54), at = stream->at;
+    stream->offset = four.rest[0] + 0x1p-26;
+    stream->turn = four.rest[1] + 0x1p-26;
+    stream->number = four.rest[2] + 0x1p-26;
     for (; stream->belt < s->wood->belts; stream->belt++) {
         const struct wood_belt *belt = &belts[stream->belt];
         if (stratum >= belt->strata_count)
@@ -91,11 +91,19 @@ static void advance(struct stems *s, int side, size_t stratum)
 
 /* ---- stools ---- */
 
-static bool make_room(struct stems *s, struct stems_side *side)
+/* Room for `more` stems behind those that wait. */
+static bool make_room(struct stems *s, struct stems_side *side, size_t more)
 {
-    if (side->count < side->room)
+    if (side->end + more <= side->room)
         return true;
-    size_t room = side->room > 0 ? 2 * side->room : 32;
+    size_t count = side->end - side->first;
+    if (count > 0)
+        memmove(side->waiting, side->waiting + side->first, count * sizeof *side->waiting);
+    side->first = 0;
+    side->end = count;
+    if (2 * (count + more) <= side->room)
+        return true;
+    size_t room = 4 * (count + more) + 64;
     struct stem *waiting = realloc(side->waiting, room * sizeof *waiting);
     s->no_memory |= !waiting;
     if (!waiting)
@@ -105,13 +113,11 @@ static bool make_room(struct stems *s, struct stems_side *side)
     return true;
 }
 
-static void wait_for(struct stems *s, int to, const struct stem *stem)
+/* Puts a stem among those waiting, for which there is room, in the order they are come to. */
+static inline void put_in(struct stems_side *side, const struct stem *stem)
 {
-    struct stems_side *side = &s->side[to];
-    if (!make_room(s, side))
-        return;
-    size_t i = side->count++;
-    for (; i > 0 && side->waiting[i - 1].along < stem->along; i--)
+    size_t i = side->end++;
+    for (; i > side->first && side->waiting[i - 1].along > stem->along; i--)
         side->waiting[i] = side->waiting[i - 1];
     side->waiting[i] = *stem;
 }
@@ -128,53 +134,62 @@ static const struct wood_kind *draw_cohort(const struct stems *s, const struct w
     return k;
 }
 
-/* A shoot at `along`, `y`, if it stands in the rock's way. Those before the start belong to the other side. */
-static void add_shoot(struct stems *s, int side, const struct wood_stools *stools, uint64_t event, unsigned i,
-                      double along, double y)
+/* A shoot that stands behind the start of the way ahead is one of the way behind; that way's own stools begin beyond
+ * those that reach over the start. */
+static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem stem)
 {
-    if (fabs(y) > (s->b + stools->most) / 2)
-        return;
-    const struct wood_kind *k = draw_cohort(s, stools, event, i);
-    struct stem stem = {.along = along, .y = y, .kind = k, .height = k->height, .shoot = true, .stool = event};
-    stem.dbh = k->shape > 0 ? draw_dbh(s, k, event, kind_of_shoot(RANDOM_DBH, i), 0) : k->dbh;
-    if (fabs(y) > (s->b + stem.dbh) / 2)
-        return;
-    double start = side == 0 ? s->start : -s->start;
-    if (along < start) {
-        stem.along = -along;
-        if (side == 0)
-            wait_for(s, 1, &stem);
-        return; /* side 1 begins beyond the stools that reach over the start */
-    }
-    wait_for(s, side, &stem);
+    stem.along = -stem.along;
+    if (make_room(s, &s->side[1], 1))
+        put_in(&s->side[1], &stem);
 }
 
-/* The shoots of the stool that the stream of side `side` has come to. */
-static void draw_stool(struct stems *s, int side)
+/* The kind and diameter of shoot i of a stool whose shoots differ. */
+static __attribute__((noinline)) const struct wood_kind *draw_shoot(const struct stems *s,
+                                                                   const struct wood_stools *stools, uint64_t event,
+                                                                   unsigned i, double *dbh)
 {
-    const struct stream *stream = &s->side[side].streams[0];
-    const struct wood_stools *stools = s->wood->along[side][stream->belt].stools;
-    uint64_t event = event_of(0, side, stream->drawn - 1);
-    double y = (stream->offset - 0.5) * (2 * stools->reach + stools->most + s->b);
-    unsigned n = stools->n;
-    struct random_pair pair = {{0, 0}};
-    if (stools->more > 0 || n > 1) {
-        pair = random_pair(s->seed, s->number, event, RANDOM_STOOL);
-        n += pair.u[0] < stools->more;
-    }
-    s->drawn += n;
-    if (n == 1) {
-        add_shoot(s, side, stools, event, 0, stream->at, y);
+    const struct wood_kind *k = draw_cohort(s, stools, event, i);
+    *dbh = k->shape > 0 ? draw_dbh(s, k, event, kind_of_shoot(RANDOM_DBH, i), 0) : k->dbh;
+    return k;
+}
+
+/* The shoots of the stool that the stream of side `side` has come to, as far as they stand in the rock's way. */
+static void draw_stool(struct stems *s, int i_side)
+{
+    struct stems_side *side = &s->side[i_side];
+    const struct stream *stream = &side->streams[0];
+    const struct wood_stools *stools = s->wood->along[i_side][stream->belt].stools;
+    uint64_t event = event_of(0, i_side, stream->drawn - 1);
+    double centre = (stream->offset - 0.5) * (2 * stools->reach + stools->most + s->b);
+    unsigned more = stream->number < stools->more, n = stools->n + more;
+    if (!make_room(s, side, n))
         return;
-    }
-    double r = stools->radius[n - stools->n], sine, cosine;
-    const double *ring = stools->ring[n - stools->n];
-    sincos_quarter((pair.u[1] - 0.5) * (2 * PI) / n, &sine, &cosine);
+    s->drawn += n;
+    double r = stools->radius[more], sine, cosine;
+    const double *ring = stools->ring[more];
+    wood_direction(s->wood, (stream->turn - 0.5) * stools->turn[more], &cosine, &sine);
     sine *= r;
     cosine *= r;
-    for (unsigned i = 0; i < n; i++)
-        add_shoot(s, side, stools, event, i, stream->at + (ring[2 * i] * cosine - ring[2 * i + 1] * sine),
-                  y + (ring[2 * i] * sine + ring[2 * i + 1] * cosine));
+    for (unsigned i = 0; i < n; i++) {
+        double y = centre + (ring[2 * i] * sine + ring[2 * i + 1] * cosine);
+        if (fabs(y) > (s->b + stools->most) / 2)
+            continue;
+        struct stem stem = {.along = stream->at + (ring[2 * i] * cosine - ring[2 * i + 1] * sine),
+                            .y = y,
+                            .dbh = stools->kinds->dbh,
+                            .kind = stools->kinds,
+                            .shoot = true,
+                            .stool = event};
+        if (stools->varied) {
+            stem.kind = draw_shoot(s, stools, event, i, &stem.dbh);
+            if (fabs(y) > (s->b + stem.dbh) / 2)
+                continue;
+        }
+        if (i_side == 0 && stem.along < s->start)
+            turn_behind(s, stem);
+        else
+            put_in(side, &stem);
+    }
 }
 
 /* Draws the stools that have a centre up to `to` along a side. */
@@ -189,24 +204,27 @@ static void draw_stools_to(struct stems *s, int side, double to)
 
 /* ---- what comes next ---- */
 
+/* The nearest of all streams but the stools'. */
+static void find_single(struct stems *s, struct stems_side *side)
+{
+    side->single_at = INFINITY;
+    for (size_t k = s->poisson ? 0 : 1; k < s->wood->strata; k++)
+        if (side->streams[k].at < side->single_at) {
+            side->single_at = side->streams[k].at;
+            side->single = k;
+        }
+}
+
 static void find_next(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
-    size_t first = s->poisson ? 0 : 1;
-    side->next = INFINITY;
-    side->from = SIZE_MAX;
-    for (size_t k = first; k < s->wood->strata; k++)
-        if (side->streams[k].at < side->next) {
-            side->next = side->streams[k].at;
-            side->from = k;
-        }
     for (;;) {
-        if (side->count > 0 && side->waiting[side->count - 1].along <= side->next) {
-            side->next = side->waiting[side->count - 1].along;
-            side->from = SIZE_MAX;
-        }
+        bool any = side->first < side->end;
+        double waits = any ? side->waiting[side->first].along : INFINITY;
+        side->next_waits = any && waits <= side->single_at;
+        side->next = side->next_waits ? waits : side->single_at;
         /* a stool reaches ahead of its centre */
-        if (first == 0 || !(side->streams[0].at < INFINITY) || s->no_memory ||
+        if (s->poisson || !(side->streams[0].at < INFINITY) || s->no_memory ||
             side->streams[0].at - s->wood->reach > side->next)
             return;
         draw_stool(s, i);
@@ -221,6 +239,7 @@ static void start_side(struct stems *s, int i, double from, double stools_from)
         side->streams[k] = (struct stream){.at = k == 0 && !s->poisson ? stools_from : from};
         advance(s, i, k);
     }
+    find_single(s, side);
 }
 
 void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b, double x)
@@ -231,7 +250,9 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->start = x;
     s->behind_ready = false;
     s->drawn = 0;
-    s->side[0].count = s->side[1].count = 0;
+    for (int i = 0; i < 2; i++)
+        s->side[i].first = s->side[i].end = 0;
+    memset(s->met, 0, (s->wood->places + 1) * sizeof *s->met);
     start_side(s, 0, x, x - s->wood->reach);
     find_next(s, 0);
     bool any = s->wood->belts > 0 && s->wood->along[0][0].from < x + s->wood->reach;
@@ -257,38 +278,29 @@ bool ceduo_stems_take(struct stems *s, int i, struct stem *stem)
         prepare_behind(s);
         return false;
     }
-    if (side->from == SIZE_MAX) {
-        *stem = side->waiting[--side->count];
+    if (side->next_waits) {
+        *stem = side->waiting[side->first++];
     } else {
-        const struct stream *stream = &side->streams[side->from];
-        const struct wood_kind *k = s->wood->along[i][stream->belt].strata[side->from].kind;
-        uint64_t event = event_of(side->from, i, stream->drawn - 1);
+        const struct stream *stream = &side->streams[side->single];
+        const struct wood_kind *k = s->wood->along[i][stream->belt].strata[side->single].kind;
+        uint64_t event = event_of(side->single, i, stream->drawn - 1);
         double d = k->dbh;
         if (k->shape > 0) { /* met with a chance that goes with b + d */
-            double u = random_pair(s->seed, s->number, event, RANDOM_STOOL).u[0];
-            d = draw_dbh(s, k, event, RANDOM_DBH, u * (s->b + d) >= s->b);
+            d = draw_dbh(s, k, event, RANDOM_DBH, stream->number * (s->b + d) >= s->b);
         }
-        *stem = (struct stem){.along = stream->at, .dbh = d, .height = k->height, .kind = k, .stool = event};
+        *stem = (struct stem){.along = stream->at, .dbh = d, .kind = k, .stool = event};
         stem->y = s->poisson ? NAN : (stream->offset - 0.5) * (s->b + d);
         s->drawn++;
-        advance(s, i, side->from);
+        advance(s, i, side->single);
+        find_single(s, side);
     }
     find_next(s, i);
     return true;
 }
 
-void ceduo_stems_note_hit(struct stems *s, const struct stem *stem)
-{
-    for (int i = 0; i < 2 && stem->shoot; i++)
-        for (size_t j = 0; j < s->side[i].count; j++)
-            s->side[i].waiting[j].met |= s->side[i].waiting[j].stool == stem->stool;
-}
-
-double ceduo_stem_energy(const struct stem *stem, double b)
+double ceduo_stem_energy_of(const struct stem *stem, double b)
 {
     const struct wood_kind *k = stem->kind;
-    if (!isnan(k->energy))
-        return k->energy;
     if (k->stand->energy == CEDUO_DORREN)
         return ceduo_dorren_share(2 * fabs(stem->y) / (b + stem->dbh)) *
                ceduo_dorren_energy(stem->dbh, k->stand->fracture_ratio);
@@ -306,7 +318,8 @@ bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson
     *stems = (struct stems){.wood = wood, .poisson = poisson};
     for (int i = 0; i < 2; i++)
         stems->side[i].streams = calloc(wood->strata + 1, sizeof *stems->side[i].streams);
-    if (stems->side[0].streams && stems->side[1].streams)
+    stems->met = calloc(wood->places + 1, sizeof *stems->met);
+    if (stems->side[0].streams && stems->side[1].streams && stems->met)
         return true;
     ceduo_stems_release(stems);
     return false;
@@ -318,5 +331,6 @@ void ceduo_stems_release(struct stems *stems)
         free(stems->side[i].streams);
         free(stems->side[i].waiting);
     }
+    free(stems->met);
     *stems = (struct stems){0};
 }

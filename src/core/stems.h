@@ -16,11 +16,9 @@
 struct stem {
     double along, y;  /* m: place along the way, offset from it */
     double dbh;       /* m; NaN where contacts have no diameter */
-    double height;    /* m */
     const struct wood_kind *kind;
+    uint64_t stool; /* which stool or tree it is, or belongs to */
     bool shoot;
-    bool met;         /* another shoot of its stool was hit before */
-    uint64_t stool;   /* which stool or tree it is, or belongs to */
 };
 
 /* The next of one stratum. */
@@ -28,15 +26,18 @@ struct stream {
     double at; /* m along the way, infinite behind the last */
     size_t belt;
     uint64_t drawn;
-    double offset; /* uniform in [0, 1) */
+    double offset;        /* uniform in [0, 1): how far from the way */
+    double number, turn;  /* likewise: of a stool, what decides how many shoots it has and how its ring is turned */
 };
 
 struct stems_side {
     struct stream *streams; /* one for each stratum; the first of `stems` is the stools */
-    struct stem *waiting;   /* shoots of drawn stools that are in the way, the nearest last */
-    size_t count, room;
+    struct stem *waiting;   /* shoots of drawn stools that are in the way, from `first` to before `end`, the nearest first */
+    size_t first, end, room;
     double next;            /* m along the way: no stem before */
-    size_t from;            /* the stream of that one; SIZE_MAX: it is waiting */
+    bool next_waits;        /* it is one of those waiting; otherwise the next of `single` */
+    size_t single;          /* the stream whose next is the nearest, but for stools */
+    double single_at;
 };
 
 struct stems {
@@ -47,6 +48,8 @@ struct stems {
     double start;          /* x of its release */
     struct stems_side side[2];
     bool behind_ready;
+    uint64_t *met;         /* stools that were hit, each at the place of its number's last bits: those that the way is among
+                            * at a time are far fewer than the places */
     bool no_memory;        /* the way is not to be used */
     uint64_t drawn;        /* stems made up */
 };
@@ -62,11 +65,24 @@ void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, doub
  * at side[].next. */
 bool ceduo_stems_take(struct stems *stems, int side, struct stem *stem);
 
-/* It was hit: other shoots of its stool, which wait, know of it. */
-void ceduo_stems_note_hit(struct stems *stems, const struct stem *stem);
+/* Notes that a stem was hit; whether its stool or tree was not hit before. */
+static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem)
+{
+    if (!stem->shoot)
+        return true;
+    uint64_t *place = &stems->met[stem->stool & stems->wood->places];
+    bool first = *place != stem->stool;
+    *place = stem->stool;
+    return first;
+}
 
 /* Energy (J) that a hit of this stem takes from a rock of diameter b: brauner's V·U (Eq. 3 of Ciabocco et al. 2009), the
  * volume of a stem of its own diameter; or dorren's with the eccentricity of this hit (Dorren et al. 2006). */
-double ceduo_stem_energy(const struct stem *stem, double b);
+double ceduo_stem_energy_of(const struct stem *stem, double b);
+
+static inline double ceduo_stem_energy(const struct stem *stem, double b)
+{
+    return stem->kind->energy >= 0 ? stem->kind->energy : ceduo_stem_energy_of(stem, b);
+}
 
 #endif

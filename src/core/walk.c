@@ -144,10 +144,10 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
     struct ceduo_stem_passed p = {.x = x,
                                   .y = stem->y,
                                   .dbh = stem->dbh,
-                                  .height = stem->height,
+                                  .height = stem->kind->height,
                                   .shoot = stem->shoot,
                                   .stool = stem->stool,
-                                  .hit = clearance < stem->height,
+                                  .hit = clearance < stem->kind->height,
                                   .clearance = clearance,
                                   .before = before,
                                   .taken = taken};
@@ -168,9 +168,7 @@ static double hit_stem(struct walker *w, const struct stem *stem, double x, doub
 {
     double cost = ceduo_stem_energy(stem, w->rock.mean_diameter);
     w->stems_hit++;
-    w->stools_met += !stem->met;
-    if (!stem->met)
-        ceduo_stems_note_hit(w->stems, stem);
+    w->stools_met += ceduo_stems_meet(w->stems, stem);
     bool stops = !(cost < energy);
     if (w->watch && w->watch->stem)
         show_stem(w, stem, x, clearance, energy, stops ? energy : cost);
@@ -192,26 +190,41 @@ static size_t segment_between(const struct ground *g, size_t a, size_t b, double
 }
 
 /* Flies past the stems between the rock and its landing `l`, which moves as stems are hit. True where one stops the rock
- * (or the way is given up), at `at`. */
+ * (or the way is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
+ * segment and the rock is still above the ground there: the parabola is concave, so there was no contact before. */
 static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l)
 {
     const struct ground *g = w->g;
     int side = at->vx > 0 ? 0 : 1;
-    while (at->vx != 0 && (side == 0 ? w->stem_ahead <= l->x : w->stem_behind >= l->x)) {
+    bool knows_landing = true;
+    while (at->vx != 0) {
         double x = side == 0 ? w->stem_ahead : w->stem_behind;
+        size_t j = at->segment;
+        bool near = side == 0 ? x <= g->x[j + 1] : x >= g->x[j];
+        if (!knows_landing && !near) {
+            *l = next_landing(g, at);
+            knows_landing = true;
+        }
+        if (knows_landing && (side == 0 ? !(x <= l->x) : !(x >= l->x)))
+            return false;
+        double t = (x - at->x) / at->vx;
+        t = t < 0 ? 0 : knows_landing && t > l->t ? l->t : t;
+        struct landing here = {.t = t, .x = x, .z = at->z + (at->vz - g->half_g * t) * t};
+        here.segment = near ? j : segment_between(g, j, l->segment, x);
+        double clearance = here.z - ground_height(g, here.segment, x);
+        if (!knows_landing && !(clearance >= 0)) {
+            *l = next_landing(g, at);
+            knows_landing = true;
+            continue;
+        }
         struct stem stem;
         if (!take_stem(w, side, &stem)) {
             if (w->cancelled)
                 return true;
             continue;
         }
-        double t = (x - at->x) / at->vx;
-        t = t < 0 ? 0 : t < l->t ? t : l->t;
-        struct landing here = {.t = t, .x = x, .z = at->z + (at->vz - g->half_g * t) * t};
-        here.segment = segment_between(g, at->segment, l->segment, x);
-        double clearance = here.z - ground_height(g, here.segment, x);
         clearance = clearance > 0 ? clearance : 0;
-        if (!(clearance < stem.height)) {
+        if (!(clearance < stem.kind->height)) {
             if (w->watch && w->watch->stem)
                 show_stem(w, &stem, x, clearance, 0, 0);
             continue;
@@ -226,8 +239,10 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         w->spin *= share;
         if (!(share > 0))
             return true;
-        *l = next_landing(g, at);
+        knows_landing = false;
     }
+    if (!knows_landing)
+        *l = next_landing(g, at);
     return false;
 }
 

@@ -64,12 +64,14 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
     s->more = per_stool - floor(per_stool);
     s->cohorts = stand->shoots_count;
     s->kinds = kinds;
+    s->varied = s->cohorts > 1 || kinds[0].shape > 0;
     for (unsigned i = 0; i < (s->more > 0 ? 2 : 1); i++) {
         double *ring = w->rings[2 * belt + i] = ring_of(s->n + i);
         if (!ring)
             return false;
         s->ring[i] = ring;
         s->radius[i] = ceduo_stool_radius(s->n + i, stand->spacing);
+        s->turn[i] = s->n + i > 1 ? 2 * PI / (s->n + i) : 0;
     }
     s->reach = fmax(s->radius[0], s->radius[1]);
     for (size_t i = 0; i < s->cohorts; i++)
@@ -139,6 +141,21 @@ static bool allocate(struct wood *w, const struct ceduo_option *option)
     return w->kinds && w->strata_room && w->stools && w->rings && w->along[0] && w->along[1];
 }
 
+/* Stools whose shoots a rock can be among: those with a centre within the reach of the largest ring, of either side; by
+ * far the most that chance will bring. */
+static size_t places_for(const struct wood *w, double b)
+{
+    double most = 0;
+    for (size_t i = 0; i < w->belts; i++)
+        if (w->along[0][i].strata_count > 0)
+            most = fmax(most, w->along[0][i].strata[0].still + w->along[0][i].strata[0].per_b * b);
+    double wanted = 64 + 16 * most * 2 * w->reach;
+    size_t places = 64;
+    while ((double)places < wanted && places < (size_t)1 << 24)
+        places *= 2;
+    return places - 1;
+}
+
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
                      double b)
 {
@@ -147,6 +164,10 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         return true;
     if (!allocate(wood, option))
         goto fail;
+    for (int i = 0; i <= WOOD_DIRECTIONS; i++) {
+        wood->directions[i][0] = cos((i - WOOD_DIRECTIONS / 2) * (PI / WOOD_DIRECTIONS));
+        wood->directions[i][1] = sin((i - WOOD_DIRECTIONS / 2) * (PI / WOOD_DIRECTIONS));
+    }
     size_t used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
@@ -169,6 +190,7 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         wood->along[1][i].from = -ahead->to;
         wood->along[1][i].to = -ahead->from;
     }
+    wood->places = places_for(wood, b);
     return true;
 fail:
     ceduo_wood_release(wood);

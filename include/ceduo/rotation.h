@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ROTATION_H
+#define CEDUO_ROTATION_H
+
+#include <limits.h>
+
+#include "stand.h"
+#include "status.h"
+
+/* A stand in the years to come. Every year is computed by itself, in closed form: nothing is accumulated.
+ *
+ * Year 0 is the stand as filed, the inventory; until its first cut it grows. Each of its cohorts and classes has an
+ * age: its own where that is given and above 0, otherwise the age at which its curve has its dbh; one that is as thick
+ * as the curve ever gets, or thicker, grows no more. After t years, from the age a:
+ *     dbh and its deviation × d(a + t)/d(a), height × h(a + t)/h(a), a given volume with dbh2 × height,
+ *     shoots × n(a + t)/n(a), all by one factor more where less than one a stool would be left; trees stay as many.
+ * From the first cut on the ages are those that the cuts leave, t years after the last one:
+ *     trees of class j (1, 2 …): cutting.stay_per_ha[j - 1], j·rotation + t years old;
+ *     shoots of K cohorts: t, rotation + t … (K - 1)·rotation + t years old, n(age)/K of each on a stool.
+ * In the year of a cut itself the youngest shoots are not there yet: with one cohort no stool stands. Their volume is
+ * that of species, dbh and height; all of a cohort are alike. Nothing but these trees and shoots comes up, so a stand
+ * without stools has none after a cut either.
+ *     d(t) = D(1 - exp(-kt)), h(t) = H(1 - exp(-mt)), n(t) = n_old + (n_young - n_old)exp(-t/5)
+ * are assumed, as are all their constants.
+ *
+ * In computed years (all but year 0 as filed) the shoots, and only they, are thinned by one factor to
+ * growth.sdi_most, never below one a stool. Trees are not: a stand of many large trees stays above it. */
+
+/* Year of a cut that never comes. */
+#define CEDUO_NEVER UINT_MAX
+
+/* The stand of one year. It has a growth and a cutting no more: it is not to be grown again. */
+struct ceduo_grown_stand {
+    struct ceduo_stand stand;
+    struct ceduo_stems *stems; /* its shoots, then its trees: owned; shoots and trees from young to old after a cut */
+};
+
+/* Makes the stand of `year` in *out, which ceduo_grown_stand_release() frees. What out was before does not matter.
+ * `first_cut`: as in ceduo_first_cut(). A stratum whose curve is unknown stays as it is, and with both unknown, or in
+ * year 0 if no cut falls in it, so does all: bit for bit. The year of a cut is the stand after it.
+ * CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+enum ceduo_status ceduo_stand_at(const struct ceduo_stand *stand, double first_cut, unsigned year,
+                                 struct ceduo_grown_stand *out);
+void ceduo_grown_stand_release(struct ceduo_grown_stand *grown);
+
+/* The year, from 0 on, of the first cut that the inventory sees, CEDUO_NEVER where there is none: without a rotation,
+ * or where the growth of what comes after a cut (shoots if there are stools, trees if any stay) is unknown.
+ * `first_cut`: a year in which a cut falls; of a fraction the next whole year. Cuts follow each other by the rotation,
+ * and where it is negative only its rhythm matters: -5 with 25 years is 20, the inventory being what that cut left.
+ * INFINITY: never. NaN: when the oldest shoots reach the age of cutting, rotation × cohorts; without shoots when the
+ * oldest trees do, rotation × (rotations that the oldest to stay have seen + 1); at once where they are older; never
+ * where no age is known. */
+unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
+
+/* Whether a cut falls in `year`: the first one or one that is whole rotations later. */
+bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year);
+
+/* Stand density index of all stems, N(dq/25.4)^1.605, N per ha, dq the quadratic mean dbh in cm (Reineke 1933); 0
+ * without stems. */
+double ceduo_stand_sdi(const struct ceduo_stand *stand);
+
+/* Growth of a species (index into ceduo_species_list()) as assumed: nothing of it is measured. False, and nothing
+ * written, for a species without a row and for -1. */
+bool ceduo_growth_of_species(int species, struct ceduo_growth *growth);
+
+#endif

@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/rotation.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define SHOOTS_FALL 5.0  /* years in which the surplus of shoots falls to 1/e; assumed */
+#define AGE_GRAIN   1e-6 /* years: an age that comes from a curve is no better known */
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- species ---- */
+
+struct row {
+    const char *name;
+    double dbh_cm, dbh_rate, height, height_rate;
+};
+
+/* Shoots; assumed. */
+static const struct row rows[] = {
+    {"ostrya-carpinifolia", 16, .022, 14, .035}, {"fraxinus-ornus", 16, .022, 14, .035},
+    {"quercus-cerris", 24, .022, 18, .035},      {"quercus-pubescens", 15, .022, 10, .035},
+    {"fagus-sylvatica", 22, .016, 18, .025},     {"castanea-sativa", 26, .035, 20, .06},
+};
+
+bool ceduo_growth_of_species(int species, struct ceduo_growth *growth)
+{
+    for (size_t i = 0; species >= 0 && i < sizeof rows / sizeof rows[0]; i++) {
+        const struct row *r = &rows[i];
+        if (ceduo_species_find(r->name) != species)
+            continue;
+        *growth = (struct ceduo_growth){.shoots = {r->dbh_cm / 100, r->dbh_rate, r->height, r->height_rate},
+                                        .trees = {.45, .014, 20, .03}, /* assumed, of all species */
+                                        .shoots_young = 16,
+                                        .shoots_old = 3,
+                                        .sdi_most = 1000};
+        return true;
+    }
+    return false;
+}
+
+/* ---- curves ---- */
+
+static bool known(const struct ceduo_curve *c)
+{
+    return c->dbh_most > 0 && c->dbh_rate > 0 && c->height_most > 0 && c->height_rate > 0;
+}
+
+/* Share of its end that a curve has reached. */
+static double reached(double rate, double age)
+{
+    return -expm1(-rate * age);
+}
+
+/* Infinite where the stem grows no more; NaN where nothing tells it. */
+static double age_of(const struct ceduo_stems *stems, const struct ceduo_curve *curve)
+{
+    if (stems->age > 0)
+        return stems->age;
+    if (!known(curve))
+        return NAN;
+    double share = stems->dbh / curve->dbh_most;
+    return share < 1 ? -log1p(-share) / curve->dbh_rate : INFINITY;
+}
+
+static double shoots_on_stool(const struct ceduo_growth *growth, double age)
+{
+    double surplus = fmax(0, growth->shoots_young - growth->shoots_old);
+    return growth->shoots_old + surplus * exp(-age / SHOOTS_FALL);
+}
+
+/* ---- density ---- */
+
+static double sdi(double per_ha, double basal_area)
+{
+    if (!(per_ha > 0))
+        return 0;
+    double dq_cm = 100 * sqrt(basal_area / per_ha * 4 / PI);
+    return per_ha * pow(dq_cm / 25.4, 1.605);
+}
+
+double ceduo_stand_sdi(const struct ceduo_stand *stand)
+{
+    return sdi(ceduo_stand_shoots(stand) + ceduo_stand_trees(stand), ceduo_stand_basal_area(stand));
+}
+
+static void multiply_shoots(struct ceduo_stand *stand, double factor)
+{
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        stand->shoots[i].per_ha *= factor;
+}
+
+/* At least so many shoots in all; more than once only where rounding asks for it. */
+static void keep_shoots(struct ceduo_stand *stand, double least)
+{
+    for (double sum; (sum = ceduo_stand_shoots(stand)) > 0 && sum < least;)
+        multiply_shoots(stand, least / sum * (1 + DBL_EPSILON));
+}
+
+/* The largest share of the shoots, from `least` on, with which the stand is no denser than `most`; the index rises with
+ * every stem. */
+static double share_to_stay(const struct ceduo_stand *stand, double most, double least)
+{
+    struct ceduo_stand without = *stand;
+    without.shoots_count = 0;
+    double trees = ceduo_stand_trees(stand), shoots = ceduo_stand_shoots(stand);
+    double area_of_trees = ceduo_stand_basal_area(&without), area = ceduo_stand_basal_area(stand) - area_of_trees;
+    double lo = least, hi = 1;
+    for (double mid; (mid = lo + (hi - lo) / 2) > lo && mid < hi;) {
+        if (sdi(trees + mid * shoots, area_of_trees + mid * area) <= most)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+static void thin(struct ceduo_stand *stand, double most, double least)
+{
+    if (!(most > 0) || stand->shoots_count == 0 || ceduo_stand_sdi(stand) <= most)
+        return;
+    multiply_shoots(stand, share_to_stay(stand, most, fmin(1, least / ceduo_stand_shoots(stand))));
+    keep_shoots(stand, least);
+}
+
+/* ---- cuts ---- */
+
+static unsigned cohorts(const struct ceduo_stand *stand)
+{
+    return stand->cutting.cohorts > 1 ? stand->cutting.cohorts : 1;
+}
+
+/* Rotations that the oldest trees that stay have seen; 0: none stay. */
+static size_t oldest_to_stay(const struct ceduo_cutting *cutting)
+{
+    size_t n = cutting->stay_count;
+    while (n > 0 && !(cutting->stay_per_ha[n - 1] > 0))
+        n--;
+    return n;
+}
+
+static bool regrowth_is_known(const struct ceduo_stand *stand)
+{
+    const struct ceduo_growth *g = &stand->growth;
+    bool shoots = !(stand->stools_per_ha > 0) || (known(&g->shoots) && g->shoots_old > 0);
+    return shoots && (oldest_to_stay(&stand->cutting) == 0 || known(&g->trees));
+}
+
+/* NaN where no age is known. */
+static double oldest(const struct ceduo_stems *stems, size_t n, const struct ceduo_curve *curve)
+{
+    double age = NAN;
+    for (size_t i = 0; i < n; i++)
+        age = fmax(age, age_of(&stems[i], curve));
+    return age;
+}
+
+static double default_first_cut(const struct ceduo_stand *stand)
+{
+    bool coppice = stand->shoots_count > 0;
+    double rotation = stand->cutting.rotation;
+    double age = coppice ? oldest(stand->shoots, stand->shoots_count, &stand->growth.shoots)
+                         : oldest(stand->trees, stand->trees_count, &stand->growth.trees);
+    double rotations = coppice ? cohorts(stand) : 1 + (double)oldest_to_stay(&stand->cutting);
+    return isnan(age) ? INFINITY : fmax(0, rotation * rotations - age - AGE_GRAIN);
+}
+
+unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
+{
+    double rotation = stand->cutting.rotation;
+    if (!(rotation > 0) || !regrowth_is_known(stand))
+        return CEDUO_NEVER;
+    double year = ceil(isnan(first_cut) ? default_first_cut(stand) : first_cut);
+    if (year < 0) {
+        double since = fmod(-year, rotation);
+        year = since > 0 ? rotation - since : 0;
+    }
+    return year < CEDUO_NEVER ? (unsigned)year : CEDUO_NEVER;
+}
+
+bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year)
+{
+    unsigned first = ceduo_first_cut(stand, first_cut);
+    return first != CEDUO_NEVER && year >= first && (year - first) % stand->cutting.rotation == 0;
+}
+
+/* ---- the stand of a year ---- */
+
+static enum ceduo_status make(const struct ceduo_stand *stand, size_t shoots, size_t trees,
+                              struct ceduo_grown_stand *out)
+{
+    *out = (struct ceduo_grown_stand){.stems = NULL};
+    if (shoots + trees > 0 && !(out->stems = calloc(shoots + trees, sizeof *out->stems)))
+        return CEDUO_NO_MEMORY;
+    out->stand = *stand;
+    out->stand.growth = (struct ceduo_growth){.sdi_most = 0};
+    out->stand.cutting = (struct ceduo_cutting){.rotation = 0};
+    out->stand.shoots_count = shoots;
+    out->stand.trees_count = trees;
+    out->stand.shoots = shoots > 0 ? out->stems : NULL;
+    out->stand.trees = trees > 0 ? out->stems + shoots : NULL;
+    return CEDUO_OK;
+}
+
+void ceduo_grown_stand_release(struct ceduo_grown_stand *grown)
+{
+    free(grown->stems);
+    *grown = (struct ceduo_grown_stand){.stems = NULL};
+}
+
+static void grow_stems(struct ceduo_stems *stems, const struct ceduo_curve *curve, double age, double years)
+{
+    if (isinf(age))
+        return;
+    double wider = reached(curve->dbh_rate, age + years) / reached(curve->dbh_rate, age);
+    double taller = reached(curve->height_rate, age + years) / reached(curve->height_rate, age);
+    stems->dbh *= wider;
+    stems->dbh_sd *= wider;
+    stems->height *= taller;
+    stems->volume *= wider * wider * taller;
+    stems->age = age + years;
+}
+
+static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *growth, double years)
+{
+    double least = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
+    for (size_t i = 0; i < stand->shoots_count; i++) {
+        struct ceduo_stems *s = &stand->shoots[i];
+        double age = age_of(s, &growth->shoots);
+        s->per_ha *= fmin(1, shoots_on_stool(growth, age + years) / shoots_on_stool(growth, age)); /* 1 for 0/0 */
+        grow_stems(s, &growth->shoots, age, years);
+    }
+    keep_shoots(stand, least);
+    thin(stand, growth->sdi_most, least);
+}
+
+static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned year, struct ceduo_grown_stand *out)
+{
+    enum ceduo_status status = make(stand, stand->shoots_count, stand->trees_count, out);
+    if (status != CEDUO_OK)
+        return status;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        out->stand.shoots[i] = stand->shoots[i];
+    for (size_t i = 0; i < stand->trees_count; i++)
+        out->stand.trees[i] = stand->trees[i];
+    if (year == 0)
+        return CEDUO_OK;
+    const struct ceduo_growth *g = &stand->growth;
+    for (size_t i = 0; i < stand->trees_count && known(&g->trees); i++)
+        grow_stems(&out->stand.trees[i], &g->trees, age_of(&stand->trees[i], &g->trees), year);
+    if (known(&g->shoots)) /* after the trees: the shoots make room for them */
+        grow_shoots(&out->stand, g, year);
+    return CEDUO_OK;
+}
+
+static struct ceduo_stems stems_of_age(const struct ceduo_curve *curve, double per_ha, double age)
+{
+    return (struct ceduo_stems){.per_ha = per_ha,
+                                .dbh = curve->dbh_most * reached(curve->dbh_rate, age),
+                                .height = curve->height_most * reached(curve->height_rate, age),
+                                .volume = NAN,
+                                .age = age};
+}
+
+static size_t classes_to_stay(const struct ceduo_cutting *cutting)
+{
+    size_t n = 0;
+    for (size_t j = 0; j < cutting->stay_count; j++)
+        n += cutting->stay_per_ha[j] > 0;
+    return n;
+}
+
+/* `since` years after a cut. */
+static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned since, struct ceduo_grown_stand *out)
+{
+    const struct ceduo_growth *g = &stand->growth;
+    const struct ceduo_cutting *cutting = &stand->cutting;
+    double rotation = cutting->rotation, all = cohorts(stand);
+    size_t youngest = since == 0, count = stand->stools_per_ha > 0 ? cohorts(stand) - youngest : 0;
+    enum ceduo_status status = make(stand, count, classes_to_stay(cutting), out);
+    if (status != CEDUO_OK)
+        return status;
+    for (size_t i = 0; i < count; i++) {
+        double age = (double)(youngest + i) * rotation + since;
+        double per_ha = stand->stools_per_ha * shoots_on_stool(g, age) / all;
+        out->stand.shoots[i] = stems_of_age(&g->shoots, per_ha, age);
+    }
+    for (size_t j = 0, i = 0; j < cutting->stay_count; j++)
+        if (cutting->stay_per_ha[j] > 0)
+            out->stand.trees[i++] =
+                stems_of_age(&g->trees, cutting->stay_per_ha[j], (double)(j + 1) * rotation + since);
+    if (count == 0)
+        out->stand.stools_per_ha = 0;
+    keep_shoots(&out->stand, out->stand.stools_per_ha);
+    thin(&out->stand, g->sdi_most, out->stand.stools_per_ha);
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_stand_at(const struct ceduo_stand *stand, double first_cut, unsigned year,
+                                 struct ceduo_grown_stand *out)
+{
+    unsigned first = ceduo_first_cut(stand, first_cut);
+    if (first != CEDUO_NEVER && year >= first)
+        return after_cut(stand, (year - first) % stand->cutting.rotation, out);
+    return before_cut(stand, year, out);
+}

@@ -1,0 +1,439 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The inverse search: what it finds, the goal says of it when it is asked forward. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "ceduo/ceduo.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+#define GOALS     1000
+#define MOST      60 /* evaluations */
+
+/* A goal, and the values it was asked for. */
+struct asked {
+    double (*goal)(const struct asked *asked, double value);
+    double p[4];
+    double values[MOST];
+    unsigned count;
+};
+
+static enum ceduo_status ask(void *context, double value, double *goal)
+{
+    struct asked *a = context;
+    assert_true(a->count < MOST);
+    for (unsigned i = 0; i < a->count; i++)
+        assert_true(a->values[i] != value); /* no value twice */
+    a->values[a->count++] = value;
+    *goal = a->goal(a, value);
+    return CEDUO_OK;
+}
+
+static bool passes(const struct asked *a, double target, double value)
+{
+    return a->goal(a, value) <= target;
+}
+
+static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool whole, double target, double tolerance)
+{
+    struct ceduo_find_def def = {
+        .lo = lo, .hi = hi, .whole = whole, .target = target, .goal = ask, .context = a, .tolerance = tolerance};
+    struct ceduo_found found;
+    a->count = 0;
+    assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+    assert_int_equal(found.evaluations, a->count);
+    if (found.found) {
+        assert_true(passes(a, target, found.value) && found.goal_at_value == a->goal(a, found.value));
+        assert_true(found.value >= lo && found.value <= hi && (!whole || found.value == floor(found.value)));
+    } else {
+        assert_true(isnan(found.value) && isnan(found.goal_at_value));
+    }
+    return found;
+}
+
+static struct ceduo_found find(struct asked *a, double lo, double hi, bool whole, double target)
+{
+    return find_with(a, lo, hi, whole, target, 0);
+}
+
+static bool was_asked(const struct asked *a, double value)
+{
+    for (unsigned i = 0; i < a->count; i++)
+        if (a->values[i] == value)
+            return true;
+    return false;
+}
+
+/* Beyond the value, on its failing side, one was seen to fail no farther than `width`. */
+static void expect_edge(const struct asked *a, const struct ceduo_found *found, double target, double width)
+{
+    double out = found->side == CEDUO_SMALLEST ? -1 : 1, nearest = INFINITY;
+    for (unsigned i = 0; i < a->count; i++) {
+        double away = (a->values[i] - found->value) * out;
+        if (away > 0 && away < nearest && !passes(a, target, a->values[i]))
+            nearest = away;
+    }
+    if (!(nearest <= width * (1 + 1e-12)))
+        fail_msg("%g: the next that fails is %g away, more than %g", found->value, nearest, width);
+}
+
+/* ---- the paper's example ---- */
+
+static double adc_of_reserves(const struct asked *a, double per_ha)
+{
+    struct ceduo_stems trees = {.per_ha = per_ha, .dbh = a->p[0], .height = 12, .volume = NAN, .age = NAN};
+    struct ceduo_stand stand = {
+        .system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = per_ha > 0, .trees = &trees, .u = NAN};
+    struct ceduo_adc adc = ceduo_adc(&stand, a->p[1]);
+    return ceduo_adc_value(&adc, ceduo_adc_rule(&stand, a->p[1], CEDUO_RULE_AUTO));
+}
+
+/* 60 reserves of 20 cm are some 190 m from each other (Ciabocco et al. 2009); 30 m need 379. */
+static void reserves_for_30_m(void **state)
+{
+    (void)state;
+    static const struct {
+        double b;
+        double needed;
+    } rocks[] = {{.56, 439}, {.68, 379}, {.80, 334}};
+    for (size_t i = 0; i < LENGTH(rocks); i++) {
+        struct asked a = {.goal = adc_of_reserves, .p = {.20, rocks[i].b}};
+        assert_false(passes(&a, 30, 60));
+        struct ceduo_found found = find(&a, 0, 5000, true, 30); /* infinite at 0 */
+        assert_true(found.found && found.monotone && !found.whole_range && found.side == CEDUO_SMALLEST);
+        assert_true(found.value == rocks[i].needed);
+        assert_true(was_asked(&a, rocks[i].needed - 1) && !passes(&a, 30, rocks[i].needed - 1));
+        assert_true(found.evaluations < 20);
+        found = find(&a, 0, 5000, false, 30);
+        assert_true(found.found && found.monotone);
+        assert_true(fabs(found.value - 1e4 / (30 * (rocks[i].b + .2))) <= 5000 * 1e-9);
+        expect_edge(&a, &found, 30, 5000 * 1e-9);
+    }
+}
+
+/* ---- any monotone goal ---- */
+
+static uint64_t random_state = 1;
+
+static double uniform(double lo, double hi)
+{
+    uint64_t z = random_state += 0x9e3779b97f4a7c15; /* splitmix64 */
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return lo + (hi - lo) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+/* p[0] its sign and scale, p[1] its kind, p[2] and p[3] its shape. Values from 0 to 1000. */
+static double curve(const struct asked *a, double value)
+{
+    double x = value / 1000, shape = a->p[2];
+    switch ((int)a->p[1]) {
+    case 0:
+        return a->p[0] * pow(x, shape);
+    case 1:
+        return a->p[0] * expm1(shape * x);
+    case 2:
+        return a->p[0] / (1 + exp(-20 * shape * (x - a->p[3]))); /* flat, steep, flat */
+    case 3:
+        return a->p[0] * -1 / (x + 1e-3 * shape);
+    case 4:
+        return a->p[0] * log(x); /* infinite at 0 */
+    case 5:
+        return a->p[0] * floor(x * 20 * shape); /* steps */
+    default:
+        return a->p[0] * (x + (x < a->p[3] ? 0 : 10)); /* a jump */
+    }
+}
+
+static void inverse_and_forward_agree(void **state)
+{
+    (void)state;
+    unsigned most = 0, sum = 0, crossings = 0;
+    for (int i = 0; i < GOALS; i++) {
+        struct asked a = {
+            .goal = curve,
+            .p = {uniform(.1, 100) * (i % 2 ? -1 : 1), floor(uniform(0, 7)), uniform(.2, 4), uniform(0, 1)}};
+        bool whole = uniform(0, 1) < .5;
+        double lo = floor(uniform(0, 400)), hi = floor(uniform(lo, 1000));
+        double target = curve(&a, uniform(lo - .05 * (hi - lo), hi + .05 * (hi - lo)));
+        if (isnan(target)) /* of a value below 0 */
+            target = curve(&a, (lo + hi) / 2);
+        struct ceduo_found found = find(&a, lo, hi, whole, target);
+        bool at_lo = passes(&a, target, lo), at_hi = passes(&a, target, hi);
+        assert_true(found.monotone);
+        assert_int_equal(found.found, at_lo || at_hi);
+        assert_int_equal(found.whole_range, at_lo && at_hi);
+        if (at_lo && at_hi) {
+            assert_true(found.value == lo && found.side == CEDUO_SMALLEST);
+        } else if (found.found) {
+            assert_int_equal(found.side, at_hi ? CEDUO_SMALLEST : CEDUO_LARGEST);
+            expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
+            crossings++;
+            sum += found.evaluations;
+        }
+        most = found.evaluations > most ? found.evaluations : most;
+    }
+    assert_true(crossings > GOALS / 2);
+    print_message("%u crossings: %.1f evaluations each, %u at most\n", crossings, (double)sum / crossings, most);
+}
+
+static double line(const struct asked *a, double value)
+{
+    return a->p[0] * value;
+}
+
+static double parabola(const struct asked *a, double value)
+{
+    double x = value - a->p[0];
+    return a->p[1] * x * x;
+}
+
+static void smooth_goals_need_few_evaluations(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = line, .p = {3}};
+    struct ceduo_found found = find(&a, 0, 1, false, 1);
+    assert_true(fabs(found.value - 1. / 3) < 1e-9 && found.side == CEDUO_LARGEST && found.evaluations < 8);
+    a = (struct asked){.goal = parabola, .p = {0, 1}};
+    found = find_with(&a, 0, 10, false, 2, 1e-13);
+    assert_true(fabs(found.value - sqrt(2)) < 1e-12 && found.evaluations < 16);
+    expect_edge(&a, &found, 2, 1e-12);
+    found = find_with(&a, 0, 10, false, 2, .1); /* no better than asked for */
+    assert_true(fabs(found.value - sqrt(2)) < 1 && found.evaluations < 10);
+}
+
+/* ---- steps, jumps ---- */
+
+static double steps(const struct asked *a, double value)
+{
+    return floor(value * a->p[0]) * a->p[1];
+}
+
+static double cliff(const struct asked *a, double value)
+{
+    return value < a->p[0] ? 1e-9 : 1e9; /* as lopsided as can be */
+}
+
+static void steps_and_jumps(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = steps, .p = {.37, -2}};
+    struct ceduo_found found = find(&a, 0, 100, false, -10); /* floor(.37 v) >= 5 */
+    assert_true(found.found && found.monotone && fabs(found.value - 5 / .37) < 1e-7);
+    expect_edge(&a, &found, -10, 1e-7);
+    found = find(&a, 0, 100, true, -10);
+    assert_true(found.value == 14 && was_asked(&a, 13));
+    a = (struct asked){.goal = cliff, .p = {.123456}};
+    found = find(&a, 0, 1, false, 1e-6);
+    assert_true(found.side == CEDUO_LARGEST && found.value < .123456);
+    expect_edge(&a, &found, 1e-6, 1e-9);
+    assert_true(found.evaluations <= 55);
+    found = find(&a, 0, 1, false, 1e-9); /* the whole lower step is on the target */
+    assert_true(found.found && found.value < .123456);
+    expect_edge(&a, &found, 1e-9, 1e-9);
+}
+
+static void large_whole_numbers(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = line, .p = {-1}};
+    struct ceduo_found found = find(&a, 0, 1e12, true, -123456789012);
+    assert_true(found.value == 123456789012 && was_asked(&a, 123456789011) && found.evaluations < 45);
+    found = find(&a, .5, 3.5, true, -2.5); /* 1…3 */
+    assert_true(found.value == 3 && was_asked(&a, 2) && found.evaluations <= 3);
+    found = find(&a, 2.2, 2.8, true, 0);
+    assert_true(!found.found && found.evaluations == 0 && isnan(found.nearest));
+}
+
+/* ---- goals that turn ---- */
+
+static void a_pass_between_ends_that_fail(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = parabola, .p = {60, 1}};
+    for (int whole = 0; whole < 2; whole++) {
+        struct ceduo_found found = find(&a, 0, 100, whole, 402);
+        assert_true(found.found && !found.monotone && !found.whole_range && found.side == CEDUO_SMALLEST);
+        assert_true(fabs(found.value - (whole ? 40 : 60 - sqrt(402))) < 1e-7);
+        expect_edge(&a, &found, 402, whole ? 1 : 1e-7);
+    }
+    struct ceduo_found found = find(&a, 0, 60, true, 2500); /* of one side only there is nothing to see of the turn */
+    assert_true(found.monotone && found.value == 10);
+}
+
+static void a_fail_between_ends_that_pass(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = parabola, .p = {40, -1}};
+    for (int whole = 0; whole < 2; whole++) {
+        struct ceduo_found found = find(&a, 0, 100, whole, -402);
+        assert_true(found.found && !found.monotone && !found.whole_range && found.side == CEDUO_SMALLEST);
+        assert_true(fabs(found.value - (whole ? 61 : 40 + sqrt(402))) < 1e-7);
+        expect_edge(&a, &found, -402, whole ? 1 : 1e-7);
+    }
+}
+
+static double noisy(const struct asked *a, double value)
+{
+    return 1 + a->p[0] * sin(value);
+}
+
+static void rounding_is_no_turn(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = noisy, .p = {1e-14}};
+    assert_true(find(&a, 0, 100, false, 0).monotone);
+    a.p[0] = 1e-10;
+    assert_false(find(&a, 0, 100, false, 0).monotone);
+}
+
+static void nothing_passes(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = parabola, .p = {35, 1}};
+    struct ceduo_found found = find(&a, 0, 90, false, -1); /* seen: every 10 */
+    assert_true(!found.found && !found.monotone && !found.whole_range && found.evaluations == 2 + CEDUO_FIND_SCAN);
+    assert_true(found.nearest == 30 && found.goal_at_nearest == 25); /* 40 is as near */
+    found = find(&a, 0, 3, true, 3);
+    assert_true(!found.found && found.monotone && found.evaluations == 4 && found.nearest == 3);
+    found = find(&a, 0, 90, false, NAN);
+    assert_false(found.found);
+}
+
+static void everything_passes(void **state)
+{
+    (void)state;
+    struct asked a = {.goal = line, .p = {-1}};
+    struct ceduo_found found = find(&a, 5, 90, false, 0);
+    assert_true(found.found && found.whole_range && found.monotone && found.value == 5 && found.side == CEDUO_SMALLEST);
+    assert_true(found.nearest == 90 && found.goal_at_nearest == -90);
+    found = find(&a, 7, 7, false, 0);
+    assert_true(found.found && found.whole_range && found.value == 7 && found.evaluations == 1);
+    found = find(&a, 5, 90, true, INFINITY);
+    assert_true(found.whole_range && found.value == 5);
+}
+
+/* ---- goals that are not finite ---- */
+
+static double broken_below(const struct asked *a, double value)
+{
+    return value < a->p[0] ? a->p[1] : 100 - value;
+}
+
+static void goals_that_are_not_finite(void **state)
+{
+    (void)state;
+    static const double bad[] = {INFINITY, NAN, -INFINITY};
+    for (size_t i = 0; i < LENGTH(bad); i++) {
+        struct asked a = {.goal = broken_below, .p = {20.5, bad[i]}};
+        struct ceduo_found found = find(&a, 0, 100, false, 50);
+        assert_true(found.found && found.monotone == (i == 0));
+        assert_true(fabs(found.value - 50) < 1e-7 && found.side == CEDUO_SMALLEST);
+        expect_edge(&a, &found, 50, 1e-7);
+        found = find(&a, 0, 100, false, 90); /* passes from where it is a number on; -inf from 0 on */
+        assert_true(found.found && found.whole_range == (i == 2) && fabs(found.value - (i == 2 ? 0 : 20.5)) < 1e-7);
+    }
+    struct asked a = {.goal = broken_below, .p = {1e9, INFINITY}};
+    struct ceduo_found found = find(&a, 3, 100, false, 50);
+    assert_true(!found.found && found.monotone && found.nearest == 3 && found.goal_at_nearest == INFINITY);
+    a.p[1] = NAN;
+    found = find(&a, 3, 100, false, INFINITY);
+    assert_true(!found.found && !found.monotone && isnan(found.nearest) && isnan(found.goal_at_nearest));
+}
+
+/* Waves, steps, and where p[3] says so infinite or no number at all. */
+static double wild(const struct asked *a, double value)
+{
+    double wave = sin(a->p[0] * value) + sin(a->p[1] * value * value);
+    if (fabs(wave) < .3 * a->p[3])
+        return wave < 0 ? NAN : INFINITY;
+    return a->p[2] > 0 ? floor(wave / a->p[2]) : wave;
+}
+
+static void any_goal_at_all(void **state)
+{
+    (void)state;
+    unsigned count[2] = {0, 0};
+    for (int i = 0; i < GOALS; i++) {
+        struct asked a = {.goal = wild, .p = {uniform(0, .2), uniform(0, .01), uniform(-.5, .5), floor(uniform(0, 2))}};
+        bool whole = uniform(0, 1) < .5;
+        double lo = floor(uniform(-50, 0)), hi = floor(uniform(0, 50)), target = uniform(-2.5, 2);
+        struct ceduo_found found = find(&a, lo, hi, whole, target);
+        bool seen = false;
+        for (unsigned j = 0; j < a.count; j++)
+            seen |= passes(&a, target, a.values[j]);
+        assert_int_equal(found.found, seen);
+        if (found.found && !found.whole_range)
+            expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
+        count[found.found]++;
+    }
+    assert_true(count[false] > GOALS / 10 && count[true] > GOALS / 10);
+}
+
+/* ---- ends before its end ---- */
+
+static enum ceduo_status fails_at_5(void *context, double value, double *goal)
+{
+    unsigned *count = context;
+    *goal = value;
+    return ++*count == 5 ? CEDUO_NO_MEMORY : CEDUO_OK;
+}
+
+static enum ceduo_status cancels_at_5(void *context, double value, double *goal)
+{
+    struct cancelled {
+        atomic_bool cancel;
+        unsigned count;
+    } *c = context;
+    *goal = value;
+    c->cancel = ++c->count == 5;
+    return CEDUO_OK;
+}
+
+static void it_ends_where_the_goal_fails_or_it_is_cancelled(void **state)
+{
+    (void)state;
+    unsigned count = 0;
+    struct ceduo_find_def def = {.hi = 1e6, .whole = true, .target = 12345, .goal = fails_at_5, .context = &count};
+    struct ceduo_found found;
+    for (int whole = 0; whole < 2; whole++) {
+        count = 0;
+        def.whole = whole;
+        assert_int_equal(ceduo_find(&def, &found), CEDUO_NO_MEMORY);
+        assert_true(!found.found && found.evaluations == 4 && isnan(found.value) && found.nearest == 0);
+    }
+    struct {
+        atomic_bool cancel;
+        unsigned count;
+    } cancelled = {false, 0};
+    def.goal = cancels_at_5;
+    def.context = &cancelled;
+    def.cancel = &cancelled.cancel;
+    assert_int_equal(ceduo_find(&def, &found), CEDUO_CANCELLED);
+    assert_true(!found.found && found.evaluations == 5 && cancelled.count == 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(reserves_for_30_m),
+        cmocka_unit_test(inverse_and_forward_agree),
+        cmocka_unit_test(smooth_goals_need_few_evaluations),
+        cmocka_unit_test(steps_and_jumps),
+        cmocka_unit_test(large_whole_numbers),
+        cmocka_unit_test(a_pass_between_ends_that_fail),
+        cmocka_unit_test(a_fail_between_ends_that_pass),
+        cmocka_unit_test(rounding_is_no_turn),
+        cmocka_unit_test(nothing_passes),
+        cmocka_unit_test(everything_passes),
+        cmocka_unit_test(goals_that_are_not_finite),
+        cmocka_unit_test(any_goal_at_all),
+        cmocka_unit_test(it_ends_where_the_goal_fails_or_it_is_cancelled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,588 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stands through the years: against their closed forms, and what must hold in any stand. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "ceduo/ceduo.h"
+#include "paper_site.h"
+
+#define LENGTH(a)    (sizeof(a) / sizeof(a)[0])
+#define STANDS       3000
+#define YEARS        90
+#define COHORTS_MOST 4
+#define B            0.68 /* m: the paper's rock */
+
+static void expect_near(double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fmax(fabs(expected), 1e-300)))
+        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
+}
+
+/* ---- a stand to grow ---- */
+
+struct sample {
+    struct ceduo_stand stand;
+    struct ceduo_stems shoots[COHORTS_MOST], trees[COHORTS_MOST];
+    double stay[COHORTS_MOST];
+};
+
+static struct ceduo_stems stems(double per_ha, double dbh, double height)
+{
+    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = height, .volume = NAN, .age = NAN};
+}
+
+/* Ostrya, 2500 stools with 7500 shoots of 5 cm and 60 trees of 20 cm, cut every 25 years. */
+static void init(struct sample *s)
+{
+    memset(s, 0, sizeof *s);
+    s->shoots[0] = stems(7500, .05, 6);
+    s->trees[0] = stems(60, .20, 12);
+    s->stay[0] = s->stay[1] = 30;
+    s->stand = (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
+                                    .species = ceduo_species_find("ostrya-carpinifolia"),
+                                    .stools_per_ha = 2500,
+                                    .spacing = .35,
+                                    .shoots_count = 1,
+                                    .trees_count = 1,
+                                    .shoots = s->shoots,
+                                    .trees = s->trees,
+                                    .u = NAN,
+                                    .fracture_ratio = 1.5,
+                                    .cutting = {25, 1, 2, s->stay}};
+    assert_true(ceduo_growth_of_species(s->stand.species, &s->stand.growth));
+}
+
+static struct ceduo_grown_stand at(const struct sample *s, double first_cut, unsigned year)
+{
+    struct ceduo_grown_stand grown;
+    assert_int_equal(ceduo_stand_at(&s->stand, first_cut, year, &grown), CEDUO_OK);
+    return grown;
+}
+
+static void expect_same_stems(const struct ceduo_stems *a, const struct ceduo_stems *b, size_t n)
+{
+    if (n > 0)
+        assert_memory_equal(a, b, n * sizeof *a);
+}
+
+/* Bits. */
+static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_stand *b)
+{
+    assert_int_equal(a->shoots_count, b->shoots_count);
+    assert_int_equal(a->trees_count, b->trees_count);
+    expect_same_stems(a->shoots, b->shoots, a->shoots_count);
+    expect_same_stems(a->trees, b->trees, a->trees_count);
+    assert_memory_equal(&a->stools_per_ha, &b->stools_per_ha, sizeof a->stools_per_ha);
+    assert_memory_equal(&a->spacing, &b->spacing, sizeof a->spacing);
+    assert_memory_equal(&a->u, &b->u, sizeof a->u);
+    assert_memory_equal(&a->fracture_ratio, &b->fracture_ratio, sizeof a->fracture_ratio);
+    assert_true(a->system == b->system && a->species == b->species && a->energy == b->energy);
+}
+
+/* ---- before the first cut ---- */
+
+static void year_0_is_the_stand_as_filed(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
+    struct ceduo_grown_stand grown = at(&s, 3, 0);
+    expect_same_stand(&grown.stand, &s.stand);
+    assert_true(grown.stand.growth.sdi_most == 0 && grown.stand.cutting.rotation == 0);
+    ceduo_grown_stand_release(&grown);
+    assert_null(grown.stems);
+    init(&s);
+    memset(&s.stand.growth, 0, sizeof s.stand.growth); /* unknown: for ever */
+    assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER);
+    for (unsigned year = 0; year < 60; year += 3) {
+        grown = at(&s, 3, year);
+        expect_same_stand(&grown.stand, &s.stand);
+        ceduo_grown_stand_release(&grown);
+    }
+}
+
+static void an_inventory_grows_along_its_curves(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.shoots[0].volume = .004;
+    s.shoots[0].dbh_sd = .01;
+    s.stand.growth.sdi_most = 0;
+    double a = -log(1 - 5. / 16) / .022, b = -log(1 - 20. / 45) / .014;
+    for (unsigned t = 1; t < 200; t += 7) {
+        struct ceduo_grown_stand grown = at(&s, INFINITY, t);
+        const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
+        double d = .16 * (1 - exp(-.022 * (a + t))), h = 6 * (1 - exp(-.035 * (a + t))) / (1 - exp(-.035 * a));
+        expect_near(shoot->dbh, d, 1e-13);
+        expect_near(shoot->height, h, 1e-13);
+        expect_near(shoot->dbh_sd, .01 * d / .05, 1e-13);
+        expect_near(shoot->volume, .004 * d * d * h / (.05 * .05 * 6), 1e-13);
+        expect_near(shoot->age, a + t, 1e-13);
+        expect_near(shoot->per_ha, 7500 * (3 + 13 * exp(-(a + t) / 5)) / (3 + 13 * exp(-a / 5)), 1e-13);
+        expect_near(tree->dbh, .45 * (1 - exp(-.014 * (b + t))), 1e-13);
+        expect_near(tree->height, 12 * (1 - exp(-.03 * (b + t))) / (1 - exp(-.03 * b)), 1e-13);
+        assert_true(tree->per_ha == 60 && isnan(tree->volume) && tree->dbh_sd == 0);
+        assert_true(grown.stand.stools_per_ha == 2500);
+        ceduo_grown_stand_release(&grown);
+    }
+}
+
+static void a_given_age_stands_over_that_of_the_curve(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.shoots[0].age = 8;
+    s.trees[0].age = 70;
+    s.stand.growth.sdi_most = 0;
+    struct ceduo_grown_stand grown = at(&s, INFINITY, 10);
+    expect_near(grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14);
+    expect_near(grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14);
+    expect_near(grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14);
+    assert_true(grown.stand.shoots[0].age == 18 && grown.stand.trees[0].age == 80);
+    ceduo_grown_stand_release(&grown);
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
+    s.shoots[0].age = 0; /* nothing has a dbh at 0: as if not given */
+    grown = at(&s, INFINITY, 10);
+    expect_near(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
+    ceduo_grown_stand_release(&grown);
+}
+
+static void thicker_than_its_curve_it_grows_no_more(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.shoots[0] = stems(4000, .16, 9);
+    s.trees[0] = stems(60, .60, 18);
+    s.stand.growth.sdi_most = 0;
+    struct ceduo_grown_stand grown = at(&s, INFINITY, 40);
+    expect_same_stand(&grown.stand, &s.stand);
+    ceduo_grown_stand_release(&grown);
+}
+
+static void a_stratum_without_a_curve_stays(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.growth.trees.height_rate = 0;
+    assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* what stays has no size */
+    struct ceduo_grown_stand grown = at(&s, 5, 30);
+    expect_same_stems(grown.stand.trees, s.trees, 1);
+    assert_true(grown.stand.shoots[0].dbh > .05);
+    ceduo_grown_stand_release(&grown);
+    s.stand.cutting.stay_count = 0;
+    assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
+}
+
+static void never_less_than_one_shoot_a_stool(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.shoots_count = 2; /* 1.2 a stool */
+    s.shoots[0] = stems(2000, .01, 1);
+    s.shoots[1] = stems(1000, .08, 7);
+    bool reached = false;
+    for (unsigned t = 1; t < 60; t++) {
+        struct ceduo_grown_stand grown = at(&s, INFINITY, t);
+        double sum = ceduo_stand_shoots(&grown.stand);
+        assert_true(sum >= 2500 && sum <= 3000);
+        reached |= sum < 2500 * (1 + 1e-12);
+        ceduo_grown_stand_release(&grown);
+    }
+    assert_true(reached);
+}
+
+/* ---- cuts ---- */
+
+static void the_years_of_cuts(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    const struct ceduo_stand *stand = &s.stand;
+    static const double given[] = {0, 7, 6.2, 30, -1, -5, -25, -26, -50.5, -75},
+                        first[] = {0, 7, 7, 30, 24, 20, 0, 24, 0, 0};
+    for (size_t i = 0; i < LENGTH(given); i++)
+        assert_int_equal(ceduo_first_cut(stand, given[i]), (unsigned)first[i]);
+    assert_true(ceduo_first_cut(stand, INFINITY) == CEDUO_NEVER && ceduo_first_cut(stand, 1e12) == CEDUO_NEVER);
+    assert_false(ceduo_is_cut_year(stand, INFINITY, CEDUO_NEVER));
+    for (unsigned year = 0; year < 120; year++)
+        assert_true(ceduo_is_cut_year(stand, -5, year) == (year % 25 == 20));
+    assert_false(ceduo_is_cut_year(stand, 30, 5)); /* the first is the first */
+    s.stand.cutting.rotation = 0;
+    assert_true(ceduo_first_cut(stand, 0) == CEDUO_NEVER && !ceduo_is_cut_year(stand, 0, 0));
+}
+
+static void by_default_it_is_cut_when_it_is_old_enough(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s); /* 5 cm: 17.03 years */
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(25 + log(1 - 5. / 16) / .022));
+    s.stand.cutting.cohorts = 3;
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 5. / 16) / .022));
+    s.stand.cutting.cohorts = 0;
+    for (unsigned age = 1; age <= 25; age++) { /* but for rounding */
+        s.shoots[0].dbh = .16 * (1 - exp(-.022 * age));
+        assert_int_equal(ceduo_first_cut(&s.stand, NAN), 25 - age);
+    }
+    s.shoots[0].dbh = .12;
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 0);
+    s.shoots[0].dbh = .3;
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 0);
+    s.stand.shoots_count = 0; /* only trees; those that stay are cut when they are three rotations old */
+    s.stand.stools_per_ha = 0;
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 20. / 45) / .014));
+    s.stay[1] = 0;
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(50 + log(1 - 20. / 45) / .014));
+    s.stand.trees_count = 0;
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
+}
+
+static void a_simple_coppice_after_its_cuts(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.growth.sdi_most = 0;
+    for (unsigned tau = 0; tau < 25; tau++) {
+        struct ceduo_grown_stand grown = at(&s, 4, 4 + tau);
+        const struct ceduo_stand *g = &grown.stand;
+        assert_int_equal(g->trees_count, 2);
+        for (unsigned j = 0; j < 2; j++) {
+            double age = 25 * (j + 1) + tau;
+            expect_near(g->trees[j].dbh, .45 * (1 - exp(-.014 * age)), 1e-14);
+            expect_near(g->trees[j].height, 20 * (1 - exp(-.03 * age)), 1e-14);
+            assert_true(g->trees[j].per_ha == 30 && g->trees[j].age == age && isnan(g->trees[j].volume));
+        }
+        assert_int_equal(g->shoots_count, tau > 0);
+        assert_true(g->stools_per_ha == (tau > 0 ? 2500 : 0) && g->spacing == .35);
+        if (tau > 0) {
+            expect_near(g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14);
+            expect_near(g->shoots[0].height, 14 * (1 - exp(-.035 * tau)), 1e-14);
+            expect_near(g->shoots[0].per_ha, 2500 * (3 + 13 * exp(-.2 * tau)), 1e-14);
+            assert_true(g->shoots[0].dbh_sd == 0 && isnan(g->shoots[0].volume));
+        }
+        ceduo_grown_stand_release(&grown);
+    }
+}
+
+static void a_selection_coppice_always_has_shoots(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.cutting = (struct ceduo_cutting){13, 3, 2, s.stay};
+    s.stay[0] = 0; /* no class */
+    s.stand.growth.shoots_old = 6;
+    s.stand.growth.sdi_most = 0;
+    for (unsigned year = 0; year < 100; year++) {
+        struct ceduo_grown_stand grown = at(&s, 0, year);
+        const struct ceduo_stand *g = &grown.stand;
+        unsigned tau = year % 13, missing = tau == 0;
+        assert_true(g->shoots_count == 3 - missing && g->stools_per_ha == 2500);
+        for (unsigned i = 0; i < 3 - missing; i++) {
+            double age = 13 * (i + missing) + tau;
+            expect_near(g->shoots[i].dbh, .16 * (1 - exp(-.022 * age)), 1e-14);
+            expect_near(g->shoots[i].per_ha, 2500 * (2 + (16. / 3 - 2) * exp(-age / 5)), 1e-14);
+        }
+        assert_true(g->trees_count == 1 && g->trees[0].age == 26 + tau);
+        ceduo_grown_stand_release(&grown);
+    }
+    s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
+    struct ceduo_grown_stand grown = at(&s, 0, 13);
+    expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
+    assert_true(ceduo_stand_shoots(&grown.stand) >= 2500);
+    ceduo_grown_stand_release(&grown);
+}
+
+static void a_cut_in_year_0_is_done(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    struct ceduo_grown_stand now = at(&s, 0, 0), later = at(&s, 0, 25), rhythm = at(&s, -50, 0);
+    assert_true(now.stand.shoots_count == 0 && now.stand.stools_per_ha == 0 && now.stand.trees_count == 2);
+    expect_same_stand(&now.stand, &later.stand);
+    expect_same_stand(&now.stand, &rhythm.stand);
+    ceduo_grown_stand_release(&now);
+    ceduo_grown_stand_release(&later);
+    ceduo_grown_stand_release(&rhythm);
+    s.stand.cutting.stay_count = 0; /* nothing is left */
+    now = at(&s, 0, 0);
+    assert_true(ceduo_stand_is_bare(&now.stand) && !now.stems && ceduo_stand_sdi(&now.stand) == 0);
+    ceduo_grown_stand_release(&now);
+}
+
+static void without_cuts_it_grows_for_ever(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    struct ceduo_grown_stand infinite = at(&s, INFINITY, 1000);
+    s.stand.cutting.rotation = 0;
+    struct ceduo_grown_stand never = at(&s, 3, 1000);
+    expect_same_stand(&never.stand, &infinite.stand);
+    expect_near(never.stand.shoots[0].dbh, .16, 1e-6);
+    expect_near(never.stand.trees[0].dbh, .45, 1e-6);
+    ceduo_grown_stand_release(&infinite);
+    ceduo_grown_stand_release(&never);
+}
+
+/* ---- density ---- */
+
+static double index_by_hand(const struct ceduo_stand *s)
+{
+    double n = 0, squares = 0;
+    for (size_t i = 0; i < s->shoots_count + s->trees_count; i++) {
+        const struct ceduo_stems *x = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
+        n += x->per_ha;
+        squares += x->per_ha * (x->dbh * x->dbh + x->dbh_sd * x->dbh_sd);
+    }
+    return n > 0 ? n * pow(100 * sqrt(squares / n) / 25.4, 1.605) : 0;
+}
+
+static void the_density_index(void **state)
+{
+    (void)state;
+    struct paper_plot plot; /* one mean dbh each */
+    paper_plot_init(&plot, 1);
+    expect_near(ceduo_stand_sdi(&plot.stand), 9076 * pow(6.1 / 25.4, 1.605), 1e-13);
+    paper_plot_init(&plot, 2);
+    expect_near(ceduo_stand_sdi(&plot.stand), 4641 * pow(4.7 / 25.4, 1.605), 1e-13);
+    struct sample s;
+    init(&s);
+    s.shoots[0].dbh_sd = .02;
+    expect_near(ceduo_stand_sdi(&s.stand), index_by_hand(&s.stand), 1e-13);
+}
+
+static void shoots_are_thinned_to_the_density(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.trees_count = s.stand.cutting.stay_count = 0;
+    s.stand.growth.sdi_most = 500;
+    unsigned thinned = 0;
+    for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
+        struct ceduo_grown_stand grown = at(&s, 0, tau);
+        double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
+        double most = 500 * pow(25.4 / dbh, 1.605);
+        expect_near(ceduo_stand_shoots(&grown.stand), fmax(fmin(n, most), 2500), 1e-12);
+        thinned += most < n;
+        ceduo_grown_stand_release(&grown);
+    }
+    assert_true(thinned > 5 && thinned < 20);
+    init(&s);
+    s.stand.growth.sdi_most = 600;
+    struct ceduo_grown_stand grown = at(&s, 0, 24);
+    assert_true(grown.stand.trees[0].per_ha == 30 && grown.stand.trees[1].per_ha == 30);
+    expect_near(index_by_hand(&grown.stand), 600, 1e-12);
+    ceduo_grown_stand_release(&grown);
+    s.stand.growth.sdi_most = 10; /* the trees alone are more */
+    grown = at(&s, 0, 24);
+    expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
+    assert_true(grown.stand.trees[0].per_ha == 30 && index_by_hand(&grown.stand) > 10);
+    ceduo_grown_stand_release(&grown);
+}
+
+/* ---- any stand ---- */
+
+static uint64_t random_state = 1;
+
+static double uniform(double lo, double hi)
+{
+    uint64_t z = random_state += 0x9e3779b97f4a7c15; /* splitmix64 */
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return lo + (hi - lo) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static struct ceduo_curve random_curve(double dbh)
+{
+    return (struct ceduo_curve){uniform(.7, 1.3) * dbh, uniform(.005, .08), uniform(5, 30), uniform(.005, .08)};
+}
+
+static void random_stand(struct sample *s)
+{
+    memset(s, 0, sizeof *s);
+    double old = uniform(1, 8);
+    struct ceduo_stand *stand = &s->stand;
+    *stand = (struct ceduo_stand){
+        .species = -1,
+        .stools_per_ha = uniform(0, 1) < .1 ? 0 : uniform(200, 4000),
+        .spacing = .3,
+        .trees_count = (size_t)uniform(0, 5),
+        .shoots = s->shoots,
+        .trees = s->trees,
+        .u = NAN,
+        .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000)},
+        .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s->stay}};
+    stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
+    stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        s->shoots[i] = stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        s->trees[i] = stems(uniform(1, 300), uniform(.05, .7), 14);
+    for (size_t i = 0; i < stand->cutting.stay_count; i++)
+        s->stay[i] = uniform(0, 1) < .3 ? 0 : uniform(0, 200);
+}
+
+static bool has_new_shoots(const struct ceduo_stand *stand, double first_cut, unsigned year)
+{
+    return year > 0 && (ceduo_is_cut_year(stand, first_cut, year) || ceduo_is_cut_year(stand, first_cut, year - 1));
+}
+
+static void no_stand_gains_stems_by_growing(void **state)
+{
+    (void)state;
+    for (int i = 0; i < STANDS; i++) {
+        struct sample s;
+        random_stand(&s);
+        double first_cut = uniform(-60, 60), before = INFINITY;
+        for (unsigned year = 0; year < YEARS; year++) {
+            struct ceduo_grown_stand grown = at(&s, first_cut, year);
+            double shoots = ceduo_stand_shoots(&grown.stand), sum = shoots + ceduo_stand_trees(&grown.stand);
+            if (sum > before * (1 + 1e-12) && !has_new_shoots(&s.stand, first_cut, year))
+                fail_msg("stand %d, year %u: %.17g stems after %.17g", i, year, sum, before);
+            assert_true(shoots >= grown.stand.stools_per_ha);
+            for (size_t j = 0; j < grown.stand.shoots_count; j++)
+                assert_true(grown.stand.shoots[j].per_ha > 0 && grown.stand.shoots[j].dbh > 0);
+            before = sum;
+            ceduo_grown_stand_release(&grown);
+        }
+    }
+}
+
+static void no_computed_stand_is_too_dense(void **state)
+{
+    (void)state;
+    unsigned thinned = 0, at_least = 0;
+    for (int i = 0; i < STANDS; i++) {
+        struct sample s;
+        random_stand(&s);
+        double most = s.stand.growth.sdi_most;
+        for (unsigned year = 1; most > 0 && year < YEARS; year += 4) {
+            struct ceduo_grown_stand grown = at(&s, NAN, year);
+            double sdi = index_by_hand(&grown.stand), shoots = ceduo_stand_shoots(&grown.stand);
+            thinned += fabs(sdi - most) < 1e-9 * most;
+            if (sdi > most * (1 + 1e-9)) {
+                assert_true(shoots <= grown.stand.stools_per_ha * (1 + 1e-12));
+                at_least++;
+            }
+            ceduo_grown_stand_release(&grown);
+        }
+    }
+    assert_true(thinned > 1000 && at_least > 1000);
+}
+
+static void a_rotation_later_it_is_the_same_stand(void **state)
+{
+    (void)state;
+    for (int i = 0; i < STANDS; i++) {
+        struct sample s;
+        random_stand(&s);
+        double given = i % 2 ? NAN : floor(uniform(-60, 60));
+        unsigned first = ceduo_first_cut(&s.stand, given), rotation = s.stand.cutting.rotation;
+        if (first == CEDUO_NEVER)
+            continue;
+        unsigned year = first + (unsigned)uniform(0, 60);
+        struct ceduo_grown_stand now = at(&s, given, year), later = at(&s, given, year + 3 * rotation);
+        expect_same_stand(&now.stand, &later.stand);
+        ceduo_grown_stand_release(&now);
+        ceduo_grown_stand_release(&later);
+    }
+}
+
+/* ---- species, systems ---- */
+
+static void growth_by_species(void **state)
+{
+    (void)state;
+    struct ceduo_growth g = {.sdi_most = 7};
+    assert_false(ceduo_growth_of_species(-1, &g));
+    assert_false(ceduo_growth_of_species(ceduo_species_find("picea-abies"), &g));
+    assert_false(ceduo_growth_of_species(1000, &g));
+    assert_true(g.sdi_most == 7);
+    assert_true(ceduo_growth_of_species(ceduo_species_find("castanea-sativa"), &g));
+    assert_true(g.shoots.dbh_most == .26 && g.shoots.dbh_rate == .035);
+    assert_true(g.shoots.height_most == 20 && g.shoots.height_rate == .06);
+    assert_true(g.trees.dbh_most == .45 && g.trees.dbh_rate == .014);
+    assert_true(g.trees.height_most == 20 && g.trees.height_rate == .03);
+    assert_true(g.shoots_young == 16 && g.shoots_old == 3 && g.sdi_most == 1000);
+    unsigned known = 0;
+    size_t count;
+    ceduo_species_list(&count);
+    for (size_t i = 0; i < count; i++)
+        known += ceduo_growth_of_species((int)i, &g);
+    assert_int_equal(known, 6);
+}
+
+static double adc_just_cut(const char *name, double stools, struct ceduo_cutting cutting, double spacing, double old)
+{
+    struct sample s;
+    init(&s);
+    s.stand.stools_per_ha = stools;
+    s.stand.cutting = cutting;
+    s.stand.spacing = spacing;
+    s.stand.growth.shoots_old = old;
+    struct ceduo_grown_stand grown = at(&s, 0, 0);
+    struct ceduo_adc adc = ceduo_adc(&grown.stand, B);
+    double value = ceduo_adc_value(&adc, ceduo_adc_rule(&grown.stand, B, CEDUO_RULE_AUTO));
+    print_message("%s, just cut: ADC %.4f m\n", name, value);
+    ceduo_grown_stand_release(&grown);
+    return value;
+}
+
+/* Ciabocco et al. 2009: right after its cut only the selection coppice has contacts nearer than 30 m. */
+static void just_cut_only_the_selection_coppice_protects(void **state)
+{
+    (void)state;
+    double simple[] = {30, 30}, standards[] = {100, 50, 20, 10}, selection[] = {40}, large[] = {125, 125};
+    double a = adc_just_cut("simple coppice", 2500, (struct ceduo_cutting){25, 1, 2, simple}, .35, 3);
+    double b = adc_just_cut("coppice with standards", 1500, (struct ceduo_cutting){25, 1, 4, standards}, .35, 3);
+    double c = adc_just_cut("selection coppice", 1200, (struct ceduo_cutting){13, 3, 1, selection}, .30, 6);
+    double d = adc_just_cut("coppice with large reserves", 1500, (struct ceduo_cutting){25, 1, 2, large}, .35, 3);
+    assert_true(a > 30 && b > 30 && d > 30 && c < 30);
+    double d1 = .45 * (1 - exp(-.35)), d2 = .45 * (1 - exp(-.7));
+    expect_near(a, 1e4 / (30 * (2 * B + d1 + d2)), 1e-13);
+    expect_near(d, 1e4 / (125 * (2 * B + d1 + d2)), 1e-13);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(year_0_is_the_stand_as_filed),
+        cmocka_unit_test(an_inventory_grows_along_its_curves),
+        cmocka_unit_test(a_given_age_stands_over_that_of_the_curve),
+        cmocka_unit_test(thicker_than_its_curve_it_grows_no_more),
+        cmocka_unit_test(a_stratum_without_a_curve_stays),
+        cmocka_unit_test(never_less_than_one_shoot_a_stool),
+        cmocka_unit_test(the_years_of_cuts),
+        cmocka_unit_test(by_default_it_is_cut_when_it_is_old_enough),
+        cmocka_unit_test(a_simple_coppice_after_its_cuts),
+        cmocka_unit_test(a_selection_coppice_always_has_shoots),
+        cmocka_unit_test(a_cut_in_year_0_is_done),
+        cmocka_unit_test(without_cuts_it_grows_for_ever),
+        cmocka_unit_test(the_density_index),
+        cmocka_unit_test(shoots_are_thinned_to_the_density),
+        cmocka_unit_test(no_stand_gains_stems_by_growing),
+        cmocka_unit_test(no_computed_stand_is_too_dense),
+        cmocka_unit_test(a_rotation_later_it_is_the_same_stand),
+        cmocka_unit_test(growth_by_species),
+        cmocka_unit_test(just_cut_only_the_selection_coppice_protects),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
