@@ -5,6 +5,7 @@
 /* All of libceduo: rockfall over a slope, and what a coppice takes from it. */
 #include "adc.h"
 #include "assess.h"
+#include "blocks.h"
 #include "contact.h"
 #include "find.h"
 #include "key.h"

@@ -25,16 +25,24 @@ static bool is_utf8(void)
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
-/* For a terminal that knows ASCII alone: what it cannot show becomes a question mark, three dots an ellipsis. */
+/* What is written in place of the signs that the program itself uses; none is longer. */
+static const char *const plain_signs[][2] = {
+    {"\xe2\x80\xa6", "..."}, {"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
+
+/* For a terminal that knows ASCII alone: what it cannot show otherwise becomes a question mark. */
 static void make_plain(struct text *text)
 {
     size_t to = 0;
     for (size_t i = 0; i < text->length; i++) {
         unsigned char c = (unsigned char)text->bytes[i];
-        if (strncmp(text->bytes + i, "\xe2\x80\xa6", 3) == 0) {
-            memcpy(text->bytes + to, "...", 3);
-            to += 3;
-            i += 2;
+        size_t sign = 0;
+        while (sign < 4 && strncmp(text->bytes + i, plain_signs[sign][0], strlen(plain_signs[sign][0])) != 0)
+            sign++;
+        if (sign < 4) {
+            size_t n = strlen(plain_signs[sign][1]);
+            memcpy(text->bytes + to, plain_signs[sign][1], n);
+            to += n;
+            i += strlen(plain_signs[sign][0]) - 1;
         } else if (c < 0x80) {
             text->bytes[to++] = text->bytes[i];
         } else if ((c & 0xc0) != 0x80) {
@@ -204,6 +212,25 @@ static enum exit_status write_report(const struct arguments *a, const struct ced
     return EXIT_DONE;
 }
 
+#define BLOCK_ROCKS 2000 /* of each size at the most: a page shows no more digits */
+
+/* Blocks of other sizes through the forest of each option, for the page. NULL without memory, or where it was
+ * interrupted. */
+static struct ceduo_block *fly_blocks(const struct arguments *a, const struct ceduo_scene *scene, uint64_t rocks)
+{
+    size_t n = scene->options_count;
+    struct ceduo_block *blocks = calloc(n * CEDUO_BLOCKS + 1, sizeof *blocks);
+    enum ceduo_status status = blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++)
+        status = ceduo_blocks(scene, &scene->options[i], ceduo_plot_last_control(scene),
+                              rocks < BLOCK_ROCKS ? rocks : BLOCK_ROCKS, a->threads, ceduo_interrupt_flag(),
+                              &blocks[i * CEDUO_BLOCKS]);
+    if (status == CEDUO_OK)
+        return blocks;
+    free(blocks);
+    return NULL;
+}
+
 static enum exit_status report_run(const struct arguments *a, const struct scene_file *file,
                                    const struct ceduo_pool *pool, struct ceduo_report *report, double start,
                                    struct text *out)
@@ -216,7 +243,12 @@ static enum exit_status report_run(const struct arguments *a, const struct scene
     report->result = result;
     report->work = ceduo_pool_work(pool);
     report->seconds = now() - start;
+    struct ceduo_block *blocks = NULL;
+    if (a->format == CEDUO_TABLE && file->scene.controls_count > 0)
+        blocks = fly_blocks(a, &file->scene, ceduo_result_rocks(result));
+    report->blocks = blocks;
     enum exit_status status = write_report(a, report, out);
+    free(blocks);
     if (ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result))
         status = worse(status, EXIT_RUN);
     ceduo_result_free(result);
@@ -270,18 +302,15 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     struct ceduo_picture picture = {.scene = scene, .outlook = outlook, .control = ceduo_plot_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_by_option(a->plot) ? scene->options_count : 1;
-    size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
-    for (size_t c = 0; c < controls; c++) {
-        picture.control = c;
-        add_plot(a, &picture, start, out);
-    }
-    for (size_t o = 0; o < options && controls == 0; o++) {
+    for (size_t o = 0; o < options; o++) {
         size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
+        size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
         picture.option = o;
-        picture.belt = 0;
-        do
+        for (size_t k = 0; k == 0 || k < belts || k < controls; k++) {
+            picture.belt = k;
+            picture.control = controls > 0 ? k : picture.control;
             add_plot(a, &picture, start, out);
-        while (++picture.belt < belts);
+        }
     }
 }
 
@@ -300,8 +329,11 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
         return EXIT_RUN;
     }
     add_plots(a, &file->scene, outlook, out);
-    const struct ceduo_flown *bare = &outlook->bare->flown;
-    bool unfinished = bare->ends.count[CEDUO_UNFINISHED] * 1000 > bare->rocks;
+    bool unfinished = false;
+    for (size_t i = 0; i <= outlook->options; i++) {
+        const struct ceduo_sight *s = i < outlook->options ? outlook->wooded[i] : outlook->bare;
+        unfinished |= s && s->flown.ends.count[CEDUO_UNFINISHED] * 1000 > s->flown.rocks;
+    }
     ceduo_outlook_free(outlook);
     return unfinished ? EXIT_RUN : EXIT_DONE;
 }

@@ -89,7 +89,9 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_plot_last_control(&app->document.file.scene),
-                                  .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL};
+                                  .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL,
+                                  .stems = app->steps.stems,
+                                  .stems_count = ceduo_steps_stems(&app->steps)};
 }
 
 /* Assesses the scene as it is now by the newest run, if that is its run. */

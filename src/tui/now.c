@@ -44,23 +44,65 @@ static void put_scene(struct pen *pen)
          o->belts_count > 1 && s->options_count < 2 ? " \xc2\xb7 \xe2\x80\xa6" : "");
 }
 
-/* "991 of 1000 (984-995)" */
-static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *a)
+/* Of 1000: "832 (831-834)" where there is room, otherwise "832±2"; without an interval where lo = hi. */
+static void share(char *to, size_t size, double p, double lo, double hi, bool wide)
 {
+    if (isnan(p))
+        snprintf(to, size, "-");
+    else if (wide)
+        snprintf(to, size, "%.0f (%.0f-%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
+    else if (hi > lo)
+        snprintf(to, size, "%.0f\xc2\xb1%.0f", p * 1000, ceil(fmax(hi - p, p - lo) * 1000));
+    else
+        snprintf(to, size, "%.0f", p * 1000);
+}
+
+static void figure(char *to, size_t size, double value)
+{
+    if (isnan(value))
+        snprintf(to, size, "-");
+    else
+        snprintf(to, size, "%.3g", value);
+}
+
+/* A line of the figures, wood first: the column of the bare slope stands beside it. */
+static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, const char *wood, const char *bare)
+{
+    int column = pen->area.width >= 34 ? 15 : 8;
+    int wider = strstr(wood, "\xc2\xb1") ? 1 : 0; /* a byte more than columns */
+    line(pen, role, "%-9s%*s %*s", name, column + wider, wood, 6, bare);
+}
+
+/* What arrives through the wood beside what arrives without it; `wood` NULL: not known yet, or never (index). */
+static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
+                         const struct ceduo_arrivals *bare)
+{
+    bool wide = pen->area.width >= 34;
+    const struct ceduo_distribution none = ceduo_distribution_none();
+    const struct ceduo_arrivals nothing = {.reach_probability = NAN, .exceed_probability = NAN, .energy = none,
+                                           .height = none};
+    wood = wood ? wood : &nothing;
+    char a[32], b[32], limit[32];
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
-    line(pen, CEDUO_ROLE_DIM, "%s", _("without forest, of 1000:"));
-    line(pen, CEDUO_ROLE_TEXT, _(" pass    %4.0f (%.0f-%.0f)"), a->reach_probability * 1000, floor(a->reach_lo * 1000),
-         ceil(a->reach_hi * 1000));
-    if (!isnan(a->exceed_probability))
-        line(pen, CEDUO_ROLE_TEXT, _(" >%g kJ %4.0f (%.0f-%.0f)"), c->accepted * KILO, a->exceed_probability * 1000,
-             floor(a->exceed_lo * 1000), ceil(a->exceed_hi * 1000));
-    if (a->reached == 0) {
-        line(pen, CEDUO_ROLE_DIM, "%s", _(" no rock arrives"));
-        return;
+    put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("wood"), _("bare"));
+    share(a, sizeof a, wood->reach_probability, wood->reach_lo, wood->reach_hi, wide);
+    share(b, sizeof b, bare->reach_probability, 0, 0, false);
+    put_pair(pen, CEDUO_ROLE_TEXT, _(" arrive"), a, b);
+    if (!isnan(c->accepted)) {
+        share(a, sizeof a, wood->exceed_probability, wood->exceed_lo, wood->exceed_hi, wide);
+        share(b, sizeof b, bare->exceed_probability, 0, 0, false);
+        snprintf(limit, sizeof limit, _(" >%.4g kJ"), c->accepted * KILO);
+        put_pair(pen, CEDUO_ROLE_TEXT, limit, a, b);
     }
-    line(pen, CEDUO_ROLE_TEXT, _(" energy %.4g kJ \xc2\xb1%.2g"), a->energy.mean * KILO, a->energy.se * CEDUO_Z95 * KILO);
-    line(pen, CEDUO_ROLE_TEXT, _("    95 %% %.3g kJ"), a->energy.p95 * KILO);
-    line(pen, CEDUO_ROLE_TEXT, _(" height %.2g m (95 %%)"), a->height.p95);
+    figure(a, sizeof a, wood->energy.mean * KILO);
+    figure(b, sizeof b, bare->energy.mean * KILO);
+    put_pair(pen, CEDUO_ROLE_TEXT, _(" kJ mean"), a, b);
+    figure(a, sizeof a, wood->energy.p95 * KILO);
+    figure(b, sizeof b, bare->energy.p95 * KILO);
+    put_pair(pen, CEDUO_ROLE_TEXT, _(" kJ 95 %"), a, b);
+    figure(a, sizeof a, wood->height.p95);
+    figure(b, sizeof b, bare->height.p95);
+    put_pair(pen, CEDUO_ROLE_TEXT, _(" m  95 %"), a, b);
 }
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
@@ -71,34 +113,44 @@ static void put_light(struct pen *pen, const char *name, const char *what, enum 
     line(pen, role, "%s %-8s %s %s", mark, name, word, what);
 }
 
-static void put_lights(struct pen *pen, const struct ceduo_index *index, double threshold)
+static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood,
+                       double threshold)
 {
     char what[64];
+    bool wide = pen->area.width >= 30;
     if (isinf(index->worst_adc))
         snprintf(what, sizeof what, "%s", _("no forest"));
-    else if (pen->area.width < 30)
-        snprintf(what, sizeof what, "%.3g m", index->worst_adc);
     else
-        snprintf(what, sizeof what, "%.3g m (<%g)", index->worst_adc, threshold);
+        snprintf(what, sizeof what, wide ? "%.3g m (<%g)" : "%.3g m", index->worst_adc, threshold);
     put_light(pen, _("Contact"), what, index->contact);
-    snprintf(what, sizeof what, pen->area.width < 30 ? "%.1f %%" : "%.1f %% (\xe2\x89\xa4" "10)",
-             index->worst_free_run * 100);
+    snprintf(what, sizeof what, wide ? "%.1f %% (\xe2\x89\xa4" "10)" : "%.1f %%", index->worst_free_run * 100);
     put_light(pen, _("Free run"), what, index->free_run);
-    put_light(pen, _("Energy"), "", index->energy);
+    what[0] = '\0';
+    if (index->energy != CEDUO_UNKNOWN && wood)
+        snprintf(what, sizeof what, wide ? "%.1f %% (\xe2\x89\xa4" "5)" : "%.1f %%", wood->exceed_probability * 100);
+    put_light(pen, _("Energy"), what, index->energy);
+}
+
+/* How the ways through the wood end. */
+static void put_ends(struct pen *pen, const struct ceduo_flown *f)
+{
+    double n = (double)f->rocks;
+    if (f->rocks == 0)
+        return;
+    line(pen, CEDUO_ROLE_TEXT, _("stopped by stems %3.0f"), (double)f->ends.count[CEDUO_STOPPED_BY_STEMS] / n * 1000);
+    line(pen, CEDUO_ROLE_TEXT, _("at rest          %3.0f"), (double)f->ends.count[CEDUO_AT_REST] / n * 1000);
 }
 
 static void put_index(struct pen *pen, const struct ceduo_index *index)
 {
-    line(pen, CEDUO_ROLE_DIM, "%s", _("index (Eq. 4, 5):"));
-    line(pen, CEDUO_ROLE_TEXT, _(" taken  %.3g kJ"), index->dissipated * KILO);
     if (isnan(index->residual))
-        line(pen, CEDUO_ROLE_TEXT, "%s", _(" left   -"));
+        line(pen, CEDUO_ROLE_DIM, _("index: takes %.3g kJ"), index->dissipated * KILO);
     else if (index->exhausted)
-        line(pen, CEDUO_ROLE_TEXT, "%s", _(" left   used up on average"));
+        line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * KILO);
     else
-        line(pen, CEDUO_ROLE_TEXT, _(" left   %.3g kJ"), index->residual * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: -%.3g, left %.3g kJ"), index->dissipated * KILO, index->residual * KILO);
     if (!isnan(index->measured))
-        line(pen, CEDUO_ROLE_TEXT, _(" seen   %.3g kJ (one rock)"), index->measured * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * KILO);
 }
 
 struct warning_list {
@@ -137,7 +189,7 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
     ceduo_text_format(&text, "%s ", app->busy ? "\xe2\x80\xa6" : "=");
     if (a->reached > 0)
         ceduo_text_format(&text, "\xc2\xb1%.2g %% ", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
-    ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)ceduo_result_rocks(app->result));
+    ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)a->released);
     line(pen, CEDUO_ROLE_DIM, "%s", text.bytes ? text.bytes : "");
     ceduo_text_free(&text);
 }
@@ -153,9 +205,12 @@ void ceduo_now_draw(struct app *app, struct ceduo_area area)
     const struct ceduo_result *r = app->result;
     size_t c = r->last_control;
     const struct ceduo_option_result *found = ceduo_app_found(app);
-    put_arrivals(&pen, &r->scene->controls[c], &r->bare.arrivals[c]);
-    put_lights(&pen, &found->controls[c], r->scene->simulation.threshold);
+    const struct ceduo_arrivals *wood = ceduo_result_wooded(r, app->option, c), *bare = &r->bare.arrivals[c];
+    put_arrivals(&pen, &r->scene->controls[c], wood, bare);
+    put_lights(&pen, &found->controls[c], wood, r->scene->simulation.threshold);
+    if (wood)
+        put_ends(&pen, &found->wooded);
     put_index(&pen, &found->controls[c]);
-    put_mark(&pen, &r->bare.arrivals[c]);
+    put_mark(&pen, wood ? wood : bare);
     put_warnings(&pen);
 }

@@ -32,13 +32,16 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
         return;
     if (s->stems_count == s->stems_room) {
         size_t room = s->stems_room ? 2 * s->stems_room : 64;
-        struct step_stem *stems = realloc(s->stems, room * sizeof *stems);
-        if (!stems)
+        struct ceduo_stem_passed *stems = realloc(s->stems, room * sizeof *stems);
+        s->stems = stems ? stems : s->stems;
+        size_t *pieces = stems ? realloc(s->stem_piece, room * sizeof *pieces) : NULL;
+        if (!pieces)
             return;
-        s->stems = stems;
+        s->stem_piece = pieces;
         s->stems_room = room;
     }
-    s->stems[s->stems_count++] = (struct step_stem){s->n, *stem};
+    s->stem_piece[s->stems_count] = stem->hit ? s->n : s->n + 1; /* flown over: on the piece that is under way */
+    s->stems[s->stems_count++] = *stem;
 }
 
 static void add_point(struct ceduo_trail *t, double x, double z)
@@ -95,6 +98,32 @@ void ceduo_steps_move(struct steps *s, int by)
         s->at = s->at > 1 ? s->at - 1 : s->at == 1 ? 0 : s->n;
 }
 
+size_t ceduo_steps_stems(const struct steps *s)
+{
+    size_t n = 0;
+    if (s->at == 0)
+        return s->stems_count;
+    while (n < s->stems_count && s->stem_piece[n] <= s->at)
+        n++;
+    return n;
+}
+
+/* The stem that is hit at the end of the piece shown. */
+static void say_stem(const struct steps *s, struct text *text)
+{
+    for (size_t i = 0; i < s->stems_count; i++) {
+        const struct ceduo_stem_passed *p = &s->stems[i];
+        if (!p->hit || s->stem_piece[i] != s->at)
+            continue;
+        if (isnan(p->dbh))
+            ceduo_text_format(text, _("; a contact takes %.2g of %.3g kJ"), p->taken / 1e3, p->before / 1e3);
+        else
+            ceduo_text_format(text, p->shoot ? _("; hits a shoot of %.2g cm: %.2g of %.3g kJ")
+                                             : _("; hits a tree of %.2g cm: %.2g of %.3g kJ"),
+                              p->dbh * 100, p->taken / 1e3, p->before / 1e3);
+    }
+}
+
 static void say_end(const struct steps *s, double origin, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
@@ -120,15 +149,17 @@ void ceduo_steps_say(const struct steps *s, const struct ceduo_scene *scene, dou
         ceduo_text_format(text, _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
                           hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
     else
-        ceduo_text_format(text, _("flies from %.2f to %.2f m, lands at %.1f m/s, top %.1f m over the ground"),
+        ceduo_text_format(text, _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"),
                           p->x + origin, p->x1 + origin, hypot(p->vx1, p->vz1),
                           fmax(0, z - ceduo_slope_height(&scene->slope, x)));
+    say_stem(s, text);
 }
 
 void ceduo_steps_free(struct steps *s)
 {
     free(s->pieces);
     free(s->stems);
+    free(s->stem_piece);
     ceduo_trail_free(&s->trail);
     *s = (struct steps){0};
 }

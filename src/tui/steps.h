@@ -5,18 +5,13 @@
 #include "io/text.h"
 #include "view/outlook.h"
 
-/* A stem that the rock comes to at the end of piece number `piece`. */
-struct step_stem {
-    size_t piece;
-    struct ceduo_stem_passed stem;
-};
-
 /* The way of one rock, piece by piece: flights, and rolls along the ground. */
 struct steps {
     uint64_t key, rock; /* of the run and the rock that they were followed for */
     size_t n, room, at; /* pieces; how many of them are shown, 0: all */
     struct ceduo_piece *pieces;
-    struct step_stem *stems; /* that it comes to */
+    struct ceduo_stem_passed *stems; /* that it comes to */
+    size_t *stem_piece;              /* the piece, counted from 1, on which or at whose end each of them stands */
     size_t stems_count, stems_room;
     struct ceduo_way way;
     struct ceduo_trail trail; /* what is shown of it */
@@ -29,6 +24,9 @@ bool ceduo_steps_follow(struct steps *steps, const struct ceduo_scene *scene, co
 
 /* A piece further or back. */
 void ceduo_steps_move(struct steps *steps, int by);
+
+/* How many of the stems lie on what is shown. */
+size_t ceduo_steps_stems(const struct steps *steps);
 
 /* What happens where the way is shown to, or how it ends. `origin` is added to every x. */
 void ceduo_steps_say(const struct steps *steps, const struct ceduo_scene *scene, double origin, struct text *text);

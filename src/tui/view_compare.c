@@ -17,10 +17,33 @@ static void build(struct app *app, struct form *form)
     form->row = app->option + 1; /* below the names of the columns */
 }
 
-#define FIGURES 40 /* columns of the figures and the lights */
+#define FIGURES 43 /* columns of the figures and the lights */
 
-/* What is compared; each figure with what is better. */
-enum column { ADC, FREE_RUN, TAKEN, LEFT, COLUMNS };
+/* What is compared; by the index what the stems take and what is left, otherwise what comes through the wood. */
+enum column { ADC, FREE_RUN, TAKEN, LEFT, INDEX_COLUMNS, SHARE = TAKEN, DIFFERENCE = LEFT };
+#define COLUMNS INDEX_COLUMNS
+
+static bool wooded(const struct app *app)
+{
+    return app->result->wooded;
+}
+
+/* Of 1000 with too much energy, or where it is not said what is too much, that arrive. */
+static double share_of(const struct app *app, size_t i)
+{
+    const struct ceduo_arrivals *a = ceduo_result_wooded(app->result, i, app->result->last_control);
+    if (!a)
+        return NAN;
+    return 1000 * (isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability);
+}
+
+static struct ceduo_paired difference_of(const struct app *app, size_t i)
+{
+    const struct ceduo_result *r = app->result;
+    const struct ceduo_difference *d = &r->options[i].differences[r->last_control];
+    struct ceduo_paired p = isnan(d->exceed_probability.mean) ? d->reach_probability : d->exceed_probability;
+    return (struct ceduo_paired){p.mean * 1000, p.se * 1000};
+}
 
 static double figure(const struct app *app, size_t i, enum column column)
 {
@@ -32,25 +55,32 @@ static double figure(const struct app *app, size_t i, enum column column)
     case FREE_RUN:
         return s->worst_free_run;
     case TAKEN:
-        return s->length > 0 ? s->dissipated / s->length * 100e-3 : 0;
+        return wooded(app) ? share_of(app, i) : s->length > 0 ? s->dissipated / s->length * 100e-3 : 0;
     default:
-        return s->residual * 1e-3;
+        return wooded(app) ? difference_of(app, i).mean : s->residual * 1e-3;
     }
 }
 
-/* '*' for the best of a column, '!' for the worst, where they differ. By the index these figures have no error of their
- * own: every option is held against the same rocks. */
+/* '*' for the best of a column, '!' for the worst. Figures of the stand itself have no error: where they differ, they
+ * differ. Shares of rocks differ where they are more than two standard errors apart. */
 static char mark_of(const struct app *app, size_t i, enum column column)
 {
-    double lo = INFINITY, hi = -INFINITY, here = figure(app, i, column);
-    for (size_t k = 0; k < app->result->options_count; k++) {
-        lo = fmin(lo, figure(app, k, column));
-        hi = fmax(hi, figure(app, k, column));
-    }
-    if (!(hi > lo) || isnan(here))
+    size_t n = app->result->options_count, best = i, worst = i;
+    if (isnan(figure(app, i, column)) || (wooded(app) && column == DIFFERENCE))
         return ' ';
-    double best = column == TAKEN ? hi : lo, worst = column == TAKEN ? lo : hi;
-    return here == best ? '*' : here == worst ? '!' : ' ';
+    bool more_is_better = column == TAKEN && !wooded(app);
+    for (size_t k = 0; k < n; k++) {
+        double value = figure(app, k, column);
+        if (isnan(value))
+            return ' ';
+        if (more_is_better ? value > figure(app, best, column) : value < figure(app, best, column))
+            best = k;
+        if (more_is_better ? value < figure(app, worst, column) : value > figure(app, worst, column))
+            worst = k;
+    }
+    double lowest = figure(app, best, column), highest = figure(app, worst, column), here = figure(app, i, column);
+    bool apart = wooded(app) && column == SHARE ? ceduo_words_worse(app->result, worst, best) : lowest != highest;
+    return !apart ? ' ' : here == lowest ? '*' : here == highest ? '!' : ' ';
 }
 
 /* Columns of the names, and lines that an option takes: where there is no room beside the figures, its name stands above
@@ -92,6 +122,13 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
     double value = figure(app, i, column);
     if (column == FREE_RUN)
         ceduo_text_format(&text, "%.1f %%", value * 100);
+    else if (wooded(app) && column == SHARE)
+        ceduo_text_format(&text, isnan(value) ? "\xe2\x80\xa6" : "%.0f", value);
+    else if (wooded(app) && column == DIFFERENCE && i == 0)
+        ceduo_text_put(&text, _("first"));
+    else if (wooded(app) && column == DIFFERENCE)
+        ceduo_text_format(&text, isnan(value) ? "\xe2\x80\xa6" : "%+.0f\xc2\xb1%.0f", value,
+                          ceil(difference_of(app, i).se * CEDUO_Z95));
     else if (column == LEFT && r->options[i].controls[r->last_control].exhausted)
         ceduo_text_put(&text, _("used up"));
     else
@@ -114,15 +151,26 @@ static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
             draw_figure(app, x, y, i, (enum column)c);
             x += 9;
         }
-    const bool lights[2] = {s->contact == CEDUO_PASS, s->free_run == CEDUO_PASS};
-    for (int k = 0; k < 2; k++)
-        ceduo_canvas_label(app->canvas, x + 1 + k, y, lights[k] ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
-                           lights[k] ? "\xe2\x9c\x94" : "\xe2\x9c\x98");
+    const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
+    for (int k = 0; k < 3; k++)
+        ceduo_canvas_label(app->canvas, x + 1 + k, y,
+                           lights[k] == CEDUO_PASS   ? CEDUO_ROLE_GOOD
+                           : lights[k] == CEDUO_FAIL ? CEDUO_ROLE_BAD
+                                                     : CEDUO_ROLE_DIM,
+                           lights[k] == CEDUO_PASS   ? "\xe2\x9c\x94"
+                           : lights[k] == CEDUO_FAIL ? "\xe2\x9c\x98"
+                                                     : "?");
 }
 
 static void draw_head(struct app *app, struct ceduo_area area)
 {
-    static const char *const words[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
+    static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
+    static const char *const simulated[COLUMNS] = {N_("ADC m"), N_("free run"), N_("too much"), N_("to first")};
+    static const char *const arriving[COLUMNS] = {N_("ADC m"), N_("free run"), N_("arrive"), N_("to first")};
+    const struct ceduo_result *r = app->result;
+    const char *const *words = !wooded(app)                                           ? by_index
+                               : isnan(r->scene->controls[r->last_control].accepted) ? arriving
+                                                                                      : simulated;
     int x = area.left + name_columns(area);
     if (lines_of(area) == 1 || area.width >= FIGURES + 8)
         ceduo_form_cut(app->canvas, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
@@ -131,7 +179,28 @@ static void draw_head(struct app *app, struct ceduo_area area)
             ceduo_canvas_label_right(app->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
             x += 9;
         }
-    ceduo_canvas_label(app->canvas, x + 1, area.top, CEDUO_ROLE_TITLE, "CF");
+    ceduo_canvas_label(app->canvas, x + 1, area.top, CEDUO_ROLE_TITLE, "CFE");
+}
+
+static void put_foot(const struct app *app, size_t options, struct text *words)
+{
+    const struct ceduo_result *r = app->result;
+    if (options < 2) {
+        ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
+        return;
+    }
+    ceduo_words_best(words, r);
+    if (words->length > 0)
+        ceduo_text_char(words, ' ');
+    double accepted = r->scene->controls_count > 0 ? r->scene->controls[r->last_control].accepted * 1e-3 : NAN;
+    if (r->wooded && !isnan(accepted))
+        ceduo_text_format(words, _("Too much: of 1000 released, through the wood, with more than %g kJ; \xc2\xb1 95 %%. "),
+                          accepted);
+    else if (!r->wooded)
+        ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
+                                "not what a rock loses. "));
+    ceduo_text_put(words, _("* best, ! worst; C contact, F free run, E energy. a adds from a preset, y copies, Enter "
+                            "renames, d deletes, < > reorder, p and 2 its stand."));
 }
 
 static void draw(struct app *app, struct ceduo_area area)
@@ -150,12 +219,10 @@ static void draw(struct app *app, struct ceduo_area area)
     for (int i = 0; i < room && (size_t)(top + i) < n; i++)
         draw_row(app, area, area.top + 1 + lines * i, (size_t)(top + i));
     struct ceduo_area foot = {area.left, area.top + area.height - foot_lines, area.width, foot_lines};
-    ceduo_app_text(app, foot, CEDUO_ROLE_DIM,
-                   n > 1 ? _("* best, ! worst; C contact, F free run. a adds from a preset, y copies, Enter renames, d "
-                             "deletes, < > reorder, p and 2 its stand. Without forest every option sees the same rocks; "
-                             "the index says what stems could take, not what a rock loses. No column decides alone.")
-                         : _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."),
-                   0);
+    struct text words = {0};
+    put_foot(app, n, &words);
+    ceduo_app_text(app, foot, CEDUO_ROLE_DIM, words.bytes ? words.bytes : "", 0);
+    ceduo_text_free(&words);
 }
 
 static void choose(struct app *app, long i)

@@ -34,6 +34,7 @@ static void build(struct app *app, struct form *form)
     add(app, form, "release", "spin_rad_s", _("spin, rad/s"));
     ceduo_form_heading(form, _("Simulation"));
     add(app, form, "simulation", "law", _("law of impact"));
+    add(app, form, "simulation", "contact_model", _("rocks among stems"));
     add(app, form, "simulation", "rule", _("form of the ADC"));
     add(app, form, "simulation", "threshold_m", _("threshold, m"));
     add(app, form, "simulation", "scale_rn", _("Rn by speed"));
@@ -53,7 +54,7 @@ static void draw(struct app *app, struct ceduo_area area)
         return;
     struct text text = {0};
     ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2; the lumped law knows neither "
-                               "mass nor shape: they scale the energy alone."),
+                               "mass nor shape: on the ground they scale the energy alone."),
                       rock.mass, rock.volume, rock.mean_diameter, rock.moment);
     struct ceduo_area foot = {area.left, area.top + area.height - 2, area.width, 2};
     if (text.bytes)

@@ -190,7 +190,7 @@ static enum ceduo_status read_sight(const struct ceduo_outlook_def *def, const s
     s->envelopes = calloc(def->cells + 1, sizeof *s->envelopes);
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
     status = s->energies && s->envelopes && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < def->cells && status == CEDUO_OK; i++)
+    for (size_t i = 0; i < def->cells && status == CEDUO_OK && pictures; i++)
         ceduo_run_envelope(pictures, i, &s->envelopes[i]);
     if (status == CEDUO_OK)
         status = read_energies(follower, run, s);

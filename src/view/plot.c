@@ -78,22 +78,21 @@ static void put_subject(struct text *text, enum ceduo_plot plot, const struct ce
     bool wooded = ceduo_plot_wooded(p);
     switch (plot) {
     case CEDUO_PLOT_PROFILE:
-        ceduo_text_put(text, wooded ? _("slope, forest, and ways through it") : _("slope, forest, and ways without forest"));
+        ceduo_text_put(text,
+                       wooded ? _("slope, forest, and ways through it") : _("slope, forest, and ways without forest"));
         break;
     case CEDUO_PLOT_ADC:
         ceduo_text_put(text, _("average distance between contacts, m"));
         break;
     case CEDUO_PLOT_HEIGHT:
-        ceduo_text_put(text, wooded ? _("height of the rocks above the ground, with and without forest")
+        ceduo_text_put(text, wooded ? _("height of the rocks above the ground")
                                     : _("height of the rocks above the ground, without forest"));
         break;
     case CEDUO_PLOT_ENERGY:
-        ceduo_text_put(text, wooded ? _("energy of the rocks, with and without forest")
-                                    : _("energy of the rocks, without forest"));
+        ceduo_text_put(text, wooded ? _("energy of the rocks") : _("energy of the rocks, without forest"));
         break;
     case CEDUO_PLOT_HISTOGRAM:
-        ceduo_text_format(text, wooded ? _("energy at %s, with and without forest") : _("energy at %s, without forest"),
-                          where);
+        ceduo_text_format(text, wooded ? _("energy at %s") : _("energy at %s, without forest"), where);
         break;
     default:
         ceduo_text_format(text, _("%s, from above"), belt && belt->name ? belt->name : _("no forest"));

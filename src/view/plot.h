@@ -16,11 +16,13 @@ struct ceduo_area {
 
 /* What a picture shows. */
 struct ceduo_picture {
-    const struct ceduo_scene *scene;     /* checked */
-    const struct ceduo_outlook *outlook; /* NULL: nothing is computed yet */
-    size_t option, belt, control;        /* indices; where there is none, the picture says so */
-    const struct ceduo_trail *selected;  /* one rock's way, shown before all others; NULL: none */
-    double from, to;                     /* the stretch of slope shown, m, relative; from = to: all of it */
+    const struct ceduo_scene *scene;       /* checked */
+    const struct ceduo_outlook *outlook;   /* NULL: nothing is computed yet */
+    size_t option, belt, control;          /* indices; where there is none, the picture says so */
+    const struct ceduo_trail *selected;    /* one rock's way, shown before all others; NULL: none */
+    double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
+    const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
+    size_t stems_count;
 };
 
 /* The columns that show the slope and the metres at their edges (relative), so that pictures can stand above each other
@@ -30,31 +32,39 @@ struct ceduo_span {
     double x0, x1;
 };
 
-/* The slope with rocks' ways as density, the option's belts, release and controls. True to scale; where that would leave
+/* The slope with rocks' ways as density, the option's belts, release and controls. In the belts stand rows of stems at
+ * their mean distance, or where it is known those that the selected rock came to. True to scale; where that would leave
  * most of the area empty, heights are stretched or pressed, and the factor is written. `span` (may be NULL) tells where
  * the slope stands. */
 void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                         struct ceduo_span *span);
 
-/* Strips: along the slope, of the rocks that pass, the height above the ground (p50, p95, max), and the energy (mean,
- * p5, p50, p95), without forest. `span`: the columns to stand in; NULL: the area's own. The names of the curves stand
- * to the right of the span, where the area has room. `axis`: an x axis in the two lowest rows. */
+/* Strips: along the slope, of the rocks that pass, the height above the ground (p50, p95) and the energy (mean, p95),
+ * through the forest and without; where there is little room p95 of the height, the mean of the energy. With the
+ * contact model index without forest: p50, p95 and max; mean, p5, p50 and p95. `span`: the columns to stand in; NULL:
+ * the area's own. The names of the curves stand to the right of the span, where the area has room. `axis`: an x axis in
+ * the two lowest rows. */
 void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis);
 void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis);
 
-/* How the energies of the rocks that reach the control are spread, without forest. */
+/* How the energies of the rocks that reach the control are spread, through the forest (bars) and without (marks); with
+ * the contact model index without forest alone. */
 void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                           const struct ceduo_picture *picture);
 
 /* The four forms of the ADC of each of the option's belts, beside the threshold. */
 void ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
 
-/* A stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same stand. */
+/* A stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same stand.
+ * Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along the way,
+ * stretched across it by the factor that is written. */
 void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
 
-/* The options side by side, up to the control: ADC of the worst belt, kJ taken per 100 m, kJ left. */
+/* The options side by side, up to the control: ADC of the worst belt, how many of 1000 arrive with too much energy (or
+ * at all, where no accepted energy is said), the mean energy of those that arrive; with the contact model index ADC, kJ
+ * taken per 100 m, kJ left. */
 void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                         const struct ceduo_picture *picture);
 

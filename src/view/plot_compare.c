@@ -12,6 +12,7 @@
 struct measures {
     double adc, middle, last; /* m; kJ per 100 m or of 1000; kJ. NaN: there is none */
     bool passes, exhausted;
+    bool awaited; /* what comes through the wood is not known yet */
     enum ceduo_light energy;
 };
 
@@ -20,7 +21,8 @@ struct comparison {
     const struct ceduo_area *area;
     const struct ceduo_picture *picture;
     const struct ceduo_control *control;
-    double bare; /* J, the mean that arrives without forest */
+    const struct ceduo_arrivals *arrivals; /* without forest; NULL: not known yet */
+    double bare;                           /* J, the mean of those */
     bool wooded;
     double adc_lo, adc_hi, middle_most, last_most;
     int columns;        /* how many of the three have room */
@@ -29,7 +31,8 @@ struct comparison {
 };
 
 #define BAR_LEAST 3
-#define VALUE     10 /* columns beside a bar: "59.4 kJ" and words */
+#define NUMBER    5  /* columns of a number */
+#define VALUE     10 /* columns beside a bar: a number and a word */
 
 static struct measures measures_of(const struct comparison *c, size_t i)
 {
@@ -46,6 +49,7 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     picture.option = i;
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(&picture, picture.control);
     m.exhausted = false;
+    m.awaited = !a;
     m.middle = a ? 1000 * (isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability) : NAN;
     m.last = a ? a->energy.mean * KILO : NAN;
     if (a && !isnan(a->exceed_probability))
@@ -70,6 +74,9 @@ static void find_scales(struct comparison *c)
         c->middle_most = fmax(c->middle_most, m.middle);
         c->last_most = fmax(c->last_most, m.last);
     }
+    double accepted = c->control->accepted * KILO;
+    if (accepted <= 2 * c->last_most)
+        c->last_most = fmax(c->last_most, accepted);
 }
 
 /* ---- columns ---- */
@@ -80,15 +87,26 @@ static int column_left(const struct comparison *c, int i)
     return first + i * (c->bar + 1 + VALUE + c->gap);
 }
 
-static void draw_value(const struct comparison *c, int i, int row, double fraction, enum ceduo_role role,
-                       const char *value, const char *word)
+/* A bar, the limit that it is held against (a share of the bar; NaN: none), a number and a word. */
+struct value {
+    double share, limit;
+    enum ceduo_role role;
+    const char *number, *word;
+};
+
+static void draw_value(const struct comparison *c, int i, int row, const struct value *v)
 {
-    int left = column_left(c, i);
+    int left = column_left(c, i), beside = left + c->bar + 1;
     if (i >= c->columns)
         return;
-    ceduo_canvas_bar(c->canvas, left, row, c->bar, fraction, role);
-    int used = ceduo_plot_put(c->canvas, left + c->bar + 1, row, VALUE, CEDUO_ROLE_TEXT, value);
-    ceduo_plot_put(c->canvas, left + c->bar + 2 + used, row, VALUE - used - 1, role, word);
+    ceduo_canvas_bar(c->canvas, left, row, c->bar, v->share, v->role);
+    int limit = (int)fmin(round(v->limit * c->bar), c->bar - 1);
+    if (v->limit >= 0 && v->limit <= 1 && c->bar > 2)
+        ceduo_canvas_label(c->canvas, left + limit, row, CEDUO_ROLE_CONTROL, "\xe2\x94\x82");
+    int indent = NUMBER - ceduo_canvas_label_width(c->canvas->charset, v->number);
+    indent = indent > 0 ? indent : 0;
+    int used = indent + ceduo_plot_put(c->canvas, beside + indent, row, VALUE - indent, CEDUO_ROLE_TEXT, v->number);
+    ceduo_plot_put(c->canvas, beside + used + 1, row, VALUE - used - 1, v->role, v->word);
 }
 
 static double adc_share(const struct comparison *c, double adc)
@@ -101,74 +119,151 @@ static enum ceduo_role role_of(enum ceduo_light light)
     return light == CEDUO_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_WOOD;
 }
 
-static void draw_option(const struct comparison *c, size_t i, int row)
+static const char *word_of(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? _("pass") : light == CEDUO_FAIL ? _("NO") : "";
+}
+
+static void draw_adc(const struct comparison *c, const struct measures *m, int row)
 {
     char room[PLOT_NUMBER_ROOM];
+    enum ceduo_light light = m->passes ? CEDUO_PASS : CEDUO_FAIL;
+    const struct value v = {.share = adc_share(c, m->adc),
+                            .limit = adc_share(c, c->picture->scene->simulation.threshold),
+                            .role = role_of(light),
+                            .number = ceduo_plot_number(m->adc, 3, room),
+                            .word = word_of(light)};
+    draw_value(c, 0, row, &v);
+}
+
+/* A number that is not known yet becomes three dots. */
+static const char *number_of(const struct measures *m, double number, char room[PLOT_NUMBER_ROOM])
+{
+    return m->awaited ? "\xe2\x80\xa6" : number == 0 ? "0" : ceduo_plot_number(number, 3, room);
+}
+
+static void draw_middle(const struct comparison *c, const struct measures *m, int row)
+{
+    char room[PLOT_NUMBER_ROOM];
+    bool limited = c->wooded && !isnan(c->control->accepted);
+    const struct value v = {.share = m->middle / c->middle_most,
+                            .limit = limited ? 1000 * CEDUO_EXCEED_MOST / c->middle_most : NAN,
+                            .role = role_of(m->energy),
+                            .number = number_of(m, m->middle, room),
+                            .word = word_of(m->energy)};
+    draw_value(c, 1, row, &v);
+}
+
+static void draw_last(const struct comparison *c, const struct measures *m, int row)
+{
+    char room[PLOT_NUMBER_ROOM];
+    double accepted = c->control->accepted * KILO;
+    const struct value v = {.share = m->last / c->last_most,
+                            .limit = accepted / c->last_most,
+                            .role = c->wooded             ? CEDUO_ROLE_WOOD
+                                    : isnan(accepted)     ? CEDUO_ROLE_BARE
+                                    : m->last <= accepted ? CEDUO_ROLE_GOOD
+                                                          : CEDUO_ROLE_BAD,
+                            .number = m->exhausted ? _("used up") : number_of(m, m->last, room),
+                            .word = ""};
+    draw_value(c, 2, row, &v);
+}
+
+static void draw_option(const struct comparison *c, size_t i, int row)
+{
     const struct ceduo_option *o = &c->picture->scene->options[i];
     struct measures m = measures_of(c, i);
-    int limit = column_left(c, 0) + (int)lround(adc_share(c, c->picture->scene->simulation.threshold) * c->bar);
     ceduo_plot_put(c->canvas, c->area->left, row, c->name, CEDUO_ROLE_TEXT, o->name ? o->name : "");
     row += c->two_rows;
-    draw_value(c, 0, row, adc_share(c, m.adc), m.passes ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
-               ceduo_plot_number(m.adc, 3, room), m.passes ? _("pass") : _("NO"));
-    if (c->bar > 2 && ceduo_canvas_glyph(c->canvas, limit, row) == ' ')
-        ceduo_canvas_label(c->canvas, limit, row, CEDUO_ROLE_CONTROL, "\xe2\x94\x82");
-    const char *word = m.energy == CEDUO_PASS ? _("pass") : m.energy == CEDUO_FAIL ? _("NO") : "";
-    draw_value(c, 1, row, m.middle / c->middle_most, role_of(m.energy),
-               m.middle == 0 ? "0" : ceduo_plot_number(m.middle, 3, room), word);
-    bool borne = m.last <= c->control->accepted * KILO;
-    draw_value(c, 2, row, m.last / c->last_most,
-               isnan(c->control->accepted) ? CEDUO_ROLE_BARE
-               : borne                     ? CEDUO_ROLE_GOOD
-                                           : CEDUO_ROLE_BAD,
-               m.exhausted ? _("used up") : ceduo_plot_number(m.last, 3, room), "");
+    draw_adc(c, &m, row);
+    draw_middle(c, &m, row);
+    draw_last(c, &m, row);
 }
 
 /* ---- words ---- */
 
+#define HEADS 2 /* a long one and a short one */
+
+static void write_middle_head(const struct comparison *c, struct text *heads)
+{
+    double accepted = c->control->accepted * KILO;
+    if (!c->wooded) {
+        ceduo_text_put(&heads[0], _("taken, kJ/100 m"));
+        ceduo_text_put(&heads[1], _("taken"));
+    } else if (isnan(accepted)) {
+        ceduo_text_put(&heads[0], _("of 1000 arrive"));
+        ceduo_text_put(&heads[1], _("arrive"));
+    } else {
+        ceduo_text_format(&heads[0], _("of 1000 > %g kJ (\xe2\x94\x82 %g)"), accepted, 1000 * CEDUO_EXCEED_MOST);
+        ceduo_text_format(&heads[1], _("of 1000 > %g kJ"), accepted);
+    }
+}
+
+static void write_last_head(const struct comparison *c, struct text *heads)
+{
+    double accepted = c->control->accepted * KILO;
+    for (int i = 0; i < HEADS; i++)
+        ceduo_text_put(&heads[i], c->wooded ? _("mean, kJ") : _("left, kJ"));
+    if (!isnan(accepted))
+        ceduo_text_format(&heads[0], _(" (\xe2\x94\x82 bears %g)"), accepted);
+    if (!isnan(accepted))
+        ceduo_text_format(&heads[1], _(" (\xe2\x94\x82 %g)"), accepted);
+}
+
 static void put_heads(const struct comparison *c, int row)
 {
-    struct text limit = {0}, middle = {0}, left = {0};
-    ceduo_text_format(&limit, _("ADC, m (\xe2\x94\x82 %g)"), c->picture->scene->simulation.threshold);
-    double accepted = c->control->accepted * KILO;
-    ceduo_text_put(&left, c->wooded ? _("mean, kJ") : _("left, kJ"));
-    if (!isnan(accepted))
-        ceduo_text_format(&left, _(" (bears %g)"), accepted);
-    if (!c->wooded)
-        ceduo_text_put(&middle, _("taken, kJ/100 m"));
-    else if (isnan(accepted))
-        ceduo_text_put(&middle, _("of 1000 arrive"));
-    else
-        ceduo_text_format(&middle, _("of 1000 > %g kJ"), accepted);
-    const char *heads[] = {limit.bytes ? limit.bytes : "", middle.bytes ? middle.bytes : "",
-                           left.bytes ? left.bytes : ""};
+    struct text heads[3][HEADS] = {{{0}}};
+    ceduo_text_format(&heads[0][0], _("ADC, m (\xe2\x94\x82 %g)"), c->picture->scene->simulation.threshold);
+    ceduo_text_put(&heads[0][1], _("ADC, m"));
+    write_middle_head(c, heads[1]);
+    write_last_head(c, heads[2]);
     for (int i = 0; i < c->columns; i++)
-        ceduo_plot_put(c->canvas, column_left(c, i), row, c->bar + 1 + VALUE, CEDUO_ROLE_TITLE, heads[i]);
-    ceduo_text_free(&limit);
-    ceduo_text_free(&middle);
-    ceduo_text_free(&left);
+        ceduo_plot_put_fitting(c->canvas, column_left(c, i), row, c->bar + 1 + VALUE, CEDUO_ROLE_TITLE, HEADS,
+                               heads[i]);
+    for (int i = 0; i < 3 * HEADS; i++)
+        ceduo_text_free(&heads[i / HEADS][i % HEADS]);
+}
+
+/* What is to be held against the options. */
+static void write_bare(const struct comparison *c, struct text *feet)
+{
+    char room[PLOT_NUMBER_ROOM];
+    const struct ceduo_arrivals *a = c->arrivals;
+    const char *mean = ceduo_plot_number(c->bare * KILO, 4, room);
+    if (!a || isnan(c->bare)) {
+        ceduo_text_put(&feet[0], a ? _("Without forest no rock arrives: nothing is left to compare.")
+                                   : _("Energies are not computed yet."));
+    } else if (!c->wooded) {
+        ceduo_text_format(&feet[0], _("left = %s kJ (mean, without forest) less what the stems could take (index)"),
+                          mean);
+        ceduo_text_format(&feet[1], _("left of %s kJ (mean, without forest), by the index"), mean);
+    } else if (isnan(a->exceed_probability)) {
+        ceduo_text_format(&feet[1], _("without forest: %.0f of 1000, mean %s kJ"), 1000 * a->reach_probability, mean);
+    } else {
+        ceduo_text_format(&feet[1], _("without forest: %.0f of 1000 > %g kJ, mean %s kJ"), 1000 * a->exceed_probability,
+                          c->control->accepted * KILO, mean);
+    }
+    if (!feet[0].bytes && feet[1].bytes)
+        ceduo_text_format(&feet[0], _("%s; mean: of those that arrive"), feet[1].bytes);
 }
 
 static void put_foot(const struct comparison *c, int first_free)
 {
-    char room[PLOT_NUMBER_ROOM];
     int row = c->area->top + c->area->height - 1;
+    double threshold = c->picture->scene->simulation.threshold;
+    struct text rule[HEADS] = {{0}}, bare[HEADS] = {{0}};
+    ceduo_text_format(&rule[0], _("ADC of the worst belt; pass: every belt below %g m and no gap longer than that"),
+                      threshold);
+    ceduo_text_format(&rule[1], _("pass: ADC of every belt and every gap below %g m"), threshold);
+    write_bare(c, bare);
     if (first_free < row)
-        ceduo_plot_say(c->canvas, c->area->left, row - 1, c->area->width, CEDUO_ROLE_DIM,
-                       _("ADC of the worst belt; pass: every belt below %g m and no gap longer than that"),
-                       c->picture->scene->simulation.threshold);
-    if (isnan(c->bare))
-        ceduo_plot_put(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM,
-                       c->picture->outlook ? _("Without forest no rock arrives: nothing is left to compare.")
-                                           : _("Energies are not computed yet."));
-    else if (c->wooded)
-        ceduo_plot_say(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM,
-                       _("through the wood, of all released and of those that arrive; without forest %s kJ (mean)"),
-                       ceduo_plot_number(c->bare * KILO, 4, room));
-    else
-        ceduo_plot_say(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM,
-                       _("left = %s kJ (mean, without forest) less what the stems could take (index)"),
-                       ceduo_plot_number(c->bare * KILO, 4, room));
+        ceduo_plot_put_fitting(c->canvas, c->area->left, row - 1, c->area->width, CEDUO_ROLE_DIM, HEADS, rule);
+    ceduo_plot_put_fitting(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM, bare[1].bytes ? HEADS : 1,
+                           bare);
+    for (int i = 0; i < HEADS; i++) {
+        ceduo_text_free(&rule[i]);
+        ceduo_text_free(&bare[i]);
+    }
 }
 
 /* ---- the picture ---- */
@@ -204,6 +299,7 @@ void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *ar
                            .picture = picture,
                            .control = ceduo_plot_control(picture),
                            .wooded = ceduo_plot_wooded(picture),
+                           .arrivals = arrivals,
                            .bare = arrivals && arrivals->reached > 0 ? arrivals->energy.mean : NAN};
     if (!c.control) {
         ceduo_plot_words(canvas, area, _("no control"));

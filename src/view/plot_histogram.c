@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,6 +54,8 @@ struct histogram {
     const struct ceduo_arrivals *arrivals, *bare; /* bare NULL: there is nothing to be held against */
     struct bins bins;
     int top, label, bar, numbers, marks; /* row of the first bar; columns they take */
+    int digits, bare_digits;             /* of the largest numbers of 1000 */
+    bool heads;                          /* a row above the bars */
     size_t n, *counts, bare_n, *bare_counts;
 };
 
@@ -105,11 +108,11 @@ static double per_1000(const struct ceduo_arrivals *a, const size_t *counts, siz
 static void number_of(const struct histogram *h, int i, struct text *text)
 {
     if (h->bare) {
-        ceduo_text_format(text, "%.0f (%.0f)", per_1000(h->arrivals, h->counts, h->n, i),
+        ceduo_text_format(text, "%*.0f (%*.0f)", h->digits, per_1000(h->arrivals, h->counts, h->n, i), h->bare_digits,
                           per_1000(h->bare, h->bare_counts, h->bare_n, i));
         return;
     }
-    ceduo_text_format(text, "%zu  %.1f %%", h->counts[i], 100.0 * (double)h->counts[i] / (double)h->n);
+    ceduo_text_format(text, "%zu %5.1f %%", h->counts[i], 100.0 * (double)h->counts[i] / (double)h->n);
 }
 
 /* How many columns the widest of a kind of text takes. */
@@ -142,9 +145,9 @@ static void draw_row(const struct histogram *h, int i, double most)
     ceduo_plot_put_right(h->canvas, column - 2, row, h->label, CEDUO_ROLE_AXIS, label.bytes ? label.bytes : "");
     ceduo_canvas_bar(h->canvas, column, row, h->bar, length_of(h, i) / most, role_of(h, i));
     if (h->bare && h->bare_counts[i] > 0) {
-        int at = column + (int)fmin(floor(per_1000(h->bare, h->bare_counts, h->bare_n, i) / most * h->bar), h->bar - 1);
-        if (ceduo_canvas_glyph(h->canvas, at, row) == ' ')
-            ceduo_canvas_label(h->canvas, at, row, CEDUO_ROLE_BARE, "\xe2\x94\x82");
+        double share = per_1000(h->bare, h->bare_counts, h->bare_n, i) / most;
+        int at = column + (int)fmin(floor(share * h->bar), h->bar - 1);
+        ceduo_canvas_label(h->canvas, at, row, CEDUO_ROLE_BARE, "\xe2\x94\x82");
     }
     column += h->bar + 1;
     ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT,
@@ -155,14 +158,31 @@ static void draw_row(const struct histogram *h, int i, double most)
     ceduo_text_free(&marks);
 }
 
+static int digits_of(double number)
+{
+    char digits[PLOT_NUMBER_ROOM];
+    return snprintf(digits, sizeof digits, "%.0f", number);
+}
+
+/* What the two numbers are, in the row above them. */
+static void put_number_head(const struct histogram *h)
+{
+    int end = h->area->left + h->label + 1 + h->bar + 1 + h->numbers;
+    if (h->heads && h->bare && h->numbers > 0)
+        ceduo_plot_put_right(h->canvas, end - 1, h->top - 1, end - h->area->left, CEDUO_ROLE_AXIS, _("wood (bare)"));
+}
+
 static void draw_rows(struct histogram *h)
 {
-    double most = 0;
+    double most = 0, most_bare = 0;
     for (int i = 0; i < h->bins.count; i++) {
         most = fmax(most, length_of(h, i));
         if (h->bare)
-            most = fmax(most, per_1000(h->bare, h->bare_counts, h->bare_n, i));
+            most_bare = fmax(most_bare, per_1000(h->bare, h->bare_counts, h->bare_n, i));
     }
+    h->digits = digits_of(most);
+    h->bare_digits = digits_of(most_bare);
+    most = fmax(most, most_bare);
     h->label = widest(h, bin_label);
     h->numbers = widest(h, number_of);
     h->marks = widest(h, marks_of);
@@ -177,34 +197,56 @@ static void draw_rows(struct histogram *h)
     }
     if (h->bar < 1)
         ceduo_plot_words(h->canvas, h->area, _("too narrow"));
+    put_number_head(h);
     for (int i = 0; i < h->bins.count && h->bar >= 1; i++)
         draw_row(h, i, most);
 }
 
 /* ---- the picture ---- */
 
-static void put_head(const struct histogram *h)
+#define HEADS 4 /* the longest first; the first one has a remark as well */
+
+/* With the forest and (without). */
+static void write_wooded_heads(const struct histogram *h, struct text *heads)
 {
     const struct ceduo_arrivals *a = h->arrivals;
-    struct text text = {0};
-    if (h->bare) {
-        ceduo_text_format(&text, _("of 1000 released %.0f arrive (\xe2\x94\x82 bare %.0f)"), a->reach_probability * 1000,
-                          h->bare->reach_probability * 1000);
-        if (!isnan(a->exceed_probability))
-            ceduo_text_format(&text, _(", %.0f (%.0f) with more than %g kJ"), a->exceed_probability * 1000,
-                              h->bare->exceed_probability * 1000, h->control->accepted * KILO);
-    } else {
-        ceduo_text_format(&text, _("n = %llu of %llu rocks arrive"), (unsigned long long)a->reached,
-                          (unsigned long long)a->released);
-        if (!isnan(a->exceed_probability))
-            ceduo_text_format(&text, _("; of 1000 released, %.0f with more than %g kJ"), a->exceed_probability * 1000,
-                              h->control->accepted * KILO);
-        if (h->n < a->reached)
-            ceduo_text_format(&text, _("; drawn: the first %zu"), h->n);
-    }
-    ceduo_plot_put(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT,
-                   text.bytes ? text.bytes : "");
-    ceduo_text_free(&text);
+    double reach = a->reach_probability * 1000, bare_reach = h->bare->reach_probability * 1000;
+    double exceed = a->exceed_probability * 1000, bare_exceed = h->bare->exceed_probability * 1000;
+    ceduo_text_format(&heads[1], _("of 1000 released %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
+    ceduo_text_format(&heads[2], _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
+    ceduo_text_format(&heads[3], _("of 1000: %.0f (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
+    for (int i = 1; i < HEADS && !isnan(exceed); i++)
+        ceduo_text_format(&heads[i], i == 1 ? _(", %.0f (%.0f) with more than %g kJ") : _(", %.0f (%.0f) > %g kJ"),
+                          exceed, bare_exceed, h->control->accepted * KILO);
+}
+
+static void write_bare_heads(const struct histogram *h, struct text *heads)
+{
+    const struct ceduo_arrivals *a = h->arrivals;
+    unsigned long long reached = a->reached, released = a->released;
+    double exceed = a->exceed_probability * 1000;
+    ceduo_text_format(&heads[1], _("n = %llu of %llu rocks arrive"), reached, released);
+    ceduo_text_format(&heads[2], _("n = %llu of %llu"), reached, released);
+    ceduo_text_format(&heads[3], _("n = %llu"), reached);
+    for (int i = 1; i < HEADS && !isnan(exceed); i++)
+        ceduo_text_format(&heads[i],
+                          i == 1 ? _("; of 1000 released, %.0f with more than %g kJ") : _("; of 1000: %.0f > %g kJ"),
+                          exceed, h->control->accepted * KILO);
+}
+
+static void put_head(const struct histogram *h)
+{
+    struct text heads[HEADS] = {{0}};
+    if (h->bare)
+        write_wooded_heads(h, heads);
+    else
+        write_bare_heads(h, heads);
+    ceduo_text_put(&heads[0], heads[1].bytes ? heads[1].bytes : "");
+    if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))
+        ceduo_text_format(&heads[0], _("; drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
+    ceduo_plot_put_fitting(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT, HEADS, heads);
+    for (int i = 0; i < HEADS; i++)
+        ceduo_text_free(&heads[i]);
 }
 
 static int by_value(const void *a, const void *b)
@@ -257,7 +299,8 @@ void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *
                           .arrivals = ceduo_plot_arrivals(picture, c),
                           .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL};
     bool head = area->height >= 4;
-    int rows = area->height - head - (area->height >= 10);
+    h.heads = area->height >= 10;
+    int rows = area->height - head - h.heads;
     if (!h.control) {
         ceduo_plot_words(canvas, area, _("no control"));
     } else if (!h.arrivals || (wooded && !h.bare)) {
@@ -265,7 +308,7 @@ void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *
     } else if (sight->energies[c].n == 0 && bare->energies[c].n == 0) {
         ceduo_plot_words(canvas, area, _("no rock arrives"));
     } else if (rows >= 1 && count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows)) {
-        h.top = area->top + head + (area->height >= 10);
+        h.top = area->top + head + h.heads;
         if (head)
             put_head(&h);
         draw_rows(&h);

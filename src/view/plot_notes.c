@@ -36,16 +36,27 @@ static void note_scale(struct notes *n, double factor)
 
 static void note_ways(struct notes *n)
 {
-    const struct ceduo_sight *s = ceduo_plot_sight(n->picture);
-    if (!s || s->trails_count == 0)
-        return;
-    note(n, CEDUO_ROLE_CLOUD, _("%zu ways of %llu"), s->trails_count, (unsigned long long)s->flown.rocks);
-    note(n, CEDUO_ROLE_CLOUD, ceduo_plot_wooded(n->picture) ? _("through the wood") : _("without forest"));
+    const struct ceduo_picture *p = n->picture;
+    const struct ceduo_sight *s = ceduo_plot_sight(p);
+    const struct ceduo_option *option = ceduo_plot_option(p);
+    bool wooded = ceduo_plot_wooded(p) && option && ceduo_plot_has_stems(option);
+    if (!s)
+        note(n, CEDUO_ROLE_DIM, _("ways not computed yet"));
+    if (s && s->trails_count > 0) {
+        note(n, CEDUO_ROLE_CLOUD, wooded ? _("%zu ways of %llu through") : _("%zu ways of %llu"), s->trails_count,
+             (unsigned long long)s->flown.rocks);
+        note(n, CEDUO_ROLE_CLOUD, wooded ? " %s" : "%s",
+             !wooded        ? _("without forest")
+             : option->name ? option->name
+                            : _("the forest"));
+    }
+    if (p->stems_count > 0)
+        note(n, CEDUO_ROLE_WAY, _("stems this rock came to"));
 }
 
 static void note_belt(struct notes *n, const struct ceduo_belt *belt)
 {
-    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM], stems[PLOT_NUMBER_ROOM];
+    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
     struct text name = {0};
     ceduo_plot_belt_name(&name, belt);
     if (n->row + 3 < n->end)
@@ -59,13 +70,14 @@ static void note_belt(struct notes *n, const struct ceduo_belt *belt)
         note(n, CEDUO_ROLE_TEXT, _(" no stems"));
         return;
     }
-    note(n, CEDUO_ROLE_TEXT, _(" %s stems/ha"), ceduo_plot_number(count, 4, stems));
+    note(n, CEDUO_ROLE_TEXT, _(" %.*f stems/ha"), count < 10 ? 1 : 0, count);
     note(n, CEDUO_ROLE_TEXT, _(" up to %g m high"), ceduo_plot_tallest(&belt->stand));
 }
 
 static void note_control(struct notes *n, size_t c)
 {
-    const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c), *bare = ceduo_plot_bare_arrivals(n->picture, c);
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c);
+    const struct ceduo_arrivals *bare = ceduo_plot_bare_arrivals(n->picture, c);
     char room[CEDUO_NUMBER_ROOM];
     if (!a || !bare || n->row + 2 >= n->end)
         return;
@@ -73,7 +85,8 @@ static void note_control(struct notes *n, size_t c)
     ceduo_number_shortest(n->picture->scene->controls[c].x_given, room);
     if (ceduo_plot_wooded(n->picture)) {
         note(n, CEDUO_ROLE_CONTROL, _("At %s m, wood (bare)"), room);
-        note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
+        note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) of 1000"), a->reach_probability * 1000,
+             bare->reach_probability * 1000);
         if (!isnan(a->exceed_probability))
             note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) > %g kJ"), a->exceed_probability * 1000,
                  bare->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
@@ -100,20 +113,21 @@ static void put_factor(struct ceduo_canvas *canvas, const struct ceduo_area *are
     ceduo_text_free(&text);
 }
 
-void ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                               const struct ceduo_picture *picture, const struct ceduo_frame *frame, double factor)
 {
     int end = area->left + area->width, left = frame->left + frame->width + 2;
     if (end - left < SIDE_LEAST) {
         put_factor(canvas, area, factor);
-        return;
+        return false;
     }
     struct notes n = {canvas, picture, left, end - left, area->top + 2, frame->top + frame->height};
     const struct ceduo_option *option = ceduo_plot_option(picture);
     note_scale(&n, factor);
     note_ways(&n);
-    for (size_t i = 0; option && i < option->belts_count; i++)
-        note_belt(&n, &option->belts[i]);
     for (size_t c = 0; c < picture->scene->controls_count; c++)
         note_control(&n, c);
+    for (size_t i = 0; option && i < option->belts_count; i++)
+        note_belt(&n, &option->belts[i]);
+    return true;
 }

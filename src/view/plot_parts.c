@@ -43,6 +43,18 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     return cells;
 }
 
+int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                           size_t count, const struct text *texts)
+{
+    const char *bytes = "";
+    for (size_t i = 0; i < count; i++) {
+        bytes = texts[i].bytes ? texts[i].bytes : "";
+        if (ceduo_canvas_label_width(canvas->charset, bytes) <= most)
+            break;
+    }
+    return ceduo_plot_put(canvas, column, row, most, role, bytes);
+}
+
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
                           const char *text)
 {
@@ -130,6 +142,14 @@ const struct ceduo_arrivals *ceduo_plot_bare_arrivals(const struct ceduo_picture
 bool ceduo_plot_wooded(const struct ceduo_picture *p)
 {
     return p->scene->simulation.contact_model != CEDUO_INDEX;
+}
+
+bool ceduo_plot_has_stems(const struct ceduo_option *option)
+{
+    for (size_t i = 0; i < option->belts_count; i++)
+        if (!ceduo_stand_is_bare(&option->belts[i].stand))
+            return true;
+    return false;
 }
 
 struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene)

@@ -19,6 +19,10 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
                           const char *text);
 
+/* The first of `count` texts that has room, the last one cut where none has. */
+int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                           size_t count, const struct text *texts);
+
 /* A sentence in the middle of the area, where there is nothing to draw. */
 void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence);
 
@@ -33,8 +37,8 @@ void ceduo_plot_control_name(struct text *text, const struct ceduo_control *cont
 const struct ceduo_option *ceduo_plot_option(const struct ceduo_picture *picture);
 const struct ceduo_belt *ceduo_plot_belt(const struct ceduo_picture *picture);
 const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *picture);
-/* What is to be seen of the picture's option (through its forest; bare with the contact model index), and without forest;
- * NULL where it is not known. The arrivals likewise. */
+/* What is to be seen of the picture's option (through its forest; bare with the contact model index), and without
+ * forest; NULL where it is not known. The arrivals likewise. */
 const struct ceduo_sight *ceduo_plot_sight(const struct ceduo_picture *picture);
 const struct ceduo_sight *ceduo_plot_bare(const struct ceduo_picture *picture);
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_picture *picture, size_t control);
@@ -42,6 +46,9 @@ const struct ceduo_arrivals *ceduo_plot_bare_arrivals(const struct ceduo_picture
 
 /* Whether rocks go through the forest: false with the contact model index. */
 bool ceduo_plot_wooded(const struct ceduo_picture *picture);
+
+/* Whether any stem stands in the option's belts. */
+bool ceduo_plot_has_stems(const struct ceduo_option *option);
 
 /* The rock whose sizes are the means; mean diameter NaN where the scene has none. */
 struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene);
@@ -58,8 +65,9 @@ double ceduo_plot_tallest(const struct ceduo_stand *stand);
 /* The name of a stand with a star where something of it is assumed. */
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
 
-/* What the profile is, in words: to the right of its frame where there is room, otherwise in the top row. */
-void ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+/* What the profile is, in words: to the right of its frame where there is room, otherwise the factor alone in the top
+ * row. Returns whether there was room. */
+bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                               const struct ceduo_picture *picture, const struct ceduo_frame *frame, double factor);
 
 #endif

@@ -153,6 +153,32 @@ static void draw_forest(const struct profile *p)
     }
 }
 
+/* The height to draw a stem with: one of the contact model poisson has none of its own. */
+static double height_of(const struct profile *p, const struct ceduo_stem_passed *stem)
+{
+    const struct ceduo_option *option = ceduo_plot_option(p->picture);
+    if (isfinite(stem->height))
+        return stem->height;
+    for (size_t i = 0; option && i < option->belts_count; i++)
+        if (stem->x >= option->belts[i].from && stem->x <= option->belts[i].to)
+            return ceduo_plot_tallest(&option->belts[i].stand);
+    return 0;
+}
+
+/* The stems that the selected rock came to, where they stand. */
+static void draw_passed(const struct profile *p)
+{
+    const struct ceduo_slope *slope = &p->picture->scene->slope;
+    for (size_t i = 0; i < p->picture->stems_count; i++) {
+        const struct ceduo_stem_passed *stem = &p->picture->stems[i];
+        if (!(stem->x >= slope->x[0] && stem->x <= slope->x[slope->vertices - 1]))
+            continue;
+        double z = ceduo_slope_height(slope, stem->x);
+        ceduo_canvas_line(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x, z, stem->x,
+                          z + height_of(p, stem));
+    }
+}
+
 static void draw_ways(const struct profile *p)
 {
     const struct ceduo_sight *s = ceduo_plot_sight(p->picture);
@@ -226,6 +252,38 @@ static void draw_controls(const struct profile *p)
         ceduo_canvas_rule_x(p->canvas, &p->frame, CEDUO_ROLE_CONTROL, scene->controls[c].x);
 }
 
+#define FOREST_LEAST 12 /* columns that make its name worth while */
+
+/* Blank columns at the right end of a row, less one. */
+static int room_in(const struct profile *p, int row)
+{
+    int column = area_end(p->area);
+    while (column > p->area->left && ceduo_canvas_glyph(p->canvas, column - 1, row) == ' ')
+        column--;
+    return area_end(p->area) - column - 1;
+}
+
+/* Through whose forest the ways go, at the right end of the highest row that has most room. */
+static void name_forest(const struct profile *p)
+{
+    const struct ceduo_option *option = ceduo_plot_option(p->picture);
+    if (!ceduo_plot_wooded(p->picture) || !ceduo_plot_sight(p->picture) || !option || !option->name)
+        return;
+    struct text name = {0};
+    ceduo_text_format(&name, _("ways: %s"), option->name);
+    const char *bytes = name.bytes ? name.bytes : "";
+    int width = ceduo_canvas_label_width(p->canvas->charset, bytes), most = 0, row = 0;
+    for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
+        int room = room_in(p, p->area->top + i);
+        room = room < width ? room : width;
+        row = room > most ? i : row;
+        most = room > most ? room : most;
+    }
+    if (most == width || most >= FOREST_LEAST)
+        ceduo_plot_put_right(p->canvas, area_end(p->area) - 1, p->area->top + row, most, CEDUO_ROLE_CLOUD, bytes);
+    ceduo_text_free(&name);
+}
+
 /* ├── ADS 1 ──┤ below the axis. */
 static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt, int row)
 {
@@ -297,12 +355,17 @@ void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *ar
         ceduo_plot_words(canvas, area, _("too narrow"));
         return;
     }
-    draw_forest(&p);
+    if (picture->stems_count > 0)
+        draw_passed(&p);
+    else
+        draw_forest(&p);
     draw_ways(&p);
     ceduo_canvas_polyline(canvas, &p.frame, CEDUO_ROLE_GROUND, slope->vertices, slope->x, slope->z);
     mark_release(&p);
-    ceduo_plot_profile_notes(canvas, area, picture, &p.frame, p.factor);
+    bool noted = ceduo_plot_profile_notes(canvas, area, picture, &p.frame, p.factor);
     draw_controls(&p);
+    if (p.names && !noted)
+        name_forest(&p);
     struct ceduo_frame given = ceduo_plot_given(&p.frame, slope);
     ceduo_canvas_axis_left(canvas, &given);
     ceduo_canvas_axis_bottom(canvas, &given, _("m"));

@@ -6,8 +6,8 @@
 #include "io/intl.h"
 #include "plot_parts.h"
 
-/* A stand from above. Places are drawn from a generator of its own with a fixed seed, one stream for each kind of stem:
- * when a number changes, the stems that stay do not move. */
+/* A stand from above, or the way of the selected rock through it. Places of a stand are drawn from a generator of its
+ * own with a fixed seed, one stream for each kind of stem: when a number changes, the stems that stay do not move. */
 
 #define PATCH_M     20.0 /* along the fall */
 #define STEMS_MOST  8000 /* of one kind in a patch */
@@ -163,7 +163,7 @@ static void draw_stems(struct plan *p)
     free(p->feet);
 }
 
-/* ---- the picture ---- */
+/* ---- strip, axis and words ---- */
 
 static void draw_strip(const struct plan *p)
 {
@@ -173,12 +173,122 @@ static void draw_strip(const struct plan *p)
 
 static void put_words(const struct plan *p, const struct ceduo_area *area)
 {
-    char b[PLOT_NUMBER_ROOM];
-    int row = area->top + area->height - 1;
-    ceduo_plot_say(p->canvas, area->left, row, area->width, CEDUO_ROLE_TEXT,
-                   _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
-                   ceduo_plot_number(p->strip, 2, b), p->met, PATCH_M);
+    if (ceduo_stand_is_bare(p->stand)) {
+        ceduo_plot_put(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
+                       _("No stems: nothing stands in a rock's way."));
+        return;
+    }
+    char room[PLOT_NUMBER_ROOM];
+    struct text words[2] = {{0}};
+    ceduo_text_format(&words[0], _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
+                      ceduo_plot_number(p->strip, 2, room), p->met, PATCH_M);
+    ceduo_text_format(&words[1], _("One pattern of many: %zu stools or trees are met"), p->met);
+    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 2, words);
+    ceduo_text_free(&words[0]);
+    ceduo_text_free(&words[1]);
 }
+
+static void draw_pattern(struct plan *p, const struct ceduo_area *area, bool words)
+{
+    draw_stems(p);
+    draw_strip(p);
+    ceduo_canvas_axis_bottom(p->canvas, &p->frame, _("m"));
+    if (words)
+        put_words(p, area);
+}
+
+/* ---- the way of the selected rock ---- */
+
+/* A stem of the belt whose place in the plane is known. */
+static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed *stem)
+{
+    return stem->x >= belt->from && stem->x <= belt->to && isfinite(stem->y);
+}
+
+/* Where the patch starts that shows the rock's way: around the last stem if that stands in the belt, otherwise at the
+ * first one in it. False where there is none. */
+static bool find_patch(const struct ceduo_picture *picture, const struct ceduo_belt *belt, double *from)
+{
+    const struct ceduo_stem_passed *stems = picture->stems;
+    size_t n = picture->stems_count, first = 0;
+    while (first < n && !is_in(belt, &stems[first]))
+        first++;
+    if (first == n)
+        return false;
+    *from = is_in(belt, &stems[n - 1]) ? stems[n - 1].x - PATCH_M / 2 : stems[first].x;
+    *from = fmax(fmin(*from, belt->to - PATCH_M), belt->from);
+    return true;
+}
+
+static bool is_shown(const struct plan *p, const struct ceduo_belt *belt, double from,
+                     const struct ceduo_stem_passed *stem)
+{
+    return is_in(belt, stem) && stem->x >= from && stem->x <= from + p->width;
+}
+
+/* A strip less than a metre wide would be a line on 20 m: it fills the height, and offsets are stretched. Returns the
+ * factor. */
+static double stretch_across(struct plan *p, const struct ceduo_picture *picture, double from)
+{
+    const struct ceduo_belt *belt = ceduo_plot_belt(picture);
+    double half = 0.7 * p->strip, true_height = p->height;
+    for (size_t i = 0; i < picture->stems_count; i++)
+        if (is_shown(p, belt, from, &picture->stems[i]))
+            half = fmax(half, 1.1 * (fabs(picture->stems[i].y) + picture->stems[i].dbh / 2));
+    p->height = p->frame.y1 = 2 * half;
+    p->dot *= p->height / true_height;
+    return true_height / p->height;
+}
+
+/* Of a way. */
+struct tally {
+    size_t hit, flown_over;
+    double metres, factor; /* along; by which offsets are stretched */
+};
+
+static void put_words_of_way(const struct plan *p, const struct ceduo_area *area, const struct tally *t)
+{
+    struct text words[3] = {{0}}; /* the longest first */
+    ceduo_text_format(&words[2],
+                      ngettext("The way of this rock: %zu stem hit in %.3g m",
+                               "The way of this rock: %zu stems hit in %.3g m", t->hit),
+                      t->hit, t->metres);
+    for (int i = 0; i < 2; i++) {
+        ceduo_text_put(&words[i], words[2].bytes ? words[2].bytes : "");
+        if (t->flown_over > 0 && i == 0)
+            ceduo_text_format(&words[i], _(", %zu flown over"), t->flown_over);
+        ceduo_text_format(&words[i], _("; across \xc3\x97%.2g"), t->factor);
+    }
+    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
+    for (int i = 0; i < 3; i++)
+        ceduo_text_free(&words[i]);
+}
+
+/* The stems that the rock came to from `from` on, at their places along and beside its way. */
+static void draw_way(struct plan *p, const struct ceduo_area *area, const struct ceduo_picture *picture, double from,
+                     bool words)
+{
+    const struct ceduo_belt *belt = ceduo_plot_belt(picture);
+    struct tally t = {.metres = fmin(p->width, belt->to - from), .factor = stretch_across(p, picture, from)};
+    for (size_t i = 0; i < picture->stems_count; i++) {
+        const struct ceduo_stem_passed *stem = &picture->stems[i];
+        if (!is_shown(p, belt, from, stem))
+            continue;
+        t.hit += stem->hit;
+        t.flown_over += !stem->hit;
+        draw_disc(p, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from, p->height / 2 + stem->y,
+                  stem->dbh / 2);
+    }
+    draw_strip(p);
+    struct ceduo_frame given = p->frame;
+    given.x0 += from + picture->scene->slope.origin_x;
+    given.x1 += from + picture->scene->slope.origin_x;
+    ceduo_canvas_axis_bottom(p->canvas, &given, _("m"));
+    if (words)
+        put_words_of_way(p, area, &t);
+}
+
+/* ---- the picture ---- */
 
 void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
@@ -188,6 +298,7 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
         return;
     }
     bool words = area->height >= 7;
+    double from;
     struct plan p = {
         .canvas = canvas,
         .stand = &belt->stand,
@@ -200,12 +311,8 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
     p.frame.y1 = p.height;
     p.frame.y0 = 0;
     p.dot = p.height / (p.frame.height * ceduo_canvas_dots_y(canvas->charset) - 1);
-    draw_stems(&p);
-    draw_strip(&p);
-    ceduo_canvas_axis_bottom(canvas, &p.frame, _("m"));
-    if (words && ceduo_stand_is_bare(p.stand))
-        ceduo_plot_put(canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
-                       _("No stems: nothing stands in a rock's way."));
-    else if (words)
-        put_words(&p, area);
+    if (find_patch(picture, belt, &from))
+        draw_way(&p, area, picture, from, words);
+    else
+        draw_pattern(&p, area, words);
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,19 +11,26 @@
 struct curve {
     const char *name;
     enum ceduo_role role;
-    int every; /* 1: a line; otherwise a dot in every so many columns of dots */
-    bool bare; /* of the rocks without forest */
+    int on, of_dots; /* a stroke of `on` columns of dots in each `of_dots`; 1, 1: a line */
+    bool bare;       /* of the rocks without forest */
     double (*of)(const struct ceduo_envelope *cell);
+};
+
+#define CURVES_MOST 4
+
+/* What a strip shows. */
+struct content {
+    const char *caption, *unit;
+    int count;
+    struct curve curves[CURVES_MOST];
 };
 
 struct strip {
     struct ceduo_canvas *canvas;
     const struct ceduo_area *area;
     const struct ceduo_picture *picture;
-    const struct curve *curves; /* the highest first */
-    int count;
-    const char *unit, *caption;
-    bool energy;
+    const struct content *content;
+    bool energy, legend; /* legend: of bare and wooded curves */
     struct ceduo_frame frame;
     double from, to; /* the stretch */
 };
@@ -62,36 +70,75 @@ static double energy_p95(const struct ceduo_envelope *e)
     return e->energy.p95 * KILO;
 }
 
-static const struct curve height_curves[] = {
-    {N_("max"), CEDUO_ROLE_BARE, 4, false, height_max},
-    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, height_p95},
-    {N_("p50"), CEDUO_ROLE_MEAN, 1, false, height_p50},
+static const struct content heights = {
+    N_("height above the ground, m"),
+    N_("m"),
+    3,
+    {{N_("max"), CEDUO_ROLE_BARE, 1, 4, false, height_max},
+     {N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, height_p95},
+     {N_("p50"), CEDUO_ROLE_MEAN, 1, 1, false, height_p50}},
 };
 
-static const struct curve energy_curves[] = {
-    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, energy_p95},
-    {N_("mean"), CEDUO_ROLE_MEAN, 1, false, energy_mean},
-    {N_("p50"), CEDUO_ROLE_BARE, 4, false, energy_p50},
-    {N_("p5"), CEDUO_ROLE_ENVELOPE, 2, false, energy_p5},
+static const struct content energies = {
+    N_("energy, kJ"),
+    N_("kJ"),
+    4,
+    {{N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, energy_p95},
+     {N_("mean"), CEDUO_ROLE_MEAN, 1, 1, false, energy_mean},
+     {N_("p50"), CEDUO_ROLE_BARE, 1, 4, false, energy_p50},
+     {N_("p5"), CEDUO_ROLE_ENVELOPE, 1, 2, false, energy_p5}},
 };
 
-/* Through the forest, with those of the bare slope behind. */
-static const struct curve wooded_height_curves[] = {
-    {N_("bare"), CEDUO_ROLE_BARE, 3, true, height_p95},
-    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, height_p95},
-    {N_("p50"), CEDUO_ROLE_MEAN, 1, false, height_p50},
+/* Through the forest in strokes, without it in dots, so that the two differ without colour. */
+static const struct content wooded_heights = {
+    N_("height above ground, m"),
+    N_("m"),
+    4,
+    {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, height_p95},
+     {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, height_p95},
+     {N_("bare p50"), CEDUO_ROLE_BARE, 1, 2, true, height_p50},
+     {N_("wood p50"), CEDUO_ROLE_WOOD, 1, 1, false, height_p50}},
 };
 
-static const struct curve wooded_energy_curves[] = {
-    {N_("bare"), CEDUO_ROLE_BARE, 4, true, energy_p95},
-    {N_("p95"), CEDUO_ROLE_ENVELOPE, 2, false, energy_p95},
-    {N_("bare"), CEDUO_ROLE_BARE, 3, true, energy_mean},
-    {N_("mean"), CEDUO_ROLE_MEAN, 1, false, energy_mean},
+static const struct content wooded_energies = {
+    N_("energy, kJ"),
+    N_("kJ"),
+    4,
+    {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, energy_p95},
+     {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, energy_p95},
+     {N_("bare mean"), CEDUO_ROLE_BARE, 1, 2, true, energy_mean},
+     {N_("wood mean"), CEDUO_ROLE_WOOD, 1, 1, false, energy_mean}},
+};
+
+/* The same where there is no room to tell four curves apart. */
+static const struct content small_wooded_heights = {
+    N_("p95 of the height, m"),
+    N_("m"),
+    2,
+    {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, height_p95}, {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, height_p95}},
+};
+
+static const struct content small_wooded_energies = {
+    N_("mean energy, kJ"),
+    N_("kJ"),
+    2,
+    {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, energy_mean}, {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, energy_mean}},
 };
 
 static const struct ceduo_envelope *cells_of(const struct strip *s, const struct curve *curve)
 {
     return (curve->bare ? ceduo_plot_bare(s->picture) : ceduo_plot_sight(s->picture))->envelopes;
+}
+
+/* Columns for the names of the curves and a blank on either side. */
+static int name_columns(enum ceduo_charset charset, const struct content *content)
+{
+    int widest = 4;
+    for (int i = 0; i < content->count; i++) {
+        int width = ceduo_canvas_label_width(charset, _(content->curves[i].name));
+        widest = width > widest ? width : widest;
+    }
+    return widest + 2;
 }
 
 static bool shown(const struct strip *s, size_t cell)
@@ -108,26 +155,30 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The largest value of the highest curve and where it is; the value that 85 % of the cells do not exceed. */
-static size_t largest_of(const struct strip *s, double *largest, double *at, double *usual)
+/* What decides the scale. */
+struct peak {
+    double largest, at, usual; /* the largest value and where it is; what 85 % of the cells do not exceed */
+    const char *curve;         /* whose it is */
+};
+
+/* Takes in one curve; returns how many cells it has. */
+static size_t add_peak(const struct strip *s, const struct curve *curve, struct peak *peak)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
-    const struct ceduo_envelope *cells = cells_of(s, &s->curves[0]);
+    const struct ceduo_envelope *cells = cells_of(s, curve);
     double *values = malloc((o->cells + 1) * sizeof *values);
     size_t n = 0;
-    *largest = *at = *usual = 0;
     for (size_t i = 0; values && i < o->cells; i++) {
-        if (!shown(s, i) || cells[i].passed == 0)
+        double v = curve->of(&cells[i]);
+        if (!shown(s, i) || cells[i].passed == 0 || isnan(v))
             continue;
-        double v = s->curves[0].of(&cells[i]);
-        if (v > *largest)
-            *at = o->cell_x[i];
-        *largest = fmax(*largest, v);
+        if (v > peak->largest)
+            *peak = (struct peak){v, o->cell_x[i], peak->usual, curve->name};
         values[n++] = v;
     }
     if (n > 0) {
         qsort(values, n, sizeof *values, by_value);
-        *usual = values[(n - 1) * 85 / 100];
+        peak->usual = fmax(peak->usual, values[(n - 1) * 85 / 100]);
     }
     free(values);
     return n;
@@ -145,32 +196,37 @@ static double highest_accepted(const struct strip *s, double most)
     return highest;
 }
 
-/* The top of the scale: what is usual, where a few places (the foot of a wall) would flatten all the rest. */
-static bool scale(struct strip *s, double *cut, double *cut_at)
+/* The top of the scale: what is usual, where a few places (the foot of a wall) would flatten all the rest. False where
+ * no rock passes. */
+static bool scale(struct strip *s, struct peak *peak)
 {
-    double largest, usual;
-    if (largest_of(s, &largest, cut_at, &usual) == 0)
-        return false;
-    double top = largest > 1.5 * 1.15 * usual && usual > 0 ? 1.15 * usual : 1.05 * largest;
-    *cut = top < largest ? largest : NAN;
+    size_t cells = 0;
+    *peak = (struct peak){0};
+    for (int i = 0; i < s->content->count; i++)
+        cells += add_peak(s, &s->content->curves[i], peak);
+    bool cut = peak->largest > 1.5 * 1.15 * peak->usual && peak->usual > 0;
+    double top = cut ? 1.15 * peak->usual : 1.05 * peak->largest;
     if (s->energy)
         top = fmax(top, 1.1 * highest_accepted(s, 2 * top));
     s->frame.y0 = 0;
     s->frame.y1 = top > 0 ? top : 1;
-    return true;
+    return cells > 0;
 }
 
 /* ---- curves ---- */
 
-static void draw_dots(struct strip *s, const struct curve *curve, double ax, double ay, double bx, double by)
+/* What of the strokes, which lie at the same columns for all curves, falls on a piece of the curve. */
+static void draw_strokes(struct strip *s, const struct curve *curve, double ax, double ay, double bx, double by)
 {
     struct ceduo_frame *f = &s->frame;
     int dots = f->width * ceduo_canvas_dots_x(s->canvas->charset) - 1;
-    double metres = (f->x1 - f->x0) / dots;
-    for (double i = ceil((ax - f->x0) / metres); i * metres + f->x0 < bx; i++)
-        if (fmod(i, curve->every) == 0)
-            ceduo_canvas_point(s->canvas, f, curve->role, f->x0 + i * metres,
-                               ay + (by - ay) * (f->x0 + i * metres - ax) / (bx - ax));
+    double metres = (f->x1 - f->x0) / dots, step = curve->of_dots * metres, length = (curve->on - 1) * metres;
+    double slope = (by - ay) / (bx - ax);
+    for (double i = floor((ax - f->x0) / step); f->x0 + i * step < bx; i++) {
+        double from = fmax(f->x0 + i * step, ax), to = fmin(f->x0 + i * step + length, bx);
+        if (from <= to)
+            ceduo_canvas_line(s->canvas, f, curve->role, from, ay + (from - ax) * slope, to, ay + (to - ax) * slope);
+    }
 }
 
 static void draw_curve(struct strip *s, const struct curve *curve)
@@ -182,15 +238,15 @@ static void draw_curve(struct strip *s, const struct curve *curve)
         double ay = curve->of(&cells[i - 1]), by = curve->of(&cells[i]);
         if (isnan(ay) || isnan(by))
             continue;
-        if (curve->every == 1)
+        if (curve->of_dots == 1)
             ceduo_canvas_line(s->canvas, &s->frame, curve->role, ax, ay, bx, by);
         else
-            draw_dots(s, curve, ax, ay, bx, by);
+            draw_strokes(s, curve, ax, ay, bx, by);
     }
 }
 
-/* The row in which a curve ends; -1 where it has no end inside the frame. */
-static int end_row(const struct strip *s, const struct curve *curve)
+/* Where a curve ends inside the frame: its value, cut at the top; NaN where no rock passes or it lies below. */
+static double end_of(const struct strip *s, const struct curve *curve)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
     for (size_t i = o->cells; i-- > 0;) {
@@ -198,25 +254,47 @@ static int end_row(const struct strip *s, const struct curve *curve)
         int column, row;
         if (!shown(s, i) || isnan(y))
             continue;
-        return ceduo_frame_cell(&s->frame, s->canvas->charset, o->cell_x[i], fmin(y, s->frame.y1), &column, &row) ? row
-                                                                                                                  : -1;
+        y = fmin(y, s->frame.y1);
+        return ceduo_frame_cell(&s->frame, s->canvas->charset, o->cell_x[i], y, &column, &row) ? y : NAN;
     }
-    return -1;
+    return NAN;
+}
+
+/* The curves that end inside the frame, the highest first; returns how many. */
+static int sort_by_end(const struct strip *s, const struct curve **sorted, double *ends)
+{
+    int n = 0;
+    for (int i = 0; i < s->content->count; i++) {
+        const struct curve *curve = &s->content->curves[i];
+        double end = end_of(s, curve);
+        int at = n;
+        if (isnan(end))
+            continue;
+        for (; at > 0 && ends[at - 1] < end; at--) {
+            sorted[at] = sorted[at - 1];
+            ends[at] = ends[at - 1];
+        }
+        sorted[at] = curve;
+        ends[at] = end;
+        n++;
+    }
+    return n;
 }
 
 /* Each curve's name to the right of its end, none in the row of another. */
 static void name_curves(const struct strip *s)
 {
-    int column = s->frame.left + s->frame.width + 1, room = s->area->left + s->area->width - column;
-    int last = s->frame.top + s->frame.height - 1, next = s->frame.top;
-    if (room < 4 || s->frame.height < s->count)
+    const struct curve *sorted[CURVES_MOST];
+    double ends[CURVES_MOST];
+    int left = s->frame.left + s->frame.width + 1, room = s->area->left + s->area->width - left;
+    int last = s->frame.top + s->frame.height - 1, next = s->frame.top, n = sort_by_end(s, sorted, ends);
+    if (room < 4 || s->frame.height < s->content->count)
         return;
-    for (int i = 0; i < s->count; i++) {
-        int row = end_row(s, &s->curves[i]), lowest = last - (s->count - 1 - i);
-        if (row < 0)
-            continue;
+    for (int i = 0; i < n; i++) {
+        int column, row, lowest = last - (n - 1 - i);
+        ceduo_frame_cell(&s->frame, s->canvas->charset, s->frame.x0, ends[i], &column, &row);
         row = row < next ? next : row > lowest ? lowest : row;
-        ceduo_plot_put(s->canvas, column, row, room, s->curves[i].role, _(s->curves[i].name));
+        ceduo_plot_put(s->canvas, left, row, room, sorted[i]->role, _(sorted[i]->name));
         next = row + 1;
     }
 }
@@ -265,51 +343,57 @@ static void place_frame(struct strip *s, const struct ceduo_span *span, bool axi
         return;
     }
     int labels = ceduo_frame_axis_width(&s->frame, s->canvas->charset);
-    int names = a->width >= 40 ? 6 : 0;
+    int names = a->width >= 40 ? name_columns(s->canvas->charset, s->content) : 0;
     s->frame.left = a->left + labels;
     s->frame.width = a->width - labels - names;
     s->frame.x0 = s->from;
     s->frame.x1 = s->to;
 }
 
-static void put_caption(const struct strip *s, double cut, double cut_at)
+/* How strokes tell the wooded curves from the bare ones. */
+static int put_legend(const struct strip *s, int column, int room)
+{
+    static const struct {
+        enum ceduo_role role;
+        const char *text;
+    } parts[] = {{CEDUO_ROLE_WOOD, N_("  \xe2\x94\x80\xe2\x94\x80 wood")},
+                 {CEDUO_ROLE_BARE, N_("  \xc2\xb7\xc2\xb7 bare")}};
+    int used = 0;
+    for (int i = 0; i < 2; i++)
+        used += ceduo_plot_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, _(parts[i].text));
+    return used;
+}
+
+/* What lies beyond the top, in as many words as there is room for. */
+static void put_cut(const struct strip *s, const struct peak *peak, int column, int room)
 {
     char value[PLOT_NUMBER_ROOM], at[PLOT_NUMBER_ROOM];
+    const char *name = _(peak->curve), *unit = _(s->content->unit);
+    struct text words[3] = {{0}};
+    ceduo_plot_number(peak->largest, 3, value);
+    ceduo_plot_number(peak->at + s->picture->scene->slope.origin_x, 3, at);
+    ceduo_text_format(&words[0], _("; %s beyond the top: %s %s at %s m"), name, value, unit, at);
+    ceduo_text_format(&words[1], _("; %s up to %s %s"), name, value, unit);
+    ceduo_text_format(&words[2], _("; up to %s"), value);
+    ceduo_plot_put_fitting(s->canvas, column, s->area->top, room, CEDUO_ROLE_WARN, 3, words);
+    for (int i = 0; i < 3; i++)
+        ceduo_text_free(&words[i]);
+}
+
+static void put_caption(const struct strip *s, const struct peak *peak)
+{
     int left = s->frame.left, room = s->area->left + s->area->width - left;
     if (s->frame.top == s->area->top)
         return;
-    int used = ceduo_plot_put(s->canvas, left, s->area->top, room, CEDUO_ROLE_AXIS, s->caption);
-    if (isnan(cut))
-        return;
-    ceduo_plot_say(s->canvas, left + used, s->area->top, room - used, CEDUO_ROLE_WARN,
-                   _("; %s beyond the top: %s %s at %s m"), s->curves[0].name, ceduo_plot_number(cut, 3, value),
-                   s->unit, ceduo_plot_number(cut_at + s->picture->scene->slope.origin_x, 3, at));
+    int used = ceduo_plot_put(s->canvas, left, s->area->top, room, CEDUO_ROLE_AXIS, _(s->content->caption));
+    if (s->legend)
+        used += put_legend(s, left + used, room - used);
+    if (peak->largest > s->frame.y1)
+        put_cut(s, peak, left + used, room - used);
 }
 
-static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis)
+static void draw_axes(const struct strip *s, bool axis)
 {
-    double cut, cut_at;
-    ceduo_plot_stretch(s->picture, &s->from, &s->to);
-    s->from = span ? span->x0 : s->from;
-    s->to = span ? span->x1 : s->to;
-    if (!ceduo_plot_sight(s->picture) || !ceduo_plot_bare(s->picture)) {
-        ceduo_plot_words(s->canvas, s->area, _("not computed yet"));
-        return;
-    }
-    if (!scale(s, &cut, &cut_at)) {
-        ceduo_plot_words(s->canvas, s->area, _("no rock passes here"));
-        return;
-    }
-    place_frame(s, span, axis);
-    if (s->frame.width < 2 || s->frame.height < 1 || !(s->frame.x1 > s->frame.x0)) {
-        ceduo_plot_words(s->canvas, s->area, _("too narrow"));
-        return;
-    }
-    put_caption(s, cut, cut_at);
-    for (int i = 0; i < s->count; i++)
-        draw_curve(s, &s->curves[i]);
-    draw_controls(s);
-    name_curves(s);
     struct ceduo_frame given = s->frame;
     given.x0 += s->picture->scene->slope.origin_x;
     given.x1 += s->picture->scene->slope.origin_x;
@@ -318,31 +402,64 @@ static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis
         ceduo_canvas_axis_bottom(s->canvas, &given, _("m"));
 }
 
+static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis)
+{
+    struct peak peak;
+    ceduo_plot_stretch(s->picture, &s->from, &s->to);
+    s->from = span ? span->x0 : s->from;
+    s->to = span ? span->x1 : s->to;
+    if (!ceduo_plot_sight(s->picture) || !ceduo_plot_bare(s->picture)) {
+        ceduo_plot_words(s->canvas, s->area, _("not computed yet"));
+        return;
+    }
+    if (!scale(s, &peak)) {
+        ceduo_plot_words(s->canvas, s->area, _("no rock passes here"));
+        return;
+    }
+    place_frame(s, span, axis);
+    if (s->frame.width < 2 || s->frame.height < 1 || !(s->frame.x1 > s->frame.x0)) {
+        ceduo_plot_words(s->canvas, s->area, _("too narrow"));
+        return;
+    }
+    put_caption(s, &peak);
+    for (int i = 0; i < s->content->count; i++)
+        draw_curve(s, &s->content->curves[i]);
+    draw_controls(s);
+    name_curves(s);
+    draw_axes(s, axis);
+}
+
+#define FULL_ROWS  8  /* four curves need so many rows, */
+#define FULL_WIDTH 56 /* so many columns, and names beside them */
+
+static bool is_small(const struct strip *s, const struct content *full, const struct ceduo_span *span, bool axis)
+{
+    int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
+    return s->area->height - 1 - 2 * axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
+           names < name_columns(s->canvas->charset, full) - 1;
+}
+
+/* `contents`: without forest alone; both; both where there is little room. */
+static void draw_fitting(struct strip *s, const struct content *const contents[3], const struct ceduo_span *span,
+                         bool axis)
+{
+    s->legend = ceduo_plot_wooded(s->picture);
+    s->content = contents[!s->legend ? 0 : is_small(s, contents[1], span, axis) ? 2 : 1];
+    draw_strip(s, span, axis);
+}
+
 void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis)
 {
-    bool wooded = ceduo_plot_wooded(picture);
-    struct strip s = {.canvas = canvas,
-                      .area = area,
-                      .picture = picture,
-                      .curves = wooded ? wooded_height_curves : height_curves,
-                      .count = 3,
-                      .unit = _("m"),
-                      .caption = wooded ? _("height above the ground, m; bare: 95 %") : _("height above the ground, m")};
-    draw_strip(&s, span, axis);
+    static const struct content *const contents[] = {&heights, &wooded_heights, &small_wooded_heights};
+    struct strip s = {.canvas = canvas, .area = area, .picture = picture};
+    draw_fitting(&s, contents, span, axis);
 }
 
 void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis)
 {
-    bool wooded = ceduo_plot_wooded(picture);
-    struct strip s = {.canvas = canvas,
-                      .area = area,
-                      .picture = picture,
-                      .curves = wooded ? wooded_energy_curves : energy_curves,
-                      .count = 4,
-                      .energy = true,
-                      .unit = _("kJ"),
-                      .caption = wooded ? _("energy, kJ; bare: 95 % and mean") : _("energy, kJ")};
-    draw_strip(&s, span, axis);
+    static const struct content *const contents[] = {&energies, &wooded_energies, &small_wooded_energies};
+    struct strip s = {.canvas = canvas, .area = area, .picture = picture, .energy = true};
+    draw_fitting(&s, contents, span, axis);
 }

@@ -2,6 +2,7 @@
 #ifndef CEDUO_REPORT_H
 #define CEDUO_REPORT_H
 
+#include "ceduo/blocks.h"
 #include "io/scene_file.h"
 #include "words.h"
 
@@ -13,6 +14,7 @@ struct ceduo_report {
     const struct ceduo_result *result;
     struct ceduo_run_remarks remarks;
     struct ceduo_work work;
+    const struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: none to show */
     double seconds; /* that the runs took */
 };
 

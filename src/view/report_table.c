@@ -170,39 +170,115 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
     ceduo_text_free(&place);
 }
 
-static void put_arrivals(struct page *p, const struct ceduo_arrivals *a)
+/* The two runs side by side, in columns where there is room. */
+static void put_arrivals_row(struct page *p, const char *name, const struct ceduo_arrivals *a)
 {
-    struct text first = {0};
-    ceduo_text_put(&first, _("Without forest, of 1000 rocks released: "));
-    put_of_1000(p, &first, a->reach_probability, a->reach_lo, a->reach_hi);
-    ceduo_text_put(&first, _(" reach it"));
-    if (!isnan(a->exceed_probability)) {
-        ceduo_text_put(&first, ", ");
-        put_of_1000(p, &first, a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        ceduo_text_put(&first, _(" with more than it bears"));
+    struct text reach = {0}, exceed = {0}, mean = {0};
+    put_of_1000(p, &reach, a->reach_probability, a->reach_lo, a->reach_hi);
+    if (!isnan(a->exceed_probability))
+        put_of_1000(p, &exceed, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+    else
+        ceduo_text_put(&exceed, "-");
+    if (a->reached > 0) {
+        ceduo_words_number(&mean, a->energy.mean * KILO, 4);
+        ceduo_text_format(&mean, " %s", plus_minus(p));
+        ceduo_words_number(&mean, a->energy.se * CEDUO_Z95 * KILO, 2);
     }
-    ceduo_text_char(&first, '.');
-    put_wrapped(p, "    ", 4, first.bytes ? first.bytes : "");
-    ceduo_text_free(&first);
-    if (a->reached == 0) {
-        ceduo_text_format(p->text, _("    No rock arrives: no energy to show (of 1000, below %.1f with 95 %%).\n"),
-                          a->reach_hi * 1000);
-        return;
-    }
+    ceduo_text_put(p->text, "    ");
+    put_padded(p, name, 16);
+    put_padded(p, reach.bytes ? reach.bytes : "", -14);
+    put_padded(p, exceed.bytes ? exceed.bytes : "", -14);
+    put_padded(p, mean.bytes ? mean.bytes : "-", -12);
+    put_cell(p, a->energy.p95 * KILO, 3, 7);
+    put_cell(p, a->speed.mean, 3, 6);
+    put_cell(p, a->height.p95, 2, 6);
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&reach);
+    ceduo_text_free(&exceed);
+    ceduo_text_free(&mean);
+}
+
+static void put_arrivals_head(struct page *p, const struct ceduo_control *c)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    struct text limit = {0};
+    if (!isnan(c->accepted))
+        ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    ceduo_text_put(p->text, "    ");
+    put_padded(p, _("of 1000"), 16);
+    put_padded(p, _("arrive"), -14);
+    put_padded(p, limit.bytes ? limit.bytes : "", -14);
+    put_padded(p, _("mean kJ"), -12);
+    put_padded(p, _("95 %"), -7);
+    put_padded(p, _("m/s"), -6);
+    put_padded(p, _("m up"), -6);
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&limit);
+}
+
+/* The same in sentences. */
+static void put_arrivals_sentences(struct page *p, const char *name, const struct ceduo_arrivals *a)
+{
     struct text line = {0};
-    ceduo_text_put(&line, _("Without forest, energy of those: mean "));
-    ceduo_words_number(&line, a->energy.mean * KILO, 4);
-    ceduo_text_format(&line, " %s ", plus_minus(p));
-    ceduo_words_number(&line, a->energy.se * CEDUO_Z95 * KILO, 2);
-    ceduo_text_put(&line, _(" kJ, 95 % below "));
-    ceduo_words_number(&line, a->energy.p95 * KILO, 3);
-    ceduo_text_put(&line, _(" kJ; speed "));
-    ceduo_words_number(&line, a->speed.mean, 3);
-    ceduo_text_put(&line, _(" m/s, 95 % jump below "));
-    ceduo_words_number(&line, a->height.p95, 2);
-    ceduo_text_put(&line, " m.");
-    put_wrapped(p, "    ", 4, line.bytes ? line.bytes : "");
+    ceduo_text_format(&line, "%s: ", name);
+    put_of_1000(p, &line, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_text_put(&line, _(" of 1000 arrive"));
+    if (!isnan(a->exceed_probability)) {
+        ceduo_text_put(&line, ", ");
+        put_of_1000(p, &line, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_text_put(&line, _(" with more than it bears"));
+    }
+    if (a->reached > 0) {
+        ceduo_text_put(&line, _("; mean "));
+        ceduo_words_number(&line, a->energy.mean * KILO, 4);
+        ceduo_text_format(&line, " %s ", plus_minus(p));
+        ceduo_words_number(&line, a->energy.se * CEDUO_Z95 * KILO, 2);
+        ceduo_text_put(&line, _(" kJ, 95 % below "));
+        ceduo_words_number(&line, a->energy.p95 * KILO, 3);
+    }
+    ceduo_text_char(&line, '.');
+    put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
     ceduo_text_free(&line);
+}
+
+/* What became of the rocks on their way through the wood. */
+static void put_fates(struct page *p, const struct ceduo_flown *f, const struct ceduo_arrivals *a)
+{
+    const struct ceduo_ends *e = &f->ends;
+    double n = (double)f->rocks;
+    struct text line = {0};
+    ceduo_text_format(&line, _("Of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave the slope"),
+                      (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000,
+                      (double)e->count[CEDUO_AT_REST] / n * 1000, (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
+    if (a->reached > 0)
+        ceduo_text_format(&line, _("; one that arrives here has hit %.3g stems"), a->contacts);
+    ceduo_text_char(&line, '.');
+    put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+}
+
+static void put_arrivals(struct page *p, size_t option, size_t control)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    if (p->width >= WIDTH) {
+        put_arrivals_head(p, &r->scene->controls[control]);
+        if (wooded)
+            put_arrivals_row(p, _("through the wood"), wooded);
+        put_arrivals_row(p, _("without forest"), bare);
+    } else {
+        if (wooded)
+            put_arrivals_sentences(p, _("Through the wood"), wooded);
+        put_arrivals_sentences(p, _("Without forest"), bare);
+    }
+    if (wooded)
+        put_fates(p, &r->options[option].wooded, wooded);
+    if (bare->reached == 0)
+        ceduo_text_format(p->text, _("    Without forest no rock arrives (of 1000, below %.1f with 95 %%).\n"),
+                          bare->reach_hi * 1000);
+    else if (wooded && wooded->reached == 0)
+        ceduo_text_format(p->text, _("    Through the wood no rock arrives (of 1000, below %.1f with 95 %%).\n"),
+                          wooded->reach_hi * 1000);
 }
 
 /* ---- forest ---- */
@@ -273,32 +349,16 @@ static void put_other_forms(struct page *p, const struct ceduo_option *o, const 
     }
 }
 
-static void put_contact_verdict(struct page *p, const struct ceduo_index *s)
+static void put_lights(struct page *p, size_t option, size_t control)
 {
-    double limit = p->report->result->scene->simulation.threshold;
-    char room[CEDUO_NUMBER_ROOM];
-    struct text line = {0};
-    const char *t = ceduo_number_shortest(limit, room);
-    if (s->contact == CEDUO_PASS)
-        ceduo_text_format(&line, _("Contact: passes. Every belt has an ADC below %s m and no gap is longer."), t);
-    else if (!(s->length > 0))
-        ceduo_text_put(&line, _("Contact: FAILS. There is no forest on the way."));
-    else if (s->longest_gap > limit)
-        ceduo_text_format(&line, _("Contact: FAILS. A gap of %.3g m has no forest; a rock reaches full speed in %s m."),
-                          s->longest_gap, t);
-    else
-        ceduo_text_format(&line, _("Contact: FAILS. A belt has an ADC of %s m or more: a rock reaches full speed there."),
-                          t);
-    put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
-    struct text run = {0};
-    if (s->length > 0)
-        ceduo_text_format(&run, _("Free run: %s. Chance of %s m without a contact at worst %.1f %% (10 %% is allowed)."),
-                          s->free_run == CEDUO_PASS ? _("passes") : _("FAILS"), t, s->worst_free_run * 100);
-    else
-        ceduo_text_format(&run, _("Free run: FAILS. No stem stands on the way."));
-    put_wrapped(p, "    ", 6, run.bytes ? run.bytes : "");
-    ceduo_text_free(&run);
-    ceduo_text_free(&line);
+    void (*const lights[])(struct text *, const struct ceduo_result *, size_t, size_t) = {
+        ceduo_words_contact, ceduo_words_free_run, ceduo_words_energy};
+    for (size_t i = 0; i < sizeof lights / sizeof lights[0]; i++) {
+        struct text line = {0};
+        lights[i](&line, p->report->result, option, control);
+        put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
+        ceduo_text_free(&line);
+    }
 }
 
 static void put_residual(struct page *p, const struct ceduo_control *c, const struct ceduo_arrivals *a,
@@ -387,6 +447,51 @@ static void say_warning(void *context, const char *sentence)
     put_wrapped(context, "    ! ", 6, sentence);
 }
 
+/* ---- block sizes ---- */
+
+/* Of 1000 released those with too much energy, or where no energy is said those that arrive. */
+static void put_block(struct page *p, const struct ceduo_block *b)
+{
+    struct text share = {0};
+    bool says = !isnan(b->exceed_probability);
+    if (!isnan(b->reach_probability))
+        put_of_1000(p, &share, says ? b->exceed_probability : b->reach_probability, says ? b->exceed_lo : b->reach_lo,
+                    says ? b->exceed_hi : b->reach_hi);
+    ceduo_text_put(p->text, b->own ? "  > " : "    ");
+    put_cell(p, b->volume, 3, 7);
+    put_cell(p, b->mass, 3, 9);
+    put_cell(p, b->diameter, 3, 8);
+    put_cell(p, b->adc, 3, 8);
+    put_cell(p, b->contacts, 3, 10);
+    put_padded(p, share.bytes ? share.bytes : "-", -18);
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&share);
+}
+
+static void put_blocks(struct page *p, const struct ceduo_block *blocks)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    char room[CEDUO_NUMBER_ROOM];
+    struct text share = {0};
+    if (isnan(c->accepted))
+        ceduo_text_put(&share, _("of 1000 arrive"));
+    else
+        ceduo_text_format(&share, _("of 1000 > %s kJ"), ceduo_number_shortest(c->accepted * KILO, room));
+    ceduo_text_format(p->text, _("    Blocks of other sizes, same shape and release, to %s m (> this scene's):\n    "),
+                      ceduo_number_shortest(c->x_given, room));
+    put_padded(p, "m3", -7);
+    put_padded(p, "kg", -9);
+    put_padded(p, _("wide m"), -8);
+    put_padded(p, _("ADC m"), -8);
+    put_padded(p, _("contacts"), -10);
+    put_padded(p, share.bytes ? share.bytes : "", -18);
+    ceduo_text_char(p->text, '\n');
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+        put_block(p, &blocks[i]);
+    ceduo_text_free(&share);
+}
+
 static void put_option(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
@@ -397,48 +502,88 @@ static void put_option(struct page *p, size_t i)
     const char *rule = rule_of(o, found);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         put_place(p, &r->scene->controls[k], k);
-        put_arrivals(p, &r->bare.arrivals[k]);
+        put_arrivals(p, i, k);
+        put_lights(p, i, k);
         if (k == 0)
             put_belts(p, o, found);
-        put_contact_verdict(p, &found->controls[k]);
         put_residual(p, &r->scene->controls[k], &r->bare.arrivals[k], &found->controls[k], rule);
     }
+    if (p->report->blocks && p->width >= 68)
+        put_blocks(p, &p->report->blocks[i * CEDUO_BLOCKS]);
     for (size_t k = 0; k < o->belts_count; k++)
         ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], say_warning, p);
 }
 
 /* ---- side by side ---- */
 
+/* "480 ±10": of 1000. */
+static void put_per_1000(struct page *p, double mean, double se, bool sign, int width)
+{
+    struct text cell = {0};
+    if (isnan(mean))
+        ceduo_text_put(&cell, "-");
+    else
+        ceduo_text_format(&cell, sign ? "%+.0f %s%.0f" : "%.0f %s%.0f", mean * 1000, plus_minus(p),
+                          ceil(se * CEDUO_Z95 * 1000));
+    put_padded(p, cell.bytes ? cell.bytes : "", -width);
+    ceduo_text_free(&cell);
+}
+
+static const char *short_verdict(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? _("pass") : light == CEDUO_FAIL ? _("FAIL") : "?";
+}
+
+static void put_simulated(struct page *p, size_t i)
+{
+    const struct ceduo_result *r = p->report->result;
+    size_t c = r->last_control;
+    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, c);
+    const struct ceduo_difference *d = &r->options[i].differences[c];
+    bool says = a && !isnan(a->exceed_probability);
+    double share = !a ? NAN : says ? a->exceed_probability : a->reach_probability;
+    struct ceduo_paired diff = says ? d->exceed_probability : d->reach_probability;
+    put_per_1000(p, share, a ? sqrt(share * (1 - share) / (double)a->released) : NAN, false, 10);
+    put_per_1000(p, i == 0 ? NAN : diff.mean, diff.se, true, 11);
+    ceduo_text_format(p->text, "   %-4s", short_verdict(r->options[i].controls[c].energy));
+}
+
+static void put_by_index(struct page *p, const struct ceduo_index *s)
+{
+    put_cell(p, s->length > 0 ? s->dissipated / s->length * 100 * KILO : 0, 3, 10);
+    if (s->exhausted)
+        put_padded(p, _("used up"), -10);
+    else
+        put_cell(p, s->residual * KILO, 3, 10);
+}
+
 static void put_comparison_row(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
-    const struct ceduo_option *o = &r->scene->options[i];
-    const struct ceduo_option_result *found = &r->options[i];
-    const struct ceduo_index *s = &found->controls[r->last_control];
+    const struct ceduo_index *s = &r->options[i].controls[r->last_control];
     ceduo_text_put(p->text, "  ");
-    put_padded(p, o->name, 32);
+    put_padded(p, r->scene->options[i].name, 23);
     put_cell(p, s->worst_adc, 3, 7);
-    ceduo_text_format(p->text, " %-7s", s->contact == CEDUO_PASS ? _("passes") : _("FAILS"));
+    ceduo_text_format(p->text, " %-5s", short_verdict(s->contact));
     struct text share = {0};
     ceduo_text_format(&share, "%.1f %%", s->worst_free_run * 100);
     put_padded(p, share.bytes ? share.bytes : "", -7);
     ceduo_text_free(&share);
-    ceduo_text_format(p->text, " %-7s", s->free_run == CEDUO_PASS ? _("passes") : _("FAILS"));
-    put_cell(p, s->length > 0 ? s->dissipated / s->length * 100 * KILO : 0, 3, 8);
-    if (s->exhausted)
-        put_padded(p, _("used up"), -8);
+    ceduo_text_format(p->text, " %-5s", short_verdict(s->free_run));
+    if (r->wooded)
+        put_simulated(p, i);
     else
-        put_cell(p, s->residual * KILO, 3, 8);
+        put_by_index(p, s);
     ceduo_text_char(p->text, '\n');
 }
 
 /* How many options pass one of the lights. */
-static size_t passing(const struct ceduo_result *r, bool free_run)
+static size_t passing(const struct ceduo_result *r, int light)
 {
     size_t n = 0;
     for (size_t i = 0; i < r->scene->options_count; i++) {
         const struct ceduo_index *s = &r->options[i].controls[r->last_control];
-        n += (free_run ? s->free_run : s->contact) == CEDUO_PASS;
+        n += (light == 0 ? s->contact : light == 1 ? s->free_run : s->energy) == CEDUO_PASS;
     }
     return n;
 }
@@ -456,32 +601,55 @@ static void say_separation(struct page *p, const char *test, size_t pass)
     ceduo_text_free(&line);
 }
 
+static void put_comparison_head(struct page *p, const struct ceduo_control *c)
+{
+    const struct ceduo_result *r = p->report->result;
+    char room[CEDUO_NUMBER_ROOM];
+    struct text limit = {0};
+    if (isnan(c->accepted))
+        ceduo_text_put(&limit, _("arrive"));
+    else
+        ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, _("option"), 23);
+    put_padded(p, _("ADC m"), -7);
+    put_padded(p, "", 6);
+    put_padded(p, _("free run"), 13);
+    put_padded(p, r->wooded ? limit.bytes ? limit.bytes : "" : _("kJ/100 m"), -10);
+    put_padded(p, r->wooded ? _("to first") : _("left kJ"), r->wooded ? -11 : -10);
+    if (r->wooded)
+        ceduo_text_format(p->text, "   %s", _("energy"));
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&limit);
+}
+
 static void put_comparison(struct page *p)
 {
     const struct ceduo_result *r = p->report->result;
-    if (r->scene->options_count < 2)
+    if (r->scene->options_count < 2 || r->scene->controls_count == 0)
         return;
     char room[CEDUO_NUMBER_ROOM];
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    ceduo_text_format(p->text, _("\nSide by side, up to %s m (kJ per 100 m and left: by the rule named above)\n"),
+    ceduo_text_format(p->text,
+                      r->wooded ? _("\nSide by side, up to %s m: the same rocks through each wood, of 1000 released\n")
+                                : _("\nSide by side, up to %s m (kJ per 100 m and left: by the rule named above)\n"),
                       ceduo_number_shortest(c->x_given, room));
-    ceduo_text_put(p->text, "  ");
-    put_padded(p, _("option"), 32);
-    put_padded(p, _("ADC m"), -7);
-    ceduo_text_char(p->text, ' ');
-    put_padded(p, _("contact"), 7);
-    ceduo_text_char(p->text, ' ');
-    put_padded(p, _("free run"), 14);
-    put_padded(p, _("kJ/100 m"), -8);
-    put_padded(p, _("left kJ"), -8);
-    ceduo_text_char(p->text, '\n');
+    put_comparison_head(p, c);
     for (size_t i = 0; i < r->scene->options_count; i++)
         put_comparison_row(p, i);
-    say_separation(p, _("contact"), passing(r, false));
-    say_separation(p, _("free run"), passing(r, true));
-    put_wrapped(p, "  ", 2,
-                _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
-                  "says what stems could take, not what a rock loses; no column decides alone."));
+    say_separation(p, _("contact"), passing(r, 0));
+    say_separation(p, _("free run"), passing(r, 1));
+    if (r->wooded && !isnan(c->accepted))
+        say_separation(p, _("energy"), passing(r, 2));
+    struct text best = {0};
+    ceduo_words_best(&best, r);
+    if (best.length > 0)
+        put_wrapped(p, "  ", 2, best.bytes);
+    ceduo_text_free(&best);
+    if (!r->wooded)
+        put_wrapped(p, "  ", 2,
+                    _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
+                      "says what stems could take, not what a rock loses; no column decides alone."));
 }
 
 /* ---- foot ---- */

@@ -150,6 +150,21 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
     }
 }
 
+/* Where the interval of a share holds the limit of the energy light. */
+static void say_close_calls(const struct ceduo_result *result, say_function *say, void *context)
+{
+    for (size_t i = 0; i < result->options_count; i++)
+        for (size_t c = 0; c < result->scene->controls_count; c++) {
+            const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
+            if (!a || !(a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST))
+                continue;
+            say_format(say, context,
+                       _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
+                         "fly more rocks."),
+                       result->scene->options[i].name, result->scene->controls[c].x_given, CEDUO_EXCEED_MOST * 1000);
+        }
+}
+
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
                               say_function *say, void *context)
 {
@@ -163,8 +178,143 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                             "take energy?",
                             (unsigned long)unfinished),
                    (unsigned long long)unfinished, CEDUO_CONTACTS_MOST);
+    say_close_calls(result, say, context);
     if (remarks->ground_assumed)
         say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
     if (result->scene->controls_count > 0 && !result->bare.arrivals[0].exact)
         say_format(say, context, _("So many rocks: percentiles are read from a histogram, within 0.01 %%."));
+}
+
+/* ---- lights ---- */
+
+#define KILO 1e-3
+
+const char *ceduo_words_verdict(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
+}
+
+static const struct ceduo_index *index_at(const struct ceduo_result *result, size_t option, size_t control)
+{
+    return &result->options[option].controls[control];
+}
+
+void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
+{
+    const struct ceduo_index *s = index_at(result, option, control);
+    double limit = result->scene->simulation.threshold;
+    ceduo_text_format(text, _("Contact: %s. "), ceduo_words_verdict(s->contact));
+    if (s->contact == CEDUO_PASS)
+        ceduo_text_format(text, _("Every belt has an ADC below %g m (%.3g m at most) and no gap is longer."), limit,
+                          s->worst_adc);
+    else if (!(s->length > 0))
+        ceduo_text_put(text, _("There is no forest on the way."));
+    else if (s->longest_gap > limit)
+        ceduo_text_format(text, _("A gap of %.3g m has no forest; a rock reaches full speed in %g m."), s->longest_gap,
+                          limit);
+    else
+        ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc,
+                          limit);
+}
+
+void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
+{
+    const struct ceduo_index *s = index_at(result, option, control);
+    ceduo_text_format(text, _("Free run: %s. "), ceduo_words_verdict(s->free_run));
+    if (s->length > 0)
+        ceduo_text_format(text, _("Chance of %g m without a contact at worst %.1f %% (10 %% is allowed)."),
+                          result->scene->simulation.threshold, s->worst_free_run * 100);
+    else
+        ceduo_text_put(text, _("No stem stands on the way."));
+}
+
+/* "480 (474-487) of 1000" */
+static void put_share(struct text *text, double p, double lo, double hi)
+{
+    ceduo_text_format(text, _("%.0f (%.0f\xe2\x80\x93%.0f) of 1000"), p * 1000, floor(lo * 1000), ceil(hi * 1000));
+}
+
+void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
+{
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, control);
+    const struct ceduo_control *c = &result->scene->controls[control];
+    ceduo_text_format(text, _("Energy: %s. "), ceduo_words_verdict(index_at(result, option, control)->energy));
+    if (!result->wooded) {
+        ceduo_text_put(text, _("The index alone says nothing of single rocks (contact_model: index)."));
+    } else if (isnan(c->accepted)) {
+        ceduo_text_put(text, _("It is not said what the place bears (accepted_kJ)."));
+    } else if (!a) {
+        ceduo_text_put(text, _("Not computed yet."));
+    } else {
+        put_share(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_text_format(text, _(" arrive with more than %g kJ (%.0f are allowed)."), c->accepted * KILO,
+                          CEDUO_EXCEED_MOST * 1000);
+        if (a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST)
+            ceduo_text_put(text, _(" Too close to call with so few rocks."));
+    }
+}
+
+/* ---- which is best ---- */
+
+/* The figure of an option by energy, its standard error, and that of its difference to the first option. */
+static double by_energy(const struct ceduo_result *result, size_t option, double *se)
+{
+    size_t c = result->last_control;
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, c);
+    const struct ceduo_difference *d = &result->options[option].differences[c];
+    *se = NAN;
+    if (!a)
+        return NAN;
+    bool shares = !isnan(a->exceed_probability);
+    *se = option == 0 ? 0 : shares ? d->exceed_probability.se : d->energy_per_released.se;
+    return shares ? a->exceed_probability : a->energy_per_released;
+}
+
+size_t ceduo_words_best_by_energy(const struct ceduo_result *result)
+{
+    size_t best = 0;
+    double least = INFINITY, se;
+    for (size_t i = 0; i < result->options_count; i++) {
+        double value = by_energy(result, i, &se);
+        if (value < least) {
+            least = value;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* The error of a difference of two options from those of their differences to the first: rather too large. */
+bool ceduo_words_worse(const struct ceduo_result *result, size_t option, size_t than)
+{
+    double se, than_se, value = by_energy(result, option, &se), other = by_energy(result, than, &than_se);
+    return value - other > 2 * hypot(se, than_se);
+}
+
+static size_t best_by_contact(const struct ceduo_result *result)
+{
+    size_t best = 0, c = result->last_control;
+    for (size_t i = 1; i < result->options_count; i++)
+        if (index_at(result, i, c)->worst_adc < index_at(result, best, c)->worst_adc)
+            best = i;
+    return best;
+}
+
+void ceduo_words_best(struct text *text, const struct ceduo_result *result)
+{
+    if (result->options_count < 2 || !result->wooded || result->scene->controls_count == 0)
+        return;
+    for (size_t i = 0; i < result->options_count; i++)
+        if (!ceduo_result_wooded(result, i, result->last_control))
+            return;
+    size_t contact = best_by_contact(result), energy = ceduo_words_best_by_energy(result);
+    const char *a = result->scene->options[contact].name, *b = result->scene->options[energy].name;
+    if (isinf(index_at(result, contact, result->last_control)->worst_adc))
+        return;
+    if (contact == energy)
+        ceduo_text_format(text, _("By contact and by energy '%s' is best."), a);
+    else if (ceduo_words_worse(result, contact, energy))
+        ceduo_text_format(text, _("By contact '%s' is best, by energy '%s'; neither alone decides."), a, b);
+    else
+        ceduo_text_format(text, _("By contact '%s' is best, and none is clearly better by energy."), a);
 }

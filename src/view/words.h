@@ -21,8 +21,22 @@ struct ceduo_run_remarks {
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
                               void (*say)(void *context, const char *sentence), void *context);
 
+/* The three lights of an option at a control, each with its reason: contact, free run, energy. */
+void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+
+/* Which option is best by contact and which by energy at the last control, where that can be said; nothing otherwise. */
+void ceduo_words_best(struct text *text, const struct ceduo_result *result);
+
+/* The option whose figure is best by energy at the last control: the least share of the released with too much energy, or
+ * where no energy is said the least energy per released; and whether another is beyond two standard errors of it. */
+size_t ceduo_words_best_by_energy(const struct ceduo_result *result);
+bool ceduo_words_worse(const struct ceduo_result *result, size_t option, size_t than);
+
 const char *ceduo_words_rule(enum ceduo_rule rule);      /* interception */
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
+const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */
 const char *ceduo_words_shape(enum ceduo_shape shape);   /* cylinder */
 const char *ceduo_words_law(enum ceduo_law law);
 

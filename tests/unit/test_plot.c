@@ -21,8 +21,9 @@
 
 /* ---- a small scene ---- */
 
-#define CELLS    10
-#define ENERGIES 8
+#define CELLS         10
+#define ENERGIES      8
+#define WOOD_ENERGIES 5
 
 /* A slope of 100 m that falls 60 m, a path at 40 m and a road at 80 m, a coppice with standards between. Numbers are
  * round so that a reader can check a picture by eye. It points into itself: never copy it. */
@@ -35,11 +36,14 @@ struct site {
     struct ceduo_belt belts[2];
     struct ceduo_stems shoots, trees;
     struct ceduo_outlook outlook;
-    struct ceduo_arrivals arrivals[2];
-    struct ceduo_energies energies[2];
-    struct ceduo_trail trail;
-    double cell_x[CELLS], values[ENERGIES], trail_x[5], trail_z[5];
-    struct ceduo_envelope envelopes[CELLS];
+    struct ceduo_sight bare, wood;
+    struct ceduo_sight *wooded[2];
+    struct ceduo_arrivals arrivals[2], wood_arrivals[2];
+    struct ceduo_energies energies[2], wood_energies[2];
+    struct ceduo_trail trail, wood_trail;
+    double cell_x[CELLS], values[ENERGIES], wood_values[WOOD_ENERGIES];
+    double trail_x[5], trail_z[5], wood_trail_x[3], wood_trail_z[3];
+    struct ceduo_envelope envelopes[CELLS], wood_envelopes[CELLS];
 };
 
 static void set_ground(struct site *s)
@@ -84,8 +88,11 @@ static void set_forest(struct site *s)
     s->options[1] = (struct ceduo_option){"felled", 1, &s->belts[1]};
 }
 
-/* Heights of 1, 2, 3 m and energies of 10 kJ a cell more from place to place; eight rocks at the path. */
-static void set_outlook(struct site *s)
+static const struct ceduo_envelope no_rock = {
+    .mean_energy = NAN, .speed = {NAN, NAN, NAN, NAN}, .height = {NAN, NAN, NAN, NAN}, .energy = {NAN, NAN, NAN, NAN}};
+
+/* Heights of 1, 2, 3 m and energies of 10 kJ a cell more from place to place; eight rocks of ten at the path. */
+static void set_bare(struct site *s)
 {
     static const double kj[ENERGIES] = {12, 21, 25, 33, 34, 38, 47, 55};
     static const double x[5] = {0, 20, 40, 60, 80}, z[5] = {0, -10, -30, -42, -52};
@@ -107,15 +114,46 @@ static void set_outlook(struct site *s)
     s->arrivals[1].energy = ceduo_distribution_none();
     s->energies[0] = (struct ceduo_energies){ENERGIES, s->values};
     s->energies[1] = (struct ceduo_energies){0, s->values};
-    s->outlook = (struct ceduo_outlook){.rocks = 10,
-                                        .cells = CELLS,
-                                        .cell_x = s->cell_x,
-                                        .envelopes = s->envelopes,
-                                        .controls = 2,
-                                        .arrivals = s->arrivals,
-                                        .energies = s->energies,
-                                        .trails_count = 1,
-                                        .trails = &s->trail};
+    s->bare = (struct ceduo_sight){.references = 1,
+                                   .flown = {.rocks = 10, .controls = 2, .arrivals = s->arrivals},
+                                   .picture_rocks = 10,
+                                   .envelopes = s->envelopes,
+                                   .energies = s->energies,
+                                   .trails_count = 1,
+                                   .trails = &s->trail};
+}
+
+/* Lower and slower, and no further than 70 m; five rocks of ten at the path. */
+static void set_wood(struct site *s)
+{
+    static const double kj[WOOD_ENERGIES] = {8, 15, 21, 25, 41};
+    static const double x[3] = {0, 20, 40}, z[3] = {0, -12, -32};
+    for (int i = 0; i < CELLS; i++) {
+        double e = i < 4 ? 8e3 * (i + 1) : 32e3 - 8e3 * (i - 3);
+        s->wood_envelopes[i] = (struct ceduo_envelope){
+            .passed = 5, .mean_energy = e, .height = {0.3, 0.6, 1.5, 2}, .energy = {0.5 * e, 0.9 * e, 1.5 * e, 2 * e}};
+        if (i >= 7)
+            s->wood_envelopes[i] = no_rock;
+    }
+    for (int i = 0; i < WOOD_ENERGIES; i++)
+        s->wood_values[i] = 1e3 * kj[i];
+    memcpy(s->wood_trail_x, x, sizeof x);
+    memcpy(s->wood_trail_z, z, sizeof z);
+    s->wood_trail = (struct ceduo_trail){3, s->wood_trail_x, s->wood_trail_z};
+    s->wood_arrivals[0] = (struct ceduo_arrivals){
+        .released = 10, .reached = 5, .exceeded = 1, .reach_probability = 0.5, .exceed_probability = 0.1};
+    s->wood_arrivals[0].energy = (struct ceduo_distribution){.mean = 22e3, .p50 = 21e3, .p95 = 41e3, .max = 41e3};
+    s->wood_arrivals[1] = s->arrivals[1];
+    s->wood_energies[0] = (struct ceduo_energies){WOOD_ENERGIES, s->wood_values};
+    s->wood_energies[1] = (struct ceduo_energies){0, s->wood_values};
+    s->wood = (struct ceduo_sight){.references = 1,
+                                   .key = 1,
+                                   .flown = {.rocks = 10, .controls = 2, .arrivals = s->wood_arrivals},
+                                   .picture_rocks = 10,
+                                   .envelopes = s->wood_envelopes,
+                                   .energies = s->wood_energies,
+                                   .trails_count = 1,
+                                   .trails = &s->wood_trail};
 }
 
 static void site_init(struct site *s)
@@ -133,8 +171,30 @@ static void site_init(struct site *s)
     s->controls[1] = (struct ceduo_control){80, 80, NULL, NAN, NAN};
     set_ground(s);
     set_forest(s);
-    set_outlook(s);
+    set_bare(s);
+    set_wood(s);
+    s->outlook = (struct ceduo_outlook){
+        .cells = CELLS, .controls = 2, .options = 2, .cell_x = s->cell_x, .bare = &s->bare, .wooded = s->wooded};
+    s->scene.simulation.contact_model = CEDUO_INDEX;
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
+}
+
+/* The same with rocks among stems. Where none stand what is to be seen is the slope without forest. */
+static void wooded_site_init(struct site *s)
+{
+    site_init(s);
+    s->scene.simulation.contact_model = CEDUO_STEMS;
+    s->wooded[0] = &s->wood;
+    s->wooded[1] = &s->bare;
+}
+
+/* Through the wood no rock gets to the path. */
+static void stop_all(struct site *s)
+{
+    for (int i = 0; i < CELLS; i++)
+        s->wood_envelopes[i] = no_rock;
+    s->wood_energies[0].n = 0;
+    s->wood_arrivals[0] = (struct ceduo_arrivals){.released = 10, .energy = ceduo_distribution_none()};
 }
 
 static struct ceduo_picture picture_of(const struct site *s)
@@ -304,6 +364,171 @@ static void the_selected_way_is_drawn_over_all(void **state)
     ceduo_canvas_free(canvas);
 }
 
+static void the_wooded_profile_says_whose_forest_it_is(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII,
+           "                      v path (40 m)       v 80 m\n"
+           "  |v release          '                   '\n"
+           "60+'..         :      '                   '            true to scale\n"
+           "  |  '':.      :      '                   '            1 ways of 10 through\n"
+           "50+     ':'..  :    : '                   '             kept\n"
+           "  |       ''.'.:    : '                   '\n"
+           "  |          '.:.  .: '  :                '            At 40 m, wood (bare)\n"
+           "40+            '':.:: '  :    .           '             500 (800) of 1000\n"
+           "  |               ':: ': :    :   .       '             100 (200) > 40 kJ\n"
+           "30+                 '':: : .  :   :       '\n"
+           "  |                   ''.: :  :.  :       '            At 80 m, wood (bare)\n"
+           "20+                   '   ':. ::  ::      '             0 (0) of 1000\n"
+           "  |                   '      '':. ::      '\n"
+           "  |                   '          '''..    '            coppice*\n"
+           "10+                   '               '''.:             20-70 m\n"
+           "  |                   '                   '''...        2100 stems/ha\n"
+           " 0+                   '                   '     ''..    up to 20 m high\n"
+           "  ++---------+--------+---------+---------+--------+-\n"
+           "   0 m       20       40        60        80      100\n"
+           "             +------ coppice* -------+\n");
+    s.options[0].name = "coppice with standards";
+    expect(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE,
+           "   ▼ release     ▼ path (40 m)  ▼ 80 m\n"
+           "60┤⡀        ⡀    ⠨              ⠨ ways: coppice with standa…\n"
+           "  │⠈⠓⢦⣀     ⡇    ⠨              ⠨\n"
+           "  │   ⠉⠫⡢⢄⡀⢠⡇   ⡆⠨              ⠨\n"
+           "  │     ⠈⠑⢌⢺⡇⢠  ⡇⠨ ⢀            ⠨\n"
+           "40┤        ⠉⠯⣺⡀⢰⡇⠨ ⢸   ⡀        ⠨\n"
+           "  │           ⠙⢾⡇⢸ ⢸   ⡇   ⡄    ⠨\n"
+           "  │             ⠉⠺⣀⢸ ⢠ ⡇   ⡇    ⠨\n"
+           "  │              ⠨ ⠙⠤⣸ ⣿ ⢠ ⣇    ⠨\n"
+           "20┤              ⠨   ⠈⠑⠿⢄⣸ ⣿    ⠨\n"
+           "  │              ⠨       ⠈⠉⠛⠢⢄⡀ ⠨\n"
+           "  │              ⠨            ⠈⠉⠺⠤⢄⡀\n"
+           " 0┤              ⠨              ⠨  ⠈⠑⠒⠤⣀\n"
+           "  └┬──────┬──────┬───────┬──────┬──────┬─\n"
+           "   0 m    20     40      60     80    100\n"
+           "          ├─── coppice* ────┤\n");
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 54, 16, "ways: coppice w"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 40, 12, "ways: copp"));
+    p.option = 1;
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "without forest"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " no stems"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "through"));
+}
+
+static void ways_that_are_not_known_are_not_drawn(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    s.wooded[0] = NULL;
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
+    assert_int_equal(cells_of(canvas, CEDUO_ROLE_CLOUD), 0);
+    assert_true(cells_of(canvas, CEDUO_ROLE_STOOL) > 5);
+    ceduo_canvas_free(canvas);
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "ways not computed yet"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "of 1000"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 60, 16, "ways:"));
+}
+
+static void notes_tell_when_no_rock_arrives(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    stop_all(&s);
+    struct ceduo_picture p = picture_of(&s);
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " 0 (800) of 1000"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " 0 (200) > 40 kJ"));
+    s.arrivals[0].exceed_probability = NAN;
+    s.wood_arrivals[0].exceed_probability = NAN;
+    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "> 40 kJ"));
+}
+
+/* Two of the upper half hit, one flown over; one in the lower half. */
+static const struct ceduo_stem_passed passed[] = {
+    {.x = 22, .y = 0.3, .dbh = 0.3, .height = 20, .hit = true},
+    {.x = 27, .y = -0.1, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
+    {.x = 32, .y = 0.2, .dbh = 0.08, .height = 8, .shoot = true},
+    {.x = 62, .y = -0.4, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
+};
+
+/* The rows of a column that hold dots of a role. */
+static int rows_of(const struct ceduo_canvas *canvas, int column, enum ceduo_role role)
+{
+    int n = 0;
+    for (int row = 0; row < canvas->height; row++)
+        n += ceduo_canvas_role(canvas, column, row) == role;
+    return n;
+}
+
+static void stems_that_the_rock_came_to_stand_where_they_are(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    p.outlook = NULL;
+    p.stems = passed;
+    p.stems_count = 4;
+    struct ceduo_canvas *canvas = ceduo_canvas_create(84, 40, BRAILLE);
+    struct ceduo_area area = {0, 0, 84, 40};
+    struct ceduo_span span;
+    ceduo_plot_profile(canvas, &area, &p, &span);
+    double metres = (span.x1 - span.x0) / (2 * span.width - 1); /* of a dot, either way */
+    assert_int_equal(cells_of(canvas, CEDUO_ROLE_STEM) + cells_of(canvas, CEDUO_ROLE_STOOL), 0);
+    for (int i = 0; i < 4; i++) {
+        int column = span.left + (int)lround((passed[i].x - span.x0) / metres) / 2;
+        double rows = passed[i].height / metres / 4;
+        int found = rows_of(canvas, column, passed[i].hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM);
+        assert_true(found >= rows - 2 && found <= rows + 1);
+    }
+    ceduo_canvas_free(canvas);
+    expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII,
+           "                      v path (40 m)       v 80 m\n"
+           "  |v release  .       '                   '\n"
+           "60+'.         :       '                   '            true to scale\n"
+           "  |  ''.      :       '                   '            ways not computed yet\n"
+           "50+     '.    :       '                   '            stems this rock came to\n"
+           "  |       ''. : .     '                   '\n"
+           "  |          ': :  :  '                   '            coppice*\n"
+           "40+            ''. :  '                   '             20-70 m\n"
+           "  |               ':. '                   '             2100 stems/ha\n"
+           "30+                  ':                   '             up to 20 m high\n"
+           "  |                   ''..                '\n"
+           "20+                   '   '..    :        '\n"
+           "  |                   '      ''..:        '\n"
+           "  |                   '          '''..    '\n"
+           "10+                   '               '''.:\n"
+           "  |                   '                   '''...\n"
+           " 0+                   '                   '     ''..\n"
+           "  ++---------+--------+---------+---------+--------+-\n"
+           "   0 m       20       40        60        80      100\n"
+           "             +------ coppice* -------+\n");
+}
+
+/* By the contact model poisson a contact has a place along the way, but no size. */
+static void contacts_without_size_are_drawn_as_high_as_the_stand(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    s.scene.simulation.contact_model = CEDUO_POISSON;
+    struct ceduo_stem_passed contact[] = {
+        {.x = 30, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true},
+        {.x = 90, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true}, /* no belt: no height */
+        {.x = 200, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true}};
+    struct ceduo_picture p = picture_of(&s);
+    p.stems = contact;
+    p.stems_count = 3;
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_PROFILE, &p, 84, 40, BRAILLE);
+    assert_in_range(cells_of(canvas, CEDUO_ROLE_WAY), 6, 12);
+    ceduo_canvas_free(canvas);
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 84, 20, "One pattern of many"));
+}
+
 /* Survey coordinates on the axes, the same picture. */
 static void axes_have_the_users_coordinates(void **state)
 {
@@ -356,6 +581,145 @@ static void strips_show_quantiles_along_the_slope(void **state)
            "  0┤  ⠈⠃⠂⠂⠁⠁⠁           ⠅                  ⠨\n"
            "   └┬─────────┬─────────┬────────┬─────────┬─────────┬\n"
            "    0 m       20        40       60        80      100\n");
+}
+
+/* Strokes through the forest, dots without it. */
+static void strips_show_the_wood_beside_the_bare_slope(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII,
+           "    height above ground, m  -- wood  .. bare\n"
+           "2.0+    .   .   .   .   . ' .   .   .   .   .   :   .   .    bare p95\n"
+           "   |                      '                     '\n"
+           "   |                      '                     '\n"
+           "1.5+   .  ....  ....  ....' ....  ....          '            wood p95\n"
+           "   |                      '                     '\n"
+           "   |                      '                     '\n"
+           "1.0+    . . . . . . . . . : . . . . . . . . . . : . . . .    bare p50\n"
+           "   |                      '                     '\n"
+           "   |                      '                     '\n"
+           "0.5+   ''''''''''''''''''''''''''''''''''       '            wood p50\n"
+           "   |                      '                     '\n"
+           "   |                      '                     '\n"
+           "0.0+                      '                     '\n"
+           "   ++----------+----------+----------+----------+----------+\n"
+           "    0 m        20         40         60         80       100\n");
+    expect(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE,
+           "    energy, kJ  ── wood  ·· bare\n"
+           "150┤                      ⠅                    ⠨            bare p95\n"
+           "   │                      ⠅                    ⠨    ⠄ ⠁\n"
+           "   │                      ⠅                   ⡀⠨⠂ ⠁\n"
+           "   │                      ⠅               ⡀ ⠂  ⠨\n"
+           "100┤                      ⠅           ⠄ ⠁      ⠨       ⡀    bare mean\n"
+           "   │                      ⠅       ⠄ ⠁          ⠨⡀⡀⠄⠂⠂⠁⠁\n"
+           "   │                      ⠅ ⡀ ⠂ ⠁        ⡀⡀⠄⠄⠂⠁⠩\n"
+           "   │                    ⡀ ⠇        ⡀⠄⠄⠂⠂⠁      ⠨\n"
+           " 50┤                ⠄ ⢂⡀  ⠅ ⡀⡀⠄⠂⠂⠁⠁            ⠨\n"
+           "   │        bears 40 kJ⠌⠦⠶⠥⠥⣀                  ⠨\n"
+           "   │      ⡀ ⠂⣀⡥⡀⠎⣅⣂⠥⠥⠤⠒⠒⠢⠤⠥⢄⣀⡉ ⠒⠤ ⣀            ⠨\n"
+           "   │   ⣀⣦⣄⣖⠯⠦⠓⠒⠉⠉         ⠅  ⠈⠉⠑⠒⠢⠤⢍⣀⣒⡤        ⠨            wood p95\n"
+           "  0┤  ⠈⠉                  ⠅           ⠈⠉       ⠨            wood mean\n"
+           "   └┬──────────┬──────────┬─────────┬──────────┬──────────┬\n"
+           "    0 m        20         40        60         80       100\n");
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
+    assert_true(cells_of(canvas, CEDUO_ROLE_WOOD) > 30);
+    assert_true(cells_of(canvas, CEDUO_ROLE_BARE) > 30);
+    ceduo_canvas_free(canvas);
+}
+
+/* Where there is no room for four curves: the one that matters, with and without forest. */
+static void small_strips_show_one_pair_of_curves(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_ENERGY, &p, 70, 8, ASCII,
+           "    mean energy, kJ  -- wood  .. bare\n"
+           "100+                        '                      '  . . . '    bare\n"
+           "   |                        '           . . . ' ' '''\n"
+           " 50+                      . : . . ' ' '            '\n"
+           "   |        . bears 40 kJ'''::....                 '\n"
+           "  0+   '''''''''            '     '''''''''        '             wood\n"
+           "   ++-----+-----+-----+-----+-----+----+-----+-----+-----+-----+\n"
+           "    0 m   10    20    30    40    50   60    70    80    90  100\n");
+    expect(CEDUO_PLOT_HEIGHT, &p, 70, 8, BRAILLE,
+           "  p95 of the height, m  ── wood  ·· bare\n"
+           "2┤    ⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠪⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠇⠂⠂⠂⠂⠂⠂⠂⠂⠂    bare\n"
+           " │   ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠺⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠂        ⠅             wood\n"
+           "1┤                        ⠨                        ⠅\n"
+           " │                        ⠨                        ⠅\n"
+           "0┤                        ⠨                        ⠅\n"
+           " └┬─────┬─────┬─────┬─────┬──────┬─────┬─────┬─────┬─────┬─────┬\n"
+           "  0 m   10    20    30    40     50    60    70    80    90  100\n");
+    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "mean energy, kJ  -- wood  .. bare"));
+    assert_false(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "p95"));
+    struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
+    struct ceduo_area area = {0, 0, 70, 20};
+    struct ceduo_canvas *canvas = ceduo_canvas_create(70, 20, ASCII);
+    ceduo_plot_energy(canvas, &area, &p, &span, true);
+    char *text = ceduo_canvas_dump(canvas);
+    assert_non_null(strstr(text, "mean energy, kJ"));
+    free(text);
+    ceduo_canvas_free(canvas);
+}
+
+/* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
+static void names_of_curves_follow_their_ends(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    for (int i = 0; i < CELLS; i++) {
+        s.wood_envelopes[i] = s.envelopes[i];
+        s.wood_envelopes[i].mean_energy = 190e3;
+        s.wood_envelopes[i].energy.p95 = 20e3;
+    }
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, ASCII);
+    const char *names[] = {"wood mean", "bare p95", "bare mean", "wood p95"};
+    char *text = ceduo_canvas_dump(canvas), *at = text;
+    for (int i = 0; i < 4; i++) {
+        at = strstr(at, names[i]);
+        assert_non_null(at);
+    }
+    free(text);
+    ceduo_canvas_free(canvas);
+}
+
+/* The wood's own peak is cut as well, and told by name. */
+static void a_peak_in_the_wood_is_told(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    s.wood_envelopes[2].height.p95 = 30;
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 120, 16, "wood p95 beyond the top: 30.0 m at 25.0 m"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "; wood p95 up to 30.0 m"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 58, 16, "; up to 30.0\n"));
+}
+
+static void strips_without_wooded_rocks(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    stop_all(&s);
+    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "bare mean"));
+    assert_false(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "wood mean"));
+    s.wooded[0] = NULL;
+    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "not computed yet"));
+    p.option = 1; /* no stems: both runs are one, drawn in strokes */
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_ENERGY, &p, 70, 8, BRAILLE);
+    assert_true(cells_of(canvas, CEDUO_ROLE_WOOD) > 30);
+    assert_in_range(cells_of(canvas, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
+    ceduo_canvas_free(canvas);
 }
 
 /* Nine places of ten say how high the scale goes; the tenth is told. */
@@ -416,8 +780,7 @@ static void places_without_rocks_stay_empty(void **state)
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     for (int i = 0; i < CELLS; i++)
-        s.envelopes[i] =
-            (struct ceduo_envelope){.mean_energy = NAN, .height = {NAN, NAN, NAN, NAN}, .energy = {NAN, NAN, NAN, NAN}};
+        s.envelopes[i] = no_rock;
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 60, 12, "no rock passes here"));
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "no rock passes here"));
     p.outlook = NULL;
@@ -433,7 +796,7 @@ static void histogram_counts_by_round_bins(void **state)
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, BRAILLE,
-           "n = 8 of 10 rocks arrive; of 1000 released, 200 with more t…\n"
+           "n = 8 of 10; of 1000: 200 > 40 kJ\n"
            "10–20 kJ ██████████                     1  12.5 %\n"
            "20–30 kJ ████████████████████           2  25.0 %\n"
            "30–40 kJ ██████████████████████████████ 3  37.5 % ◀ p50 33\n"
@@ -442,7 +805,7 @@ static void histogram_counts_by_round_bins(void **state)
            "\n"
            "\n");
     expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 5, ASCII,
-           "n = 8 of 10 rocks arrive; of 1000 released, 200 with more t~\n"
+           "n = 8 of 10; of 1000: 200 > 40 kJ\n"
            " 0-20 kJ ####                   1  12.5 %\n"
            "20-40 kJ ###################### 5  62.5 % < p50 33\n"
            "40-60 kJ #########              2  25.0 % < bears 40, p95 55\n"
@@ -465,13 +828,13 @@ static void a_long_tail_goes_into_one_bin(void **state)
     s.energies[0] = (struct ceduo_energies){1000, many};
     s.arrivals[0].reached = 1000;
     expect(CEDUO_PLOT_HISTOGRAM, &p, 70, 8, ASCII,
-           "n = 1000 of 10 rocks arrive; of 1000 released, 200 with more than 40 ~\n"
+           "n = 1000 of 10; of 1000: 200 > 40 kJ\n"
            " 0-10 kJ ###################################### 200  20.0 %\n"
            "10-20 kJ ###################################### 200  20.0 %\n"
            "20-30 kJ ###################################### 200  20.0 %\n"
            "30-40 kJ ###################################### 200  20.0 % < p50 33\n"
            "40-50 kJ #####################################  197  19.7 % < bears 40\n"
-           ">= 50 kJ #                                         3  0.3 % < p95 55\n"
+           ">= 50 kJ #                                        3   0.3 % < p95 55\n"
            "\n");
     s.arrivals[0].reached = 5000;
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 100, 8, "drawn: the first 1000"));
@@ -489,6 +852,66 @@ static void equal_energies_make_a_bin(void **state)
     for (int i = 0; i < ENERGIES; i++)
         s.values[i] = 5e12;
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "100.0 %"));
+}
+
+/* Bars through the forest, marks without it, both of 1000 released. */
+static void the_histogram_marks_the_bare_slope(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, BRAILLE,
+           "of 1000 released 500 arrive (│ bare 800), 100 (200) with more than 40 kJ\n"
+           "                                            wood (bare)\n"
+           " 0–10 kJ ████████████                         100 (  0)\n"
+           "10–20 kJ ████████████│                        100 (100)\n"
+           "20–30 kJ ████████████████████████│            200 (200) ◀ p50 21\n"
+           "30–40 kJ                                    │   0 (300)\n"
+           "40–50 kJ ████████████│                        100 (100) ◀ bears 40, p95 41\n"
+           "50–60 kJ             │                          0 (100)\n"
+           "\n"
+           "\n"
+           "\n"
+           "\n");
+    expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 6, ASCII,
+           "of 1000: 500 arrive (| bare 800), 100 (200) > 40 kJ\n"
+           " 0-20 kJ ####|####              200 (100)\n"
+           "20-40 kJ #########            | 200 (500) < p50 21\n"
+           "40-60 kJ ####    |              100 (200) < bears 40, p95 41\n"
+           "\n"
+           "\n");
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 50, 12, "of 1000: 500 (| bare 800), 100 (200) > 40 kJ\n"));
+    s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "of 1000 released 500 arrive (| bare 800)\n"));
+    s.wood_arrivals[0].reached = 50;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "; drawn: the first 8"));
+    p.control = 1;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "no rock arrives"));
+}
+
+static void the_histogram_without_wooded_rocks(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    stop_all(&s);
+    expect(CEDUO_PLOT_HISTOGRAM, &p, 74, 10, ASCII,
+           "of 1000 released 0 arrive (| bare 800), 0 (200) with more than 40 kJ\n"
+           "                                                    wood (bare)\n"
+           "10-20 kJ                |                               0 (100)\n"
+           "20-30 kJ                               |                0 (200)\n"
+           "30-40 kJ                                              | 0 (300)\n"
+           "40-50 kJ                |                               0 (100) < bears 40\n"
+           "50-60 kJ                |                               0 (100)\n"
+           "\n"
+           "\n"
+           "\n");
+    s.wooded[0] = NULL;
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "not computed yet"));
+    p.option = 1; /* no stems */
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "of 1000 released 800 arrive (| bare 800)"));
 }
 
 static void adc_shows_the_forms_beside_the_threshold(void **state)
@@ -545,26 +968,95 @@ static void options_stand_side_by_side(void **state)
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
-           "  ADC, m (│ 30)             taken, kJ/100 m           left, kJ (bears 40)\n"
+           "  ADC, m (│ 30)             taken, kJ/100 m           left, kJ (│ bears 40)\n"
            "\n"
            "kept\n"
-           "  ████▊      │   8.24 pass  ██████████████ 90.5       ██████▍        15.0\n"
+           "  ████▊      │    8.24 pass ██████████████  90.5      █████▎       │  15.0\n"
            "\n"
            "felled\n"
-           "  ██████████████ none NO                   0          ██████████████ 33.1\n"
+           "  ███████████│██  none NO                      0      ███████████▋ │  33.1\n"
            "\n"
            "left = 33.12 kJ (mean, without forest) less what the stems could take (index)\n");
-    expect(CEDUO_PLOT_COMPARE, &p, 120, 6, ASCII,
-           "         ADC, m (| 30)                         taken, kJ/100 m                       left, kJ (bears 40)\n"
+    expect(CEDUO_PLOT_COMPARE, &p, 110, 6, ASCII,
+           "         ADC, m (| 30)                     taken, kJ/100 m                   left, kJ (| bears 40)\n"
            "\n"
-           "kept     ########          |      8.24 pass    ######################## 90.5         ###########           "
-           "   15.0\n"
+           "kept     #######        |      8.24 pass   ####################  90.5        ########           |  15.0\n"
            "\n"
-           "felled   ######################## none NO                               0            "
-           "######################## 33.1\n"
+           "felled   ###############|####  none NO                              0        #################  |  33.1\n"
            "left = 33.12 kJ (mean, without forest) less what the stems could take (index)\n");
     p.control = 1;
     assert_true(shows(CEDUO_PLOT_COMPARE, &p, 120, 6, "no rock arrives"));
+}
+
+static void options_are_compared_by_what_gets_through(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
+           "  ADC, m (│ 30)             of 1000 > 40 kJ (│ 50)    mean, kJ (│ bears 40)\n"
+           "\n"
+           "kept\n"
+           "  ████▊      │    8.24 pass █│               100 NO   ███████▊     │  22.0\n"
+           "\n"
+           "felled\n"
+           "  ███████████│██  none NO   █│▊              200 NO   ███████████▋ │  33.1\n"
+           "\n"
+           "without forest: 200 of 1000 > 40 kJ, mean 33.12 kJ; mean: of those that arrive\n");
+    expect(CEDUO_PLOT_COMPARE, &p, 60, 7, ASCII,
+           "  ADC, m (| 30)      of 1000 > 40 kJ    mean, kJ (| 40)\n"
+           "kept\n"
+           "  ##   |   8.24 pass |         100 NO   ####  |  22.0\n"
+           "felled\n"
+           "  #####|#  none NO   |         200 NO   ######|  33.1\n"
+           "pass: ADC of every belt and every gap below 30 m\n"
+           "without forest: 200 of 1000 > 40 kJ, mean 33.12 kJ\n");
+    s.wood_arrivals[0].exceed_probability = 0.05;
+    assert_true(shows(CEDUO_PLOT_COMPARE, &p, 80, 9, " 50.0 pass"));
+    s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
+    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII,
+           "  ADC, m (| 30)             of 1000 arrive            mean, kJ\n"
+           "\n"
+           "kept\n"
+           "  #####      |    8.24 pass #######          500      #########       22.0\n"
+           "\n"
+           "felled\n"
+           "  ###########|##  none NO   ###########      800      ##############  33.1\n"
+           "\n"
+           "without forest: 800 of 1000, mean 33.12 kJ; mean: of those that arrive\n");
+}
+
+static void options_without_wooded_rocks_are_compared(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    stop_all(&s);
+    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII,
+           "  ADC, m (| 30)             of 1000 > 40 kJ (| 50)    mean, kJ (| bears 40)\n"
+           "\n"
+           "kept\n"
+           "  #####      |    8.24 pass  |                 0 pass              |     -\n"
+           "\n"
+           "felled\n"
+           "  ###########|##  none NO   #|#              200 NO   ############ |  33.1\n"
+           "\n"
+           "without forest: 200 of 1000 > 40 kJ, mean 33.12 kJ; mean: of those that arrive\n");
+    s.wooded[0] = NULL;
+    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
+           "  ADC, m (│ 30)             of 1000 > 40 kJ (│ 50)    mean, kJ (│ bears 40)\n"
+           "\n"
+           "kept\n"
+           "  ████▊      │    8.24 pass  │                 …                   │     …\n"
+           "\n"
+           "felled\n"
+           "  ███████████│██  none NO   █│▊              200 NO   ███████████▋ │  33.1\n"
+           "\n"
+           "without forest: 200 of 1000 > 40 kJ, mean 33.12 kJ; mean: of those that arrive\n");
+    p.outlook = NULL;
+    assert_true(shows(CEDUO_PLOT_COMPARE, &p, 80, 9, "Energies are not computed yet"));
 }
 
 /* ---- the stand ---- */
@@ -589,7 +1081,7 @@ static void the_stand_is_drawn_to_scale(void **state)
            "             ⠈⠁                     ⠷⠋\n"
            "┬─────┬─────┬─────┬─────┬─────┬────┬─────┬─────┬─────┬─────┬\n"
            "0 m   2     4     6     8     10   12    14    16    18   20\n"
-           "One pattern of many. The rock (0.80 m wide) meets 5 stools …\n");
+           "One pattern of many: 5 stools or trees are met\n");
     p.option = 1;
     assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 12, "No stems"));
     p.belt = 1;
@@ -644,6 +1136,69 @@ static void what_the_rock_meets_lies_in_its_strip(void **state)
     ceduo_canvas_free(canvas);
 }
 
+/* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
+static void the_stand_shows_the_way_of_the_rock(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    p.stems = passed;
+    p.stems_count = 3;
+    expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE,
+           "\n"
+           "⣦⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄⠄\n"
+           "⣿\n"
+           "⡿                            ⢰⡆\n"
+           "\n"
+           "\n"
+           "               ⠇\n"
+           "\n"
+           "\n"
+           "⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂\n"
+           "\n"
+           "┬─────┬─────┬─────┬─────┬─────┬────┬─────┬─────┬─────┬─────┬\n"
+           "22 m  24    26    28    30    32   34    36    38    40   42\n"
+           "The way of this rock: 2 stems hit in 20 m; across ×6.5\n");
+    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE);
+    assert_true(cells_of(canvas, CEDUO_ROLE_WAY) >= 2);
+    assert_true(cells_of(canvas, CEDUO_ROLE_DIM) >= 1);
+    assert_int_equal(cells_of(canvas, CEDUO_ROLE_STEM) + cells_of(canvas, CEDUO_ROLE_STOOL), 0);
+    ceduo_canvas_free(canvas);
+    p.stems_count = 4; /* the last one near the end of the belt */
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 14, "The way of this rock: 1 stem hit in 20 m; across x"));
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 50, 14, "The way of this rock: 1 stem hit in 20 m\n"));
+    s.scene.slope.origin_x = 1000;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 14, "1065"));
+}
+
+/* The last stem in another belt: the first 20 m with stems. A belt shorter than that is shown with what follows it. */
+static void the_way_is_shown_in_the_belt_shown(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_belt belts[3] = {s.belts[0], s.belts[0], s.belts[1]};
+    belts[0].to = 45;
+    belts[1].from = 60;
+    belts[1].to = 70;
+    belts[2].from = 70;
+    belts[2].to = 90;
+    s.options[0] = (struct ceduo_option){"three", 3, belts};
+    struct ceduo_picture p = picture_of(&s);
+    p.stems = passed;
+    p.stems_count = 4;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "2 stems hit in 20 m, 1 flown over"));
+    p.belt = 1;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "1 stem hit in 10 m;"));
+    p.belt = 2;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "No stems"));
+    p.belt = 0;
+    p.stems = &passed[3];
+    p.stems_count = 1;
+    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "One pattern of many"));
+}
+
 static void a_dense_stand_is_drawn_in_time(void **state)
 {
     (void)state;
@@ -661,14 +1216,17 @@ static void nothing_is_drawn_beside_the_area(void **state)
 {
     (void)state;
     static struct site s;
-    site_init(&s);
+    wooded_site_init(&s);
     for (int i = 0; i < 3 * 40 * 12; i++) {
         enum ceduo_charset charset = (enum ceduo_charset)(i % 3);
         struct ceduo_area area = {7, 3, 4 + i / 3 % 40 * 3, 1 + i / 120 * 2};
         for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
             struct ceduo_canvas *canvas = ceduo_canvas_create(area.width + 14, area.height + 6, charset);
             struct ceduo_picture p = picture_of(&s);
+            s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_STEMS : CEDUO_INDEX;
             p.outlook = i % 7 == 0 ? NULL : p.outlook;
+            p.stems = i % 11 < 3 ? passed : NULL;
+            p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);
             ceduo_plot_draw((enum ceduo_plot)plot, canvas, &area, &p);
             for (int row = 0; row < canvas->height; row++)
@@ -703,20 +1261,34 @@ static void titles_name_what_is_shown(void **state)
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
-    const char *expected[CEDUO_PLOTS] = {
-        "",
-        "kept: slope, forest, and ways without forest",
-        "Energy of the rocks, without forest",
-        "Height of the rocks above the ground, without forest",
-        "Energy at path (40 m), without forest",
-        "kept: average distance between contacts, m",
-        "kept: coppice, from above",
-        "Options side by side, up to path (40 m)",
+    const char *expected[2][CEDUO_PLOTS] = {
+        {
+            "",
+            "kept: slope, forest, and ways without forest",
+            "kept: energy of the rocks, without forest",
+            "kept: height of the rocks above the ground, without forest",
+            "kept: energy at path (40 m), without forest",
+            "kept: average distance between contacts, m",
+            "kept: coppice, from above",
+            "Options side by side, up to path (40 m)",
+        },
+        {
+            "",
+            "kept: slope, forest, and ways through it",
+            "kept: energy of the rocks",
+            "kept: height of the rocks above the ground",
+            "kept: energy at path (40 m)",
+            "kept: average distance between contacts, m",
+            "kept: coppice, from above",
+            "Options side by side, up to path (40 m)",
+        },
     };
-    for (int plot = 0; plot < CEDUO_PLOTS; plot++) {
+    for (int i = 0; i < 2 * (CEDUO_PLOTS - 1); i++) {
+        int plot = CEDUO_PLOT_PROFILE + i / 2;
         struct text title = {0};
+        s.scene.simulation.contact_model = i % 2 ? CEDUO_STEMS : CEDUO_INDEX;
         ceduo_plot_title(&title, (enum ceduo_plot)plot, &p);
-        assert_string_equal(title.bytes ? title.bytes : "", expected[plot]);
+        assert_string_equal(title.bytes ? title.bytes : "", expected[i % 2][plot]);
         ceduo_text_free(&title);
     }
     assert_int_equal(ceduo_plot_last_control(&s.scene), 1);
@@ -724,17 +1296,27 @@ static void titles_name_what_is_shown(void **state)
 
 /* ---- what pictures are made of ---- */
 
-static struct ceduo_run *run_of(const struct site *s, size_t cells, const double *cell_x, size_t exact_bytes)
+/* The runs of a scene, flown. */
+static struct ceduo_pool *pool_of(const struct site *s, uint64_t rocks, size_t cells, const double *cell_x,
+                                  size_t exact_bytes)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s->scene);
-    struct ceduo_run *run;
-    def.rocks_most = 300;
+    struct ceduo_pool *pool;
+    def.rocks_most = 1000;
     def.cells = cells;
     def.cell_x = cell_x;
     def.exact_bytes = exact_bytes;
-    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
-    return run;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);
+    return pool;
+}
+
+static struct ceduo_outlook *outlook_of(const struct ceduo_outlook_def *def)
+{
+    struct ceduo_outlook *o;
+    assert_int_equal(ceduo_outlook_create(def, &o), CEDUO_OK);
+    return o;
 }
 
 static void places_lie_beyond_the_release(void **state)
@@ -753,59 +1335,237 @@ static void places_lie_beyond_the_release(void **state)
     assert_int_equal(ceduo_outlook_places(&s.scene, x), 0);
 }
 
-static void outlook_is_what_the_run_says(void **state)
+static void expect_sight(const struct ceduo_sight *sight, const struct ceduo_run *run, size_t cells)
 {
-    (void)state;
-    static struct site s;
-    site_init(&s);
-    double x[CEDUO_OUTLOOK_CELLS];
-    size_t cells = ceduo_outlook_places(&s.scene, x);
-    struct ceduo_run *run = run_of(&s, cells, x, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o;
-    assert_int_equal(ceduo_outlook_create(&s.scene, run, NULL, cells, x, 20, &o), CEDUO_OK);
-    assert_int_equal(o->rocks, 300);
-    assert_int_equal(o->cells, cells);
-    assert_int_equal(o->controls, 2);
-    assert_int_equal(o->trails_count, 20);
+    assert_non_null(sight);
+    assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
+    assert_int_equal(sight->picture_rocks, ceduo_run_rocks(run));
     for (size_t c = 0; c < 2; c++) {
-        assert_true(o->arrivals[c].reached > 0);
-        assert_int_equal(o->energies[c].n, o->arrivals[c].reached);
+        const struct ceduo_arrivals *found = &sight->flown.arrivals[c];
+        struct ceduo_arrivals a;
+        assert_int_equal(ceduo_run_arrivals(run, c, &a), CEDUO_OK);
+        assert_true(a.reached > 0);
+        assert_int_equal(found->reached, a.reached);
+        assert_int_equal(sight->energies[c].n, a.reached);
         double sum = 0;
-        for (size_t i = 0; i < o->energies[c].n; i++)
-            sum += o->energies[c].values[i];
-        assert_true(fabs(sum / (double)o->energies[c].n - o->arrivals[c].energy.mean) < 1e-6 * sum);
+        for (size_t i = 0; i < sight->energies[c].n; i++)
+            sum += sight->energies[c].values[i];
+        assert_true(fabs(sum / (double)a.reached - found->energy.mean) < 1e-6 * sum);
     }
     for (size_t i = 0; i < cells; i++) {
         struct ceduo_envelope e;
         ceduo_run_envelope(run, i, &e);
-        assert_int_equal(o->envelopes[i].passed, e.passed);
-        assert_true(o->cell_x[i] == x[i]);
+        assert_int_equal(sight->envelopes[i].passed, e.passed);
     }
+}
+
+static void outlook_is_what_the_runs_say(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    size_t cells = ceduo_outlook_places(&s.scene, x);
+    struct ceduo_pool *pool = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){
+        .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trails = 20});
+    assert_int_equal(o->cells, cells);
+    assert_int_equal(o->controls, 2);
+    assert_int_equal(o->options, 2);
+    for (size_t i = 0; i < cells; i++)
+        assert_true(o->cell_x[i] == x[i]);
+    expect_sight(o->bare, ceduo_pool_find(pool, NULL), cells);
+    expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]), cells);
+    assert_true(o->wooded[0]->flown.arrivals[1].reached < o->bare->flown.arrivals[1].reached);
+    assert_int_equal(o->bare->trails_count, 20);
+    assert_int_equal(o->wooded[0]->trails_count, 20);
+    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->wooded[0]);
+    assert_null(ceduo_outlook_sight(o, &s.scene, 2));
+    assert_null(ceduo_outlook_sight(NULL, &s.scene, 0));
     ceduo_outlook_free(o);
-    ceduo_run_free(run);
+    ceduo_pool_free(pool);
     ceduo_outlook_free(NULL);
 }
 
-/* A run too long for its samples: the energies come from rocks flown once more, the same ones. */
-static void energies_are_flown_where_they_were_not_kept(void **state)
+/* Without stems the rocks are those without forest: the same sight, and it is flown once. */
+static void a_forest_without_stems_is_the_bare_slope(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    assert_int_equal(ceduo_pool_work(pool).runs, 2);
+    assert_ptr_equal(o->wooded[1], o->bare);
+    assert_ptr_not_equal(o->wooded[0], o->bare);
+    for (size_t c = 0; c < 2; c++) {
+        assert_true(o->differences[c].reach_probability.mean == 0);
+        double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
+        assert_true(fabs(o->differences[2 + c].reach_probability.mean - more) < 1e-12);
+    }
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* With the contact model index there is one sight, that of all options. */
+static void the_index_looks_at_the_bare_slope(void **state)
 {
     (void)state;
     static struct site s;
     site_init(&s);
-    struct ceduo_run *kept = run_of(&s, 0, NULL, CEDUO_EXACT_BYTES), *binned = run_of(&s, 0, NULL, 0);
-    struct ceduo_outlook *a, *b;
-    assert_int_equal(ceduo_outlook_create(&s.scene, kept, NULL, 0, NULL, 0, &a), CEDUO_OK);
-    assert_int_equal(ceduo_outlook_create(&s.scene, binned, NULL, 0, NULL, 0, &b), CEDUO_OK);
+    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    assert_int_equal(ceduo_pool_work(pool).runs, 1);
+    assert_null(o->wooded[0]);
+    assert_null(o->wooded[1]);
+    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->bare);
+    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 1), o->bare);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* Runs that are not there yet leave gaps, which the pictures name. */
+static void what_is_not_flown_yet_is_not_known(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
+    struct ceduo_pool *pool;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_pool_create(&run_def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_run(pool, NULL, &run), CEDUO_OK);
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_outlook *o = outlook_of(&def);
+    assert_null(o->bare);
+    ceduo_outlook_free(o);
+    assert_int_equal(ceduo_pool_extend(pool, 100), CEDUO_OK);
+    o = outlook_of(&def);
+    assert_non_null(o->bare);
+    assert_null(o->wooded[0]);
+    assert_ptr_equal(o->wooded[1], o->bare);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(isnan(o->differences[i].reach_probability.mean));
+    struct ceduo_picture p = {.scene = &s.scene, .outlook = o};
+    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 12, "not computed yet"));
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* Figures come from the longer run, curves from the one that keeps them. */
+static void figures_come_from_the_longer_run(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    size_t cells = ceduo_outlook_places(&s.scene, x);
+    struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_pool *pictures = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook_def def = {
+        .scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    struct ceduo_outlook *o = outlook_of(&def);
+    assert_int_equal(o->wooded[0]->flown.rocks, 600);
+    assert_int_equal(o->wooded[0]->picture_rocks, 300);
+    assert_true(o->wooded[0]->envelopes[0].passed <= 300);
+    ceduo_outlook_free(o);
+    assert_int_equal(ceduo_pool_extend(pictures, 900), CEDUO_OK);
+    o = outlook_of(&def);
+    assert_int_equal(o->wooded[0]->flown.rocks, 900);
+    assert_int_equal(o->bare->flown.rocks, 900);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(figures);
+    ceduo_pool_free(pictures);
+}
+
+/* What has not changed since the last outlook is not read again but shared; who is freed first does not matter. */
+static void sights_are_taken_over(void **state)
+{
+    (void)state;
+    static struct site a, b;
+    for (int order = 0; order < 2; order++) {
+        wooded_site_init(&a);
+        wooded_site_init(&b);
+        b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
+        b.belts[1].stand.shoots_count = 0;
+        struct ceduo_pool *pool = pool_of(&a, 300, 0, NULL, CEDUO_EXACT_BYTES);
+        struct ceduo_outlook_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trails = 5};
+        struct ceduo_outlook *first = outlook_of(&def);
+        ceduo_pool_turn(pool, &b.scene);
+        def.scene = &b.scene;
+        def.last = first;
+        struct ceduo_outlook *early = outlook_of(&def);
+        assert_null(early->wooded[1]);
+        assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+        assert_int_equal(ceduo_pool_extend(pool, 300), CEDUO_OK);
+        def.last = early;
+        struct ceduo_outlook *second = outlook_of(&def);
+        assert_ptr_equal(second->bare, first->bare);
+        assert_ptr_equal(second->wooded[0], first->wooded[0]);
+        assert_non_null(second->wooded[1]);
+        assert_ptr_not_equal(second->wooded[1], first->wooded[1]);
+        assert_int_equal(atomic_load(&first->wooded[0]->references), 3);
+        ceduo_outlook_free(order ? first : second);
+        ceduo_outlook_free(early);
+        struct ceduo_outlook *left = order ? second : first;
+        assert_int_equal(left->wooded[0]->trails_count, 5);
+        assert_int_equal(atomic_load(&left->wooded[0]->references), 1);
+        assert_true(left->wooded[0]->trails[4].n >= 2);
+        ceduo_outlook_free(left);
+        ceduo_pool_free(pool);
+    }
+}
+
+static void longer_runs_are_read_again(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_outlook *first = outlook_of(&def);
+    assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
+    def.last = first;
+    struct ceduo_outlook *second = outlook_of(&def);
+    assert_ptr_not_equal(second->bare, first->bare);
+    assert_ptr_not_equal(second->wooded[0], first->wooded[0]);
+    assert_int_equal(second->wooded[0]->flown.rocks, 301);
+    ceduo_outlook_free(first);
+    ceduo_outlook_free(second);
+    ceduo_pool_free(pool);
+}
+
+static void expect_same_energies(const struct ceduo_sight *a, const struct ceduo_sight *b)
+{
     for (size_t c = 0; c < 2; c++) {
-        assert_false(b->arrivals[c].exact);
+        assert_false(b->flown.arrivals[c].exact);
+        assert_true(a->energies[c].n > 0);
         assert_int_equal(a->energies[c].n, b->energies[c].n);
         for (size_t i = 0; i < a->energies[c].n; i++)
             assert_true(fabs(a->energies[c].values[i] - b->energies[c].values[i]) <= 1e-9 * a->energies[c].values[i]);
     }
+}
+
+/* Runs too long for their samples: the energies come from rocks flown once more, the same ones. */
+static void energies_are_flown_where_they_were_not_kept(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *kept = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
+    struct ceduo_outlook *a =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = kept, .pictures = kept});
+    struct ceduo_outlook *b =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = binned, .pictures = binned});
+    expect_same_energies(a->bare, b->bare);
+    expect_same_energies(a->wooded[0], b->wooded[0]);
     ceduo_outlook_free(a);
     ceduo_outlook_free(b);
-    ceduo_run_free(kept);
-    ceduo_run_free(binned);
+    ceduo_pool_free(kept);
+    ceduo_pool_free(binned);
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
@@ -813,20 +1573,24 @@ static void trails_follow_the_rocks(void **state)
 {
     (void)state;
     static struct site s;
-    site_init(&s);
-    for (uint64_t rock = 0; rock < 20; rock++) {
+    wooded_site_init(&s);
+    uint64_t hit = 0;
+    for (uint64_t i = 0; i < 40; i++) {
+        const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
         struct ceduo_trail t;
         struct ceduo_way way;
-        assert_int_equal(ceduo_trail_follow(&s.scene, rock, &t), CEDUO_OK);
-        assert_int_equal(ceduo_way_follow(&s.scene, NULL, rock, NULL, &way, NULL), CEDUO_OK);
+        assert_int_equal(ceduo_trail_follow(&s.scene, option, i / 2, &t), CEDUO_OK);
+        assert_int_equal(ceduo_way_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
+        hit += way.stems_hit;
         assert_true(t.n >= 2);
         assert_true(t.x[0] == way.x0 && t.z[0] == way.z0);
         assert_true(t.x[t.n - 1] == way.x && t.z[t.n - 1] == way.z);
-        for (size_t i = 0; i < t.n; i++)
-            if (t.x[i] >= 0 && t.x[i] <= 100)
-                assert_true(t.z[i] > ceduo_slope_height(&s.scene.slope, t.x[i]) - 0.1);
+        for (size_t k = 0; k < t.n; k++)
+            if (t.x[k] >= 0 && t.x[k] <= 100)
+                assert_true(t.z[k] > ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
         ceduo_trail_free(&t);
     }
+    assert_true(hit > 0);
 }
 
 /* A rock thrown far: every point of its trail and the middle of every chord lies on the parabola. */
@@ -838,7 +1602,7 @@ static void flights_are_sampled_finely(void **state)
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
     struct ceduo_trail t;
-    assert_int_equal(ceduo_trail_follow(&s.scene, 0, &t), CEDUO_OK);
+    assert_int_equal(ceduo_trail_follow(&s.scene, NULL, 0, &t), CEDUO_OK);
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
         double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
@@ -915,26 +1679,48 @@ int main(void)
         cmocka_unit_test(span_tells_where_the_slope_stands),
         cmocka_unit_test(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written),
         cmocka_unit_test(the_selected_way_is_drawn_over_all),
+        cmocka_unit_test(the_wooded_profile_says_whose_forest_it_is),
+        cmocka_unit_test(ways_that_are_not_known_are_not_drawn),
+        cmocka_unit_test(notes_tell_when_no_rock_arrives),
+        cmocka_unit_test(stems_that_the_rock_came_to_stand_where_they_are),
+        cmocka_unit_test(contacts_without_size_are_drawn_as_high_as_the_stand),
         cmocka_unit_test(axes_have_the_users_coordinates),
         cmocka_unit_test(strips_show_quantiles_along_the_slope),
+        cmocka_unit_test(strips_show_the_wood_beside_the_bare_slope),
+        cmocka_unit_test(small_strips_show_one_pair_of_curves),
+        cmocka_unit_test(names_of_curves_follow_their_ends),
+        cmocka_unit_test(a_peak_in_the_wood_is_told),
+        cmocka_unit_test(strips_without_wooded_rocks),
         cmocka_unit_test(a_peak_is_cut_and_told),
         cmocka_unit_test(strips_share_the_profiles_columns),
         cmocka_unit_test(places_without_rocks_stay_empty),
         cmocka_unit_test(histogram_counts_by_round_bins),
         cmocka_unit_test(a_long_tail_goes_into_one_bin),
         cmocka_unit_test(equal_energies_make_a_bin),
+        cmocka_unit_test(the_histogram_marks_the_bare_slope),
+        cmocka_unit_test(the_histogram_without_wooded_rocks),
         cmocka_unit_test(adc_shows_the_forms_beside_the_threshold),
         cmocka_unit_test(many_belts_get_a_row_each),
         cmocka_unit_test(options_stand_side_by_side),
+        cmocka_unit_test(options_are_compared_by_what_gets_through),
+        cmocka_unit_test(options_without_wooded_rocks_are_compared),
         cmocka_unit_test(the_stand_is_drawn_to_scale),
         cmocka_unit_test(stems_that_stay_do_not_move),
         cmocka_unit_test(what_the_rock_meets_lies_in_its_strip),
+        cmocka_unit_test(the_stand_shows_the_way_of_the_rock),
+        cmocka_unit_test(the_way_is_shown_in_the_belt_shown),
         cmocka_unit_test(a_dense_stand_is_drawn_in_time),
         cmocka_unit_test(nothing_is_drawn_beside_the_area),
         cmocka_unit_test(names_are_found),
         cmocka_unit_test(titles_name_what_is_shown),
         cmocka_unit_test(places_lie_beyond_the_release),
-        cmocka_unit_test(outlook_is_what_the_run_says),
+        cmocka_unit_test(outlook_is_what_the_runs_say),
+        cmocka_unit_test(a_forest_without_stems_is_the_bare_slope),
+        cmocka_unit_test(the_index_looks_at_the_bare_slope),
+        cmocka_unit_test(what_is_not_flown_yet_is_not_known),
+        cmocka_unit_test(figures_come_from_the_longer_run),
+        cmocka_unit_test(sights_are_taken_over),
+        cmocka_unit_test(longer_runs_are_read_again),
         cmocka_unit_test(energies_are_flown_where_they_were_not_kept),
         cmocka_unit_test(trails_follow_the_rocks),
         cmocka_unit_test(flights_are_sampled_finely),

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_BLOCKS_H
+#define CEDUO_BLOCKS_H
+
+#include "run.h"
+
+/* The same scene with blocks of other sizes: what a wood does to small blocks it does not do to large ones. */
+struct ceduo_block {
+    double volume;         /* m3 */
+    double mass, diameter; /* kg, m: of the mean rock */
+    double adc;            /* m, by the scene's rule: the worst belt before the control; infinite where there is none */
+    double contacts;       /* with stems on the way to the control, by that rule (Eq. 2 of Ciabocco et al. 2009) */
+    uint64_t released, reached, exceeded; /* through the wood; exceeded: with more than the control accepts */
+    double exceed_probability, exceed_lo, exceed_hi; /* NaN without an accepted energy */
+    double reach_probability, reach_lo, reach_hi;
+    bool own;              /* the scene's own block */
+};
+
+/* 0.05, 0.2, 1, 5 m3: the limits of the rock classes of the Swiss guideline NaiS (Frehner et al. 2005), and 1 m3 between;
+ * and the scene's own. */
+#define CEDUO_BLOCKS 5
+
+/* A rock of the same shape and density `factor` times as long in every dimension; spreads are scaled with the sizes. */
+struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
+
+/* Flies `rocks` blocks of each size through the forest of `option` to a control; sorted by volume. With the contact model
+ * index nothing is flown and the shares are NaN. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY, or what
+ * ceduo_run_create() says. */
+enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
+                               uint64_t rocks, unsigned threads, const atomic_bool *cancel,
+                               struct ceduo_block blocks[CEDUO_BLOCKS]);
+
+#endif

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/blocks.h"
+
+#include <math.h>
+
+#include "ceduo/assess.h"
+
+static struct ceduo_number scaled(struct ceduo_number n, double factor)
+{
+    n.mean *= factor;
+    n.spread *= factor;
+    return n;
+}
+
+struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor)
+{
+    struct ceduo_rock_def to = *def;
+    double cube = factor * factor * factor;
+    to.diameter = scaled(def->diameter, factor);
+    to.height = scaled(def->height, factor);
+    for (int i = 0; i < 3; i++)
+        to.axes[i] = scaled(def->axes[i], factor);
+    to.volume = scaled(def->volume, cube);
+    to.mass = scaled(def->mass, cube);
+    return to;
+}
+
+static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
+                                   uint64_t rocks, unsigned threads, const atomic_bool *cancel, struct ceduo_block *b)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(scene);
+    def.option = option;
+    def.threads = threads;
+    def.rocks_most = rocks;
+    def.cancel = cancel;
+    struct ceduo_run *run;
+    enum ceduo_status status = ceduo_run_create(&def, &run);
+    if (status != CEDUO_OK)
+        return status;
+    struct ceduo_arrivals a;
+    status = ceduo_run_extend(run, rocks);
+    if (status == CEDUO_OK)
+        status = ceduo_run_arrivals(run, control, &a);
+    if (status == CEDUO_OK) {
+        b->released = a.released;
+        b->reached = a.reached;
+        b->exceeded = a.exceeded;
+        b->exceed_probability = a.exceed_probability;
+        b->exceed_lo = a.exceed_lo;
+        b->exceed_hi = a.exceed_hi;
+        b->reach_probability = a.reach_probability;
+        b->reach_lo = a.reach_lo;
+        b->reach_hi = a.reach_hi;
+    }
+    ceduo_run_free(run);
+    return status;
+}
+
+/* The volumes to show, rising: `own` in its place. */
+static void sort_volumes(double own, struct ceduo_block blocks[CEDUO_BLOCKS])
+{
+    static const double volumes[CEDUO_BLOCKS - 1] = {0.05, 0.2, 1, 5};
+    size_t n = 0;
+    bool placed = false;
+    for (size_t i = 0; i < CEDUO_BLOCKS - 1; i++) {
+        if (!placed && own <= volumes[i]) {
+            blocks[n++] = (struct ceduo_block){.volume = own, .own = true};
+            placed = true;
+        }
+        blocks[n++] = (struct ceduo_block){.volume = volumes[i]};
+    }
+    if (!placed)
+        blocks[n] = (struct ceduo_block){.volume = own, .own = true};
+}
+
+enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
+                               uint64_t rocks, unsigned threads, const atomic_bool *cancel,
+                               struct ceduo_block blocks[CEDUO_BLOCKS])
+{
+    struct ceduo_rock own, rock;
+    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &own);
+    if (status != CEDUO_OK)
+        return status;
+    sort_volumes(own.volume, blocks);
+    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
+    for (size_t i = 0; i < CEDUO_BLOCKS && status == CEDUO_OK; i++) {
+        struct ceduo_block *b = &blocks[i];
+        struct ceduo_scene other = *scene;
+        if (!b->own)
+            other.rock = ceduo_rock_scaled(&scene->rock, cbrt(b->volume / own.volume));
+        status = ceduo_rock_of_means(&other.rock, &rock);
+        if (status != CEDUO_OK)
+            break;
+        struct ceduo_index index = ceduo_assess_index(&other, option, &scene->controls[control], NAN);
+        b->mass = rock.mass;
+        b->diameter = rock.mean_diameter;
+        b->adc = index.worst_adc;
+        b->contacts = index.contacts;
+        b->exceed_probability = b->exceed_lo = b->exceed_hi = NAN;
+        b->reach_probability = b->reach_lo = b->reach_hi = NAN;
+        if (flies)
+            status = fly_block(&other, option, control, rocks, threads, cancel, b);
+    }
+    return status;
+}
