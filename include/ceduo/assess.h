@@ -40,6 +40,10 @@ struct ceduo_index {
     enum ceduo_light contact, free_run, energy;
 };
 
+/* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, and where it is not said
+ * what is too much. */
+enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
+
 /* A belt by itself. */
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt);
 

@@ -23,5 +23,6 @@
 #include "status.h"
 #include "version.h"
 #include "way.h"
+#include "years.h"
 
 #endif

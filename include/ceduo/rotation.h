@@ -48,8 +48,8 @@ void ceduo_grown_stand_release(struct ceduo_grown_stand *grown);
  * `first_cut`: a year in which a cut falls; of a fraction the next whole year. Cuts follow each other by the rotation,
  * and where it is negative only its rhythm matters: -5 with 25 years is 20, the inventory being what that cut left.
  * INFINITY: never. NaN: when the oldest shoots reach the age of cutting, rotation × cohorts; without shoots when the
- * oldest trees do, rotation × (rotations that the oldest to stay have seen + 1); at once where they are older; never
- * where no age is known. */
+ * oldest trees do, rotation × (rotations that the oldest to stay have seen + 1); in year 1 where they are older, so that
+ * year 0 is the stand as filed; never where no age is known. */
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
 
 /* Whether a cut falls in `year`: the first one or one that is whole rotations later. */

@@ -39,6 +39,7 @@ struct ceduo_belt {
     double from_given, to_given; /* as the user wrote them */
     char *name;                  /* of the stand */
     bool assumed;                /* some value of the stand is an assumption */
+    double cut_year;             /* a year in which it is cut, as in ceduo_first_cut(); NaN: when it is old enough */
     struct ceduo_stand stand;
 };
 
@@ -78,6 +79,8 @@ struct ceduo_scene {
     size_t options_count;           /* >= 1 */
     struct ceduo_option *options;   /* the first is the baseline */
     struct ceduo_simulation simulation;
+    double rocks_per_year;          /* that come down; NaN: not said */
+    double reserves_minimum;        /* single trees per ha that a wood must keep; NaN: not said */
 };
 
 /* What the paper's site and rule take where a scene does not say. */

@@ -36,6 +36,13 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
     return r;
 }
 
+enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
+{
+    if (!a || isnan(a->exceed_probability))
+        return CEDUO_UNKNOWN;
+    return a->exceed_probability <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_FAIL;
+}
+
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)
 {
     return assess_per_length(scene, &belt->stand, belt->to - belt->from);

@@ -64,13 +64,6 @@ static struct ceduo_difference no_difference(double accepted)
     return d;
 }
 
-static enum ceduo_light energy_light(const struct ceduo_arrivals *a)
-{
-    if (!a || isnan(a->exceed_probability))
-        return CEDUO_UNKNOWN;
-    return a->exceed_probability <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_FAIL;
-}
-
 static bool assess_option(struct ceduo_result *r, size_t i, const struct ceduo_flown *wooded,
                           const struct ceduo_difference *differences)
 {
@@ -90,7 +83,7 @@ static bool assess_option(struct ceduo_result *r, size_t i, const struct ceduo_f
         to->stands[k] = ceduo_assess_stand(scene, &option->belts[k]);
     for (size_t c = 0; c < scene->controls_count; c++) {
         to->controls[c] = ceduo_assess_index(scene, option, &scene->controls[c], r->bare.arrivals[c].energy.mean);
-        to->controls[c].energy = energy_light(ceduo_result_wooded(r, i, c));
+        to->controls[c].energy = ceduo_energy_light(ceduo_result_wooded(r, i, c));
         to->differences[c] = differences ? differences[c] : no_difference(scene->controls[c].accepted);
     }
     return true;

@@ -163,7 +163,7 @@ static double default_first_cut(const struct ceduo_stand *stand)
     double age = coppice ? oldest(stand->shoots, stand->shoots_count, &stand->growth.shoots)
                          : oldest(stand->trees, stand->trees_count, &stand->growth.trees);
     double rotations = coppice ? cohorts(stand) : 1 + (double)oldest_to_stay(&stand->cutting);
-    return isnan(age) ? INFINITY : fmax(0, rotation * rotations - age - AGE_GRAIN);
+    return isnan(age) ? INFINITY : fmax(1, rotation * rotations - age - AGE_GRAIN);
 }
 
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)

@@ -29,10 +29,14 @@ struct stand_form {
     struct list shoots, trees; /* struct ceduo_stems */
     int energy;
     double u, fracture_ratio;
+    struct ceduo_growth growth;
+    uint64_t rotation, cohorts;
+    struct numbers stay;
 };
 
 struct belt_form {
     double from, to;
+    double cut_year;
     struct stand_form stand;
 };
 
@@ -69,6 +73,7 @@ struct scene_form {
     struct list forest;  /* struct belt_form */
     struct list options; /* struct option_form */
     struct simulation_form simulation;
+    double rocks_per_year, reserves_minimum;
 };
 
 /* Words of the files for what the core counts. */

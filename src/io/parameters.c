@@ -209,6 +209,40 @@ static const struct field energy_fields[] = {
 };
 static const struct object energy_object = OBJECT("energy", struct stand_form, energy_fields, NULL, NULL);
 
+static const struct field curve_fields[] = {
+    NUM("dbh_most_m", FIELD_NUMBER, AT(ceduo_curve, dbh_most), "m", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("diameter that the oldest come near: d(t) = D(1 - exp(-kt))")),
+    NUM("dbh_rate_1_y", FIELD_NUMBER, AT(ceduo_curve, dbh_rate), "1/y", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("k of the diameter")),
+    NUM("height_most_m", FIELD_NUMBER, AT(ceduo_curve, height_most), "m", 1, 0, 150, FIELD_REQUIRED | FIELD_ABOVE, NULL,
+        N_("height that the oldest come near: h(t) = H(1 - exp(-mt))")),
+    NUM("height_rate_1_y", FIELD_NUMBER, AT(ceduo_curve, height_rate), "1/y", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE,
+        NULL, N_("m of the height")),
+};
+static const struct object curve_object = OBJECT("curve", struct ceduo_curve, curve_fields, NULL, NULL);
+
+static const struct field growth_fields[] = {
+    OTHER("shoots", FIELD_GROUP, AT(ceduo_growth, shoots), 0, NULL, N_("growth of shoots"), &curve_object),
+    OTHER("trees", FIELD_GROUP, AT(ceduo_growth, trees), 0, NULL, N_("growth of single trees"), &curve_object),
+    NUM("shoots_young", FIELD_NUMBER, AT(ceduo_growth, shoots_young), "", 1, 1, 1000, 0, NULL,
+        N_("shoots that come up on a stool after a cut")),
+    NUM("shoots_old", FIELD_NUMBER, AT(ceduo_growth, shoots_old), "", 1, 1, 1000, 0, NULL,
+        N_("shoots of a stool that are left in the end: n(t) = old + (young - old)exp(-t/5)")),
+    NUM("sdi_most", FIELD_NUMBER, AT(ceduo_growth, sdi_most), "", 1, 0, 1e5, 0, NULL,
+        N_("stand density index to which shoots thin themselves; without it or 0 they do not")),
+};
+static const struct object growth_object = OBJECT("growth", struct ceduo_growth, growth_fields, NULL, NULL);
+
+static const struct field cutting_fields[] = {
+    NUM("rotation_years", FIELD_COUNT, AT(stand_form, rotation), "y", 1, 1, 500, FIELD_REQUIRED, NULL,
+        N_("years between two cuts")),
+    NUM("cohorts", FIELD_COUNT, AT(stand_form, cohorts), "", 1, 1, 20, 0, "1",
+        N_("cohorts of shoots on a stool, of which each cut takes the oldest; 1: all shoots are cut")),
+    NUM("stay_per_ha", FIELD_NUMBERS, AT(stand_form, stay), "1/ha", 1, 0, 1e5, 0, NULL,
+        N_("single trees that a cut leaves: those one rotation old, two rotations old, …")),
+};
+static const struct object cutting_object = OBJECT("cutting", struct stand_form, cutting_fields, NULL, NULL);
+
 static const struct field stand_fields[] = {
     OTHER("ceduo", FIELD_TAG, 0, FIELD_REQUIRED, "stand/1", N_("what kind of file this is"), NULL),
     OTHER("name", FIELD_TEXT, AT(stand_form, name), 0, NULL, N_("name of the stand"), NULL),
@@ -222,6 +256,9 @@ static const struct field stand_fields[] = {
     OTHER("trees", FIELD_LIST, AT(stand_form, trees), 0, NULL, N_("classes of single trees: standards, reserves"),
           &stems_object),
     OTHER("energy", FIELD_GROUP, 0, 0, NULL, N_("energy of a contact"), &energy_object),
+    OTHER("growth", FIELD_GROUP, AT(stand_form, growth), 0, NULL, N_("how it grows; without it the stand stays as it is"),
+          &growth_object),
+    OTHER("cutting", FIELD_GROUP, 0, 0, NULL, N_("how it is cut; without it never"), &cutting_object),
 };
 
 static void stand_init(void *item)
@@ -232,7 +269,8 @@ static void stand_init(void *item)
                                                      .spacing = 0,
                                                      .energy = CEDUO_BRAUNER,
                                                      .u = NAN,
-                                                     .fracture_ratio = 1.5};
+                                                     .fracture_ratio = 1.5,
+                                                     .cohorts = 1};
 }
 
 static const struct object stand_object = OBJECT("stand", struct stand_form, stand_fields, stand_init, "stands");
@@ -244,6 +282,8 @@ static const struct field belt_fields[] = {
         N_("where the belt begins; in the slope's coordinates")),
     NUM("to_m", FIELD_NUMBER, AT(belt_form, to), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
         N_("where the belt ends")),
+    NUM("cut_year", FIELD_NUMBER, AT(belt_form, cut_year), "y", 1, -1000, 1000, 0, NULL,
+        N_("a year in which it is cut, from the stand as filed; without it when it is old enough")),
     OTHER("stand", FIELD_GROUP, AT(belt_form, stand), FIELD_REQUIRED | FIELD_FOLLOWS, NULL,
           N_("the stand: a file, or what such a file holds"), &stand_object),
 };
@@ -251,7 +291,7 @@ static const struct field belt_fields[] = {
 static void belt_init(void *item)
 {
     struct belt_form *belt = item;
-    belt->from = belt->to = NAN;
+    belt->from = belt->to = belt->cut_year = NAN;
     stand_init(&belt->stand);
 }
 
@@ -307,6 +347,12 @@ static const struct field simulation_fields[] = {
 static const struct object simulation_object =
     OBJECT("simulation", struct simulation_form, simulation_fields, NULL, NULL);
 
+static const struct field minimum_fields[] = {
+    NUM("reserves_per_ha", FIELD_NUMBER, AT(scene_form, reserves_minimum), "1/ha", 1, 0, 1e5, FIELD_REQUIRED, NULL,
+        N_("single trees that the law or the owner wants to be kept; a wood with fewer is noted")),
+};
+static const struct object minimum_object = OBJECT("minimum", struct scene_form, minimum_fields, NULL, NULL);
+
 static const struct field scene_fields[] = {
     OTHER("ceduo", FIELD_TAG, 0, FIELD_REQUIRED, "scene/1", N_("what kind of file this is"), NULL),
     OTHER("title", FIELD_TEXT, AT(scene_form, title), 0, NULL, N_("title of the scene"), NULL),
@@ -322,6 +368,9 @@ static const struct field scene_fields[] = {
     OTHER("options", FIELD_LIST, AT(scene_form, options), 0, NULL,
           N_("silvicultural options to compare, instead of forest; the first is the baseline"), &option_object),
     OTHER("simulation", FIELD_GROUP, AT(scene_form, simulation), 0, NULL, N_("how it is computed"), &simulation_object),
+    NUM("rocks_per_year", FIELD_NUMBER, AT(scene_form, rocks_per_year), "1/y", 1, 0, 1e6, 0, NULL,
+        N_("rocks that come down in a year, for what is to be expected of the years")),
+    OTHER("minimum", FIELD_GROUP, 0, 0, NULL, N_("what a wood must keep"), &minimum_object),
 };
 
 void ceduo_scene_form_init(void *item)
@@ -330,6 +379,7 @@ void ceduo_scene_form_init(void *item)
     *form = (struct scene_form){0};
     rock_init(&form->rock);
     release_init(&form->release);
+    form->rocks_per_year = form->reserves_minimum = NAN;
     slope_init(&form->slope);
     struct ceduo_simulation d = ceduo_simulation_default();
     form->simulation = (struct simulation_form){.law = (int)d.law,

@@ -416,6 +416,8 @@ static void make_controls(struct maker *m)
 
 /* ---- stands, belts, options ---- */
 
+#define SHOOTS_MOST 10000 /* on a stool */
+
 static enum ceduo_system system_of(const struct stand_form *f)
 {
     if (f->system >= 0)
@@ -436,7 +438,18 @@ static void make_stand(struct maker *m, const char *path, const struct stand_for
                                   .trees = f->trees.items,
                                   .energy = (enum ceduo_energy_model)f->energy,
                                   .u = f->u,
-                                  .fracture_ratio = f->fracture_ratio};
+                                  .fracture_ratio = f->fracture_ratio,
+                                  .growth = f->growth,
+                                  .cutting = {.rotation = (unsigned)f->rotation,
+                                              .cohorts = (unsigned)f->cohorts,
+                                              .stay_count = f->stay.n,
+                                              .stay_per_ha = f->stay.values}};
+    if (f->growth.shoots_young < f->growth.shoots_old)
+        complain(m, path_of(m, "%s.growth.shoots_young", path), _("%s is below shoots_old, %s: shoots only become fewer"),
+                 shown(f->growth.shoots_young, a), shown(f->growth.shoots_old, b));
+    if (f->shoots.n > 0 && ceduo_stand_shoots(stand) / f->stools_per_ha > SHOOTS_MOST)
+        complain(m, path_of(m, "%s.shoots", path), _("%s shoots on each stool are more than the %d that can be drawn"),
+                 shown(ceduo_stand_shoots(stand) / f->stools_per_ha, a), SHOOTS_MOST);
     if (f->shoots.n > 0 && !(f->stools_per_ha > 0))
         complain(m, path_of(m, "%s.shoots", path), _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     else if (f->shoots.n == 0 && f->stools_per_ha > 0)
@@ -493,6 +506,7 @@ static void make_belts(struct maker *m, const char *path, const struct list *for
                                     .from_given = f->from,
                                     .to_given = f->to,
                                     .name = (char *)(uintptr_t)stand_name(m, stand, &f->stand),
+                                    .cut_year = f->cut_year,
                                     .assumed = ceduo_scene_assumes(m->file, stand)};
         make_stand(m, stand, &f->stand, &belt->stand);
         option->belts_count = i + 1;
@@ -563,6 +577,8 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     if (problems->count > before || problems->memory)
         return false;
     file->scene.title = (char *)(uintptr_t)title_of(file, m.form.title);
+    file->scene.rocks_per_year = m.form.rocks_per_year;
+    file->scene.reserves_minimum = m.form.reserves_minimum;
     make_simulation(&m);
     check_rock(&m);
     if (reuse_slope(&m, &last) || make_slope(&m)) {

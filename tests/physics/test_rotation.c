@@ -236,12 +236,12 @@ static void by_default_it_is_cut_when_it_is_old_enough(void **state)
     s.stand.cutting.cohorts = 0;
     for (unsigned age = 1; age <= 25; age++) { /* but for rounding */
         s.shoots[0].dbh = .16 * (1 - exp(-.022 * age));
-        assert_int_equal(ceduo_first_cut(&s.stand, NAN), 25 - age);
+        assert_int_equal(ceduo_first_cut(&s.stand, NAN), age < 25 ? 25 - age : 1);
     }
-    s.shoots[0].dbh = .12;
-    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 0);
+    s.shoots[0].dbh = .12; /* too old: but year 0 is the stand as filed */
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 1);
     s.shoots[0].dbh = .3;
-    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 0);
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 1);
     s.stand.shoots_count = 0; /* only trees; those that stay are cut when they are three rotations old */
     s.stand.stools_per_ha = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 20. / 45) / .014));

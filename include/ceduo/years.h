@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_YEARS_H
+#define CEDUO_YEARS_H
+
+#include "result.h"
+#include "rotation.h"
+
+/* An option year by year: its stands grow and are cut as their files and belts say, and the same rocks fly through each
+ * year's forest. */
+
+struct ceduo_year {
+    unsigned year;                    /* counted from the stands as filed */
+    bool cut;                         /* some belt is cut in it */
+    bool *felled;                     /* which of its belts: owned */
+    struct ceduo_option option;       /* the forest of this year; belts bare of stems where nothing stands */
+    struct ceduo_grown_stand *grown;  /* what its belts hold: owned */
+    struct ceduo_stand_result *stands; /* one for each belt */
+    struct ceduo_index *controls;     /* one for each control */
+    struct ceduo_flown wooded;        /* rocks 0: not flown; with the contact model index never */
+};
+
+struct ceduo_years {
+    const struct ceduo_scene *scene;
+    size_t count;
+    struct ceduo_year *years; /* rising */
+};
+
+#define CEDUO_YEARS_MOST 1000 /* computed at a time */
+
+/* Grows the stands of an option to the years first, first + step … last (step >= 1); nothing is flown and nothing assessed
+ * yet. What the option points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option, unsigned first,
+                                     unsigned last, unsigned step, struct ceduo_years **years);
+void ceduo_years_free(struct ceduo_years *years);
+
+/* Has the pool make the runs of all years, as long as `rocks`, those of years with the same forest once; then assesses
+ * every year, `bare` being what arrives without forest. With the contact model index no rock is flown. CEDUO_CANCELLED,
+ * CEDUO_NO_MEMORY: the years before are assessed. */
+enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
+                                  uint64_t rocks);
+
+/* The years together, at one control. Every figure is a plain mean over the years computed. Because all years fly the same
+ * rocks, their errors go together: the standard error of a mean is at most the mean of the standard errors, and that is
+ * given. NaN where a figure does not exist. */
+struct ceduo_years_summary {
+    size_t years, flown;
+    size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
+    struct ceduo_paired reach, exceed; /* of the released */
+    struct ceduo_paired energy_per_released; /* J */
+    unsigned worst_year;               /* with the largest share that exceeds, or where that is not said arrives; by the
+                                        * index the one with the largest ADC */
+    double worst;                      /* that share, or that ADC in m */
+    double passes_per_year, exceeds_per_year; /* expected, where the scene says how many rocks come down a year */
+};
+struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
+
+/* Metres of belts that are felled in the years computed, each time they are: square metres for each metre of width. */
+double ceduo_years_felled(const struct ceduo_years *years);
+
+#endif

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/years.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- growing ---- */
+
+static void free_year(struct ceduo_year *y)
+{
+    for (size_t i = 0; y->grown && i < y->option.belts_count; i++)
+        ceduo_grown_stand_release(&y->grown[i]);
+    free(y->grown);
+    free(y->felled);
+    free(y->option.belts);
+    free(y->stands);
+    free(y->controls);
+    ceduo_flown_free(&y->wooded);
+}
+
+static enum ceduo_status grow(const struct ceduo_option *option, size_t controls, struct ceduo_year *y)
+{
+    size_t n = option->belts_count;
+    y->option.name = option->name;
+    y->option.belts = calloc(n + 1, sizeof *y->option.belts);
+    y->grown = calloc(n + 1, sizeof *y->grown);
+    y->felled = calloc(n + 1, sizeof *y->felled);
+    y->stands = calloc(n + 1, sizeof *y->stands);
+    y->controls = calloc(controls + 1, sizeof *y->controls);
+    if (!y->option.belts || !y->grown || !y->felled || !y->stands || !y->controls)
+        return CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        enum ceduo_status status = ceduo_stand_at(&belt->stand, belt->cut_year, y->year, &y->grown[i]);
+        if (status != CEDUO_OK)
+            return status;
+        y->option.belts_count = i + 1;
+        y->option.belts[i] = *belt;
+        y->option.belts[i].stand = y->grown[i].stand;
+        y->felled[i] = ceduo_is_cut_year(&belt->stand, belt->cut_year, y->year);
+        y->cut |= y->felled[i];
+    }
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option, unsigned first,
+                                     unsigned last, unsigned step, struct ceduo_years **out)
+{
+    *out = NULL;
+    struct ceduo_years *years = calloc(1, sizeof *years);
+    size_t n = (last - first) / step + 1;
+    if (years)
+        years->years = calloc(n, sizeof *years->years);
+    enum ceduo_status status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        years->scene = scene;
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        years->years[i].year = first + (unsigned)i * step;
+        years->count = i + 1;
+        status = grow(option, scene->controls_count, &years->years[i]);
+    }
+    if (status == CEDUO_OK)
+        *out = years;
+    else
+        ceduo_years_free(years);
+    return status;
+}
+
+void ceduo_years_free(struct ceduo_years *years)
+{
+    if (!years)
+        return;
+    for (size_t i = 0; i < years->count; i++)
+        free_year(&years->years[i]);
+    free(years->years);
+    free(years);
+}
+
+/* ---- flying ---- */
+
+static void assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare, struct ceduo_year *y)
+{
+    for (size_t i = 0; i < y->option.belts_count; i++)
+        y->stands[i] = ceduo_assess_stand(scene, &y->option.belts[i]);
+    for (size_t c = 0; c < scene->controls_count; c++) {
+        y->controls[c] = ceduo_assess_index(scene, &y->option, &scene->controls[c], bare->arrivals[c].energy.mean);
+        y->controls[c].energy = ceduo_energy_light(y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL);
+    }
+}
+
+enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
+                                  uint64_t rocks)
+{
+    const struct ceduo_scene *scene = years->scene;
+    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
+    for (size_t i = 0; i < years->count; i++) {
+        struct ceduo_year *y = &years->years[i];
+        struct ceduo_run *run;
+        enum ceduo_status status = flies ? ceduo_pool_run(pool, &y->option, &run) : CEDUO_OK;
+        if (flies && status == CEDUO_OK)
+            status = ceduo_run_extend(run, rocks);
+        if (flies && status == CEDUO_OK) {
+            ceduo_flown_free(&y->wooded);
+            status = ceduo_flown_read(run, scene->controls_count, &y->wooded);
+        }
+        if (status != CEDUO_OK)
+            return status;
+        assess(scene, bare, y);
+    }
+    return CEDUO_OK;
+}
+
+/* ---- all years together ---- */
+
+static double share_se(double p, double n)
+{
+    return sqrt(p * (1 - p) / n);
+}
+
+static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a, struct ceduo_years_summary *s)
+{
+    double n = (double)a->released;
+    bool says = !isnan(a->exceed_probability);
+    s->flown++;
+    s->reach.mean += a->reach_probability;
+    s->reach.se += share_se(a->reach_probability, n);
+    s->exceed.mean += a->exceed_probability;
+    s->exceed.se += share_se(a->exceed_probability, n);
+    s->energy_per_released.mean += a->energy_per_released;
+    s->energy_per_released.se += a->energy_per_released_se;
+    double share = says ? a->exceed_probability : a->reach_probability;
+    if (isnan(s->worst) || share > s->worst) {
+        s->worst = share;
+        s->worst_year = y->year;
+    }
+}
+
+static void divide(struct ceduo_paired *p, size_t n)
+{
+    *p = n > 0 ? (struct ceduo_paired){p->mean / (double)n, p->se / (double)n} : (struct ceduo_paired){NAN, NAN};
+}
+
+struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
+{
+    struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
+    bool flies = years->scene->simulation.contact_model != CEDUO_INDEX;
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_year *y = &years->years[i];
+        const struct ceduo_index *index = &y->controls[control];
+        s.unprotected_contact += index->contact == CEDUO_FAIL;
+        s.unprotected_free_run += index->free_run == CEDUO_FAIL;
+        s.unprotected_energy += index->energy == CEDUO_FAIL;
+        if (y->wooded.rocks > 0) {
+            add_flown(y, &y->wooded.arrivals[control], &s);
+        } else if (!flies && !(index->worst_adc <= s.worst)) {
+            s.worst = index->worst_adc;
+            s.worst_year = y->year;
+        }
+    }
+    divide(&s.reach, s.flown);
+    divide(&s.exceed, s.flown);
+    divide(&s.energy_per_released, s.flown);
+    s.passes_per_year = s.reach.mean * years->scene->rocks_per_year;
+    s.exceeds_per_year = s.exceed.mean * years->scene->rocks_per_year;
+    return s;
+}
+
+double ceduo_years_felled(const struct ceduo_years *years)
+{
+    double metres = 0;
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_year *y = &years->years[i];
+        for (size_t k = 0; k < y->option.belts_count; k++)
+            if (y->felled[k])
+                metres += y->option.belts[k].to - y->option.belts[k].from;
+    }
+    return metres;
+}
