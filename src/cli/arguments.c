@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "ceduo/scene.h"
+#include "ceduo/years.h"
 #include "io/intl.h"
 
 #define THREADS_MOST 1024
@@ -21,6 +22,9 @@ enum {
     OPTION_ROWS = 256,
     OPTION_SEED,
     OPTION_ONLY,
+    OPTION_YEARS,
+    OPTION_FIND,
+    OPTION_GOAL,
     OPTION_PLOT,
     OPTION_SIZE,
     OPTION_CHARSET,
@@ -48,7 +52,10 @@ static const struct row {
     {"seed", OPTION_SEED, "N", N_("seed of the random numbers, 0 to 2^53")},
     {"threads", 'j', "N", N_("threads; the result does not depend on them (all cores)")},
     {"option", OPTION_ONLY, "NAME", N_("only this option of the scene; may be repeated")},
-    {"plot", OPTION_PLOT, "WHAT", N_("print a picture: profile, energy, height, histogram, adc, stand or compare")},
+    {"years", OPTION_YEARS, "A:B[:STEP]", N_("every option year by year, from the stands as filed (year 0)")},
+    {"find", OPTION_FIND, "PATH=LO:HI", N_("the value of a parameter that reaches --goal at the worst control")},
+    {"goal", OPTION_GOAL, "GOAL[=VALUE]", N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+    {"plot", OPTION_PLOT, "WHAT", N_("print a picture: profile, energy, height, histogram, adc, rotation, stand or compare")},
     {"size", OPTION_SIZE, "WxH", N_("of a picture in columns and lines (80x24)")},
     {"charset", OPTION_CHARSET, "braille|block|ascii", N_("what pictures are made of (the locale's)")},
     {"script", OPTION_SCRIPT, "FILE", N_("feed keys and commands to the terminal program; needs no terminal")},
@@ -221,6 +228,84 @@ static enum exit_status read_seed(struct arguments *a, const char *value)
     return EXIT_DONE;
 }
 
+static void set_mode(struct arguments *a, enum mode mode)
+{
+    if (a->mode < MODE_HELP && (a->mode < MODE_CHECK || mode >= MODE_HELP))
+        a->mode = mode;
+}
+
+const char *const ceduo_goal_names[] = {"adc", "free-run", "energy", "exceed"};
+
+/* "A:B" or "A:B:STEP", whole years. */
+static enum exit_status read_years(struct arguments *a, const char *value)
+{
+    double parts[3] = {0, 0, 1};
+    char *copy = strdup(value), *rest = copy;
+    int n = 0;
+    bool good = copy != NULL;
+    while (good && rest && n < 3) {
+        char *part = rest, *colon = strchr(rest, ':');
+        rest = colon ? colon + 1 : NULL;
+        if (colon)
+            *colon = '\0';
+        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]) && parts[n] >= 0;
+        n++;
+    }
+    good = good && !rest && n >= 2;
+    free(copy);
+    if (!good)
+        return usage(_("--years: '%s' is no stretch of years; write A:B or A:B:STEP, as 0:25"), value);
+    if (parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1)
+        return usage(_("--years: %s goes backwards, or too far"), value);
+    if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
+        return usage(_("--years: %s are more than %d years at a time"), value, CEDUO_YEARS_MOST);
+    a->years = true;
+    a->year_first = (unsigned)parts[0];
+    a->year_last = (unsigned)parts[1];
+    a->year_step = parts[2] > 100000 ? 100000 : (unsigned)parts[2];
+    if (a->mode == MODE_TERMINAL)
+        a->mode = MODE_BATCH;
+    return EXIT_DONE;
+}
+
+/* "PATH=LO:HI"; the path is kept without the rest. */
+static enum exit_status read_find(struct arguments *a, char *value)
+{
+    char *equals = strrchr(value, '='), *colon = equals ? strchr(equals, ':') : NULL;
+    bool good = colon && equals > value;
+    if (good)
+        *colon = '\0';
+    good = good && ceduo_number_read(equals + 1, &a->find_lo) == CEDUO_NUMBER_GOOD &&
+           ceduo_number_read(colon + 1, &a->find_hi) == CEDUO_NUMBER_GOOD;
+    if (colon)
+        *colon = ':';
+    if (!good)
+        return usage(_("--find: '%s' is not PATH=LO:HI, as 'forest[0].stand.trees[0].per_ha=0:1000'"), value);
+    if (!(a->find_lo <= a->find_hi))
+        return usage(_("--find: the range %s goes backwards"), equals + 1);
+    *equals = '\0';
+    a->find = value;
+    set_mode(a, MODE_FIND);
+    return EXIT_DONE;
+}
+
+static enum exit_status read_goal(struct arguments *a, char *value)
+{
+    char *equals = strchr(value, '=');
+    if (equals)
+        *equals = '\0';
+    int i = word_of(value, ceduo_goal_names, 4);
+    if (i < 0)
+        return usage(_("--goal: '%s' is unknown; one of adc, free-run, energy, exceed"), value);
+    a->goal = (enum find_goal)i;
+    a->goal_given = true;
+    if (equals && ceduo_number_read(equals + 1, &a->goal_value) != CEDUO_NUMBER_GOOD)
+        return usage(_("--goal: '%s' is no number"), equals + 1);
+    if (equals && !(a->goal_value >= 0))
+        return usage(_("--goal: %s is below 0"), equals + 1);
+    return EXIT_DONE;
+}
+
 static enum exit_status read_threads(struct arguments *a, const char *value)
 {
     uint64_t n;
@@ -228,12 +313,6 @@ static enum exit_status read_threads(struct arguments *a, const char *value)
     if (status == EXIT_DONE)
         a->threads = (unsigned)n;
     return status;
-}
-
-static void set_mode(struct arguments *a, enum mode mode)
-{
-    if (a->mode < MODE_HELP && (a->mode < MODE_CHECK || mode >= MODE_HELP))
-        a->mode = mode;
 }
 
 /* What an option that stands for itself asks for. */
@@ -284,6 +363,12 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
     case OPTION_ONLY:
         a->options[a->options_count++] = value;
         return EXIT_DONE;
+    case OPTION_YEARS:
+        return read_years(a, value);
+    case OPTION_FIND:
+        return read_find(a, value);
+    case OPTION_GOAL:
+        return read_goal(a, value);
     case OPTION_PLOT:
         return read_plot(a, value);
     case OPTION_SIZE:
@@ -316,7 +401,15 @@ static void fill_getopt(struct option *longs, char *shorts)
 
 static enum exit_status check_together(const struct arguments *a)
 {
-    bool wants_scene = a->mode == MODE_BATCH || a->mode == MODE_CHECK;
+    bool wants_scene = a->mode == MODE_BATCH || a->mode == MODE_CHECK || a->mode == MODE_FIND;
+    if (a->mode == MODE_FIND && !a->goal_given)
+        return usage(_("--find wants a --goal: adc, free-run, energy=KJ or exceed"));
+    if (a->goal_given && a->mode != MODE_FIND)
+        return usage(_("--goal goes with --find"));
+    if (a->mode == MODE_FIND && a->goal == GOAL_ENERGY && isnan(a->goal_value))
+        return usage(_("--goal energy wants the mean energy in kJ: energy=50"));
+    if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0))
+        return usage(_("--find goes with neither --plot, --years nor --tolerance"));
     if (wants_scene && a->scenes_count == 0)
         return usage(_("no scene; name a file, '-' for standard input, or a shipped scene such as 'paper-site'"));
     if (!wants_scene && a->mode != MODE_TERMINAL && a->scenes_count > 0 && a->mode < MODE_HELP)
@@ -352,6 +445,7 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     fill_getopt(longs, shorts);
     size_t most = (size_t)argc + 1;
     *a = (struct arguments){.threads = cores(),
+                            .goal_value = NAN,
                             .sets = calloc(most, sizeof *a->sets),
                             .options = calloc(most, sizeof *a->options)};
     if (!a->sets || !a->options)

@@ -212,6 +212,30 @@ static enum exit_status write_report(const struct arguments *a, const struct ced
     return EXIT_DONE;
 }
 
+static void free_years(struct ceduo_years **years)
+{
+    for (size_t i = 0; years && years[i]; i++)
+        ceduo_years_free(years[i]);
+    free(years);
+}
+
+/* The options year by year, with as many rocks as the result has; NULL where it was interrupted or there is no memory. */
+static struct ceduo_years **fly_years(const struct arguments *a, const struct ceduo_scene *scene,
+                                      struct ceduo_pool *pool, const struct ceduo_result *result)
+{
+    struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
+    enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
+        status = ceduo_years_create(scene, &scene->options[i], a->year_first, a->year_last, a->year_step, &years[i]);
+        if (status == CEDUO_OK)
+            status = ceduo_years_fly(years[i], pool, &result->bare, ceduo_result_rocks(result));
+    }
+    if (status == CEDUO_OK)
+        return years;
+    free_years(years);
+    return NULL;
+}
+
 #define BLOCK_ROCKS 2000 /* of each size at the most: a page shows no more digits */
 
 /* Blocks of other sizes through the forest of each option, for the page. NULL without memory, or where it was
@@ -232,7 +256,7 @@ static struct ceduo_block *fly_blocks(const struct arguments *a, const struct ce
 }
 
 static enum exit_status report_run(const struct arguments *a, const struct scene_file *file,
-                                   const struct ceduo_pool *pool, struct ceduo_report *report, double start,
+                                   struct ceduo_pool *pool, struct ceduo_report *report, double start,
                                    struct text *out)
 {
     struct ceduo_result *result;
@@ -241,14 +265,21 @@ static enum exit_status report_run(const struct arguments *a, const struct scene
         return EXIT_RUN;
     }
     report->result = result;
+    struct ceduo_years **years = a->years ? fly_years(a, &file->scene, pool, result) : NULL;
+    if (a->years && !years) {
+        ceduo_result_free(result);
+        return EXIT_RUN;
+    }
+    report->years = years;
     report->work = ceduo_pool_work(pool);
     report->seconds = now() - start;
     struct ceduo_block *blocks = NULL;
-    if (a->format == CEDUO_TABLE && file->scene.controls_count > 0)
+    if (a->format == CEDUO_TABLE && !a->years && file->scene.controls_count > 0)
         blocks = fly_blocks(a, &file->scene, ceduo_result_rocks(result));
     report->blocks = blocks;
     enum exit_status status = write_report(a, report, out);
     free(blocks);
+    free_years(years);
     if (ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result))
         status = worse(status, EXIT_RUN);
     ceduo_result_free(result);
@@ -405,7 +436,7 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         bool interrupted = atomic_load(ceduo_interrupt_flag());
         if (result <= EXIT_RUN && one.bytes && !interrupted) {
             if (first && a->format == CEDUO_CSV)
-                ceduo_report_csv_header(&out, a->stands);
+                ceduo_report_csv_header(&out, a->stands, a->years);
             else if (!first && a->format == CEDUO_TABLE)
                 ceduo_text_char(&out, '\n');
             ceduo_text_add(&out, one.bytes, one.length);

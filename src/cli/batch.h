@@ -3,6 +3,7 @@
 #define CEDUO_BATCH_H
 
 #include "arguments.h"
+#include "ceduo/years.h"
 
 /* Each prints to standard output or to --output and returns the exit status. */
 enum exit_status ceduo_batch_run(const struct arguments *arguments);

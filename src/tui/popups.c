@@ -574,7 +574,7 @@ static void put_report(struct app *app, struct text *text, enum ceduo_format for
     else if (format == CEDUO_JSON)
         ceduo_report_json(text, &report);
     else {
-        ceduo_report_csv_header(text, false);
+        ceduo_report_csv_header(text, false, false);
         ceduo_report_csv(text, &report, false);
     }
 }

@@ -3,6 +3,7 @@
 #define CEDUO_REPORT_H
 
 #include "ceduo/blocks.h"
+#include "ceduo/years.h"
 #include "io/scene_file.h"
 #include "words.h"
 
@@ -16,6 +17,7 @@ struct ceduo_report {
     struct ceduo_work work;
     const struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: none to show */
     double seconds; /* that the runs took */
+    struct ceduo_years *const *years; /* one for each option; NULL: not asked for */
 };
 
 /* The page that a forester reads first; 80 columns. `plain`: ASCII alone. */
@@ -27,8 +29,9 @@ void ceduo_report_option(struct text *text, const struct ceduo_report *report, s
 /* One line of JSON, "ceduo-result-1". */
 void ceduo_report_json(struct text *text, const struct ceduo_report *report);
 
-/* CSV: a row for each option and control, or for each stand; the header alone by its own call. */
-void ceduo_report_csv_header(struct text *text, bool stands);
+/* CSV: a row for each option and control, or for each stand; with years (columns year and cut) for each option, year and
+ * control. The header alone by its own call. */
+void ceduo_report_csv_header(struct text *text, bool stands, bool years);
 void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands);
 
 #endif

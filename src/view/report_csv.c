@@ -156,9 +156,11 @@ static void index_cells(struct row *row, const struct ceduo_index *index)
     number(row, "measured_kJ", index->measured * KILO);
 }
 
-static void end_cells(struct row *row, const struct ceduo_report *report, size_t option)
+static void end_cells(struct row *row, const struct ceduo_report *report, size_t option, const struct ceduo_year *year)
 {
     const struct ceduo_flown *f = &report->result->options[option].wooded;
+    if (year && year->wooded.rocks > 0)
+        f = &year->wooded;
     const struct ceduo_ends *e = &f->ends;
     double n = (double)f->rocks, origin = report->file->origin_x;
     row->group = "ends";
@@ -196,7 +198,9 @@ static void warning_cell(struct row *row, const struct ceduo_report *report, siz
     ceduo_text_free(&all);
 }
 
-static void control_row(struct row *row, const struct ceduo_report *report, size_t option, size_t control)
+/* `year` NULL: the stands as filed. */
+static void control_row(struct row *row, const struct ceduo_report *report, size_t option, size_t control,
+                        const struct ceduo_year *year)
 {
     static const struct arrival_names bare = {"bare",        "bare.speed_m_s", "bare.energy_kJ", "bare.translation_kJ",
                                               "bare.height_m", "bare.energy_per_released_kJ"};
@@ -213,26 +217,33 @@ static void control_row(struct row *row, const struct ceduo_report *report, size
                                            .energy_per_released = NAN, .energy_per_released_se = NAN,
                                            .contacts = NAN, .contacts_se = NAN};
     const struct ceduo_arrivals *through = ceduo_result_wooded(r, option, control);
+    const struct ceduo_index *index = year ? year->controls : found->controls;
+    if (year && !row->header)
+        through = year->wooded.rocks > 0 ? &year->wooded.arrivals[control] : NULL;
     through = through ? through : &nothing;
     scene_cells(row, report);
     string(row, "option", r->scene->options[option].name);
-    summary_cells(row, &found->controls[r->last_control]);
+    if (year) {
+        count(row, "year", year->year);
+        flag(row, "cut", year->cut);
+    }
+    summary_cells(row, &index[r->last_control]);
     row->group = NULL;
     number(row, "x_m", c->x_given);
     string(row, "name", c->name);
     number(row, "accepted_kJ", c->accepted * KILO);
     arrivals(row, &bare, &r->bare.arrivals[control]);
-    index_cells(row, &found->controls[control]);
+    index_cells(row, &index[control]);
     arrivals(row, &wooded, through);
     pair(row, "wooded.contacts", through->contacts, through->contacts_se);
     row->group = "lights";
-    string(row, "contact", ceduo_words_light(found->controls[control].contact));
-    string(row, "free_run", ceduo_words_light(found->controls[control].free_run));
-    string(row, "energy", ceduo_words_light(found->controls[control].energy));
-    end_cells(row, report, option);
+    string(row, "contact", ceduo_words_light(index[control].contact));
+    string(row, "free_run", ceduo_words_light(index[control].free_run));
+    string(row, "energy", ceduo_words_light(index[control].energy));
+    end_cells(row, report, option, year);
     const struct ceduo_paired none_paired = {NAN, NAN};
     struct ceduo_difference d = {none_paired, none_paired, none_paired};
-    if (option > 0)
+    if (option > 0 && !year)
         d = found->differences[control];
     pair(row, "difference.reach_probability", d.reach_probability.mean, d.reach_probability.se);
     pair(row, "difference.exceed_probability", d.exceed_probability.mean, d.exceed_probability.se);
@@ -280,7 +291,7 @@ static void stand_row(struct row *row, const struct ceduo_report *report, size_t
     row->more = false;
 }
 
-void ceduo_report_csv_header(struct text *text, bool stands)
+void ceduo_report_csv_header(struct text *text, bool stands, bool years)
 {
     /* the same calls as for a row, on an empty result */
     struct ceduo_control control = {0};
@@ -293,13 +304,14 @@ void ceduo_report_csv_header(struct text *text, bool stands)
     struct ceduo_difference difference = {{0, 0}, {0, 0}, {0, 0}};
     struct ceduo_option_result found = {.stands = &stand, .controls = &index, .differences = &difference};
     struct ceduo_result result = {.scene = &scene, .bare = {.arrivals = &bare}, .options = &found};
+    struct ceduo_year year = {.controls = &index};
     struct scene_file file = {0};
     struct ceduo_report report = {.file = &file, .result = &result};
     struct row row = {.text = text, .header = true};
     if (stands)
         stand_row(&row, &report, 0, 0);
     else
-        control_row(&row, &report, 0, 0);
+        control_row(&row, &report, 0, 0, years ? &year : NULL);
 }
 
 void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands)
@@ -311,7 +323,10 @@ void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool
         for (size_t k = 0; k < n; k++)
             if (stands)
                 stand_row(&row, report, i, k);
-            else
-                control_row(&row, report, i, k);
+            else if (!report->years)
+                control_row(&row, report, i, k, NULL);
+        for (size_t y = 0; report->years && !stands && y < report->years[i]->count; y++)
+            for (size_t k = 0; k < n; k++)
+                control_row(&row, report, i, k, &report->years[i]->years[y]);
     }
 }

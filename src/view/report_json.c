@@ -101,11 +101,10 @@ static void summary(struct json *j, const struct ceduo_index *s)
     ceduo_json_close(j, '}');
 }
 
-static void control(struct json *j, const struct ceduo_result *r, size_t i, size_t k)
+static void control(struct json *j, const struct ceduo_result *r, size_t k, const struct ceduo_index *index,
+                    const struct ceduo_arrivals *wooded)
 {
     const struct ceduo_control *c = &r->scene->controls[k];
-    const struct ceduo_index *index = &r->options[i].controls[k];
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, i, k);
     bool reached = !isnan(index->residual);
     ceduo_json_open(j, NULL, '{');
     ceduo_json_number(j, "x_m", c->x_given);
@@ -156,6 +155,52 @@ static void ends(struct json *j, const struct ceduo_report *report, size_t i)
     ceduo_json_close(j, '}');
 }
 
+static void year(struct json *j, const struct ceduo_report *report, const struct ceduo_year *y)
+{
+    const struct ceduo_result *r = report->result;
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_count(j, "year", y->year);
+    ceduo_json_flag(j, "cut", y->cut);
+    ceduo_json_open(j, "stands", '[');
+    for (size_t k = 0; k < y->option.belts_count; k++)
+        stand(j, report, &y->option.belts[k], &y->stands[k]);
+    ceduo_json_close(j, ']');
+    summary(j, &y->controls[r->last_control]);
+    ceduo_json_open(j, "controls", '[');
+    for (size_t k = 0; k < r->scene->controls_count; k++)
+        control(j, r, k, &y->controls[k], y->wooded.rocks > 0 ? &y->wooded.arrivals[k] : NULL);
+    ceduo_json_close(j, ']');
+    ceduo_json_close(j, '}');
+}
+
+static void rotation(struct json *j, const struct ceduo_report *report, const struct ceduo_years *all)
+{
+    const struct ceduo_result *r = report->result;
+    struct ceduo_years_summary s = ceduo_years_sum(all, r->last_control);
+    ceduo_json_open(j, "rotation", '{');
+    ceduo_json_count(j, "years", s.years);
+    ceduo_json_number(j, "felled_m", ceduo_years_felled(all));
+    ceduo_json_count(j, "unprotected_contact", s.unprotected_contact);
+    ceduo_json_count(j, "unprotected_free_run", s.unprotected_free_run);
+    ceduo_json_count(j, "unprotected_energy", s.unprotected_energy);
+    pair(j, "reach_probability", s.reach.mean, s.reach.se);
+    pair(j, "exceed_probability", s.exceed.mean, s.exceed.se);
+    pair(j, "energy_per_released_kJ", s.energy_per_released.mean * KILO, s.energy_per_released.se * KILO);
+    ceduo_json_count(j, "worst_year", s.worst_year);
+    ceduo_json_number(j, "passes_per_year", s.passes_per_year);
+    ceduo_json_number(j, "exceeds_per_year", s.exceeds_per_year);
+    ceduo_json_close(j, '}');
+}
+
+static void years(struct json *j, const struct ceduo_report *report, const struct ceduo_years *all)
+{
+    ceduo_json_open(j, "years", '[');
+    for (size_t i = 0; i < all->count; i++)
+        year(j, report, &all->years[i]);
+    ceduo_json_close(j, ']');
+    rotation(j, report, all);
+}
+
 static void option(struct json *j, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_result *r = report->result;
@@ -170,9 +215,11 @@ static void option(struct json *j, const struct ceduo_report *report, size_t i)
     summary(j, &found->controls[r->last_control]);
     ceduo_json_open(j, "controls", '[');
     for (size_t k = 0; k < r->scene->controls_count; k++)
-        control(j, r, i, k);
+        control(j, r, k, &found->controls[k], ceduo_result_wooded(r, i, k));
     ceduo_json_close(j, ']');
     ends(j, report, i);
+    if (report->years)
+        years(j, report, report->years[i]);
     ceduo_json_close(j, '}');
 }
 

@@ -492,6 +492,109 @@ static void put_blocks(struct page *p, const struct ceduo_block *blocks)
     ceduo_text_free(&share);
 }
 
+/* ---- years ---- */
+
+static const char *short_verdict(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? _("pass") : light == CEDUO_FAIL ? _("FAIL") : "?";
+}
+
+static void put_year(struct page *p, const struct ceduo_year *y)
+{
+    const struct ceduo_result *r = p->report->result;
+    size_t c = r->last_control;
+    const struct ceduo_index *s = &y->controls[c];
+    const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL;
+    struct text share = {0}, mean = {0}, run = {0};
+    ceduo_text_format(&run, "%.1f %%", s->worst_free_run * 100);
+    if (a && !isnan(a->exceed_probability))
+        put_of_1000(p, &share, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+    else if (a)
+        put_of_1000(p, &share, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_text_format(p->text, "    %4u %-4s", y->year, y->cut ? _("cut") : "");
+    put_cell(p, s->worst_adc, 3, 7);
+    ceduo_text_format(p->text, " %-5s", short_verdict(s->contact));
+    put_padded(p, run.bytes ? run.bytes : "", -7);
+    ceduo_text_format(p->text, " %-5s", short_verdict(s->free_run));
+    put_cell(p, s->length > 0 ? s->dissipated / s->length * 100 * KILO : 0, 3, 9);
+    put_padded(p, share.bytes ? share.bytes : "-", -15);
+    put_cell(p, a ? a->energy.mean * KILO : NAN, 3, 9);
+    ceduo_text_format(p->text, "  %s\n", short_verdict(s->energy));
+    ceduo_text_free(&share);
+    ceduo_text_free(&mean);
+    ceduo_text_free(&run);
+}
+
+static void put_years_head(struct page *p)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    char room[CEDUO_NUMBER_ROOM];
+    struct text share = {0};
+    if (isnan(c->accepted))
+        ceduo_text_put(&share, _("of 1000 arrive"));
+    else
+        ceduo_text_format(&share, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    ceduo_text_format(p->text, _("    Year by year, up to %s m:\n    "), ceduo_number_shortest(c->x_given, room));
+    put_padded(p, _("year"), 9);
+    put_padded(p, _("ADC m"), -7);
+    put_padded(p, "", 6);
+    put_padded(p, _("free run"), 13);
+    put_padded(p, _("kJ/100 m"), -9);
+    put_padded(p, share.bytes ? share.bytes : "", -15);
+    put_padded(p, _("mean kJ"), -9);
+    ceduo_text_format(p->text, "  %s\n", _("energy"));
+    ceduo_text_free(&share);
+}
+
+/* The years together, in sentences. */
+static void put_years_summary(struct page *p, const struct ceduo_years *years)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
+    bool says = !isnan(c->accepted);
+    struct text line = {0};
+    ceduo_text_format(&line, ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
+                                      "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
+                      s.years, s.unprotected_contact, s.unprotected_free_run);
+    if (s.flown > 0 && says)
+        ceduo_text_format(&line, _(", with too much energy %zu"), s.unprotected_energy);
+    ceduo_text_put(&line, ". ");
+    if (s.flown > 0) {
+        struct ceduo_paired mean = says ? s.exceed : s.reach;
+        ceduo_text_format(&line, says ? _("In the mean %.0f %s%.0f of 1000 arrive with too much energy, at worst %.0f in year %u.")
+                                      : _("In the mean %.0f %s%.0f of 1000 arrive, at worst %.0f in year %u."),
+                          mean.mean * 1000, plus_minus(p), ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000,
+                          s.worst_year);
+    } else {
+        ceduo_text_format(&line, _("The ADC is largest in year %u."), s.worst_year);
+    }
+    if (s.flown > 0 && !isnan(r->scene->rocks_per_year)) {
+        ceduo_text_format(&line, _(" With %g rocks a year %.3g a year are to be expected to pass"),
+                          r->scene->rocks_per_year, s.passes_per_year);
+        if (says)
+            ceduo_text_format(&line, _(", %.3g of them with too much energy"), s.exceeds_per_year);
+        ceduo_text_format(&line, _("; in all %zu years %.3g"), s.years, s.passes_per_year * (double)s.years);
+        if (says)
+            ceduo_text_format(&line, _(" and %.3g"), s.exceeds_per_year * (double)s.years);
+        ceduo_text_char(&line, '.');
+    }
+    double felled = ceduo_years_felled(years);
+    if (felled > 0)
+        ceduo_text_format(&line, _(" Felled: %g m of forest along the slope."), felled);
+    put_wrapped(p, "    ", 6, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+}
+
+static void put_years(struct page *p, const struct ceduo_years *years)
+{
+    put_years_head(p);
+    for (size_t i = 0; i < years->count; i++)
+        put_year(p, &years->years[i]);
+    put_years_summary(p, years);
+}
+
 static void put_option(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
@@ -508,8 +611,10 @@ static void put_option(struct page *p, size_t i)
             put_belts(p, o, found);
         put_residual(p, &r->scene->controls[k], &r->bare.arrivals[k], &found->controls[k], rule);
     }
-    if (p->report->blocks && p->width >= 68)
+    if (p->report->blocks && p->width >= 68 && !p->report->years)
         put_blocks(p, &p->report->blocks[i * CEDUO_BLOCKS]);
+    if (p->report->years && p->width >= WIDTH)
+        put_years(p, p->report->years[i]);
     for (size_t k = 0; k < o->belts_count; k++)
         ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], say_warning, p);
 }
@@ -527,11 +632,6 @@ static void put_per_1000(struct page *p, double mean, double se, bool sign, int 
                           ceil(se * CEDUO_Z95 * 1000));
     put_padded(p, cell.bytes ? cell.bytes : "", -width);
     ceduo_text_free(&cell);
-}
-
-static const char *short_verdict(enum ceduo_light light)
-{
-    return light == CEDUO_PASS ? _("pass") : light == CEDUO_FAIL ? _("FAIL") : "?";
 }
 
 static void put_simulated(struct page *p, size_t i)
