@@ -67,7 +67,7 @@ void ceduo_batch_say(struct text *text)
         fputs(text->bytes, stderr);
 }
 
-static void complain(const char *what, const char *why)
+void ceduo_batch_complain(const char *what, const char *why)
 {
     struct text line = {0};
     ceduo_text_safe(&line, what);
@@ -102,14 +102,14 @@ static bool write_stdout(const char *bytes, size_t n)
 enum exit_status ceduo_batch_write(const struct arguments *a, const struct text *text)
 {
     if (text->failed) {
-        complain("ceduo", _("out of memory"));
+        ceduo_batch_complain("ceduo", _("out of memory"));
         return EXIT_RUN;
     }
     const char *bytes = text->bytes ? text->bytes : "";
     bool good = a->output ? ceduo_file_write(a->output, bytes, text->length) : write_stdout(bytes, text->length);
     if (good)
         return EXIT_DONE;
-    complain(a->output ? a->output : _("standard output"), strerror(errno));
+    ceduo_batch_complain(a->output ? a->output : _("standard output"), strerror(errno));
     return EXIT_OUTPUT;
 }
 
@@ -158,7 +158,7 @@ static enum exit_status choose_options(const struct arguments *a, struct scene_f
         if (!found) {
             struct text message = {0};
             ceduo_text_format(&message, _("--option: no option '%s' in %s"), a->options[i], file->path);
-            complain("ceduo", message.bytes ? message.bytes : "");
+            ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
             ceduo_text_free(&message);
             return EXIT_USAGE;
         }
@@ -177,8 +177,7 @@ static enum exit_status choose_options(const struct arguments *a, struct scene_f
     return good ? EXIT_DONE : EXIT_RUN;
 }
 
-/* Reads a scene with the changes of the command line; what is wrong with it goes to standard error. */
-static enum exit_status read_scene(const struct arguments *a, const char *path, struct scene_file *file)
+enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     struct problems problems = {0};
     bool good = ceduo_scene_read(file, path, a->sets, a->sets_count, &problems);
@@ -261,7 +260,7 @@ static enum exit_status report_run(const struct arguments *a, const struct scene
 {
     struct ceduo_result *result;
     if (ceduo_result_create(&file->scene, pool, &result) != CEDUO_OK) {
-        complain(file->path, _("out of memory"));
+        ceduo_batch_complain(file->path, _("out of memory"));
         return EXIT_RUN;
     }
     report->result = result;
@@ -356,7 +355,7 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
                                      .cell_x = def->cell_x,
                                      .trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0};
     if (ceduo_outlook_create(&from, &outlook) != CEDUO_OK) {
-        complain(file->path, _("out of memory"));
+        ceduo_batch_complain(file->path, _("out of memory"));
         return EXIT_RUN;
     }
     add_plots(a, &file->scene, outlook, out);
@@ -401,7 +400,7 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
     else if (status == CEDUO_OK)
         done = report_run(a, file, pool, &report, progress.start, out);
     else if (status != CEDUO_CANCELLED)
-        complain(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
+        ceduo_batch_complain(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
     ceduo_pool_free(pool);
     return done;
 }
@@ -409,7 +408,7 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
 static enum exit_status batch_scene(const struct arguments *a, const char *path, struct text *out)
 {
     struct scene_file file;
-    enum exit_status status = read_scene(a, path, &file);
+    enum exit_status status = ceduo_batch_read(a, path, &file);
     if (status == EXIT_DONE)
         status = choose_options(a, &file);
     if (status == EXIT_DONE && a->plot != CEDUO_PLOT_NONE && !ceduo_plot_needs_run(a->plot)) {
@@ -464,7 +463,7 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
     enum exit_status status = EXIT_DONE;
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
-        enum exit_status one = read_scene(a, a->scenes[i], &file);
+        enum exit_status one = ceduo_batch_read(a, a->scenes[i], &file);
         if (one == EXIT_DONE)
             one = choose_options(a, &file);
         ceduo_scene_release(&file);

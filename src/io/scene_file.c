@@ -572,6 +572,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->notes = NULL;
     file->ground_assumed = false;
     file->scene = (struct ceduo_scene){0};
+    file->slope_node = NULL;
     ceduo_scene_form_init(&m.form);
     ceduo_schema_bind(&file->arena, ceduo_schema_scene(), file->root, &m.form, problems, &file->notes);
     if (problems->count > before || problems->memory)

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SEEK_H
+#define CEDUO_SEEK_H
+
+#include "ceduo/find.h"
+#include "io/scene_file.h"
+
+/* The value of one parameter of a scene for which one option reaches a goal at its worst control: reserves per ha, a
+ * rotation, the length of a belt … The same rocks fly for every value, so that the answer is one number and not another
+ * the next time. */
+
+enum seek_goal { SEEK_ADC, SEEK_FREE_RUN, SEEK_ENERGY, SEEK_EXCEED };
+
+struct seek {
+    struct scene_file *file; /* read; it is as before in the end */
+    const char *path;        /* of the parameter, as for --set */
+    size_t option;           /* looked at */
+    enum seek_goal goal;
+    double target; /* m, share, kJ, share; NaN: the light's limit, and set to it */
+    double lo, hi; /* in the file's units */
+    uint64_t rocks;
+    unsigned threads;
+    const atomic_bool *cancel; /* may be NULL */
+};
+
+/* Looks for it. A wrong path or range is told in `problems`. CEDUO_OK also where nothing is found. */
+enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struct problems *problems);
+
+/* What was found, in sentences. */
+void ceduo_seek_say(const struct seek *seek, const struct ceduo_found *found, struct text *text);
+
+#endif
