@@ -20,10 +20,14 @@ struct ceduo_year {
 };
 
 struct ceduo_years {
-    const struct ceduo_scene *scene;
+    struct ceduo_scene scene; /* what it points to must outlive the years */
     size_t count;
     struct ceduo_year *years; /* rising */
 };
+
+/* The last year of a picture that shows what is to come: one year beyond the first cut and the rotation after it of the
+ * stand that is slowest, at least 10, at most 120. */
+unsigned ceduo_years_usual(const struct ceduo_scene *scene);
 
 #define CEDUO_YEARS_MOST 1000 /* computed at a time */
 

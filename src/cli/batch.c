@@ -218,16 +218,18 @@ static void free_years(struct ceduo_years **years)
     free(years);
 }
 
-/* The options year by year, with as many rocks as the result has; NULL where it was interrupted or there is no memory. */
+/* The options year by year, with as many rocks as the bare run; without --years over the usual years. NULL where it was interrupted or there is no memory. */
 static struct ceduo_years **fly_years(const struct arguments *a, const struct ceduo_scene *scene,
-                                      struct ceduo_pool *pool, const struct ceduo_result *result)
+                                      struct ceduo_pool *pool, const struct ceduo_flown *bare)
 {
+    unsigned first = a->years ? a->year_first : 0, step = a->years ? a->year_step : 1;
+    unsigned last = a->years ? a->year_last : ceduo_years_usual(scene);
     struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
     enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
-        status = ceduo_years_create(scene, &scene->options[i], a->year_first, a->year_last, a->year_step, &years[i]);
+        status = ceduo_years_create(scene, &scene->options[i], first, last, step, &years[i]);
         if (status == CEDUO_OK)
-            status = ceduo_years_fly(years[i], pool, &result->bare, ceduo_result_rocks(result));
+            status = ceduo_years_fly(years[i], pool, bare, bare->rocks);
     }
     if (status == CEDUO_OK)
         return years;
@@ -264,7 +266,7 @@ static enum exit_status report_run(const struct arguments *a, const struct scene
         return EXIT_RUN;
     }
     report->result = result;
-    struct ceduo_years **years = a->years ? fly_years(a, &file->scene, pool, result) : NULL;
+    struct ceduo_years **years = a->years ? fly_years(a, &file->scene, pool, &result->bare) : NULL;
     if (a->years && !years) {
         ceduo_result_free(result);
         return EXIT_RUN;
@@ -327,7 +329,7 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
 
 /* One picture for each option, belt or control that it depends on. */
 static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_outlook *outlook,
-                      struct text *out)
+                      struct ceduo_years *const *years, struct text *out)
 {
     struct ceduo_picture picture = {.scene = scene, .outlook = outlook, .control = ceduo_plot_last_control(scene)};
     size_t start = out->length;
@@ -336,6 +338,8 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
         size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
         size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
         picture.option = o;
+        picture.years = years ? years[o] : NULL;
+        picture.year = SIZE_MAX;
         for (size_t k = 0; k == 0 || k < belts || k < controls; k++) {
             picture.belt = k;
             picture.control = controls > 0 ? k : picture.control;
@@ -345,7 +349,7 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
 }
 
 static enum exit_status plot_run(const struct arguments *a, const struct scene_file *file,
-                                 const struct ceduo_pool *pool, const struct ceduo_run_def *def, struct text *out)
+                                 struct ceduo_pool *pool, const struct ceduo_run_def *def, struct text *out)
 {
     struct ceduo_outlook *outlook;
     struct ceduo_outlook_def from = {.scene = &file->scene,
@@ -358,7 +362,14 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
         ceduo_batch_complain(file->path, _("out of memory"));
         return EXIT_RUN;
     }
-    add_plots(a, &file->scene, outlook, out);
+    struct ceduo_years **years = NULL;
+    if (a->plot == CEDUO_PLOT_ROTATION &&
+        !(years = fly_years(a, &file->scene, pool, &outlook->bare->flown))) {
+        ceduo_outlook_free(outlook);
+        return EXIT_RUN;
+    }
+    add_plots(a, &file->scene, outlook, years, out);
+    free_years(years);
     bool unfinished = false;
     for (size_t i = 0; i <= outlook->options; i++) {
         const struct ceduo_sight *s = i < outlook->options ? outlook->wooded[i] : outlook->bare;
@@ -412,7 +423,7 @@ static enum exit_status batch_scene(const struct arguments *a, const char *path,
     if (status == EXIT_DONE)
         status = choose_options(a, &file);
     if (status == EXIT_DONE && a->plot != CEDUO_PLOT_NONE && !ceduo_plot_needs_run(a->plot)) {
-        add_plots(a, &file.scene, NULL, out);
+        add_plots(a, &file.scene, NULL, NULL, out);
     } else if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
         status = run_scene(a, &file, out);

@@ -5,6 +5,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+unsigned ceduo_years_usual(const struct ceduo_scene *scene)
+{
+    unsigned last = 10;
+    for (size_t i = 0; i < scene->options_count; i++)
+        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
+            const struct ceduo_belt *belt = &scene->options[i].belts[k];
+            unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year), rotation = belt->stand.cutting.rotation;
+            if (first != CEDUO_NEVER && first < 120 && first + rotation + 1 > last)
+                last = first + rotation + 1;
+        }
+    return last < 120 ? last : 120;
+}
+
 /* ---- growing ---- */
 
 static void free_year(struct ceduo_year *y)
@@ -54,7 +67,7 @@ enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const stru
         years->years = calloc(n, sizeof *years->years);
     enum ceduo_status status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        years->scene = scene;
+        years->scene = *scene;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         years->years[i].year = first + (unsigned)i * step;
         years->count = i + 1;
@@ -92,7 +105,7 @@ static void assess(const struct ceduo_scene *scene, const struct ceduo_flown *ba
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks)
 {
-    const struct ceduo_scene *scene = years->scene;
+    const struct ceduo_scene *scene = &years->scene;
     bool flies = scene->simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < years->count; i++) {
         struct ceduo_year *y = &years->years[i];
@@ -144,7 +157,7 @@ static void divide(struct ceduo_paired *p, size_t n)
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
-    bool flies = years->scene->simulation.contact_model != CEDUO_INDEX;
+    bool flies = years->scene.simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
         const struct ceduo_index *index = &y->controls[control];
@@ -161,8 +174,8 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     divide(&s.reach, s.flown);
     divide(&s.exceed, s.flown);
     divide(&s.energy_per_released, s.flown);
-    s.passes_per_year = s.reach.mean * years->scene->rocks_per_year;
-    s.exceeds_per_year = s.exceed.mean * years->scene->rocks_per_year;
+    s.passes_per_year = s.reach.mean * years->scene.rocks_per_year;
+    s.exceeds_per_year = s.exceed.mean * years->scene.rocks_per_year;
     return s;
 }
 

@@ -35,6 +35,7 @@ static const struct {
     [CEDUO_PLOT_HEIGHT] = {"height", draw_height, true, true, true},
     [CEDUO_PLOT_HISTOGRAM] = {"histogram", ceduo_plot_histogram, true, false, true},
     [CEDUO_PLOT_ADC] = {"adc", ceduo_plot_adc, false, false, true},
+    [CEDUO_PLOT_ROTATION] = {"rotation", ceduo_plot_rotation, true, false, true},
     [CEDUO_PLOT_STAND] = {"stand", ceduo_plot_stand, false, false, true},
     [CEDUO_PLOT_COMPARE] = {"compare", ceduo_plot_compare, true, false, false},
 };
@@ -83,6 +84,9 @@ static void put_subject(struct text *text, enum ceduo_plot plot, const struct ce
         break;
     case CEDUO_PLOT_ADC:
         ceduo_text_put(text, _("average distance between contacts, m"));
+        break;
+    case CEDUO_PLOT_ROTATION:
+        ceduo_text_format(text, _("year by year, up to %s"), where);
         break;
     case CEDUO_PLOT_HEIGHT:
         ceduo_text_put(text, wooded ? _("height of the rocks above the ground")

@@ -4,6 +4,7 @@
 
 #include "canvas.h"
 #include "io/text.h"
+#include "ceduo/years.h"
 #include "outlook.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
@@ -23,6 +24,8 @@ struct ceduo_picture {
     double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
     const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
     size_t stems_count;
+    const struct ceduo_years *years; /* of the option; NULL: not computed */
+    size_t year;                     /* index of the one under the cursor; beyond them all: none */
 };
 
 /* The columns that show the slope and the metres at their edges (relative), so that pictures can stand above each other
@@ -68,6 +71,10 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
 void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                         const struct ceduo_picture *picture);
 
+/* The option over the years: ADC, how many come through with too much energy, the lights, the cuts, on one axis. */
+void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                         const struct ceduo_picture *picture);
+
 /* ---- by name ---- */
 
 enum ceduo_plot {
@@ -77,12 +84,13 @@ enum ceduo_plot {
     CEDUO_PLOT_HEIGHT,
     CEDUO_PLOT_HISTOGRAM,
     CEDUO_PLOT_ADC,
+    CEDUO_PLOT_ROTATION,
     CEDUO_PLOT_STAND,
     CEDUO_PLOT_COMPARE,
     CEDUO_PLOTS
 };
 
-#define CEDUO_PLOT_NAMES "profile, energy, height, histogram, adc, stand, compare"
+#define CEDUO_PLOT_NAMES "profile, energy, height, histogram, adc, rotation, stand, compare"
 
 /* CEDUO_PLOT_NONE for a word that names none. */
 enum ceduo_plot ceduo_plot_find(const char *name);

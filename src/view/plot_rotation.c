@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+
+#include "io/intl.h"
+#include "plot_parts.h"
+
+/* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on
+ * one axis. */
+
+#define LIGHTS      3
+#define ADC_TOP     2.0 /* of the scale, in limits: how far beyond the limit a bad year lies says nothing more */
+#define STRIP_LEAST 3
+
+struct rotation {
+    struct ceduo_canvas *canvas;
+    const struct ceduo_area *area;
+    const struct ceduo_picture *picture;
+    const struct ceduo_years *years;
+    const struct ceduo_control *control;
+    size_t c; /* the control's index */
+    bool flown;
+    struct ceduo_frame frame;
+    double *x, *y;
+};
+
+static double adc_of(const struct rotation *r, const struct ceduo_year *year)
+{
+    return fmin(year->controls[r->c].worst_adc, ADC_TOP * r->picture->scene->simulation.threshold);
+}
+
+/* Of 1000 released; by the index kJ per 100 m. */
+static double share_of(const struct rotation *r, const struct ceduo_year *year)
+{
+    const struct ceduo_index *index = &year->controls[r->c];
+    if (!r->flown)
+        return index->length > 0 ? index->dissipated / index->length * 100 * KILO : 0;
+    if (year->wooded.rocks == 0)
+        return NAN;
+    const struct ceduo_arrivals *a = &year->wooded.arrivals[r->c];
+    return 1000 * (isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability);
+}
+
+static void draw_strip(struct rotation *r, int top, int height, double most, double limit, const char *caption,
+                       double (*of)(const struct rotation *, const struct ceduo_year *))
+{
+    ceduo_plot_put(r->canvas, r->frame.left, top, r->area->left + r->area->width - r->frame.left, CEDUO_ROLE_AXIS,
+                   caption);
+    r->frame.top = top + 1;
+    r->frame.height = height - 1;
+    r->frame.y0 = 0;
+    r->frame.y1 = most;
+    for (size_t i = 0; i < r->years->count; i++)
+        r->y[i] = of(r, &r->years->years[i]);
+    if (!isnan(limit))
+        ceduo_canvas_rule_y(r->canvas, &r->frame, CEDUO_ROLE_CONTROL, limit);
+    if (r->picture->year < r->years->count)
+        ceduo_canvas_rule_x(r->canvas, &r->frame, CEDUO_ROLE_CURSOR, r->x[r->picture->year]);
+    ceduo_canvas_steps(r->canvas, &r->frame, CEDUO_ROLE_MEAN, r->years->count, r->x, r->y);
+    ceduo_canvas_axis_left(r->canvas, &r->frame);
+}
+
+static int column_of(const struct rotation *r, double year)
+{
+    int column, row;
+    return ceduo_frame_cell(&r->frame, r->canvas->charset, year, r->frame.y0, &column, &row) ? column : -1;
+}
+
+/* A mark below the axis for each year; of years that share a column the worst is shown. */
+static void draw_lights(const struct rotation *r, int row)
+{
+    static const char names[LIGHTS][2] = {"C", "F", "E"};
+    for (int k = 0; k < LIGHTS; k++) {
+        ceduo_canvas_label(r->canvas, r->area->left, row + k, CEDUO_ROLE_AXIS, names[k]);
+        for (int pass = 0; pass < 2; pass++)
+            for (size_t i = 0; i < r->years->count; i++) {
+                const struct ceduo_index *s = &r->years->years[i].controls[r->c];
+                enum ceduo_light light = k == 0 ? s->contact : k == 1 ? s->free_run : s->energy;
+                int column = column_of(r, r->x[i]);
+                if (column < 0 || (light == CEDUO_FAIL) != pass)
+                    continue;
+                ceduo_canvas_label(r->canvas, column, row + k,
+                                   light == CEDUO_PASS   ? CEDUO_ROLE_GOOD
+                                   : light == CEDUO_FAIL ? CEDUO_ROLE_BAD
+                                                         : CEDUO_ROLE_DIM,
+                                   light == CEDUO_PASS   ? "\xe2\x9c\x94"
+                                   : light == CEDUO_FAIL ? "\xe2\x9c\x98"
+                                                         : "?");
+            }
+    }
+}
+
+static void draw_cuts(const struct rotation *r, int row)
+{
+    int end = 0;
+    for (size_t i = 0; i < r->years->count; i++) {
+        const struct ceduo_year *y = &r->years->years[i];
+        int column = y->cut ? column_of(r, r->x[i]) : -1;
+        if (column < 0)
+            continue;
+        ceduo_canvas_label(r->canvas, column, row, CEDUO_ROLE_WARN, "\xe2\x96\xbc");
+        if (column > end + 1)
+            end = column + 2 + ceduo_plot_put(r->canvas, column + 1, row, r->area->left + r->area->width - column - 1,
+                                              CEDUO_ROLE_WARN, _("cut"));
+    }
+}
+
+static double most_share(const struct rotation *r)
+{
+    double most = 0;
+    if (r->flown)
+        return 1000;
+    for (size_t i = 0; i < r->years->count; i++)
+        most = fmax(most, share_of(r, &r->years->years[i]));
+    return most > 0 ? 1.1 * most : 1;
+}
+
+static void draw(struct rotation *r)
+{
+    const struct ceduo_area *a = r->area;
+    double threshold = r->picture->scene->simulation.threshold;
+    int strips = a->height - 1 - 2 - LIGHTS, first = strips / 2;
+    struct text adc = {0}, share = {0};
+    ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g; at the top: %g or more)"), threshold,
+                      ADC_TOP * threshold);
+    if (!r->flown)
+        ceduo_text_put(&share, _("stems could take, kJ per 100 m (Eq. 4)"));
+    else if (isnan(r->control->accepted))
+        ceduo_text_put(&share, _("of 1000 released arrive"));
+    else
+        ceduo_text_format(&share, _("of 1000 released with more than %g kJ (limit %g)"), r->control->accepted * KILO,
+                          CEDUO_EXCEED_MOST * 1000);
+    draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, adc.bytes ? adc.bytes : "", adc_of);
+    draw_strip(r, a->top + 1 + first, strips - first, most_share(r),
+               r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN,
+               share.bytes ? share.bytes : "", share_of);
+    ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
+    draw_lights(r, a->top + a->height - LIGHTS);
+    draw_cuts(r, a->top);
+    ceduo_text_free(&adc);
+    ceduo_text_free(&share);
+}
+
+void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                         const struct ceduo_picture *picture)
+{
+    const struct ceduo_years *years = picture->years;
+    struct rotation r = {.canvas = canvas,
+                         .area = area,
+                         .picture = picture,
+                         .years = years,
+                         .control = ceduo_plot_control(picture),
+                         .c = picture->control,
+                         .flown = ceduo_plot_wooded(picture)};
+    if (!years || !r.control) {
+        ceduo_plot_words(canvas, area, !r.control ? _("no control") : _("not computed yet"));
+        return;
+    }
+    if (area->height < 1 + 2 * STRIP_LEAST + 2 + LIGHTS || area->width < 24) {
+        ceduo_plot_words(canvas, area, _("too narrow"));
+        return;
+    }
+    r.x = malloc((years->count + 1) * sizeof *r.x);
+    r.y = malloc((years->count + 1) * sizeof *r.y);
+    if (r.x && r.y) {
+        for (size_t i = 0; i < years->count; i++)
+            r.x[i] = years->years[i].year;
+        double last = r.x[years->count - 1];
+        r.frame = (struct ceduo_frame){.left = area->left + 6,
+                                       .width = area->width - 8,
+                                       .x0 = r.x[0],
+                                       .x1 = last > r.x[0] ? last : r.x[0] + 1};
+        draw(&r);
+    }
+    free(r.x);
+    free(r.y);
+}
