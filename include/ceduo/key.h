@@ -16,4 +16,8 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *scene);
  * option, no stems, or the model `index`. */
 uint64_t ceduo_option_key(const struct ceduo_simulation *simulation, const struct ceduo_option *option);
 
+/* Of what becomes of the forest of an option in the years to come: growth, cuts, and the forest itself whatever the contact
+ * model. */
+uint64_t ceduo_years_key(const struct ceduo_option *option);
+
 #endif

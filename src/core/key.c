@@ -114,3 +114,46 @@ uint64_t ceduo_option_key(const struct ceduo_simulation *simulation, const struc
     }
     return stems > 0 ? key : 0;
 }
+
+/* ---- years ---- */
+
+static void mix_curve(uint64_t *key, const struct ceduo_curve *c)
+{
+    mix_double(key, c->dbh_most);
+    mix_double(key, c->dbh_rate);
+    mix_double(key, c->height_most);
+    mix_double(key, c->height_rate);
+}
+
+static void mix_future(uint64_t *key, const struct ceduo_stand *s)
+{
+    mix_curve(key, &s->growth.shoots);
+    mix_curve(key, &s->growth.trees);
+    mix_double(key, s->growth.shoots_young);
+    mix_double(key, s->growth.shoots_old);
+    mix_double(key, s->growth.sdi_most);
+    mix(key, s->cutting.rotation);
+    mix(key, s->cutting.cohorts);
+    mix(key, s->cutting.stay_count);
+    for (size_t i = 0; i < s->cutting.stay_count; i++)
+        mix_double(key, s->cutting.stay_per_ha[i]);
+    for (size_t i = 0; i < s->shoots_count; i++)
+        mix_double(key, s->shoots[i].age);
+    for (size_t i = 0; i < s->trees_count; i++)
+        mix_double(key, s->trees[i].age);
+    mix(key, (uint64_t)(int64_t)s->species);
+}
+
+uint64_t ceduo_years_key(const struct ceduo_option *option)
+{
+    uint64_t key = START;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *b = &option->belts[i];
+        mix_double(&key, b->from);
+        mix_double(&key, b->to);
+        mix_double(&key, b->cut_year);
+        mix_stand(&key, &b->stand);
+        mix_future(&key, &b->stand);
+    }
+    return key;
+}

@@ -21,7 +21,10 @@ struct worker {
     bool quit, requested, busy, failed;
     struct ceduo_scene scene; /* asked for last */
     size_t shown;
+    bool wants_years;
     uint64_t key;             /* of its runs */
+    struct ceduo_years *years;
+    size_t years_option;
     struct ceduo_outlook *outlook;
     uint64_t rocks, runs, rocks_flown;
     double asked, seconds;
@@ -49,7 +52,7 @@ static void tell(struct worker *w)
 struct flight_plan {
     struct ceduo_scene scene;
     uint64_t scene_key;
-    struct ceduo_pool *pictures, *figures;
+    struct ceduo_pool *pictures, *figures, *years;
     double cells[CEDUO_OUTLOOK_CELLS];
     size_t cells_count;
     struct ceduo_outlook *last;
@@ -61,6 +64,7 @@ static void free_plan(struct flight_plan *plan)
         return;
     ceduo_outlook_free(plan->last);
     ceduo_pool_free(plan->figures);
+    ceduo_pool_free(plan->years);
     ceduo_pool_free(plan->pictures);
     free(plan);
 }
@@ -76,7 +80,7 @@ static struct flight_plan *new_plan(struct worker *w, const struct ceduo_scene *
     def.threads = w->threads;
     def.rocks_most = WORKER_ROCKS_MOST;
     def.cancel = &w->cancel;
-    bool good = ceduo_pool_create(&def, &plan->figures) == CEDUO_OK;
+    bool good = ceduo_pool_create(&def, &plan->figures) == CEDUO_OK && ceduo_pool_create(&def, &plan->years) == CEDUO_OK;
     plan->cells_count = ceduo_outlook_places(scene, plan->cells);
     def.cells = plan->cells_count;
     def.cell_x = plan->cells;
@@ -94,6 +98,7 @@ static bool prepare_plan(struct worker *w, const struct ceduo_scene *scene)
         plan->scene = *scene;
         ceduo_pool_turn(plan->figures, scene);
         ceduo_pool_turn(plan->pictures, scene);
+        ceduo_pool_turn(plan->years, scene);
         return true;
     }
     free_plan(plan);
@@ -178,8 +183,36 @@ static enum ceduo_status fly_forest(struct worker *w, const struct ceduo_option 
     return status;
 }
 
+/* The years of the option shown, coarse first. */
+static enum ceduo_status fly_years(struct worker *w, size_t shown, const struct ceduo_flown *bare)
+{
+    struct flight_plan *plan = w->plan;
+    unsigned last = ceduo_years_usual(&plan->scene);
+    for (uint64_t rocks = WORKER_FIRST_ROCKS; rocks <= WORKER_YEAR_ROCKS; rocks *= 10) {
+        struct ceduo_years *years;
+        enum ceduo_status status = ceduo_years_create(&plan->scene, &plan->scene.options[shown], 0, last, 1, &years);
+        if (status == CEDUO_OK)
+            status = ceduo_years_fly(years, plan->years, bare, rocks);
+        if (status != CEDUO_OK) {
+            ceduo_years_free(years);
+            return status;
+        }
+        pthread_mutex_lock(&w->lock);
+        if (w->requested) { /* stale already */
+            ceduo_years_free(years);
+        } else {
+            ceduo_years_free(w->years);
+            w->years = years;
+            w->years_option = shown;
+        }
+        pthread_mutex_unlock(&w->lock);
+        tell(w);
+    }
+    return CEDUO_OK;
+}
+
 /* Flies one request in steps, each ten times the one before, until it is precise or stale: what is looked at first. */
-static enum ceduo_status fly_plan(struct worker *w, size_t shown)
+static enum ceduo_status fly_plan(struct worker *w, size_t shown, bool years)
 {
     const struct ceduo_scene *scene = &w->plan->scene;
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
@@ -201,16 +234,21 @@ static enum ceduo_status fly_plan(struct worker *w, size_t shown)
             return CEDUO_NO_MEMORY;
         if (atomic_load(&w->cancel))
             return CEDUO_CANCELLED;
+        if (years && rocks == WORKER_FIRST_ROCKS) {
+            status = fly_years(w, shown, &o->bare->flown);
+            if (status != CEDUO_OK)
+                return status;
+        }
         enough = rocks * 10 > WORKER_ROCKS_MOST || (rocks >= WORKER_PICTURE_ROCKS && precise(o));
     }
     return CEDUO_OK;
 }
 
-static bool fly(struct worker *w, const struct ceduo_scene *scene, size_t shown)
+static bool fly(struct worker *w, const struct ceduo_scene *scene, size_t shown, bool years)
 {
     if (!prepare_plan(w, scene))
         return false;
-    enum ceduo_status status = fly_plan(w, shown);
+    enum ceduo_status status = fly_plan(w, shown, years);
     return status == CEDUO_OK || status == CEDUO_CANCELLED;
 }
 
@@ -229,11 +267,12 @@ static void *work(void *argument)
             break;
         struct ceduo_scene scene = w->scene;
         size_t shown = w->shown;
+        bool years = w->wants_years;
         w->requested = false;
         w->runs++;
         atomic_store(&w->cancel, false);
         pthread_mutex_unlock(&w->lock);
-        bool good = fly(w, &scene, shown);
+        bool good = fly(w, &scene, shown, years);
         pthread_mutex_lock(&w->lock);
         w->failed |= !good;
     }
@@ -274,6 +313,7 @@ void ceduo_worker_free(struct worker *w)
     pthread_join(w->thread, NULL);
     free_plan(w->plan);
     ceduo_outlook_free(w->outlook);
+    ceduo_years_free(w->years);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);
     close(w->pipe[0]);
@@ -294,13 +334,19 @@ uint64_t ceduo_worker_key(const struct ceduo_scene *scene)
     return key * 1099511628211u ^ scene->options_count ^ (uint64_t)scene->simulation.contact_model << 32;
 }
 
-void ceduo_worker_request(struct worker *w, const struct ceduo_scene *scene, size_t shown)
+uint64_t ceduo_worker_years_key(const struct ceduo_scene *scene, size_t shown)
 {
-    uint64_t key = ceduo_worker_key(scene);
+    return ceduo_worker_key(scene) * 1099511628211u ^ ceduo_years_key(&scene->options[shown]) ^ shown;
+}
+
+void ceduo_worker_request(struct worker *w, const struct ceduo_scene *scene, size_t shown, bool years)
+{
+    uint64_t key = years ? ceduo_worker_years_key(scene, shown) : ceduo_worker_key(scene);
     pthread_mutex_lock(&w->lock);
     if (key != w->key || w->runs == 0) { /* otherwise nothing that the rocks meet has changed */
         w->scene = *scene;
         w->shown = shown;
+        w->wants_years = years;
         w->key = key;
         w->requested = w->busy = true;
         w->failed = false;
@@ -308,6 +354,8 @@ void ceduo_worker_request(struct worker *w, const struct ceduo_scene *scene, siz
         atomic_store(&w->cancel, true);
         ceduo_outlook_free(w->outlook); /* of what was asked before */
         w->outlook = NULL;
+        ceduo_years_free(w->years);
+        w->years = NULL;
         pthread_cond_broadcast(&w->changed);
     }
     pthread_mutex_unlock(&w->lock);
@@ -326,11 +374,14 @@ struct worker_news ceduo_worker_news(struct worker *w)
     pthread_mutex_lock(&w->lock);
     struct worker_news news = {.outlook = w->outlook,
                                .key = w->key,
+                               .years = w->years,
+                               .years_option = w->years_option,
                                .busy = w->busy,
                                .rocks = w->rocks,
                                .seconds = w->seconds,
                                .failed = w->failed};
     w->outlook = NULL;
+    w->years = NULL;
     pthread_mutex_unlock(&w->lock);
     return news;
 }

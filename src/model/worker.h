@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "ceduo/years.h"
 #include "view/outlook.h"
 
 /* One thread in the background that flies rocks over a snapshot of the scene: coarse first, then finer by itself until
@@ -13,6 +14,7 @@ struct worker;
 
 #define WORKER_FIRST_ROCKS 1024    /* shown first */
 #define WORKER_PICTURE_ROCKS 10240 /* enough for envelopes */
+#define WORKER_YEAR_ROCKS 10240    /* of each year */
 #define WORKER_ROCKS_MOST 1024000  /* refined up to this */
 #define WORKER_TOLERANCE 0.004     /* or until mean energies are known to this (95 %) */
 
@@ -23,11 +25,13 @@ unsigned ceduo_worker_threads(const struct worker *worker);
 
 /* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
 uint64_t ceduo_worker_key(const struct ceduo_scene *scene);
+/* The same with the years to come of option `shown`. */
+uint64_t ceduo_worker_years_key(const struct ceduo_scene *scene, size_t shown);
 
 /* Asks for the runs of a scene, those of option `shown` and without forest first. Runs of forests that have not changed
- * since the last request are kept. What the scene points to must stay until the worker is freed (an arena that is never
+ * since the last request are kept. `years`: the years to come of that option as well. What the scene points to must stay until the worker is freed (an arena that is never
  * emptied); the struct itself is copied. */
-void ceduo_worker_request(struct worker *worker, const struct ceduo_scene *scene, size_t shown);
+void ceduo_worker_request(struct worker *worker, const struct ceduo_scene *scene, size_t shown, bool years);
 
 /* A file descriptor that becomes readable when there is news; read by ceduo_worker_news(). */
 int ceduo_worker_fd(const struct worker *worker);
@@ -36,6 +40,8 @@ struct worker_news {
     struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
     uint64_t key;                  /* of its scene: ceduo_worker_key() */
     bool busy;                     /* still refining */
+    struct ceduo_years *years;     /* newest, NULL where none are new; the caller's from now on */
+    size_t years_option;           /* which option they are of */
     uint64_t rocks;                /* of the newest */
     double seconds;                /* since the request */
     bool failed;                   /* out of memory */

@@ -13,7 +13,7 @@
 #include "now.h"
 
 const struct app_view *const ceduo_views[VIEWS] = {&ceduo_view_slope, &ceduo_view_stand, &ceduo_view_rock,
-                                                   &ceduo_view_results, &ceduo_view_compare};
+                                                   &ceduo_view_results, &ceduo_view_compare, &ceduo_view_rotation};
 
 /* ---- saying things ---- */
 
@@ -91,7 +91,9 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .control = ceduo_plot_last_control(&app->document.file.scene),
                                   .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL,
                                   .stems = app->steps.stems,
-                                  .stems_count = ceduo_steps_stems(&app->steps)};
+                                  .stems_count = ceduo_steps_stems(&app->steps),
+                                  .years = app->years && app->years_option == app->option ? app->years : NULL,
+                                  .year = app->year};
 }
 
 /* Assesses the scene as it is now by the newest run, if that is its run. */
@@ -120,9 +122,10 @@ static void refresh(struct app *app)
     const struct ceduo_option *o = ceduo_app_option(app);
     if (app->belt >= o->belts_count)
         app->belt = o->belts_count > 0 ? o->belts_count - 1 : 0;
-    uint64_t key = ceduo_worker_key(scene);
+    bool years = app->view == VIEW_ROTATION;
+    uint64_t key = years ? ceduo_worker_years_key(scene, app->option) : ceduo_worker_key(scene);
     if (key != app->outlook_key) {
-        ceduo_worker_request(app->worker, scene, app->option);
+        ceduo_worker_request(app->worker, scene, app->option, years);
         app->outlook_key = key;
         app->busy = true;
     }
@@ -158,6 +161,13 @@ bool ceduo_app_news(struct app *app)
         app->shown_key = news.key;
         app->seconds = news.seconds;
         refresh_result(app);
+    }
+    if (news.years) {
+        ceduo_years_free(app->years);
+        app->years = news.years;
+        app->years_option = news.years_option;
+        app->year = app->year < app->years->count ? app->year : 0;
+        changed = true;
     }
     if (news.failed)
         ceduo_app_warn(app, "%s", _("out of memory: the figures are not up to date"));
@@ -197,6 +207,9 @@ static void took_document(struct app *app)
     app->editing = false;
     ceduo_outlook_free(app->outlook);
     app->outlook = NULL;
+    ceduo_years_free(app->years);
+    app->years = NULL;
+    app->year = 0;
     for (int v = 0; v < VIEWS; v++)
         app->forms[v].row = app->forms[v].column = app->forms[v].top = 0;
     show_view(app, app->view);
@@ -225,6 +238,7 @@ void ceduo_app_free(struct app *app)
     ceduo_worker_free(app->worker);
     ceduo_result_free(app->result);
     ceduo_outlook_free(app->outlook);
+    ceduo_years_free(app->years);
     for (int v = 0; v < VIEWS; v++)
         ceduo_form_free(&app->forms[v]);
     ceduo_steps_free(&app->steps);
@@ -633,6 +647,18 @@ static void say_steps(struct app *app)
     ceduo_text_free(&text);
 }
 
+void ceduo_app_follow_belt(struct app *app)
+{
+    struct form_row *row = ceduo_form_row(form_of(app));
+    char forest[64];
+    ceduo_app_forest(app, forest, sizeof forest);
+    if (!row || row->n == 0 || strcmp(row->list, forest) != 0 || row->index == app->belt)
+        return;
+    app->belt = row->index;
+    struct problems none = {0};
+    ceduo_app_edited(app, true, &none);
+}
+
 bool ceduo_app_follow(struct app *app, uint64_t rock)
 {
     uint64_t key = app->outlook_key ^ (uint64_t)(app->option + 1) * 1099511628211u;
@@ -736,6 +762,8 @@ static void act(struct app *app, enum action action)
     case ACTION_VIEW_3: show_view(app, VIEW_ROCK); break;
     case ACTION_VIEW_4: show_view(app, VIEW_RESULTS); break;
     case ACTION_VIEW_5: show_view(app, VIEW_COMPARE); break;
+    case ACTION_VIEW_6: show_view(app, VIEW_ROTATION); break;
+    case ACTION_FIND: ceduo_popup_find(app); break;
     case ACTION_NEXT_OPTION: next_option(app, 1); break;
     case ACTION_LAST_OPTION: next_option(app, -1); break;
     case ACTION_NEXT_ROCK: ceduo_app_show_rock(app, app->rock + 1); break;

@@ -15,7 +15,7 @@
 /* The terminal program without a terminal: keys and sizes go in, a canvas of cells comes out. The terminal shows it, a
  * script dumps it. */
 
-enum view_number { VIEW_SLOPE, VIEW_STAND, VIEW_ROCK, VIEW_RESULTS, VIEW_COMPARE, VIEWS };
+enum view_number { VIEW_SLOPE, VIEW_STAND, VIEW_ROCK, VIEW_RESULTS, VIEW_COMPARE, VIEW_ROTATION, VIEWS };
 
 #define APP_WIDTH_LEAST 60
 #define APP_HEIGHT_LEAST 20
@@ -48,6 +48,8 @@ struct app {
     struct ceduo_result *result;     /* the scene as it is now, by the newest outlook; NULL before the first */
     uint64_t outlook_key;            /* of the run that was asked for last */
     uint64_t shown_key;              /* of the one that is shown */
+    struct ceduo_years *years;       /* to come, of option `years_option`; NULL: not computed */
+    size_t years_option, year;       /* year: index of the one under the cursor */
     bool busy;
     double seconds;                  /* from the edit to the newest figures */
     struct ceduo_canvas *canvas;
@@ -106,6 +108,9 @@ void ceduo_app_forest(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
+/* The cursor on a belt of the form shows that belt. */
+void ceduo_app_follow_belt(struct app *app);
+
 /* Follows the way of a rock through the forest of the option shown, unless it is that way already. */
 bool ceduo_app_follow(struct app *app, uint64_t rock);
 
@@ -119,7 +124,7 @@ void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const 
     __attribute__((format(printf, 5, 6)));
 
 extern const struct app_view ceduo_view_slope, ceduo_view_stand, ceduo_view_rock, ceduo_view_results,
-    ceduo_view_compare;
+    ceduo_view_compare, ceduo_view_rotation;
 extern const struct app_view *const ceduo_views[VIEWS];
 
 /* ---- popups (popup.c) ---- */
@@ -133,6 +138,7 @@ void ceduo_popup_new(struct app *app);
 void ceduo_popup_save_as(struct app *app);
 void ceduo_popup_export(struct app *app);
 void ceduo_popup_search(struct app *app);
+void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 void ceduo_popup_quit(struct app *app);
 /* Both strings are taken; `without_file`: it is a scene that was never saved, to be opened in place of this one. */

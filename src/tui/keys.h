@@ -67,6 +67,8 @@ enum key {
     X(VIEW_3, '3', "3", K_NONE, "", 0, N_("view: rock and release"))                                   \
     X(VIEW_4, '4', "4", K_NONE, "", 0, N_("view: results"))                                            \
     X(VIEW_5, '5', "5", K_NONE, "", 0, N_("view: compare"))                                            \
+    X(VIEW_6, '6', "6", K_NONE, "", 0, N_("view: rotation"))                                           \
+    X(FIND, 'f', "f", K_NONE, "", 0, N_("find the value here that reaches a goal"))                    \
     X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                   \
     X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \
     X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                       \

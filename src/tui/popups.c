@@ -10,6 +10,7 @@
 #include "io/file.h"
 #include "io/forms.h"
 #include "io/intl.h"
+#include "model/seek.h"
 #include "popup.h"
 
 /* ---- help ---- */
@@ -448,6 +449,101 @@ void ceduo_popup_search(struct app *app)
     struct popup *p = ceduo_popup_fields(app, _("Search in this view"), filled_search);
     if (p)
         ceduo_popup_field(p, _("word"), app->search);
+}
+
+/* ---- how much is enough ---- */
+
+enum { FIND_GOAL, FIND_LO, FIND_HI };
+
+/* "adc", "energy=50", "exceed=0.1": which goal, and its value. */
+static bool read_goal(struct app *app, char *text, struct seek *seek)
+{
+    static const char *const names[] = {"adc", "free-run", "energy", "exceed"};
+    char *equals = strchr(text, '=');
+    if (equals)
+        *equals++ = '\0';
+    int i = 0;
+    while (i < 4 && strcmp(text, names[i]) != 0)
+        i++;
+    seek->goal = (enum seek_goal)i;
+    seek->target = NAN;
+    bool good = i < 4 && (!equals || (ceduo_number_read(equals, &seek->target) == CEDUO_NUMBER_GOOD && seek->target >= 0));
+    if (!good)
+        ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
+    else if (i == SEEK_ENERGY && !equals)
+        ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
+    return good && !(i == SEEK_ENERGY && !equals);
+}
+
+#define FIND_ROCKS 2000 /* so that the answer is there at once */
+
+/* Looks for the value, and puts it into the field where one is found. */
+static bool filled_find(struct app *app, struct popup *p)
+{
+    struct seek seek = {.file = &app->document.file, .path = p->path, .option = app->option, .rocks = FIND_ROCKS,
+                        .threads = ceduo_worker_threads(app->worker)};
+    char goal[64];
+    snprintf(goal, sizeof goal, "%.63s", p->fields[FIND_GOAL].text);
+    if (!read_goal(app, goal, &seek))
+        return false;
+    if (ceduo_number_read(p->fields[FIND_LO].text, &seek.lo) != CEDUO_NUMBER_GOOD ||
+        ceduo_number_read(p->fields[FIND_HI].text, &seek.hi) != CEDUO_NUMBER_GOOD || !(seek.lo <= seek.hi)) {
+        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+        return false;
+    }
+    struct ceduo_found found;
+    struct problems problems = {0};
+    enum ceduo_status status = ceduo_seek(&seek, &found, &problems);
+    bool good = status == CEDUO_OK;
+    if (!good) {
+        ceduo_app_edited(app, false, &problems);
+        return false;
+    }
+    struct text words = {0};
+    ceduo_seek_say(&seek, &found, &words);
+    bool set = true;
+    if (found.found) {
+        char room[CEDUO_NUMBER_ROOM], path[1024];
+        snprintf(path, sizeof path, "%s", p->path);
+        set = ceduo_document_set(&app->document, path, ceduo_number_shortest(found.value, room), &problems);
+        ceduo_app_edited(app, set, &problems);
+    } else {
+        ceduo_problems_free(&problems);
+    }
+    for (char *c = words.bytes; c && *c; c++)
+        *c = *c == '\n' ? ' ' : *c;
+    if (set && words.bytes)
+        ceduo_app_say(app, "%s", words.bytes);
+    ceduo_text_free(&words);
+    return true;
+}
+
+void ceduo_popup_find(struct app *app)
+{
+    struct form_row *row = ceduo_form_row(&app->forms[app->view]);
+    const struct form_cell *cell = row && row->n > 0 ? &row->cells[app->forms[app->view].column] : NULL;
+    bool number = cell && cell->field && (cell->field->type == FIELD_NUMBER || cell->field->type == FIELD_COUNT ||
+                                          cell->field->type == FIELD_SPREAD);
+    if (!number) {
+        ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
+        return;
+    }
+    char path[FORM_PATH], lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    snprintf(path, sizeof path, "%s", cell->path);
+    double value = 0;
+    bool known = ceduo_number_read(cell->text, &value) == CEDUO_NUMBER_GOOD && value > 0;
+    ceduo_number_shortest(known ? (cell->field->type == FIELD_COUNT ? 1 : value / 10) : 1, lo);
+    ceduo_number_shortest(known ? value * 10 : 1000, hi);
+    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
+    if (!p)
+        return;
+    snprintf(p->path, sizeof p->path, "%s", path);
+    ceduo_text_format(&p->text, _("%s, with the same rocks for every value. Goals at the worst control: adc, free-run, "
+                                  "energy=KJ (mean), exceed=SHARE (0.05). What is found is put into the field; u takes it back."),
+                      path);
+    ceduo_popup_field(p, _("goal"), "adc");
+    ceduo_popup_field(p, _("from"), lo);
+    ceduo_popup_field(p, _("to"), hi);
 }
 
 static bool filled_name(struct app *app, struct popup *p)

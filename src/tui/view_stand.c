@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees; a plan to scale. */
 #include <stdio.h>
-#include <string.h>
 
 #include "app.h"
 #include "io/intl.h"
@@ -38,19 +37,6 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "energy.u_J_m3", _("U, J/m3"));
     ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", _("fracture ratio"));
     ceduo_form_field(form, d, stand, path, "name", _("name"));
-}
-
-/* The cursor on a belt shows that belt's stand. */
-static void follow_cursor(struct app *app)
-{
-    struct form_row *row = ceduo_form_row(&app->forms[VIEW_STAND]);
-    char forest[64];
-    ceduo_app_forest(app, forest, sizeof forest);
-    if (!row || row->n == 0 || strcmp(row->list, forest) != 0 || row->index == app->belt)
-        return;
-    app->belt = row->index;
-    struct problems none = {0};
-    ceduo_app_edited(app, true, &none);
 }
 
 static void draw_figures(struct app *app, struct ceduo_area area)
@@ -94,4 +80,4 @@ static void draw(struct app *app, struct ceduo_area area)
     draw_figures(app, figures);
 }
 
-const struct app_view ceduo_view_stand = {N_("stand"), 1, build, draw, NULL, follow_cursor};
+const struct app_view ceduo_view_stand = {N_("stand"), 1, build, draw, NULL, ceduo_app_follow_belt};

@@ -130,7 +130,10 @@ static void draw(struct rotation *r)
     else
         ceduo_text_format(&share, _("of 1000 released with more than %g kJ (limit %g)"), r->control->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
-    draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, adc.bytes ? adc.bytes : "", adc_of);
+    if (strips < 2 * STRIP_LEAST) /* room for one: what gets through */
+        first = 0;
+    else
+        draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, adc.bytes ? adc.bytes : "", adc_of);
     draw_strip(r, a->top + 1 + first, strips - first, most_share(r),
                r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN,
                share.bytes ? share.bytes : "", share_of);
@@ -156,7 +159,7 @@ void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *a
         ceduo_plot_words(canvas, area, !r.control ? _("no control") : _("not computed yet"));
         return;
     }
-    if (area->height < 1 + 2 * STRIP_LEAST + 2 + LIGHTS || area->width < 24) {
+    if (area->height < 1 + STRIP_LEAST + 2 + LIGHTS || area->width < 24) {
         ceduo_plot_words(canvas, area, _("too narrow"));
         return;
     }

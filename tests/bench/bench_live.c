@@ -36,7 +36,7 @@ static void wait_for(struct app *app, uint64_t rocks)
         struct pollfd fd = {.fd = ceduo_worker_fd(app->worker), .events = POLLIN};
         poll(&fd, 1, 1000);
         ceduo_app_news(app);
-    } while (!app->result || app->outlook->rocks < rocks || app->outlook_key != app->shown_key);
+    } while (!app->result || app->outlook->bare->flown.rocks < rocks || app->outlook_key != app->shown_key);
     ceduo_app_draw(app);
 }
 

@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 6: the years between two cuts: what protects when, and how the stands grow and are cut. */
+#include <math.h>
+#include <stdio.h>
+
+#include "app.h"
+#include "io/intl.h"
+
+static void build(struct app *app, struct form *form)
+{
+    static const char *const belt_columns[] = {"from_m", "to_m", "cut_year", "stand", NULL};
+    static const struct {
+        const char *key, *label;
+    } fields[] = {{"cutting.rotation_years", N_("years between two cuts")},
+                  {"cutting.cohorts", N_("cohorts of shoots")},
+                  {"cutting.stay_per_ha", N_("trees that stay, per ha")},
+                  {"growth.shoots_young", N_("shoots that come up")},
+                  {"growth.shoots_old", N_("shoots in the end")},
+                  {"growth.sdi_most", N_("density index")},
+                  {"growth.shoots.dbh_most_m", N_("shoots: dbh at most, m")},
+                  {"growth.shoots.dbh_rate_1_y", N_("k, 1/y")},
+                  {"growth.shoots.height_most_m", N_("height at most, m")},
+                  {"growth.shoots.height_rate_1_y", N_("m, 1/y")},
+                  {"growth.trees.dbh_most_m", N_("trees: dbh at most, m")},
+                  {"growth.trees.dbh_rate_1_y", N_("k, 1/y")},
+                  {"growth.trees.height_most_m", N_("height at most, m")},
+                  {"growth.trees.height_rate_1_y", N_("m, 1/y")}};
+    const struct document *d = &app->document;
+    const struct object *scene = ceduo_schema_scene();
+    char forest[64], path[FORM_PATH], heading[128];
+    ceduo_app_forest(app, forest, sizeof forest);
+    ceduo_form_table(form, d, ceduo_schema_field(scene, "forest")->object, forest, belt_columns, "");
+    if (ceduo_app_option(app)->belts_count > 0) {
+        snprintf(path, sizeof path, "%s[%zu].stand", forest, app->belt);
+        snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
+                 ceduo_app_option(app)->belts[app->belt].name);
+        ceduo_form_heading(form, heading);
+        for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
+            ceduo_form_field(form, d, ceduo_schema_stand(), path, fields[i].key, _(fields[i].label));
+    }
+    ceduo_form_heading(form, _("What comes down, what must stay"));
+    ceduo_form_field(form, d, scene, "", "rocks_per_year", _("rocks a year"));
+    ceduo_form_field(form, d, scene, "", "minimum.reserves_per_ha", _("trees per ha at least"));
+}
+
+/* The stems of a belt in the year under the cursor. */
+static void say_belt(struct text *text, const struct ceduo_belt *belt)
+{
+    const struct ceduo_stand *s = &belt->stand;
+    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
+    ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", ceduo_number_shortest(belt->from_given, from),
+                      ceduo_number_shortest(belt->to_given, to));
+    if (ceduo_stand_is_bare(s))
+        ceduo_text_put(text, _("no stems"));
+    if (s->shoots_count > 0)
+        ceduo_text_format(text, _("%.0f stools"), s->stools_per_ha);
+    for (size_t i = 0; i < s->shoots_count; i++)
+        ceduo_text_format(text, _(", %.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha, s->shoots[i].dbh * 100,
+                          s->shoots[i].height);
+    for (size_t i = 0; i < s->trees_count; i++)
+        ceduo_text_format(text, _("%s%.0f trees of %.0f cm, %.0f m"), s->shoots_count + i > 0 ? ", " : "",
+                          s->trees[i].per_ha, s->trees[i].dbh * 100, s->trees[i].height);
+    ceduo_text_put(text, ". ");
+}
+
+static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
+{
+    size_t c = app->result->last_control;
+    const struct ceduo_control *control = &app->result->scene->controls[c];
+    const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
+    ceduo_text_format(text, y->cut ? _("Year %u, cut: ") : _("Year %u: "), y->year);
+    ceduo_text_format(text, _("ADC "));
+    ceduo_words_number(text, y->controls[c].worst_adc, 3);
+    ceduo_text_put(text, " m");
+    if (y->wooded.rocks > 0) {
+        const struct ceduo_arrivals *a = &y->wooded.arrivals[c];
+        bool says = !isnan(a->exceed_probability);
+        double share = says ? a->exceed_probability : a->reach_probability;
+        ceduo_text_format(text, says ? _("; of 1000 %.0f \xc2\xb1%.0f with more than %g kJ")
+                                     : _("; of 1000 %.0f \xc2\xb1%.0f arrive"),
+                          share * 1000, ceil(1960 * sqrt(share * (1 - share) / (double)a->released)),
+                          control->accepted * 1e-3);
+    }
+    ceduo_text_put(text, ". ");
+    for (size_t i = 0; i < y->option.belts_count; i++)
+        say_belt(text, &y->option.belts[i]);
+}
+
+static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
+{
+    struct ceduo_years_summary s = ceduo_years_sum(years, app->result->last_control);
+    ceduo_text_format(text, _("%zu years: %zu without contact, %zu with too much energy"), s.years,
+                      s.unprotected_contact, s.unprotected_energy);
+    if (!isnan(s.exceed.mean))
+        ceduo_text_format(text, _("; mean %.0f \xc2\xb1%.0f, worst %.0f in year %u"), s.exceed.mean * 1000,
+                          ceil(s.exceed.se * 1960), s.worst * 1000, s.worst_year);
+    if (!isnan(s.passes_per_year))
+        ceduo_text_format(text, _("; expected a year: %.3g pass"), s.passes_per_year);
+    if (!isnan(s.exceeds_per_year))
+        ceduo_text_format(text, _(", %.3g with too much"), s.exceeds_per_year);
+    ceduo_text_char(text, '.');
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    bool alone = app->pane == 1;
+    int words = area.height >= 30 ? 6 : 4, form = alone ? 0 : area.height / 3;
+    int height = area.height - form - words;
+    struct ceduo_area top = {area.left, area.top, area.width, height};
+    struct ceduo_area text_area = {area.left, area.top + height, area.width, words};
+    if (alone && !app->message[0])
+        ceduo_app_say(app, "%s", _("left, right: another year; Tab: back to the form"));
+    ceduo_plot_rotation(app->canvas, &top, &picture);
+    if (picture.years && app->result && picture.years->count > 0) {
+        struct text text = {0};
+        say_all(app, picture.years, &text);
+        ceduo_text_char(&text, '\n');
+        say_year(app, picture.years, &text);
+        ceduo_app_text(app, text_area, CEDUO_ROLE_TEXT, text.bytes ? text.bytes : "", 0);
+        ceduo_text_free(&text);
+    }
+    struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
+    app->form_area = below;
+    if (!alone)
+        ceduo_form_draw(&app->forms[VIEW_ROTATION], app->canvas, below.left, below.top, below.width, below.height, true,
+                        app->editing ? app->line.text : NULL);
+}
+
+static bool go_to_year(struct app *app, long year)
+{
+    long n = app->years ? (long)app->years->count : 0;
+    if (n > 0)
+        app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);
+    return true;
+}
+
+static bool act(struct app *app, enum action action)
+{
+    if (app->pane != 1)
+        return false;
+    switch (action) {
+    case ACTION_RIGHT: return go_to_year(app, (long)app->year + 1);
+    case ACTION_LEFT: return go_to_year(app, (long)app->year - 1);
+    case ACTION_TOP: return go_to_year(app, 0);
+    case ACTION_BOTTOM: return go_to_year(app, 100000);
+    default: return false;
+    }
+}
+
+const struct app_view ceduo_view_rotation = {N_("rotation"), 2, build, draw, act, ceduo_app_follow_belt};
