@@ -298,6 +298,13 @@ bool ceduo_stems_take(struct stems *s, int i, struct stem *stem)
     return true;
 }
 
+void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
+{
+    const struct stems_side *behind = &s->side[1];
+    for (size_t i = behind->first; i < behind->end; i++)
+        behind->waiting[i].met |= behind->waiting[i].stool == stool;
+}
+
 double ceduo_stem_energy_of(const struct stem *stem, double b)
 {
     const struct wood_kind *k = stem->kind;

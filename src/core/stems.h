@@ -17,8 +17,9 @@ struct stem {
     double along, y;  /* m: place along the way, offset from it */
     double dbh;       /* m; NaN where contacts have no diameter */
     const struct wood_kind *kind;
-    uint64_t stool; /* which stool or tree it is, or belongs to */
+    uint64_t stool; /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
     bool shoot;
+    bool met;       /* it waits behind the release, and another shoot of its stool was hit ahead */
 };
 
 /* The next of one stratum. */
@@ -65,14 +66,19 @@ void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, doub
  * at side[].next. */
 bool ceduo_stems_take(struct stems *stems, int side, struct stem *stem);
 
+/* A stool astride of the release was hit: its shoots that wait behind know of it, however late the rock comes to them. */
+void ceduo_stems_meet_behind(struct stems *stems, uint64_t stool);
+
 /* Notes that a stem was hit; whether its stool or tree was not hit before. */
 static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem)
 {
     if (!stem->shoot)
         return true;
     uint64_t *place = &stems->met[stem->stool & stems->wood->places];
-    bool first = *place != stem->stool;
+    bool first = *place != stem->stool && !stem->met;
     *place = stem->stool;
+    if (first && !(stem->stool & 1) && stem->along <= stems->start + 2 * stems->wood->reach)
+        ceduo_stems_meet_behind(stems, stem->stool);
     return first;
 }
 
