@@ -40,7 +40,7 @@ PROGRAM := $(BUILD)/ceduo
 ifeq ($(VARIANT),release)
 all: ceduo
 ceduo: $(PROGRAM)
-	cp $(PROGRAM) $@
+	cp -f $(PROGRAM) $@
 else
 all: $(PROGRAM)
 endif

@@ -198,22 +198,30 @@ static void put_arrivals_row(struct page *p, const char *name, const struct cedu
     ceduo_text_free(&mean);
 }
 
-static void put_arrivals_head(struct page *p, const struct ceduo_control *c)
+/* The head of a column of shares: what is too much at a place, or where that is not said, `otherwise`. */
+static void put_limit(struct page *p, const struct ceduo_control *c, const char *otherwise, int width)
 {
     char room[CEDUO_NUMBER_ROOM];
     struct text limit = {0};
-    if (!isnan(c->accepted))
+    if (isnan(c->accepted))
+        ceduo_text_put(&limit, otherwise);
+    else
         ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    put_padded(p, limit.bytes ? limit.bytes : "", -width);
+    ceduo_text_free(&limit);
+}
+
+static void put_arrivals_head(struct page *p, const struct ceduo_control *c)
+{
     ceduo_text_put(p->text, "    ");
     put_padded(p, _("of 1000"), 16);
     put_padded(p, _("arrive"), -14);
-    put_padded(p, limit.bytes ? limit.bytes : "", -14);
+    put_limit(p, c, "", 14);
     put_padded(p, _("mean kJ"), -12);
     put_padded(p, _("95 %"), -7);
     put_padded(p, _("m/s"), -6);
     put_padded(p, _("m up"), -6);
     ceduo_text_char(p->text, '\n');
-    ceduo_text_free(&limit);
 }
 
 /* The same in sentences. */
@@ -473,23 +481,17 @@ static void put_blocks(struct page *p, const struct ceduo_block *blocks)
     const struct ceduo_result *r = p->report->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     char room[CEDUO_NUMBER_ROOM];
-    struct text share = {0};
-    if (isnan(c->accepted))
-        ceduo_text_put(&share, _("of 1000 arrive"));
-    else
-        ceduo_text_format(&share, _("of 1000 > %s kJ"), ceduo_number_shortest(c->accepted * KILO, room));
-    ceduo_text_format(p->text, _("    Blocks of other sizes, same shape and release, to %s m (> this scene's):\n    "),
+    ceduo_text_format(p->text, _("    Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):\n    "),
                       ceduo_number_shortest(c->x_given, room));
     put_padded(p, "m3", -7);
     put_padded(p, "kg", -9);
     put_padded(p, _("wide m"), -8);
     put_padded(p, _("ADC m"), -8);
     put_padded(p, _("contacts"), -10);
-    put_padded(p, share.bytes ? share.bytes : "", -18);
+    put_limit(p, c, _("of 1000 arrive"), 18);
     ceduo_text_char(p->text, '\n');
     for (size_t i = 0; i < CEDUO_BLOCKS; i++)
         put_block(p, &blocks[i]);
-    ceduo_text_free(&share);
 }
 
 /* ---- years ---- */
@@ -530,21 +532,15 @@ static void put_years_head(struct page *p)
     const struct ceduo_result *r = p->report->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     char room[CEDUO_NUMBER_ROOM];
-    struct text share = {0};
-    if (isnan(c->accepted))
-        ceduo_text_put(&share, _("of 1000 arrive"));
-    else
-        ceduo_text_format(&share, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
     ceduo_text_format(p->text, _("    Year by year, up to %s m:\n    "), ceduo_number_shortest(c->x_given, room));
     put_padded(p, _("year"), 9);
     put_padded(p, _("ADC m"), -7);
     put_padded(p, "", 6);
     put_padded(p, _("free run"), 13);
     put_padded(p, _("kJ/100 m"), -9);
-    put_padded(p, share.bytes ? share.bytes : "", -15);
+    put_limit(p, c, _("of 1000 arrive"), 15);
     put_padded(p, _("mean kJ"), -9);
     ceduo_text_format(p->text, "  %s\n", _("energy"));
-    ceduo_text_free(&share);
 }
 
 /* The years together, in sentences. */
@@ -703,24 +699,20 @@ static void say_separation(struct page *p, const char *test, size_t pass)
 
 static void put_comparison_head(struct page *p, const struct ceduo_control *c)
 {
-    const struct ceduo_result *r = p->report->result;
-    char room[CEDUO_NUMBER_ROOM];
-    struct text limit = {0};
-    if (isnan(c->accepted))
-        ceduo_text_put(&limit, _("arrive"));
-    else
-        ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    bool wooded = p->report->result->wooded;
     ceduo_text_put(p->text, "  ");
     put_padded(p, _("option"), 23);
     put_padded(p, _("ADC m"), -7);
     put_padded(p, "", 6);
     put_padded(p, _("free run"), 13);
-    put_padded(p, r->wooded ? limit.bytes ? limit.bytes : "" : _("kJ/100 m"), -10);
-    put_padded(p, r->wooded ? _("to first") : _("left kJ"), r->wooded ? -11 : -10);
-    if (r->wooded)
+    if (wooded)
+        put_limit(p, c, _("arrive"), 10);
+    else
+        put_padded(p, _("kJ/100 m"), -10);
+    put_padded(p, wooded ? _("to first") : _("left kJ"), wooded ? -11 : -10);
+    if (wooded)
         ceduo_text_format(p->text, "   %s", _("energy"));
     ceduo_text_char(p->text, '\n');
-    ceduo_text_free(&limit);
 }
 
 static void put_comparison(struct page *p)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How long a person waits: from a key to the first new picture of at least 1000 rocks, on the grid of cells (what a
- * terminal adds is its own), to 10 000 rocks, and for an edit of a stand, which flies no rock. Prints CSV. */
+ * terminal adds is its own), to 10 000 rocks, and for an edit of a stand: to its index, and to the first rocks through it.
+ * Prints CSV. */
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,8 +55,9 @@ int main(int argc, char **argv)
     struct app app;
     struct problems problems = {0};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all), *stand = calloc(repeats, sizeof *stand);
-    if (!first || !all || !stand ||
+    double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all), *stand = calloc(repeats, sizeof *stand),
+           *wooded = calloc(repeats, sizeof *wooded);
+    if (!first || !all || !stand || !wooded ||
         !ceduo_app_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
                           &problems))
         return 1;
@@ -78,13 +80,19 @@ int main(int argc, char **argv)
         ceduo_app_key(&app, i % 2 ? '-' : '+');
         ceduo_app_draw(&app);
         stand[i] = now() - start;
+        wait_for(&app, 1000);
+        wooded[i] = now() - start;
+        ceduo_worker_wait(app.worker);
+        ceduo_app_news(&app);
     }
     report("key to a picture of 1000 rocks", first, repeats, 33, 100);
     report("key to a picture of 10000 rocks", all, repeats, 250, 0);
-    report("edit of a stand (index)", stand, repeats, 5, 0);
+    report("edit of a stand to its index", stand, repeats, 5, 0);
+    report("edit of a stand to 1000 rocks through it", wooded, repeats, 33, 100);
     ceduo_app_free(&app);
     free(first);
     free(all);
     free(stand);
+    free(wooded);
     return 0;
 }
