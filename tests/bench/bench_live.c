@@ -73,7 +73,6 @@ int main(int argc, char **argv)
         first[i] = now() - start;
         wait_for(&app, 10000);
         all[i] = now() - start;
-        ceduo_worker_wait(app.worker);
         ceduo_app_key(&app, '2');
         to_field(&app, "forest[0].stand.stools.per_ha");
         start = now();
@@ -82,8 +81,6 @@ int main(int argc, char **argv)
         stand[i] = now() - start;
         wait_for(&app, 1000);
         wooded[i] = now() - start;
-        ceduo_worker_wait(app.worker);
-        ceduo_app_news(&app);
     }
     report("key to a picture of 1000 rocks", first, repeats, 33, 100);
     report("key to a picture of 10000 rocks", all, repeats, 250, 0);

@@ -177,6 +177,26 @@ def stand(**changes):
     return {key: value for key, value in mapping.items() if value is not None}
 
 
+def wooded_scene(**changes):
+    """A scene whose rocks fly: of those that the wood lets through some come to rest below it, and no two do the same."""
+    mapping = {"title": "a wood below a cliff",
+               "rock": {"shape": "sphere", "diameter_m": 0.75, "density_kg_m3": 2600},
+               "release": {"vx_m_s": 2},
+               "slope": {"vertices_m": [[0, 90], [100, 10], [160, 0]],
+                         "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.25, "friction": 0.5},
+                                      {"rn": 0.3, "rt": 0.8, "roughness_rad": 0.125, "friction": 0.6}]},
+               "controls": [{"x_m": 60}, {"x_m": 105, "name": "road", "accepted_kJ": 60}],
+               "forest": [{"from_m": 10, "to_m": 95, "stand": stand()}],
+               "simulation": {"rocks": 2000}}
+    mapping.update(changes)
+    return scene(**mapping)
+
+
+def belt(from_m, to_m, **changes):
+    """A belt of the small stand, changed."""
+    return {"from_m": from_m, "to_m": to_m, "stand": stand(**changes)}
+
+
 # ---- TAP ----
 
 class Suite:

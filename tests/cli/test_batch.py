@@ -15,9 +15,9 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, ceduo,
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, belt, ceduo,
                      environment, expect, expect_equal, expect_in, expect_near, good, only_text, result, results,
-                     scene, stand, tests_of)
+                     scene, stand, tests_of, wooded_scene)
 
 PAPER = PROFILES / "scenes" / "paper-site.yaml"
 FOUR = PROFILES / "scenes" / "four-systems.yaml"
@@ -32,7 +32,8 @@ ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUM
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
             "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR}
 INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
-CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": NULL,
+WOODED = {**ARRIVALS, "contacts": PAIR}
+CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT}}
 STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
          "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
@@ -44,6 +45,8 @@ SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contact
            "meet_nothing_probability": NUMBER, "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": MAYBE,
            "passes_threshold": FLAG}
 STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
+DIFFERENCES = ("reach_probability", "exceed_probability", "energy_per_released_kJ")
+DIFFERENCE = {"option": TEXT, "against": TEXT, "x_m": NUMBER, **{name: PAIR for name in DIFFERENCES}}
 RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed": COUNT, "rocks": COUNT, "law": TEXT,
           "rock": {"mass_kg": NUMBER, "mean_diameter_m": NUMBER, "moment_kg_m2": NUMBER}, "threshold_m": NUMBER,
           "warnings": [TEXT],
@@ -51,7 +54,7 @@ RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed":
                        "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
                                 "unfinished": COUNT},
                        "stop_x_m": STOPS}],
-          "differences": [],
+          "differences": [DIFFERENCE],
           "work": {"rocks_flown": COUNT, "contacts": COUNT, "stems_drawn": COUNT, "runs": COUNT, "runs_reused": COUNT,
                    "seconds": NUMBER}}
 
@@ -87,6 +90,76 @@ def expect_shape(value, shape, path="$"):
             expect_shape(value[key], shape[key], f"{path}.{key}")
 
 
+def by_index(shape):
+    """The shape of a run with contact_model index: nothing is known of the wood."""
+    if shape is WOODED:
+        return NULL
+    if isinstance(shape, list):
+        return [by_index(item) for item in shape]
+    special = shape in (INDEX, STOPS) if isinstance(shape, dict) else True
+    return shape if special else {key: by_index(inner) for key, inner in shape.items()}
+
+
+INDEX_RESULT = by_index(RESULT)
+MODEL = "simulation.contact_model"
+MODELS = ("index", "poisson", "stems")
+
+
+def through(model):
+    """Options of the command line for a contact model."""
+    return ("-s", f"{MODEL}={model}")
+
+
+def expect_run(run, model="stems"):
+    """The shape of a run, and what goes with it whatever the scene."""
+    expect_shape(run, INDEX_RESULT if model == "index" else RESULT)
+    for option in run["options"]:
+        ends = option["ends"]
+        expect_near(ends["stopped_by_stems"] + ends["came_to_rest"] + ends["left_slope"] +
+                    ends["unfinished"] / run["rocks"], 1, 1e-12, "ends")
+        stops = ends["stopped_by_stems"] + ends["came_to_rest"] > 0
+        expect_equal(option["stop_x_m"] is not None, stops, "stop_x_m where rocks stop")
+        if model == "index":
+            expect_equal(ends["stopped_by_stems"], 0, "stopped by stems without stems")
+        for control in option["controls"]:
+            expect_equal(control["lights"]["energy"], energy_light(control), "energy light")
+    expect_differences(run)
+
+
+def energy_light(control):
+    wooded = control["wooded"]
+    if wooded is None or control["accepted_kJ"] is None:
+        return "unknown"
+    return "pass" if wooded["exceed_probability"] <= 0.05 else "fail"
+
+
+def flown(control):
+    """What is compared: through the wood, or by the index without it."""
+    return control["wooded"] or control["bare"]
+
+
+def expect_differences(run):
+    """Option less baseline, one for each other option and control, in order."""
+    baseline = run["options"][0]
+    wanted = [(option, control, first) for option in run["options"][1:]
+              for control, first in zip(option["controls"], baseline["controls"])]
+    expect_equal(len(run["differences"]), len(wanted), "differences")
+    for found, (option, control, first) in zip(run["differences"], wanted):
+        where = f"{option['name']} at {control['x_m']} m"
+        expect_equal((found["option"], found["against"], found["x_m"]), (option["name"], baseline["name"], control["x_m"]))
+        for name in DIFFERENCES:
+            values = [flown(c)[name] for c in (control, first)]
+            values = [v["mean"] if isinstance(v, dict) else v for v in values]
+            if values[0] is None:
+                expect_equal(found[name], {"mean": None, "se": None}, f"{where}: {name}")
+                continue
+            size = max(1, *map(abs, values))
+            expect_near(found[name]["mean"], values[0] - values[1], 1e-12 * size, f"{where}: {name}")
+            expect(run["rocks"] < 2 or found[name]["se"] >= 0, where, found)
+            if control["wooded"] is None:
+                expect_equal(found[name], {"mean": 0, "se": 0}, f"{where}: {name} by the index")
+
+
 def wilson(k, n):
     z = 1.959963984540054
     middle, half = k / n + z * z / (2 * n), z * math.sqrt(k / n * (1 - k / n) / n + z * z / (4 * n * n))
@@ -102,27 +175,36 @@ def test_json_shape():
     done = good("--batch", "-f", "json", PAPER)
     expect(done.out.count("\n") == 1 and done.out.endswith("\n"), "one line a scene", done)
     run = done.json()[0]
-    expect_shape(run, RESULT)
+    expect_run(run)
     expect_equal(run["format"], "ceduo-result-1")
     expect_equal(run["scene"], str(PAPER))
     expect_equal((run["title"], run["seed"], run["rocks"], run["law"], run["threshold_m"]),
                  ("Test site of Ciabocco et al. 2009", 1, 999, "lumped", 30))
     control = run["options"][0]["controls"][0]
     expect_equal((control["x_m"], control["name"], control["accepted_kJ"]), (135, "end of the forest", 50))
-    expect_equal(control["lights"], {"contact": "pass", "free_run": "pass", "energy": "unknown"})
+    expect_equal(control["lights"], {"contact": "pass", "free_run": "pass", "energy": "fail"})
     expect("measured_kJ" in control["index"], control["index"])
     expect_equal([s["name"] for s in run["options"][0]["stands"]], ["ADS 1", "ADS 2"])
+    bare = result(PAPER, *through("index"))
+    expect_run(bare, "index")
+    other = bare["options"][0]["controls"][0]
+    expect_equal(other["lights"], {"contact": "pass", "free_run": "pass", "energy": "unknown"}, "lights by the index")
+    for name in ("bare", "index"):
+        expect_equal(other[name], control[name], f"{name} does not depend on the contact model")
+    expect_equal(result(PAPER, *through("stems"))["options"], run["options"], "stems is the default")
 
 
 def test_json_shape_everywhere():
     """JSON keeps its shape on every shipped scene, and without measured speed there is no measured_kJ"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
-        run = result(path, "-n", 50)
-        expect_shape(run, RESULT)
-    run = result(FOUR, "-n", 50)
-    expect_equal(len(run["options"]), 8)
-    expect(all("measured_kJ" not in c["index"] for o in run["options"] for c in o["controls"]), "measured_kJ")
-    expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (1, 50))
+        for model in MODELS:
+            run = result(path, "-n", 50, *through(model))
+            expect_run(run, model)
+    for model, runs in (("index", 1), ("stems", 9)):
+        run = result(FOUR, "-n", 50, *through(model))
+        expect_equal(len(run["options"]), 8)
+        expect(all("measured_kJ" not in c["index"] for o in run["options"] for c in o["controls"]), "measured_kJ")
+        expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (runs, 50 * runs), model)
 
 
 def test_json_numbers_shortest():
@@ -215,7 +297,7 @@ def test_golden_reserves():
 
 def test_golden_speed():
     """Mean speed without forest beside the paper's Table 5 (Ciabocco, Boccia and Ripa 2009), 10^5 rocks"""
-    bare = result(PAPER, "-n", 100000)["options"][0]["controls"][0]["bare"]
+    bare = result(PAPER, "-n", 100000, *through("index"))["options"][0]["controls"][0]["bare"]
     speed, energy = bare["speed_m_s"], bare["energy_kJ"]
     expect_near(speed["mean"], 20.612, 4 * math.hypot(speed["se"], 0.005), "mean speed")
     expect_near(speed["sd"], 4.78, 0.05, "sd")
@@ -224,27 +306,47 @@ def test_golden_speed():
     expect_equal(bare["energy_kJ"], bare["translation_kJ"], "the law lumped knows no spin")
 
 
+WOODED_GOLD = {"poisson": (66.75, 15.29, 0.839, 0.152), "stems": (62.06, 14.67, 0.832, 0.154)}
+
+
+def test_golden_wooded():
+    """Energy, speed, share that passes and share stopped through the wood of the paper's site, by both contact models"""
+    n = 20000
+    for model, (energy, speed, reach, stopped) in WOODED_GOLD.items():
+        option = result(PAPER, "-n", n, *through(model))["options"][0]
+        wooded = option["controls"][0]["wooded"]
+        expect_near(wooded["energy_kJ"]["mean"], energy, 4 * math.hypot(wooded["energy_kJ"]["se"], 0.1), f"{model}: energy")
+        expect_near(wooded["speed_m_s"]["mean"], speed, 4 * math.hypot(wooded["speed_m_s"]["se"], 0.005), f"{model}: speed")
+        for found, wanted, what in ((wooded["reach_probability"], reach, "reach"),
+                                    (option["ends"]["stopped_by_stems"], stopped, "stopped by stems")):
+            expect_near(found, wanted, 4 * math.sqrt(wanted * (1 - wanted) / n) + 0.0005, f"{model}: {what}")
+
+
 def test_statistics():
     """Intervals are Wilson's, percentiles rise, means over the released and over those that reached agree"""
     for law in ("lumped", "crsp"):
         run = result(PAPER, "-s", f"simulation.law={law}", "-s", "controls[0].x_m=60")
-        bare, n = run["options"][0]["controls"][0]["bare"], run["rocks"]
-        expect_equal(bare["reach_probability"], bare["rocks_reached"] / n, "reach_probability")
-        for key, value in zip(("reach_lo", "reach_hi"), wilson(bare["rocks_reached"], n)):
-            expect_near(bare[key], value, 1e-12, key)
-        exceeded = round(bare["exceed_probability"] * n)
-        for key, value in zip(("exceed_lo", "exceed_hi"), wilson(exceeded, n)):
-            expect_near(bare[key], value, 1e-12, key)
-        for name in ("speed_m_s", "energy_kJ", "translation_kJ", "height_m"):
-            d = bare[name]
-            expect(d["p50"] <= d["p95_lo"] <= d["p95"] <= d["p95_hi"] <= d["max"] and d["p95"] <= d["p99"] <= d["max"],
-                   name, d)
-            expect_near(d["se"], d["sd"] / math.sqrt(bare["rocks_reached"]), 1e-12 + 1e-9 * d["sd"], f"{name}.se")
-        expect_near(bare["energy_per_released_kJ"]["mean"], bare["energy_kJ"]["mean"] * bare["reach_probability"], 1e-9,
-                    "energy_per_released_kJ")
-        expect((law == "lumped") == (bare["energy_kJ"] == bare["translation_kJ"]), "rotation", bare)
-        ends = run["options"][0]["ends"]
-        expect_near(ends["stopped_by_stems"] + ends["came_to_rest"] + ends["left_slope"], 1, 1e-12, "ends")
+        expect_run(run)
+        statistics(run, law, "bare")
+        statistics(run, law, "wooded")
+
+
+def statistics(run, law, which):
+    bare, n = run["options"][0]["controls"][0][which], run["rocks"]
+    expect_equal(bare["reach_probability"], bare["rocks_reached"] / n, "reach_probability")
+    for key, value in zip(("reach_lo", "reach_hi"), wilson(bare["rocks_reached"], n)):
+        expect_near(bare[key], value, 1e-12, key)
+    exceeded = round(bare["exceed_probability"] * n)
+    for key, value in zip(("exceed_lo", "exceed_hi"), wilson(exceeded, n)):
+        expect_near(bare[key], value, 1e-12, key)
+    for name in ("speed_m_s", "energy_kJ", "translation_kJ", "height_m"):
+        d = bare[name]
+        expect(d["p50"] <= d["p95_lo"] <= d["p95"] <= d["p95_hi"] <= d["max"] and d["p95"] <= d["p99"] <= d["max"],
+               name, d)
+        expect_near(d["se"], d["sd"] / math.sqrt(bare["rocks_reached"]), 1e-12 + 1e-9 * d["sd"], f"{name}.se")
+    expect_near(bare["energy_per_released_kJ"]["mean"], bare["energy_kJ"]["mean"] * bare["reach_probability"], 1e-9,
+                "energy_per_released_kJ")
+    expect((law == "lumped") == (bare["energy_kJ"] == bare["translation_kJ"]), "rotation", bare)
 
 
 # ---- CSV ----
@@ -260,12 +362,10 @@ def flat(prefix, shape):
 SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
                "threshold_m", "option"]
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
-                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", ARRIVALS) +
-                 ["wooded.contacts.mean", "wooded.contacts.se", "lights.contact", "lights.free_run", "lights.energy",
+                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) +
+                 ["lights.contact", "lights.free_run", "lights.energy",
                   "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
-                 flat("stop_x_m.", STOPS) +
-                 flat("difference.", {k: PAIR for k in ("reach_probability", "exceed_probability",
-                                                        "energy_per_released_kJ")}) + ["warnings"])
+                 flat("stop_x_m.", STOPS) + flat("difference.", {k: PAIR for k in DIFFERENCES}) + ["warnings"])
 STAND_CELLS = SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"]
 
 
@@ -308,6 +408,9 @@ def expect_rows(rows, runs, inner):
                                   [w for s in stands for w in s["warnings"]])
             elif name in SCENE_CELLS:
                 value = look_up(run, name)
+            elif name.startswith("difference."):
+                found = [d for d in run["differences"] if (d["option"], d["x_m"]) == (option["name"], item["x_m"])]
+                value = look_up(found[0], name.removeprefix("difference.")) if found else None
             elif name.split(".")[0] in ("summary", "ends", "stop_x_m"):
                 value = look_up(option, name)
             else:
@@ -318,15 +421,38 @@ def expect_rows(rows, runs, inner):
 def test_csv_controls():
     """CSV: one header, a row each scene, option and control, values equal to JSON's"""
     more = ["-s", "controls=[{x_m: 40, name: 'a \"b\", c'}, {x_m: 152, accepted_kJ: 50}]", "-n", "300"]
-    header, rows = read_csv(good("--batch", "-f", "csv", PAPER, FOUR, *more).out)
-    expect_equal(header, CONTROL_CELLS)
-    expect_equal(len(rows), 2 + 8 * 2)
-    expect_rows(rows, results(PAPER, FOUR, *more), "controls")
-    header, rows = read_csv(good("--batch", "-f", "csv", PAPER).out)
-    expect_rows(rows, results(PAPER), "controls")
-    expect(float(rows[0]["index.measured_kJ"]) > 62.33, rows[0]["index.measured_kJ"])
-    expect(all(cell == "" for name, cell in rows[0].items() if name.startswith(("wooded.", "difference."))), rows[0])
-    expect_in("Eq. 6", rows[0]["warnings"], "warnings")
+    for model in ("index", "stems"):
+        header, rows = read_csv(good("--batch", "-f", "csv", PAPER, FOUR, *more, *through(model)).out)
+        expect_equal(header, CONTROL_CELLS)
+        expect_equal(len(rows), 2 + 8 * 2)
+        expect_rows(rows, results(PAPER, FOUR, *more, *through(model)), "controls")
+        header, rows = read_csv(good("--batch", "-f", "csv", PAPER, *through(model)).out)
+        expect_rows(rows, results(PAPER, *through(model)), "controls")
+        expect(float(rows[0]["index.measured_kJ"]) > 62.33, rows[0]["index.measured_kJ"])
+        empty = ("difference.", "wooded.") if model == "index" else ("difference.",)
+        for name, cell in rows[0].items():
+            group = name.split(".")[0] + "."
+            expect(group not in ("difference.", "wooded.") or (cell == "") == (group in empty), f"{model}: {name}: {cell!r}")
+        expect_in("Eq. 6", rows[0]["warnings"], "warnings")
+
+
+def test_csv_null():
+    """CSV: what does not exist is empty, as it is null in JSON: no accepted energy, nobody reaches, one rock"""
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(forest=None, options=[
+            {"name": "thick", "forest": [belt(10, 95, shoots=[{"per_ha": 5000, "dbh_m": 0.3, "height_m": 20, "volume_m3": 9}])]},
+            {"name": "none"}]))
+        for rocks in (1, 300):
+            run = result(path, "-n", rocks)
+            expect_run(run)
+            header, rows = read_csv(good("--batch", "-f", "csv", "-n", rocks, path).out)
+            expect_equal(header, CONTROL_CELLS)
+            expect_rows(rows, [run], "controls")
+        expect_equal([rows[i]["wooded.exceed_probability"] == "" for i in range(4)], [True, False, True, False], "accepted_kJ")
+        expect_equal([rows[i]["wooded.energy_kJ.mean"] == "" for i in range(4)], [True, True, False, False], "thick")
+        expect_equal([rows[i]["stop_x_m.max"] == "" for i in range(4)], [False] * 4, "stop_x_m")
+        expect_equal([rows[i]["difference.exceed_probability.mean"] == "" for i in range(4)], [True, True, True, False],
+                     "difference")
 
 
 def test_csv_stands():
