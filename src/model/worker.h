@@ -15,7 +15,7 @@ struct worker;
 #define WORKER_FIRST_ROCKS 1024    /* shown first */
 #define WORKER_PICTURE_ROCKS 10240 /* enough for envelopes */
 #define WORKER_YEAR_ROCKS 10240    /* of each year */
-#define WORKER_ROCKS_MOST 1024000  /* refined up to this */
+#define WORKER_ROCKS_MOST 102400   /* refined up to this: each forest of the scene flies as many */
 #define WORKER_TOLERANCE 0.004     /* or until mean energies are known to this (95 %) */
 
 /* NULL where no thread can be started. */
