@@ -688,12 +688,17 @@ void ceduo_scene_release(struct scene_file *file)
     *file = (struct scene_file){0};
 }
 
+bool ceduo_note_of_years(const struct source_note *note)
+{
+    return strstr(note->path, ".growth") != NULL || strstr(note->path, ".cutting") != NULL;
+}
+
 bool ceduo_scene_assumes(const struct scene_file *file, const char *path)
 {
     size_t n = strlen(path);
     for (const struct source_note *note = file->notes; note; note = note->before)
         if (strncmp(note->path, path, n) == 0 && (note->path[n] == '\0' || note->path[n] == '.' || note->path[n] == '[') &&
-            strcmp(note->kind, "assumed") == 0)
+            strcmp(note->kind, "assumed") == 0 && !ceduo_note_of_years(note))
             return true;
     return false;
 }

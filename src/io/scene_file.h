@@ -32,7 +32,10 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);
 /* Changes one value. `set` is PATH=VALUE. */
 bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *problems);
 
-/* True where some value below `path` is marked as an assumption. */
+/* Whether a note is of growth or cutting: it matters to the years to come, not to the stand as it is. */
+bool ceduo_note_of_years(const struct source_note *note);
+
+/* True where some value below `path` is marked as an assumption, but for growth and cutting. */
 bool ceduo_scene_assumes(const struct scene_file *file, const char *path);
 
 /* The note of the innermost mapping on the way to a value; NULL where nothing is said. */

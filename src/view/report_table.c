@@ -746,10 +746,10 @@ static void put_comparison(struct page *p)
 
 /* ---- foot ---- */
 
-static bool any_assumed(const struct scene_file *file)
+static bool any_assumed(const struct scene_file *file, bool years)
 {
     for (const struct source_note *n = file->notes; n; n = n->before)
-        if (strcmp(n->kind, "assumed") == 0)
+        if (strcmp(n->kind, "assumed") == 0 && (years || !ceduo_note_of_years(n)))
             return true;
     return false;
 }
@@ -775,6 +775,8 @@ static void put_assumed(struct page *p, const struct source_note *note)
         return;
     put_assumed(p, note->before);
     size_t times;
+    if (!p->report->years && ceduo_note_of_years(note))
+        return;
     if (strcmp(note->kind, "assumed") != 0 || said_after(p->report->file->notes, note, &times))
         return;
     struct text line = {0};
@@ -795,7 +797,7 @@ static void put_foot(struct page *p)
         p->text->length = before;
         p->text->bytes[before] = '\0';
     }
-    if (!any_assumed(p->report->file))
+    if (!any_assumed(p->report->file, p->report->years != NULL))
         return;
     ceduo_text_put(p->text, _("\n* Assumed, not measured:\n"));
     put_assumed(p, p->report->file->notes);
