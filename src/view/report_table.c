@@ -186,12 +186,12 @@ static void put_arrivals_row(struct page *p, const char *name, const struct cedu
     }
     ceduo_text_put(p->text, "    ");
     put_padded(p, name, 16);
-    put_padded(p, reach.bytes ? reach.bytes : "", -14);
-    put_padded(p, exceed.bytes ? exceed.bytes : "", -14);
+    put_padded(p, reach.bytes ? reach.bytes : "", -16);
+    put_padded(p, exceed.bytes ? exceed.bytes : "", -16);
     put_padded(p, mean.bytes ? mean.bytes : "-", -12);
-    put_cell(p, a->energy.p95 * KILO, 3, 7);
-    put_cell(p, a->speed.mean, 3, 6);
-    put_cell(p, a->height.p95, 2, 6);
+    put_cell(p, a->energy.p95 * KILO, 3, 6);
+    put_cell(p, a->speed.mean, 3, 5);
+    put_cell(p, a->height.p95, 2, 5);
     ceduo_text_char(p->text, '\n');
     ceduo_text_free(&reach);
     ceduo_text_free(&exceed);
@@ -215,12 +215,12 @@ static void put_arrivals_head(struct page *p, const struct ceduo_control *c)
 {
     ceduo_text_put(p->text, "    ");
     put_padded(p, _("of 1000"), 16);
-    put_padded(p, _("arrive"), -14);
-    put_limit(p, c, "", 14);
+    put_padded(p, _("arrive"), -16);
+    put_limit(p, c, "", 16);
     put_padded(p, _("mean kJ"), -12);
-    put_padded(p, _("95 %"), -7);
-    put_padded(p, _("m/s"), -6);
-    put_padded(p, _("m up"), -6);
+    put_padded(p, _("95 %"), -6);
+    put_padded(p, _("m/s"), -5);
+    put_padded(p, _("m up"), -5);
     ceduo_text_char(p->text, '\n');
 }
 
