@@ -45,8 +45,7 @@ void ceduo_flown_free(struct ceduo_flown *f)
 
 /* ---- results ---- */
 
-/* Through a forest without stems nothing is hit: that is known, not unknown. */
-static void count_no_contacts(struct ceduo_flown *f)
+void ceduo_flown_meets_nothing(struct ceduo_flown *f)
 {
     for (size_t c = 0; c < f->controls; c++) {
         struct ceduo_arrivals *a = &f->arrivals[c];
@@ -78,7 +77,7 @@ static bool assess_option(struct ceduo_result *r, size_t i, const struct ceduo_f
     if (wooded && ceduo_flown_copy(wooded, &to->wooded) != CEDUO_OK)
         return false;
     if (r->wooded)
-        count_no_contacts(&to->wooded);
+        ceduo_flown_meets_nothing(&to->wooded);
     for (size_t k = 0; k < option->belts_count; k++)
         to->stands[k] = ceduo_assess_stand(scene, &option->belts[k]);
     for (size_t c = 0; c < scene->controls_count; c++) {

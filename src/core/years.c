@@ -116,6 +116,8 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
         if (flies && status == CEDUO_OK) {
             ceduo_flown_free(&y->wooded);
             status = ceduo_flown_read(run, scene->controls_count, &y->wooded);
+            if (status == CEDUO_OK)
+                ceduo_flown_meets_nothing(&y->wooded);
         }
         if (status != CEDUO_OK)
             return status;

@@ -170,6 +170,21 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
     ceduo_text_free(&place);
 }
 
+#define MEAN_WIDTH 12 /* columns, one of them blank */
+
+/* A mean and its error, with as many digits as have room. */
+static void put_mean(const struct page *p, struct text *text, const struct ceduo_arrivals *a)
+{
+    for (int digits = 4; digits > 0 && a->reached > 0; digits--) {
+        ceduo_text_free(text);
+        ceduo_words_number(text, a->energy.mean * KILO, digits);
+        ceduo_text_format(text, " %s", plus_minus(p));
+        ceduo_words_number(text, a->energy.se * CEDUO_Z95 * KILO, digits > 3 ? 2 : 1);
+        if (ceduo_text_columns(text->bytes ? text->bytes : "") < MEAN_WIDTH)
+            return;
+    }
+}
+
 /* The two runs side by side, in columns where there is room. */
 static void put_arrivals_row(struct page *p, const char *name, const struct ceduo_arrivals *a)
 {
@@ -179,16 +194,12 @@ static void put_arrivals_row(struct page *p, const char *name, const struct cedu
         put_of_1000(p, &exceed, a->exceed_probability, a->exceed_lo, a->exceed_hi);
     else
         ceduo_text_put(&exceed, "-");
-    if (a->reached > 0) {
-        ceduo_words_number(&mean, a->energy.mean * KILO, 4);
-        ceduo_text_format(&mean, " %s", plus_minus(p));
-        ceduo_words_number(&mean, a->energy.se * CEDUO_Z95 * KILO, 2);
-    }
+    put_mean(p, &mean, a);
     ceduo_text_put(p->text, "    ");
     put_padded(p, name, 16);
     put_padded(p, reach.bytes ? reach.bytes : "", -16);
     put_padded(p, exceed.bytes ? exceed.bytes : "", -16);
-    put_padded(p, mean.bytes ? mean.bytes : "-", -12);
+    put_padded(p, mean.bytes ? mean.bytes : "-", -MEAN_WIDTH);
     put_cell(p, a->energy.p95 * KILO, 3, 6);
     put_cell(p, a->speed.mean, 3, 5);
     put_cell(p, a->height.p95, 2, 5);
@@ -481,8 +492,12 @@ static void put_blocks(struct page *p, const struct ceduo_block *blocks)
     const struct ceduo_result *r = p->report->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(p->text, _("    Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):\n    "),
+    struct text head = {0};
+    ceduo_text_format(&head, _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
                       ceduo_number_shortest(c->x_given, room));
+    put_wrapped(p, "    ", 4, head.bytes ? head.bytes : "");
+    ceduo_text_free(&head);
+    ceduo_text_put(p->text, "    ");
     put_padded(p, "m3", -7);
     put_padded(p, "kg", -9);
     put_padded(p, _("wide m"), -8);

@@ -297,9 +297,12 @@ bool ceduo_words_worse(const struct ceduo_result *result, size_t option, size_t 
 static size_t best_by_contact(const struct ceduo_result *result)
 {
     size_t best = 0, c = result->last_control;
-    for (size_t i = 1; i < result->options_count; i++)
-        if (index_at(result, i, c)->worst_adc < index_at(result, best, c)->worst_adc)
+    for (size_t i = 1; i < result->options_count; i++) {
+        const struct ceduo_index *here = index_at(result, i, c), *there = index_at(result, best, c);
+        bool passes = here->contact == CEDUO_PASS, passed = there->contact == CEDUO_PASS;
+        if (passes != passed ? passes : here->worst_adc < there->worst_adc)
             best = i;
+    }
     return best;
 }
 
@@ -313,6 +316,13 @@ void ceduo_words_best(struct text *text, const struct ceduo_result *result)
     size_t contact = best_by_contact(result), energy = ceduo_words_best_by_energy(result);
     const char *a = result->scene->options[contact].name, *b = result->scene->options[energy].name;
     if (isinf(index_at(result, contact, result->last_control)->worst_adc))
+        return;
+    bool apart = false;
+    for (size_t i = 0; i < result->options_count; i++)
+        apart |= index_at(result, i, result->last_control)->worst_adc !=
+                     index_at(result, contact, result->last_control)->worst_adc ||
+                 ceduo_words_worse(result, i, energy);
+    if (!apart)
         return;
     if (contact == energy)
         ceduo_text_format(text, _("By contact and by energy '%s' is best."), a);

@@ -11,9 +11,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
 from harness import CEDUO, DONE, ROOT, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
 
-VIEWS = ["slope", "stand", "rock", "results", "compare"]
+VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
-# Its rocks all fly the same way: the figures are as fine as they will be at once.
+# Its rocks all go the same way and meet no stem: the figures are as fine as they will be at once.
 FAST = """\
 # kept: the first line
 ceduo: scene/1
@@ -52,7 +52,7 @@ forest:
       shoots: [{per_ha: 2500, dbh_m: 0.05, height_m: 5, volume_m3: 0.005}]
       trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}]
       energy: {model: brauner, u_J_m3: 100000}
-simulation: {rocks: 1000}
+simulation: {rocks: 1000, contact_model: index}
 """
 # The same with three ways to treat it.
 OPTIONS = FAST[:FAST.index("forest:")] + """\
@@ -72,8 +72,29 @@ options:
                 energy: {model: brauner, u_J_m3: 100000}}
   - name: none left
     forest: []
-simulation: {rocks: 1000}
+simulation: {rocks: 1000, contact_model: index}
 """
+
+
+def in_the_wood(text):
+    """The same, with rocks of many ways that meet the stems of the wood; of those some stop."""
+    for old, new in (("title: fast", "title: wood"), ("diameter_m: 0.5}", "diameter_m: 1}"), ("vx_m_s: 1", "vx_m_s: 3"),
+                     ("rn: 0.3, rt: 0.98, roughness_rad: 0", "rn: 0.35, rt: 0.8, roughness_rad: 0.3"),
+                     ("rn: 0.25, rt: 0.97, roughness_rad: 0", "rn: 0.35, rt: 0.8, roughness_rad: 0.3"),
+                     ("accepted_kJ: 50", "accepted_kJ: 250"), (", contact_model: index", "")):
+        if old not in text:
+            raise ValueError(old)
+        text = text.replace(old, new)
+    return text
+
+
+def in_the_index(text):
+    """The same by the index alone."""
+    return text.replace("simulation: {", "simulation: {contact_model: index, ")
+
+
+WOOD = in_the_wood(FAST)
+CUTS = in_the_wood(OPTIONS)
 
 
 class Screen:
@@ -122,6 +143,13 @@ class Screen:
         found = re.search(pattern + r"\s*([-\d.]+)", self.now)
         expect(found, f"no '{pattern}' with a number in the column on the right:", self.now)
         return float(found.group(1).rstrip("."))
+
+    def pair(self, name):
+        """What stands in the column on the right through the wood and without forest: numbers, None for a dash."""
+        found = re.search(rf"^ {re.escape(name)} +(\S+|\d+ \(\d+-\d+\)) +(\S+)$", self.now, re.M)
+        expect(found, f"no '{name}' with two figures in the column on the right:", self.now)
+        numbers = [re.match(r"[\d.]+", word) for word in found.groups()]
+        return tuple(float(n.group()) if n else None for n in numbers)
 
     def has(self, *parts):
         """Each part is there, in whatever layout: runs of blanks are one."""
@@ -214,6 +242,8 @@ class Place(Folder):
         super().__enter__()
         self.write("fast.yaml", FAST)
         self.write("options.yaml", OPTIONS)
+        self.write("wood.yaml", WOOD)
+        self.write("cuts.yaml", CUTS)
         return self
 
     def play(self, script, scene="fast.yaml", **options):

@@ -110,7 +110,7 @@ def run_once(seed, names):
                    path.read_text()[:2000])
         for path in before:
             expect(path.exists(), again, f"{path.name} is lost")
-        strange = [p.name for p in place.path.iterdir() if p.name not in ("work", "state", "data", "config", "cache", ".local")]
+        strange = [p.name for p in place.path.iterdir() if p.name not in ("work", "state", "data", "config", "cache", ".local", "wood.yaml", "cuts.yaml")]
         expect(not strange, again, f"written beside the working folder: {strange}")
 
 

@@ -1245,13 +1245,13 @@ static void nothing_is_drawn_beside_the_area(void **state)
 static void names_are_found(void **state)
 {
     (void)state;
-    const char *names[] = {"profile", "energy", "height", "histogram", "adc", "stand", "compare"};
+    const char *names[] = {"profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         enum ceduo_plot plot = ceduo_plot_find(names[i]);
         assert_int_not_equal(plot, CEDUO_PLOT_NONE);
         assert_non_null(strstr(CEDUO_PLOT_NAMES, names[i]));
     }
-    assert_int_equal(ceduo_plot_find("rotation"), CEDUO_PLOT_NONE);
+    assert_int_equal(ceduo_plot_find("years"), CEDUO_PLOT_NONE);
     assert_int_equal(ceduo_plot_find(""), CEDUO_PLOT_NONE);
 }
 
@@ -1269,6 +1269,7 @@ static void titles_name_what_is_shown(void **state)
             "kept: height of the rocks above the ground, without forest",
             "kept: energy at path (40 m), without forest",
             "kept: average distance between contacts, m",
+            "kept: year by year, up to path (40 m)",
             "kept: coppice, from above",
             "Options side by side, up to path (40 m)",
         },
@@ -1279,6 +1280,7 @@ static void titles_name_what_is_shown(void **state)
             "kept: height of the rocks above the ground",
             "kept: energy at path (40 m)",
             "kept: average distance between contacts, m",
+            "kept: year by year, up to path (40 m)",
             "kept: coppice, from above",
             "Options side by side, up to path (40 m)",
         },
@@ -1656,7 +1658,7 @@ static void wrong_pictures_are_usage_errors(void **state)
         assert_int_equal(READ(&a, "--plot", "adc", "--size", size, "x.yaml"), EXIT_USAGE);
         ceduo_arguments_free(&a);
     }
-    assert_int_equal(READ(&a, "--plot", "rotation", "x.yaml"), EXIT_USAGE);
+    assert_int_equal(READ(&a, "--plot", "years", "x.yaml"), EXIT_USAGE);
     ceduo_arguments_free(&a);
     assert_int_equal(READ(&a, "--plot", "adc", "--charset", "latin", "x.yaml"), EXIT_USAGE);
     ceduo_arguments_free(&a);
