@@ -280,7 +280,7 @@ static enum exit_status read_find(struct arguments *a, char *value)
     if (colon)
         *colon = ':';
     if (!good)
-        return usage(_("--find: '%s' is not PATH=LO:HI, as 'forest[0].stand.trees[0].per_ha=0:1000'"), value);
+        return usage(_("--find: '%s' is not PATH=LO:HI, as 'forest[0].stand.trees[0].per_ha=1:1000'"), value);
     if (!(a->find_lo <= a->find_hi))
         return usage(_("--find: the range %s goes backwards"), equals + 1);
     *equals = '\0';

@@ -2,6 +2,7 @@
 #include "app.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,7 +80,7 @@ void ceduo_app_forest(const struct app *app, char *path, size_t size)
 static bool outlook_fits(const struct app *app)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
-    return app->outlook && app->outlook->controls == s->controls_count && app->outlook->options == s->options_count;
+    return app->outlook && app->outlook->controls == s->controls_count;
 }
 
 struct ceduo_picture ceduo_app_picture(const struct app *app)
@@ -90,7 +91,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .belt = app->belt,
                                   .control = ceduo_plot_last_control(&app->document.file.scene),
                                   .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL,
-                                  .stems = app->steps.stems,
+                                  .stems = ceduo_steps_stems(&app->steps) > 0 ? app->steps.stems : NULL,
                                   .stems_count = ceduo_steps_stems(&app->steps),
                                   .years = app->years && app->years_option == app->option ? app->years : NULL,
                                   .year = app->year};
@@ -105,11 +106,22 @@ static void refresh_result(struct app *app)
     const struct ceduo_outlook *o = app->outlook;
     if (!outlook_fits(app) || !o->bare)
         return;
-    const struct ceduo_flown **wooded = calloc(o->options + 1, sizeof *wooded);
-    for (size_t i = 0; wooded && i < o->options; i++)
-        wooded[i] = o->wooded[i] ? &o->wooded[i]->flown : NULL;
-    if (!wooded || ceduo_result_assess(scene, &o->bare->flown, wooded, o->differences, &app->result) != CEDUO_OK)
+    size_t n = scene->options_count, controls = scene->controls_count;
+    const struct ceduo_flown **wooded = calloc(n + 1, sizeof *wooded);
+    struct ceduo_difference *differences = calloc(n * controls + 1, sizeof *differences);
+    bool in_order = o->options == n;
+    for (size_t i = 0; wooded && i < n; i++) {
+        const struct ceduo_sight *sight = ceduo_outlook_sight(o, scene, i);
+        wooded[i] = sight ? &sight->flown : NULL;
+        in_order = in_order && sight == o->wooded[i];
+    }
+    const struct ceduo_paired unknown = {NAN, NAN};
+    for (size_t i = 0; differences && i < n * controls; i++)
+        differences[i] = in_order ? o->differences[i] : (struct ceduo_difference){unknown, unknown, unknown};
+    if (!wooded || !differences ||
+        ceduo_result_assess(scene, &o->bare->flown, wooded, differences, &app->result) != CEDUO_OK)
         app->result = NULL;
+    free(differences);
     free(wooded);
 }
 

@@ -189,8 +189,10 @@ static void put_foot(const struct app *app, size_t options, struct text *words)
         ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
         return;
     }
+    ceduo_text_put(words, _("* best, ! worst; C contact, F free run, E energy. "));
+    size_t before = words->length;
     ceduo_words_best(words, r);
-    if (words->length > 0)
+    if (words->length > before)
         ceduo_text_char(words, ' ');
     double accepted = r->scene->controls_count > 0 ? r->scene->controls[r->last_control].accepted * 1e-3 : NAN;
     if (r->wooded && !isnan(accepted))
@@ -199,7 +201,7 @@ static void put_foot(const struct app *app, size_t options, struct text *words)
     else if (!r->wooded)
         ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
                                 "not what a rock loses. "));
-    ceduo_text_put(words, _("* best, ! worst; C contact, F free run, E energy. a adds from a preset, y copies, Enter "
+    ceduo_text_put(words, _("a adds from a preset, y copies, Enter "
                             "renames, d deletes, < > reorder, p and 2 its stand."));
 }
 

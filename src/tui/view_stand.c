@@ -60,6 +60,7 @@ static void draw_figures(struct app *app, struct ceduo_area area)
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
+    ceduo_app_follow(app, app->rock);
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool wide = area.width >= 84;
     int plan = wide ? area.width / 2 - 1 : 0;

@@ -319,5 +319,16 @@ const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, con
 {
     if (!o || scene->simulation.contact_model == CEDUO_INDEX)
         return o ? o->bare : NULL;
-    return option < o->options ? o->wooded[option] : NULL;
+    const struct ceduo_simulation *simulation = &scene->simulation;
+    if (option >= scene->options_count)
+        return NULL;
+    uint64_t key = ceduo_option_key(simulation, &scene->options[option]);
+    for (size_t i = 0; i < o->options; i++)
+        if (o->wooded[i] && o->wooded[i]->key == key)
+            return o->wooded[i];
+    struct ceduo_sight *last = option < o->options ? o->wooded[option] : NULL;
+    for (size_t i = 0; last && i < scene->options_count; i++)
+        if (ceduo_option_key(simulation, &scene->options[i]) == last->key)
+            return NULL; /* it is another's */
+    return last;
 }

@@ -70,7 +70,8 @@ struct ceduo_outlook_def {
 enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook);
 void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
 
-/* What is to be seen of an option: through its forest, with the contact model index without forest; NULL: not known
+/* What is to be seen of an option of the scene as it is now: through its forest, with the contact model index without
+ * forest; where its forest was just changed, what was seen of it before, unless that is another option's. NULL: not known
  * yet. */
 const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *outlook, const struct ceduo_scene *scene,
                                               size_t option);

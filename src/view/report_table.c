@@ -656,7 +656,7 @@ static void put_simulated(struct page *p, size_t i)
     struct ceduo_paired diff = says ? d->exceed_probability : d->reach_probability;
     put_per_1000(p, share, a ? sqrt(share * (1 - share) / (double)a->released) : NAN, false, 10);
     put_per_1000(p, i == 0 ? NAN : diff.mean, diff.se, true, 11);
-    ceduo_text_format(p->text, "   %-4s", short_verdict(r->options[i].controls[c].energy));
+    ceduo_text_format(p->text, "  %-4s", short_verdict(r->options[i].controls[c].energy));
 }
 
 static void put_by_index(struct page *p, const struct ceduo_index *s)
@@ -726,7 +726,7 @@ static void put_comparison_head(struct page *p, const struct ceduo_control *c)
         put_padded(p, _("kJ/100 m"), -10);
     put_padded(p, wooded ? _("to first") : _("left kJ"), wooded ? -11 : -10);
     if (wooded)
-        ceduo_text_format(p->text, "   %s", _("energy"));
+        ceduo_text_format(p->text, "  %s", _("energy"));
     ceduo_text_char(p->text, '\n');
 }
 

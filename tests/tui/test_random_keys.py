@@ -20,13 +20,13 @@ SEED = int(os.environ.get("SEED") or 1)
 RUN = 250  # keys of one run of the program
 
 # What a save may write. Not other.yaml, which an export may overwrite too once that is confirmed.
-OWN = ("fast.yaml", "options.yaml", "csv.yaml", "paper-site.yaml", "four-systems.yaml", "scene.yaml")
+OWN = ("fast.yaml", "options.yaml", "wood.yaml", "cuts.yaml", "csv.yaml", "paper-site.yaml", "four-systems.yaml", "scene.yaml")
 CSV = "distance,elevation\n0,100\n20,70\n50,50\n90,35\n130,30\n"
-SCENES = ["fast.yaml", "options.yaml", "paper-site", "four-systems", "csv.yaml"]
+SCENES = ["fast.yaml", "options.yaml", "wood.yaml", "cuts.yaml", "paper-site", "four-systems", "csv.yaml"]
 WORDS = ["0", "1", "-1", "0.5", "12.75", "3000", "1e9", "1e-9", "1e400", "nan", "inf", "0,5", "true", "sphere", "[1, 2]",
          "[60, 31]", "{}", "{mean: 0.5, spread: 0.1}", "{mean: 0.4, spread: 9, kind: uniform}", "abc", "a b  c", "'", '"', "#",
          ":", "- x", "&a *a", "!!x", "%", "\\", "Über", "日本語", "🪨", "e\u0301", "\u200b", "\u202e", "x" * 300, "~", "null",
-         "simple-coppice", "bare", "ads-1.yaml", "../stands/ads-2.yaml", "line.csv", "none.csv", "other.yaml",
+         "simple-coppice", "bare", "stems", "poisson", "index", "ads-1.yaml", "../stands/ads-2.yaml", "line.csv", "none.csv", "other.yaml",
          "out.txt", "0 60, 20 35, 60 20", "stools", "dbh", "slope", "horizontal", "40"]
 MOVES = ["Up", "Down", "Left", "Right", "j", "k", "h", "l", "Home", "End", "g", "G", "PgUp", "PgDn", "Tab", "Shift-Tab"]
 
@@ -86,7 +86,7 @@ def run_once(seed, names):
         place.write("csv.yaml", FAST[:FAST.index("slope:")] + "slope: {csv: line.csv}\n" + FAST[FAST.index("controls:"):])
         work = place.path / "work"
         work.mkdir()
-        for name in ("fast.yaml", "options.yaml", "csv.yaml", "line.csv"):
+        for name in ("fast.yaml", "options.yaml", "wood.yaml", "cuts.yaml", "csv.yaml", "line.csv"):
             (place.path / name).rename(work / name)
         (work / "other.yaml").write_text(FAST)
         (work / "play.txt").write_text(random_script(rng, names, RUN))

@@ -612,11 +612,16 @@ def test_mouse():
 
 def test_idle():
     """A program at rest uses no processor and writes nothing."""
+    for scene, mark in (("fast.yaml", "= ±0 %"), ("wood.yaml", "= ±0.")):
+        at_rest(scene, mark)
+
+
+def at_rest(scene, mark):
     with Place() as place, Tmux(place) as t:
-        pid = t.start("fast.yaml")
-        t.sees("= ±0 %", " rocks")
+        pid = t.start(scene)
+        t.sees(mark, " rocks")
         t.edit("1234")
-        t.sees("= ±0 %", " rocks")
+        t.sees(mark, " rocks")
 
         def used():
             stat = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
@@ -644,8 +649,34 @@ def test_refining_ends():
     """On the paper's site the figures are refined by themselves, until the mark says that they are fine."""
     with Place() as place, Tmux(place) as t:
         t.start("paper-site")
-        screen = t.sees("= ±0.")
+        screen = until("figures that are refined no more", lambda: (lambda s: "= ±0." in s and s)(t.screen()), 10 * PATIENCE)
         expect(re.search(r"= ±0\.\d+ % \d{5,} rocks", screen), screen)
+        expect(re.search(r"arrive +\d+±\d+ +\d+", screen) and re.search(r"✘ Energy +FAILS [\d.]+ %", screen), screen)
+
+
+def test_live_wood():
+    """A stand edited by key after key: each time the figures through the wood are new, the last ones are those of its end."""
+    with Place() as place, Tmux(place) as t:
+        t.start("wood.yaml")
+        t.edit("1234")
+        for _ in range(20):
+            t.keys("+")
+        t.sees("stools per ha     3200")
+        screen = until("figures that are refined no more", lambda: (lambda s: "= ±0." in s and s)(t.screen()), 10 * PATIENCE)
+        found = re.search(r"arrive +(\d+)±\d+ +(\d+)", screen)
+        expect(found and int(found.group(1)) < 930 and found.group(2) == "1000", screen)
+        t.keys("3")
+        t.keys("/")
+        t.sees("Search in this view")
+        t.keys("C-u")
+        t.text("contact_model")
+        t.keys("Enter", "Enter")
+        t.sees("poisson", "index")
+        t.keys("Home", "Enter")
+        t.sees("rocks among stems index", "? Energy   unknown")
+        t.keys("u")
+        t.sees("rocks among stems stems", "undone: ", lacks=("? Energy   unknown",))
+        t.keys("s", "q")
 
 
 def main():
