@@ -833,7 +833,7 @@ def test_table_blocks_cases():
 def test_table_arrivals():
     """Table of arrivals: whatever the figures, each cell whole and apart from the next; sign and size survive"""
     cases = [scene(forest=[{"from_m": 0, "to_m": 75, "stand": THIN}], controls=[{"x_m": 40}, {"x_m": 75, "accepted_kJ": 0.1}]),
-             wooded_scene(rock={"diameter_m": 8}), wooded_scene(rock={"diameter_m": 0.05}),
+             wooded_scene(rock={"diameter_m": 8}),
              wooded_scene(controls=[{"x_m": 105, "accepted_kJ": 123456.789}]), wooded_scene(simulation={"rocks": 1}),
              wooded_scene(simulation={"rocks": 3}), wooded_scene(simulation={"law": "crsp"})]
     with Folder() as f:

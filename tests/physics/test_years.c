@@ -1,0 +1,622 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An option year by year: beside the same stands grown, flown and assessed one by one. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "ceduo/ceduo.h"
+#include "ceduo/years.h"
+#include "paper_site.h"
+
+#define ROCKS    1300 /* more than a block */
+#define BELTS    3
+#define CONTROLS 3
+#define ROTATION 9
+
+/* ---- a wood that grows and is cut ---- */
+
+struct wood {
+    struct paper_site site;
+    struct ceduo_control controls[CONTROLS];
+    struct ceduo_belt belts[BELTS];
+    struct ceduo_option option;
+    struct ceduo_stems shoots, trees[2];
+    double stay[2];
+};
+
+static struct wood wood; /* points into itself */
+
+static struct ceduo_stems stems(double per_ha, double dbh, double height)
+{
+    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = height, .volume = NAN, .age = NAN};
+}
+
+/* A coppice cut in year 4, a selection coppice, and one without any growth. */
+static void init(void)
+{
+    static char names[BELTS][4] = {"one", "two", "old"};
+    paper_site_init(&wood.site);
+    struct ceduo_scene *scene = &wood.site.scene;
+    scene->rocks_per_year = NAN;
+    wood.shoots = stems(7500, .05, 6);
+    wood.trees[0] = stems(40, .15, 9);
+    wood.trees[1] = stems(20, .30, 14);
+    wood.stay[0] = 30;
+    wood.stay[1] = 10;
+    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
+                                .species = ceduo_species_find("ostrya-carpinifolia"),
+                                .stools_per_ha = 2500,
+                                .spacing = .35,
+                                .shoots_count = 1,
+                                .trees_count = 2,
+                                .shoots = &wood.shoots,
+                                .trees = wood.trees,
+                                .u = NAN,
+                                .fracture_ratio = 1.5,
+                                .cutting = {ROTATION, 1, 2, wood.stay}};
+    assert_true(ceduo_growth_of_species(stand.species, &stand.growth));
+    for (int i = 0; i < BELTS; i++) {
+        double from = 40 * i, to = 40 * i + 35;
+        wood.belts[i] = (struct ceduo_belt){.from = from,
+                                            .to = to,
+                                            .from_given = from,
+                                            .to_given = to,
+                                            .name = names[i],
+                                            .cut_year = i == 0 ? 4 : NAN,
+                                            .stand = stand};
+    }
+    wood.belts[1].stand.cutting.cohorts = 3;
+    wood.belts[2].stand.growth = (struct ceduo_growth){.sdi_most = 0};
+    wood.option = (struct ceduo_option){.belts_count = BELTS, .belts = wood.belts};
+    wood.controls[0] = (struct ceduo_control){.x = 60, .x_given = 60, .accepted = NAN, .measured_speed = NAN};
+    wood.controls[1] = (struct ceduo_control){.x = 135, .x_given = 135, .accepted = 50e3, .measured_speed = NAN};
+    wood.controls[2] = (struct ceduo_control){.x = 100, .x_given = 100, .accepted = 20e3, .measured_speed = 9};
+    scene->controls = wood.controls;
+    scene->controls_count = CONTROLS;
+    scene->options = &wood.option;
+    scene->options_count = 1;
+}
+
+static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
+    def.threads = threads;
+    def.cancel = cancel;
+    def.rocks_most = CEDUO_ROCKS_MOST;
+    struct ceduo_pool *pool;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    return pool;
+}
+
+static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
+{
+    struct ceduo_years *years;
+    assert_int_equal(ceduo_years_create(&wood.site.scene, &wood.option, first, last, step, &years), CEDUO_OK);
+    return years;
+}
+
+static struct ceduo_run *run_of(const struct ceduo_option *option, uint64_t rocks)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
+    def.option = option;
+    def.rocks_most = rocks;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
+    return run;
+}
+
+static struct ceduo_flown bare_of(uint64_t rocks)
+{
+    struct ceduo_run *run = run_of(NULL, rocks);
+    struct ceduo_flown bare;
+    assert_int_equal(ceduo_flown_read(run, CONTROLS, &bare), CEDUO_OK);
+    ceduo_run_free(run);
+    return bare;
+}
+
+/* Grown and flown with a pool of its own, which is gone. */
+static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
+{
+    struct ceduo_years *years = grown(first, last, step);
+    struct ceduo_pool *pool = pool_of(threads, NULL);
+    struct ceduo_flown bare = bare_of(rocks);
+    assert_int_equal(ceduo_years_fly(years, pool, &bare, rocks), CEDUO_OK);
+    ceduo_flown_free(&bare);
+    ceduo_pool_free(pool);
+    return years;
+}
+
+/* ---- the same bits ---- */
+
+static void expect_same(const char *what, double a, double b)
+{
+    if (memcmp(&a, &b, sizeof a) != 0 && !(isnan(a) && isnan(b)))
+        fail_msg("%s: %.17g is not %.17g", what, a, b);
+}
+
+static void expect_same_distribution(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
+{
+    expect_same("mean", a->mean, b->mean);
+    expect_same("se", a->se, b->se);
+    expect_same("sd", a->sd, b->sd);
+    expect_same("p50", a->p50, b->p50);
+    expect_same("p95", a->p95, b->p95);
+    expect_same("p95_lo", a->p95_lo, b->p95_lo);
+    expect_same("p95_hi", a->p95_hi, b->p95_hi);
+    expect_same("p99", a->p99, b->p99);
+    expect_same("max", a->max, b->max);
+}
+
+static void expect_same_arrivals(const struct ceduo_arrivals *a, const struct ceduo_arrivals *b)
+{
+    assert_true(a->released == b->released && a->reached == b->reached && a->exceeded == b->exceeded &&
+                a->unfinished == b->unfinished && a->exact == b->exact);
+    expect_same("reach", a->reach_probability, b->reach_probability);
+    expect_same("reach_lo", a->reach_lo, b->reach_lo);
+    expect_same("reach_hi", a->reach_hi, b->reach_hi);
+    expect_same("exceed", a->exceed_probability, b->exceed_probability);
+    expect_same("exceed_lo", a->exceed_lo, b->exceed_lo);
+    expect_same("exceed_hi", a->exceed_hi, b->exceed_hi);
+    expect_same_distribution(&a->speed, &b->speed);
+    expect_same_distribution(&a->energy, &b->energy);
+    expect_same_distribution(&a->translation, &b->translation);
+    expect_same_distribution(&a->height, &b->height);
+    expect_same("energy a released rock", a->energy_per_released, b->energy_per_released);
+    expect_same("its error", a->energy_per_released_se, b->energy_per_released_se);
+    expect_same("contacts", a->contacts, b->contacts);
+    expect_same("contacts_se", a->contacts_se, b->contacts_se);
+}
+
+static void expect_same_ends(const struct ceduo_ends *a, const struct ceduo_ends *b)
+{
+    assert_memory_equal(a->count, b->count, sizeof a->count);
+    expect_same("stop_p50", a->stop_p50, b->stop_p50);
+    expect_same("stop_p95", a->stop_p95, b->stop_p95);
+    expect_same("stop_max", a->stop_max, b->stop_max);
+}
+
+static void expect_same_index(const struct ceduo_index *a, const struct ceduo_index *b)
+{
+    expect_same("length", a->length, b->length);
+    expect_same("gap", a->longest_gap, b->longest_gap);
+    expect_same("contacts", a->contacts, b->contacts);
+    expect_same("dissipated", a->dissipated, b->dissipated);
+    expect_same("meet nothing", a->meet_nothing_probability, b->meet_nothing_probability);
+    expect_same("worst ADC", a->worst_adc, b->worst_adc);
+    expect_same("worst free run", a->worst_free_run, b->worst_free_run);
+    expect_same("residual", a->residual, b->residual);
+    expect_same("measured", a->measured, b->measured);
+    assert_true(a->contact_passes == b->contact_passes && a->exhausted == b->exhausted && a->contact == b->contact &&
+                a->free_run == b->free_run && a->energy == b->energy);
+}
+
+static void expect_same_stand(const struct ceduo_stand_result *a, const struct ceduo_stand_result *b)
+{
+    expect_same("length", a->length, b->length);
+    expect_same("stems", a->stems_per_ha, b->stems_per_ha);
+    expect_same("stools", a->stools_per_ha, b->stools_per_ha);
+    expect_same("trees", a->trees_per_ha, b->trees_per_ha);
+    expect_same("basal area", a->basal_area, b->basal_area);
+    expect_same("ADC", a->adc_m, b->adc_m);
+    expect_same("free run", a->free_run_probability, b->free_run_probability);
+    expect_same("contacts", a->contacts, b->contacts);
+    expect_same("energy", a->energy_per_contact, b->energy_per_contact);
+    expect_same("dissipated", a->dissipated, b->dissipated);
+    assert_true(a->bare == b->bare && (a->bare || a->rule == b->rule) && a->passes_threshold == b->passes_threshold &&
+                a->warnings == b->warnings);
+}
+
+static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year *b)
+{
+    assert_true(a->cut == b->cut && a->option.belts_count == b->option.belts_count &&
+                a->wooded.rocks == b->wooded.rocks);
+    for (size_t i = 0; i < a->option.belts_count; i++)
+        expect_same_stand(&a->stands[i], &b->stands[i]);
+    for (size_t c = 0; c < CONTROLS; c++) {
+        expect_same_index(&a->controls[c], &b->controls[c]);
+        if (a->wooded.rocks > 0)
+            expect_same_arrivals(&a->wooded.arrivals[c], &b->wooded.arrivals[c]);
+    }
+    if (a->wooded.rocks > 0)
+        expect_same_ends(&a->wooded.ends, &b->wooded.ends);
+}
+
+/* ---- beside runs of their own ---- */
+
+/* The same year without any of it: stands, one run, its figures. */
+static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *bare)
+{
+    const struct ceduo_scene *scene = &wood.site.scene;
+    struct ceduo_grown_stand stands[BELTS];
+    struct ceduo_belt belts[BELTS];
+    bool cut = false;
+    for (int i = 0; i < BELTS; i++) {
+        assert_int_equal(ceduo_stand_at(&wood.belts[i].stand, wood.belts[i].cut_year, y->year, &stands[i]), CEDUO_OK);
+        belts[i] = wood.belts[i];
+        belts[i].stand = stands[i].stand;
+        bool felled = ceduo_is_cut_year(&wood.belts[i].stand, wood.belts[i].cut_year, y->year);
+        assert_true(y->felled[i] == felled);
+        cut |= felled;
+    }
+    assert_true(y->cut == cut && y->option.belts_count == BELTS);
+    struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
+    struct ceduo_run *run = run_of(&option, ROCKS);
+    struct ceduo_flown direct;
+    assert_int_equal(ceduo_flown_read(run, CONTROLS, &direct), CEDUO_OK);
+    assert_true(y->wooded.rocks == ROCKS && direct.rocks == ROCKS);
+    expect_same_ends(&y->wooded.ends, &direct.ends);
+    for (int i = 0; i < BELTS; i++) {
+        struct ceduo_stand_result stand = ceduo_assess_stand(scene, &belts[i]);
+        expect_same_stand(&y->stands[i], &stand);
+    }
+    for (size_t c = 0; c < CONTROLS; c++) {
+        expect_same_arrivals(&y->wooded.arrivals[c], &direct.arrivals[c]);
+        struct ceduo_index index =
+            ceduo_assess_index(scene, &option, &scene->controls[c], bare->arrivals[c].energy.mean);
+        index.energy = ceduo_energy_light(&direct.arrivals[c]);
+        expect_same_index(&y->controls[c], &index);
+    }
+    ceduo_flown_free(&direct);
+    ceduo_run_free(run);
+    for (int i = 0; i < BELTS; i++)
+        ceduo_grown_stand_release(&stands[i]);
+}
+
+static void years_are_runs_of_their_own(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_flown bare = bare_of(ROCKS);
+    struct ceduo_years *years = flown(0, 26, 1, 2, ROCKS);
+    assert_int_equal(years->count, 27);
+    unsigned cuts = 0;
+    for (size_t i = 0; i < years->count; i++) {
+        assert_int_equal(years->years[i].year, i);
+        cuts += years->years[i].cut;
+        expect_direct(&years->years[i], &bare);
+    }
+    assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, 27 years old then */
+    ceduo_years_free(years);
+    ceduo_flown_free(&bare);
+}
+
+static void poisson_too(void **state)
+{
+    (void)state;
+    init();
+    wood.site.scene.simulation.contact_model = CEDUO_POISSON;
+    struct ceduo_flown bare = bare_of(ROCKS);
+    struct ceduo_years *years = flown(0, 13, 4, 1, ROCKS);
+    for (size_t i = 0; i < years->count; i++)
+        expect_direct(&years->years[i], &bare);
+    ceduo_years_free(years);
+    ceduo_flown_free(&bare);
+}
+
+static void year_0_is_the_result(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_pool *pool = pool_of(1, NULL);
+    struct ceduo_result *result;
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(pool, ROCKS), CEDUO_OK);
+    assert_int_equal(ceduo_result_create(&wood.site.scene, pool, &result), CEDUO_OK);
+    struct ceduo_years *years = grown(0, 0, 1);
+    assert_int_equal(ceduo_years_fly(years, pool, &result->bare, ROCKS), CEDUO_OK);
+    const struct ceduo_year *y = &years->years[0];
+    for (size_t c = 0; c < CONTROLS; c++) {
+        expect_same_arrivals(&y->wooded.arrivals[c], &result->options[0].wooded.arrivals[c]);
+        expect_same_index(&y->controls[c], &result->options[0].controls[c]);
+    }
+    for (int i = 0; i < BELTS; i++)
+        expect_same_stand(&y->stands[i], &result->options[0].stands[i]);
+    assert_int_equal(ceduo_pool_work(pool).runs, 2); /* bare, and this one, which was there */
+    ceduo_years_free(years);
+    ceduo_result_free(result);
+    ceduo_pool_free(pool);
+}
+
+static void steps_and_stretches_pick_from_all(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_years *all = flown(0, 20, 1, 1, 300);
+    static const unsigned stretches[][3] = {{3, 3, 1}, {2, 20, 6}, {0, 19, 7}, {5, 6, 50}};
+    for (size_t k = 0; k < sizeof stretches / sizeof stretches[0]; k++) {
+        unsigned first = stretches[k][0], last = stretches[k][1], step = stretches[k][2];
+        struct ceduo_years *some = flown(first, last, step, 1, 300);
+        assert_int_equal(some->count, (last - first) / step + 1);
+        for (size_t i = 0; i < some->count; i++) {
+            assert_int_equal(some->years[i].year, first + i * step);
+            expect_same_year(&some->years[i], &all->years[some->years[i].year]);
+        }
+        ceduo_years_free(some);
+    }
+    ceduo_years_free(all);
+}
+
+static void threads_and_steps_change_nothing(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_years *one = flown(0, 5, 1, 1, 3000), *two = flown(0, 5, 1, 2, 3000), *steps = grown(0, 5, 1);
+    struct ceduo_pool *pool = pool_of(2, NULL);
+    struct ceduo_flown bare = bare_of(3000);
+    static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* never shorter again */
+    for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
+        assert_int_equal(ceduo_years_fly(steps, pool, &bare, rocks[i]), CEDUO_OK);
+    for (size_t i = 0; i < one->count; i++) {
+        expect_same_year(&one->years[i], &two->years[i]);
+        expect_same_year(&one->years[i], &steps->years[i]);
+    }
+    ceduo_flown_free(&bare);
+    ceduo_pool_free(pool);
+    ceduo_years_free(one);
+    ceduo_years_free(two);
+    ceduo_years_free(steps);
+}
+
+static void a_wood_is_flown_once(void **state)
+{
+    (void)state;
+    init();
+    wood.belts[1].stand.cutting.cohorts = 1;
+    wood.belts[1].cut_year = 7;
+    struct ceduo_years *years = grown(0, 40, 1);
+    struct ceduo_pool *pool = pool_of(2, NULL);
+    struct ceduo_flown bare = bare_of(100);
+    assert_int_equal(ceduo_years_fly(years, pool, &bare, 100), CEDUO_OK);
+    struct ceduo_work work = ceduo_pool_work(pool);
+    assert_true(work.runs == 7 + ROTATION && work.runs + work.reused == 41 && work.rocks == 100 * work.runs);
+    for (size_t i = 7; i + ROTATION < years->count; i++)
+        expect_same_year(&years->years[i], &years->years[i + ROTATION]);
+    ceduo_flown_free(&bare);
+    ceduo_pool_free(pool);
+    ceduo_years_free(years);
+}
+
+/* ---- sums ---- */
+
+static void expect_sum(const struct ceduo_years *years, size_t c)
+{
+    struct ceduo_years_summary s = ceduo_years_sum(years, c);
+    double n = (double)years->count, reach = 0, reach_se = 0, exceed = 0, exceed_se = 0, energy = 0, energy_se = 0;
+    double worst = -1;
+    unsigned worst_year = 0;
+    size_t contact = 0, free_run = 0, light = 0;
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_arrivals *a = &years->years[i].wooded.arrivals[c];
+        double r = a->reach_probability, e = a->exceed_probability, share = isnan(e) ? r : e;
+        reach += r / n;
+        exceed += e / n;
+        reach_se += sqrt(r * (1 - r) / (double)a->released) / n;
+        exceed_se += sqrt(e * (1 - e) / (double)a->released) / n;
+        energy += a->energy_per_released / n;
+        energy_se += a->energy_per_released_se / n;
+        if (share > worst) {
+            worst = share;
+            worst_year = years->years[i].year;
+        }
+        contact += years->years[i].controls[c].contact == CEDUO_FAIL;
+        free_run += years->years[i].controls[c].free_run == CEDUO_FAIL;
+        light += years->years[i].controls[c].energy == CEDUO_FAIL;
+    }
+    assert_true(s.years == years->count && s.flown == years->count && s.worst_year == worst_year);
+    assert_true(s.unprotected_contact == contact && s.unprotected_free_run == free_run &&
+                s.unprotected_energy == light);
+    expect_same("worst", s.worst, worst);
+    const double pairs[][2] = {{s.reach.mean, reach},   {s.reach.se, reach_se},
+                               {s.exceed.mean, exceed}, {s.exceed.se, exceed_se},
+                               {s.energy_per_released.mean, energy}, {s.energy_per_released.se, energy_se},
+                               {s.passes_per_year, reach * years->scene.rocks_per_year},
+                               {s.exceeds_per_year, exceed * years->scene.rocks_per_year}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++)
+        if (!(fabs(pairs[i][0] - pairs[i][1]) <= 1e-13 * fabs(pairs[i][1])) &&
+            !(isnan(pairs[i][0]) && isnan(pairs[i][1])))
+            fail_msg("figure %zu: %.17g is not %.17g", i, pairs[i][0], pairs[i][1]);
+}
+
+static void sums_over_the_years(void **state)
+{
+    (void)state;
+    for (int rate = 0; rate < 2; rate++) {
+        init();
+        wood.site.scene.rocks_per_year = rate ? 2.5 : NAN;
+        struct ceduo_years *years = flown(0, 22, 2, 2, 400);
+        for (size_t c = 0; c < CONTROLS; c++)
+            expect_sum(years, c);
+        assert_true(isnan(ceduo_years_sum(years, 0).exceed.mean)); /* it does not say what it bears */
+        ceduo_years_free(years);
+    }
+}
+
+static void metres_felled(void **state)
+{
+    (void)state;
+    init();
+    double whole = 0;
+    for (int i = 0; i < BELTS; i++) { /* all three alike, each in a year of its own */
+        wood.belts[i].stand = wood.belts[0].stand;
+        wood.belts[i].cut_year = 4 - 7 * i;
+        whole += wood.belts[i].to - wood.belts[i].from;
+    }
+    for (unsigned first = 9; first < 20; first++) {
+        struct ceduo_years *years = grown(first, first + 3 * ROTATION - 1, 1);
+        assert_true(ceduo_years_felled(years) == 3 * whole);
+        double by_hand = 0;
+        for (size_t i = 0; i < years->count; i++)
+            for (int k = 0; k < BELTS; k++)
+                by_hand += years->years[i].option.belts[k].stand.stools_per_ha == 0 ? wood.belts[k].to - wood.belts[k].from : 0;
+        assert_true(by_hand == 3 * whole); /* just cut no stool stands */
+        ceduo_years_free(years);
+    }
+    struct ceduo_years *years = grown(5, 6, 1);
+    assert_true(ceduo_years_felled(years) == wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
+    ceduo_years_free(years);
+}
+
+static void by_the_index_alone(void **state)
+{
+    (void)state;
+    init();
+    wood.site.scene.simulation.contact_model = CEDUO_INDEX;
+    struct ceduo_years *years = grown(0, 15, 1);
+    struct ceduo_pool *pool = pool_of(1, NULL);
+    struct ceduo_flown bare = bare_of(200);
+    assert_int_equal(ceduo_years_fly(years, pool, &bare, 200), CEDUO_OK);
+    assert_int_equal(ceduo_pool_work(pool).runs, 0);
+    double worst = 0;
+    unsigned worst_year = 0;
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_year *y = &years->years[i];
+        assert_true(y->wooded.rocks == 0 && y->controls[1].energy == CEDUO_UNKNOWN);
+        if (y->controls[1].worst_adc > worst) {
+            worst = y->controls[1].worst_adc;
+            worst_year = y->year;
+        }
+    }
+    struct ceduo_years_summary s = ceduo_years_sum(years, 1);
+    assert_true(s.years == 16 && s.flown == 0 && s.worst_year == worst_year && s.worst == worst && worst_year == 4);
+    assert_true(isnan(s.reach.mean) && isnan(s.exceed.mean) && isnan(s.passes_per_year) && s.unprotected_energy == 0);
+    ceduo_flown_free(&bare);
+    ceduo_pool_free(pool);
+    ceduo_years_free(years);
+}
+
+static void no_forest_is_the_bare_run(void **state)
+{
+    (void)state;
+    init();
+    wood.option.belts_count = 0;
+    struct ceduo_flown bare = bare_of(500);
+    struct ceduo_years *years = flown(0, 3, 1, 1, 500);
+    for (size_t i = 0; i < years->count; i++) {
+        assert_false(years->years[i].cut);
+        for (size_t c = 0; c < CONTROLS; c++) {
+            struct ceduo_arrivals a = years->years[i].wooded.arrivals[c];
+            a.contacts = a.contacts_se = NAN;
+            expect_same_arrivals(&a, &bare.arrivals[c]);
+        }
+    }
+    assert_true(ceduo_years_felled(years) == 0 && ceduo_years_usual(&wood.site.scene) == 10);
+    ceduo_years_free(years);
+    ceduo_flown_free(&bare);
+    ceduo_years_free(NULL);
+}
+
+static void nothing_is_hit_in_a_bare_year(void **state)
+{
+    (void)state;
+    init();
+    wood.option.belts_count = 1;
+    wood.belts[0].stand.cutting.stay_count = 0;
+    struct ceduo_years *years = flown(3, 5, 1, 1, 200);
+    const struct ceduo_year *y = &years->years[1];
+    bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
+    double contacts = y->wooded.arrivals[1].contacts;
+    ceduo_years_free(years);
+    assert_true(cut && contacts == 0); /* known, not unknown */
+}
+
+static void usual_years(void **state)
+{
+    (void)state;
+    init();
+    assert_int_equal(ceduo_years_usual(&wood.site.scene), 10 + ROTATION + 1); /* the selection coppice's first cut: 10 */
+    wood.belts[0].cut_year = 40;
+    assert_int_equal(ceduo_years_usual(&wood.site.scene), 40 + ROTATION + 1);
+    wood.belts[0].cut_year = 119;
+    assert_int_equal(ceduo_years_usual(&wood.site.scene), 120);
+    wood.belts[0].cut_year = 500; /* beyond any picture */
+    assert_int_equal(ceduo_years_usual(&wood.site.scene), 10 + ROTATION + 1);
+    wood.option.belts_count = 0;
+    assert_int_equal(ceduo_years_usual(&wood.site.scene), 10);
+}
+
+/* ---- ends before its end ---- */
+
+struct stop {
+    atomic_bool cancel;
+    unsigned runs, after;
+};
+
+static void count_run(void *context, uint64_t rocks)
+{
+    struct stop *stop = context;
+    (void)rocks;
+    if (++stop->runs == stop->after)
+        atomic_store(&stop->cancel, true);
+}
+
+static void it_can_be_cancelled_and_goes_on(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_years *whole = flown(0, 8, 1, 2, ROCKS);
+    struct ceduo_flown bare = bare_of(ROCKS);
+    for (unsigned after = 0; after < 10; after += 3) {
+        struct stop stop = {.cancel = after == 0, .after = after};
+        struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
+        def.threads = 2;
+        def.rocks_most = ROCKS;
+        def.cancel = &stop.cancel;
+        def.progress = count_run;
+        def.context = &stop;
+        struct ceduo_pool *pool;
+        assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+        struct ceduo_years *years = grown(0, 8, 1);
+        enum ceduo_status status = ceduo_years_fly(years, pool, &bare, ROCKS);
+        assert_int_equal(status, after < 9 ? CEDUO_CANCELLED : CEDUO_OK);
+        for (size_t i = 0; i < years->count; i++) {
+            assert_true(years->years[i].wooded.rocks == (i < after ? ROCKS : 0));
+            if (i < after)
+                expect_same_year(&years->years[i], &whole->years[i]);
+        }
+        atomic_store(&stop.cancel, false);
+        assert_int_equal(ceduo_years_fly(years, pool, &bare, ROCKS), CEDUO_OK);
+        for (size_t i = 0; i < years->count; i++)
+            expect_same_year(&years->years[i], &whole->years[i]);
+        ceduo_years_free(years);
+        ceduo_pool_free(pool);
+    }
+    ceduo_flown_free(&bare);
+    ceduo_years_free(whole);
+}
+
+static void not_flown_it_is_freed(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_years *years = grown(0, 500, 1);
+    assert_int_equal(years->count, 501);
+    ceduo_years_free(years);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(years_are_runs_of_their_own),
+        cmocka_unit_test(poisson_too),
+        cmocka_unit_test(year_0_is_the_result),
+        cmocka_unit_test(steps_and_stretches_pick_from_all),
+        cmocka_unit_test(threads_and_steps_change_nothing),
+        cmocka_unit_test(a_wood_is_flown_once),
+        cmocka_unit_test(sums_over_the_years),
+        cmocka_unit_test(metres_felled),
+        cmocka_unit_test(by_the_index_alone),
+        cmocka_unit_test(no_forest_is_the_bare_run),
+        cmocka_unit_test(nothing_is_hit_in_a_bare_year),
+        cmocka_unit_test(usual_years),
+        cmocka_unit_test(it_can_be_cancelled_and_goes_on),
+        cmocka_unit_test(not_flown_it_is_freed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
