@@ -1214,25 +1214,6 @@ def test_step_plan():
     expect_in("One pattern of many", fast("resize 100 40\nwait idle\nkey .\nkey 2\ndump", "fast.yaml")[0].body, "by the index")
 
 
-def test_plan_live():
-    """View 2: the plan follows a change of the stand and of the option; no stem of the wood before it is shown."""
-    sparse = "find trees[0]\nset 1\nfind trees[1]\nset 1\nfind shoots\nkey d d\nwait idle\nclear\ndump"
-    before, after = fast(f"resize 100 40\nwait idle\nkey 1\ndump\nkey 2\nclear\ndump\n{sparse}", "wood.yaml")[1:]
-    hit = int(re.search(r"The way of this rock: (\d+) stem", before.body).group(1))
-    expect(hit > 2, "hardly a stem is hit", before)
-    expect(f"{hit} stems hit" not in after.body, "stems that have been felled are still hit:", after)
-    thick, thin = fast("resize 100 40\nwait idle\nkey 1\ndump\nkey 2\nclear\ndump\nkey ]\nclear\ndump", "cuts.yaml")[1:]
-    expect_in("The way of this rock", thick.body)
-    words = re.search("The way of this rock.*", thick.body).group(0)
-    expect(words not in thin.body, "the stems of another option:", thin)
-
-
-# ---- presets, new, open ----
-
-MARCHE = {"simple-coppice": "87 050 ha, 43.4 %", "coppice-with-standards": "13 250 ha, 6.6 %",
-          "selection-coppice": "350 ha, 0.2 %", "large-reserves": "30 275 ha, 15.1 %", "high-forest-small-rocks": "28 550 ha, 14.2 %"}
-
-
 def test_presets():
     """Presets show how common each is in Marche, and before it is chosen what it would give."""
     for size in ("120 40", "80 24"):
