@@ -47,10 +47,19 @@ static void put_padded(struct page *p, const char *string, int width)
     ceduo_text_free(&safe);
 }
 
+/* A number in a column, a blank before it; in thousands or millions (134e3) where it has no room. */
 static void put_cell(struct page *p, double value, int digits, int width)
 {
     struct text cell = {0};
     ceduo_words_number(&cell, value, digits);
+    for (int e = 3; e <= 9 && fabs(value) >= 1e3 && ceduo_text_columns(cell.bytes ? cell.bytes : "") >= (size_t)width; e += 3) {
+        ceduo_text_free(&cell);
+        ceduo_text_format(&cell, "%.0fe%d", value / pow(10, e), e);
+    }
+    while (digits > 1 && ceduo_text_columns(cell.bytes ? cell.bytes : "") >= (size_t)width) {
+        ceduo_text_free(&cell);
+        ceduo_words_number(&cell, value, --digits);
+    }
     put_padded(p, cell.bytes ? cell.bytes : "", -width);
     ceduo_text_free(&cell);
 }
@@ -175,11 +184,20 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
 /* A mean and its error, with as many digits as have room. */
 static void put_mean(const struct page *p, struct text *text, const struct ceduo_arrivals *a)
 {
+    double mean = a->energy.mean * KILO, half = a->energy.se * CEDUO_Z95 * KILO;
     for (int digits = 4; digits > 0 && a->reached > 0; digits--) {
         ceduo_text_free(text);
-        ceduo_words_number(text, a->energy.mean * KILO, digits);
-        ceduo_text_format(text, " %s", plus_minus(p));
-        ceduo_words_number(text, a->energy.se * CEDUO_Z95 * KILO, digits > 3 ? 2 : 1);
+        ceduo_words_number(text, mean, digits);
+        if (digits == 4 || isnan(half)) {
+            ceduo_text_format(text, " %s", plus_minus(p));
+            ceduo_words_number(text, half, 2);
+        } else {
+            /* the error up to whole units of the mean's last place */
+            const char *point = strchr(text->bytes ? text->bytes : "", '.');
+            int places = point ? (int)strlen(point + 1) : 0;
+            double unit = pow(10, -places);
+            ceduo_text_format(text, "%s%.*f", plus_minus(p), places, ceil(half / unit) * unit);
+        }
         if (ceduo_text_columns(text->bytes ? text->bytes : "") < MEAN_WIDTH)
             return;
     }

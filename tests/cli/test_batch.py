@@ -517,14 +517,28 @@ def section(text, name):
     return "\n".join(lines[first:end])
 
 
-def arrivals_cells(arrivals):
+ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(\d+ \(\d+–\d+\)) +(-|\d+ \(\d+–\d+\)) +"
+                          r"(?:-|([\d.]+) ?±(-|[\d.]+)) +(-|[\d.e]+) +(-|[\d.e]+) +(-|[\d.e]+)$")
+
+
+def expect_arrivals(line, arrivals):
+    """A line of the table of arrivals has a blank between any two cells, and what it says of a mean and its error is true."""
+    found = ARRIVALS_ROW.match(line)
+    expect(found, "cells run into one another:", repr(line))
+    reach, exceed, mean, half, p95, speed, height = found.groups()
+    expect_equal((reach, exceed), (of_1000("reach", arrivals), of_1000("exceed", arrivals)), line)
     energy = arrivals["energy_kJ"]
-    mean = "-"
-    if arrivals["rocks_reached"] > 0:
-        half = None if energy["se"] is None else energy["se"] * 1.959963984540054
-        mean = f"{digits(energy['mean'], 4)} ±{digits(half, 2)}"
-    return (of_1000("reach", arrivals), of_1000("exceed", arrivals), mean, digits(energy["p95"], 3),
-            digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
+    expect_equal(mean is None, energy["mean"] is None, line)
+    if mean is not None and energy["se"] is not None:
+        wanted = energy["se"] * 1.959963984540054
+        expect(half != "-" and float(half) >= 0.94 * wanted, f"an error of {wanted} is said to be less:", line)
+        expect(abs(float(mean) - energy["mean"]) <= float(half) + 1e-3 * energy["mean"],
+               f"the mean of {energy['mean']} lies beyond its error:", line)
+        expect(float(half) <= max(1.1 * wanted, 0.1 * energy["mean"]), f"an error of {wanted} is said to be far more:", line)
+    for cell, value in ((p95, energy["p95"]), (speed, arrivals["speed_m_s"]["mean"]), (height, arrivals["height_m"]["p95"])):
+        expect_equal(cell == "-", value is None, line)
+        if value is not None:
+            expect_near(float(cell), value, 0.051 * abs(value), line)
 
 
 def expect_option(text, option):
@@ -535,10 +549,10 @@ def expect_option(text, option):
     expect_equal(len(bare), len(option["controls"]), "rows without forest")
     expect_equal(len(wooded), 0 if option["controls"][0]["wooded"] is None else len(option["controls"]), "rows through the wood")
     for i, control in enumerate(option["controls"]):
-        expect_cells(bare[i], "without forest", *arrivals_cells(control["bare"]))
+        expect_arrivals(bare[i], control["bare"])
         if not wooded:
             continue
-        expect_cells(wooded[i], "through the wood", *arrivals_cells(control["wooded"]))
+        expect_arrivals(wooded[i], control["wooded"])
         shares = [f"{option['ends'][k] * 1000:.0f}" for k in ("stopped_by_stems", "came_to_rest", "left_slope")]
         expect_in("Of 1000, {} are stopped by stems, {} come to rest, {} leave the slope".format(*shares), flat_text, "ends")
         if control["wooded"]["rocks_reached"] > 0:
@@ -564,6 +578,11 @@ def test_table_order():
                  "39.9 kJ per 100 m \\(interception\\)", "Eq. 5", "59.4 kJ", "62.3 kJ", "(?i)one rock", "Blocks of other sizes",
                  "Eq. 6 gives 2.61 m", "Assumed")
     expect_option(text, option)
+    for line, arrivals in ((table_row(text, "through the wood")[0], control["wooded"]),
+                           (table_row(text, "without forest")[0], control["bare"])):
+        energy = arrivals["energy_kJ"]
+        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(energy['se'] * 1.959963984540054, 2)}", digits(energy["p95"], 3),
+                     digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
     expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
     expect_in("bears 50 kJ*", text, "mark of the assumed accepted energy")
@@ -833,7 +852,7 @@ def test_table_blocks_cases():
 def test_table_arrivals():
     """Table of arrivals: whatever the figures, each cell whole and apart from the next; sign and size survive"""
     cases = [scene(forest=[{"from_m": 0, "to_m": 75, "stand": THIN}], controls=[{"x_m": 40}, {"x_m": 75, "accepted_kJ": 0.1}]),
-             wooded_scene(rock={"diameter_m": 8}),
+             wooded_scene(rock={"diameter_m": 8}), wooded_scene(rock={"diameter_m": 0.05}),
              wooded_scene(controls=[{"x_m": 105, "accepted_kJ": 123456.789}]), wooded_scene(simulation={"rocks": 1}),
              wooded_scene(simulation={"rocks": 3}), wooded_scene(simulation={"law": "crsp"})]
     with Folder() as f:
@@ -842,7 +861,7 @@ def test_table_arrivals():
             run, text = result(path), good("--batch", path).out
             expect_option(text, run["options"][0])
             expect_width(text)
-            blocks_of(text)
+            expect_equal(len(blocks_of(text)), 5, "blocks of other sizes")
 
 
 def test_table_verdicts():
