@@ -604,7 +604,7 @@ static const char *equals_of(const char *set)
     return strchr(set, '='); /* a bracket that is never closed */
 }
 
-bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *problems)
+bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems)
 {
     struct source *source = ceduo_arena_take(&file->arena, sizeof *source);
     char *copy = ceduo_arena_string(&file->arena, set);
@@ -613,7 +613,7 @@ bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *
         return false;
     }
     *source = (struct source){
-        .name = "--set", .bytes = copy, .length = strlen(copy), .is_option = true, .beside = file->path};
+        .name = option, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = file->path};
     const char *equals = equals_of(copy);
     if (!equals || equals == copy) {
         ceduo_problem(problems, source, 1, 1, _("PATH=VALUE is wanted"));
@@ -651,7 +651,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
         return false;
     }
     for (size_t i = 0; i < sets_count; i++)
-        if (!ceduo_scene_set(file, sets[i], problems))
+        if (!ceduo_scene_set(file, "--set", sets[i], problems))
             return false;
     size_t before = problems->count;
     const struct node *root = ceduo_resolve_scene(&file->arena, file->root, problems);

@@ -29,8 +29,8 @@ void ceduo_scene_release(struct scene_file *file);
 /* The scene of a document that was read before: sets `file->scene` from `file->root`. */
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);
 
-/* Changes one value. `set` is PATH=VALUE. */
-bool ceduo_scene_set(struct scene_file *file, const char *set, struct problems *problems);
+/* Changes one value. `set` is PATH=VALUE; problems are told as those of the option of the command line. */
+bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems);
 
 /* Whether a note is of growth or cutting: it matters to the years to come, not to the stand as it is. */
 bool ceduo_note_of_years(const struct source_note *note);

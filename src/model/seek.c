@@ -52,14 +52,25 @@ static void look_at_field(void *context, const char *path, const struct field *f
         k->field = field;
 }
 
-/* Counts and years are whole numbers; so are densities, which a forester counts. */
-static bool is_whole(const char *path)
+static const struct field *field_at(const char *path)
 {
     struct kind k = {.field = NULL};
     strip_path(path, k.path, sizeof k.path);
     ceduo_schema_visit(ceduo_schema_scene(), "", look_at_field, &k);
-    return k.field && (k.field->type == FIELD_COUNT || strcmp(k.field->unit, "1/ha") == 0 ||
-                       strcmp(k.field->unit, "y") == 0 || k.field->type == FIELD_NUMBERS);
+    return k.field;
+}
+
+/* Counts and years are whole numbers; so are densities, which a forester counts. */
+static bool is_whole(const struct field *field)
+{
+    return field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0 || strcmp(field->unit, "y") == 0 ||
+                     field->type == FIELD_NUMBERS);
+}
+
+/* Text, a flag, a choice: no number, though one may stand there. */
+static bool is_text(const struct field *field)
+{
+    return field && (field->type <= FIELD_FILE || field->type == FIELD_CHOICE || field->type == FIELD_FLAG);
 }
 
 /* ---- one value ---- */
@@ -71,7 +82,7 @@ static bool set_value(struct search *s, double value)
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(&set, "%s=%s", s->seek->path, ceduo_number_shortest(value, room));
     s->seek->file->root = s->root;
-    bool good = set.bytes && ceduo_scene_set(s->seek->file, set.bytes, s->problems) &&
+    bool good = set.bytes && ceduo_scene_set(s->seek->file, "--find", set.bytes, s->problems) &&
                 ceduo_scene_bind(s->seek->file, s->problems);
     ceduo_text_free(&set);
     return good;
@@ -164,9 +175,15 @@ static double limit_of(const struct seek *s)
 
 static const struct source goal_source = {.name = "--goal", .is_option = true};
 
+static const struct source path_source = {.name = "--find", .is_option = true};
+
 /* What the goal needs of the scene. */
 static bool is_askable(const struct seek *s, struct problems *problems)
 {
+    if (is_text(field_at(s->path))) {
+        ceduo_problem(problems, &path_source, 0, 0, _("%s is no number"), s->path);
+        return false;
+    }
     bool needs_accepted = s->goal == SEEK_EXCEED;
     for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
         if (isnan(s->file->scene.controls[c].accepted)) {
@@ -189,7 +206,7 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
         return CEDUO_BAD_SLOPE;
     struct ceduo_find_def def = {.lo = seek->lo,
                                  .hi = seek->hi,
-                                 .whole = is_whole(seek->path),
+                                 .whole = is_whole(field_at(seek->path)),
                                  .target = seek->goal == SEEK_ADC ? nextafter(seek->target, 0) : seek->target,
                                  .goal = goal_at,
                                  .context = &s,

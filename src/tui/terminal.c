@@ -272,6 +272,19 @@ bool ceduo_terminal_there(const char **why)
     return true;
 }
 
+/* A read never waits for a key. Curses reads on behind an event of the mouse that nobody wants, a button's release, and
+ * nodelay() does not hold there: all would stand still until the next key. */
+static void read_at_once(void)
+{
+    struct termios mode;
+    if (tcgetattr(STDIN_FILENO, &mode) != 0)
+        return;
+    mode.c_cc[VMIN] = 0;
+    mode.c_cc[VTIME] = 0;
+    tcsetattr(STDIN_FILENO, TCSANOW, &mode);
+    def_prog_mode();
+}
+
 enum terminal_end ceduo_terminal_run(struct app *app)
 {
     if (pipe2(wake, O_NONBLOCK | O_CLOEXEC) != 0)
@@ -289,6 +302,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     nonl();
     keypad(stdscr, TRUE);
     nodelay(stdscr, TRUE);
+    read_at_once();
     curs_set(0);
     mouseinterval(0);
     mousemask(BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED, NULL);

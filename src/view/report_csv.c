@@ -183,15 +183,16 @@ static void join(void *context, const char *sentence)
     ceduo_text_put(all, sentence);
 }
 
-static void warning_cell(struct row *row, const struct ceduo_report *report, size_t option)
+static void warning_cell(struct row *row, const struct ceduo_report *report, size_t option,
+                         const struct ceduo_year *year)
 {
     struct text all = {0};
-    const struct ceduo_option *o = &report->result->scene->options[option];
+    const struct ceduo_option *o = year ? &year->option : &report->result->scene->options[option];
+    const struct ceduo_stand_result *stands = year ? year->stands : report->result->options[option].stands;
     if (!row->header) {
         ceduo_words_run_warnings(report->result, &report->remarks, join, &all);
         for (size_t i = 0; i < o->belts_count; i++)
-            ceduo_words_stand_warnings(report->result->scene, &o->belts[i],
-                                       &report->result->options[option].stands[i], join, &all);
+            ceduo_words_stand_warnings(report->result->scene, &o->belts[i], &stands[i], join, &all);
     }
     row->group = NULL;
     string(row, "warnings", all.bytes);
@@ -248,7 +249,7 @@ static void control_row(struct row *row, const struct ceduo_report *report, size
     pair(row, "difference.reach_probability", d.reach_probability.mean, d.reach_probability.se);
     pair(row, "difference.exceed_probability", d.exceed_probability.mean, d.exceed_probability.se);
     pair(row, "difference.energy_per_released_kJ", d.energy_per_released.mean * KILO, d.energy_per_released.se * KILO);
-    warning_cell(row, report, option);
+    warning_cell(row, report, option, year);
     ceduo_text_char(row->text, '\n');
     row->more = false;
 }

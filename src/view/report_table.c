@@ -494,8 +494,8 @@ static void put_block(struct page *p, const struct ceduo_block *b)
     if (!isnan(b->reach_probability))
         put_of_1000(p, &share, says ? b->exceed_probability : b->reach_probability, says ? b->exceed_lo : b->reach_lo,
                     says ? b->exceed_hi : b->reach_hi);
-    ceduo_text_put(p->text, b->own ? "  > " : "    ");
-    put_cell(p, b->volume, 3, 7);
+    ceduo_text_put(p->text, b->own ? "  >" : "   ");
+    put_cell(p, b->volume, 3, 8);
     put_cell(p, b->mass, 3, 9);
     put_cell(p, b->diameter, 3, 8);
     put_cell(p, b->adc, 3, 8);
@@ -552,8 +552,8 @@ static void put_year(struct page *p, const struct ceduo_year *y)
     put_padded(p, run.bytes ? run.bytes : "", -7);
     ceduo_text_format(p->text, " %-5s", short_verdict(s->free_run));
     put_cell(p, s->length > 0 ? s->dissipated / s->length * 100 * KILO : 0, 3, 9);
-    put_padded(p, share.bytes ? share.bytes : "-", -15);
-    put_cell(p, a ? a->energy.mean * KILO : NAN, 3, 9);
+    put_padded(p, share.bytes ? share.bytes : "-", -16);
+    put_cell(p, a ? a->energy.mean * KILO : NAN, 3, 8);
     ceduo_text_format(p->text, "  %s\n", short_verdict(s->energy));
     ceduo_text_free(&share);
     ceduo_text_free(&mean);
@@ -571,8 +571,8 @@ static void put_years_head(struct page *p)
     put_padded(p, "", 6);
     put_padded(p, _("free run"), 13);
     put_padded(p, _("kJ/100 m"), -9);
-    put_limit(p, c, _("of 1000 arrive"), 15);
-    put_padded(p, _("mean kJ"), -9);
+    put_limit(p, c, _("of 1000 arrive"), 16);
+    put_padded(p, _("mean kJ"), -8);
     ceduo_text_format(p->text, "  %s\n", _("energy"));
 }
 

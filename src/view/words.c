@@ -111,7 +111,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                                 const struct ceduo_stand_result *r, say_function *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    if (!r->bare && r->trees_per_ha < scene->reserves_minimum)
+    if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
         say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), belt->name,
                    r->trees_per_ha, scene->reserves_minimum);
     say_geometry(scene, belt, r, say, context);
