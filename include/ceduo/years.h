@@ -43,6 +43,10 @@ void ceduo_years_free(struct ceduo_years *years);
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks);
 
+/* Assesses years that were flown once more, for a scene that differs in what no rock sees: the threshold, the rule of the
+ * ADC, how many rocks come down a year. It has as many controls, at the same places, and `bare` is of them. */
+void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare);
+
 /* The years together, at one control. Every figure is a plain mean over the years computed. Because all years fly the same
  * rocks, their errors go together: the standard error of a mean is at most the mean of the standard errors, and that is
  * given. NaN where a figure does not exist. */

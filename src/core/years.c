@@ -104,6 +104,13 @@ static void assess(const struct ceduo_scene *scene, const struct ceduo_flown *ba
     }
 }
 
+void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare)
+{
+    years->scene = *scene;
+    for (size_t i = 0; i < years->count; i++)
+        assess(scene, bare, &years->years[i]);
+}
+
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks)
 {

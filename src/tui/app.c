@@ -123,6 +123,8 @@ static void refresh_result(struct app *app)
         app->result = NULL;
     free(differences);
     free(wooded);
+    if (app->years && app->years->scene.controls_count == controls)
+        ceduo_years_assess(app->years, scene, &o->bare->flown);
 }
 
 /* The scene has changed: what the rocks meet is asked for anew, the rest follows at once. */
@@ -172,7 +174,6 @@ bool ceduo_app_news(struct app *app)
         app->outlook = news.outlook;
         app->shown_key = news.key;
         app->seconds = news.seconds;
-        refresh_result(app);
     }
     if (news.years) {
         ceduo_years_free(app->years);
@@ -181,6 +182,8 @@ bool ceduo_app_news(struct app *app)
         app->year = app->year < app->years->count ? app->year : 0;
         changed = true;
     }
+    if (news.outlook || news.years)
+        refresh_result(app);
     if (news.failed)
         ceduo_app_warn(app, "%s", _("out of memory: the figures are not up to date"));
     return changed || news.failed;
@@ -693,13 +696,17 @@ void ceduo_app_step_rock(struct app *app, int by)
     say_steps(app);
 }
 
-static bool matches(const struct form_row *row, const char *what)
+/* The first cell of a row that matches, by the row's name, its own or what it holds. */
+static bool matches(const struct form_row *row, const char *what, size_t *column)
 {
+    *column = 0;
     if (strcasestr(row->label, what))
         return true;
     for (size_t k = 0; k < row->n; k++)
-        if (strcasestr(row->cells[k].text, what) || strcasestr(row->cells[k].path, what))
+        if (strcasestr(row->cells[k].text, what) || strcasestr(row->cells[k].path, what)) {
+            *column = k;
             return true;
+        }
     return false;
 }
 
@@ -708,8 +715,10 @@ static void search_again(struct app *app)
     struct form *form = form_of(app);
     for (size_t i = 1; app->search[0] && i <= form->n; i++) {
         size_t at = (form->row + i) % form->n;
-        if (form->rows[at].kind == FORM_FIELDS && matches(&form->rows[at], app->search)) {
+        size_t column;
+        if (form->rows[at].kind == FORM_FIELDS && matches(&form->rows[at], app->search, &column)) {
             form->row = at;
+            form->column = column;
             app->pane = 0;
             ceduo_form_settle(form);
             return;

@@ -106,6 +106,8 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool alone = app->pane == 1;
     int words = area.height >= 30 ? 6 : 4, form = alone ? 0 : area.height / 3;
+    if (!alone && area.height < 16) /* a small window: the picture first */
+        form = words = 3;
     int height = area.height - form - words;
     struct ceduo_area top = {area.left, area.top, area.width, height};
     struct ceduo_area text_area = {area.left, area.top + height, area.width, words};

@@ -90,18 +90,19 @@ static void draw_lights(const struct rotation *r, int row)
     }
 }
 
+/* A mark above each year of a cut, and a word behind it where that does not run into the next. */
 static void draw_cuts(const struct rotation *r, int row)
 {
-    int end = 0;
-    for (size_t i = 0; i < r->years->count; i++) {
-        const struct ceduo_year *y = &r->years->years[i];
-        int column = y->cut ? column_of(r, r->x[i]) : -1;
+    const char *word = _("cut");
+    int room = (int)ceduo_text_columns(word) + 2, next = r->area->left + r->area->width;
+    for (size_t i = r->years->count; i-- > 0;) {
+        int column = r->years->years[i].cut ? column_of(r, r->x[i]) : -1;
         if (column < 0)
             continue;
         ceduo_canvas_label(r->canvas, column, row, CEDUO_ROLE_WARN, "\xe2\x96\xbc");
-        if (column > end + 1)
-            end = column + 2 + ceduo_plot_put(r->canvas, column + 1, row, r->area->left + r->area->width - column - 1,
-                                              CEDUO_ROLE_WARN, _("cut"));
+        if (next - column >= room)
+            ceduo_canvas_label(r->canvas, column + 1, row, CEDUO_ROLE_WARN, word);
+        next = column;
     }
 }
 

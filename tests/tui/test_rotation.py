@@ -1,0 +1,545 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The years between two cuts in the terminal program (view 6) and as a picture, and the key that looks for a value."""
+import re
+import sys
+import unicodedata
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
+from play import check_good  # noqa: E402
+from harness import (PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, good, result,  # noqa: E402
+                     tests_of)
+
+ROCKS = 10240  # of each year in the terminal program
+MARKS = {"✔": "pass", "✘": "fail", "?": "unknown"}
+WOOD = """\
+ceduo: scene/1
+title: years
+rock: {shape: sphere, diameter_m: 0.68}
+release: {vx_m_s: 1}
+slope:
+  vertices_m: [[0, 40], [20, 20], [45, 0]]
+  segments: [{rn: 0.3, rt: 0.85, roughness_rad: 0.15, friction: 0.5}]
+controls:
+  - {x_m: 40, name: road, accepted_kJ: 5}
+forest:
+  - from_m: 2
+    to_m: 38
+    cut_year: 3   # kept
+    stand:
+      name: wood
+      species: ostrya-carpinifolia
+      stools: {per_ha: 300, spacing_m: 0.4}
+      shoots: [{per_ha: 900, dbh_m: 0.06, height_m: 7}]
+      trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]
+      energy: {model: brauner, u_J_m3: 100000}
+      growth:
+        shoots: {dbh_most_m: 0.16, dbh_rate_1_y: 0.022, height_most_m: 14, height_rate_1_y: 0.035}
+        trees: {dbh_most_m: 0.45, dbh_rate_1_y: 0.014, height_most_m: 20, height_rate_1_y: 0.03}
+        shoots_young: 16
+        shoots_old: 3
+      cutting: {rotation_years: 8, stay_per_ha: [30, 30]}
+rocks_per_year: 2
+simulation: {rocks: 1000, contact_model: stems}
+"""
+INDEX = WOOD.replace("contact_model: stems", "contact_model: index")
+# 60 reserves of 20 cm and nothing else, and another way to treat it.
+RESERVES = WOOD[:WOOD.index("forest:")] + """\
+options:
+  - name: reserves
+    forest:
+      - from_m: 2
+        to_m: 38
+        stand: {name: few, species: ostrya-carpinifolia, trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]}
+  - name: more
+    forest:
+      - from_m: 2
+        to_m: 38
+        cut_year: 5
+        stand:
+          name: many
+          species: ostrya-carpinifolia
+          trees: [{per_ha: 500, dbh_m: 0.2, height_m: 12, age_y: 40}]
+          growth: {trees: {dbh_most_m: 0.45, dbh_rate_1_y: 0.014, height_most_m: 20, height_rate_1_y: 0.03},
+                   shoots_young: 16, shoots_old: 3}
+          cutting: {rotation_years: 20, stay_per_ha: [100]}
+simulation: {rocks: 1000, contact_model: index}
+"""
+
+
+class Place(Folder):
+    """A folder with the scenes in it."""
+
+    def __enter__(self):
+        super().__enter__()
+        for name, text in (("wood", WOOD), ("index", INDEX), ("reserves", RESERVES)):
+            self.write(f"{name}.yaml", text)
+        return self
+
+    def play(self, script, scene="index.yaml", **options):
+        return play.play(self.path, script, scene, **options)
+
+    def years(self, scene, last):
+        """The first option's years as the batch gives them."""
+        return result("--years", f"0:{last}", "-n", ROCKS, self.path / scene)["options"][0]
+
+
+def shown(script, scene="index.yaml", **options):
+    with Place() as place:
+        return place.play(script, scene, **options)
+
+
+def marks(screen, light, signs="✔✘?"):
+    """Columns and signs of a row of lights."""
+    for line in screen.body.split("\n"):
+        if re.match(f"{light} ", line):
+            return [(i, c) for i, c in enumerate(line) if i > 0 and c in signs]
+    expect(False, f"no row '{light}' in the", screen)
+
+
+def columns_of_cuts(screen, sign="▼"):
+    return [i for i, c in enumerate(screen.body.split("\n")[0]) if c == sign]
+
+
+def flat(screen):
+    return re.sub(r"\s+", " ", screen.body)
+
+
+def year_said(screen):
+    """(year, cut, ADC) of the sentence about the year under the cursor."""
+    found = re.search(r"Year (\d+)(, cut)?: ADC (\S+) m", flat(screen))
+    expect(found, "no sentence about the year in the", screen)
+    return int(found.group(1)), bool(found.group(2)), found.group(3)
+
+
+def strips(screen):
+    """Which of the two strips there are, by their captions."""
+    lines = screen.body.split("\n")
+    return [any(part in line for line in lines) for part in ("ADC of the worst belt, m", "of 1000 released with")]
+
+
+# ---- the view ----
+
+
+def test_strips():
+    """View 6: both strips where there is room, otherwise one; cuts, lights, words and form in their places"""
+    script = ["wait idle", "key 6", "wait idle"]
+    sizes = [(80, 24), (200, 50), (60, 20), (120, 40)]
+    for width, height in sizes:
+        script += [f"resize {width} {height}", "dump", "key Tab", "dump", "key Tab"]
+    with Place() as place:
+        screens = place.play("\n".join(script), "wood.yaml")
+        option = place.years("wood.yaml", 12)
+    fails = {k: sum(y["controls"][0]["lights"][n] == "fail" for y in option["years"])
+             for k, n in zip("CFE", ("contact", "free_run", "energy"))}
+    expect(0 < fails["C"] < 13 and fails["F"] > 0, "the scene tells nothing", fails)
+    for i, (width, height) in enumerate(sizes):
+        form, alone = screens[2 * i:2 * i + 2]
+        for screen in (form, alone):
+            screen.whole()
+            expect_in("6 rotation", screen.title, "title")
+        expect_equal(strips(alone)[0], height > 20, f"{width}x{height}: the strip of the ADC in the picture alone")
+        expect("of 1000 released with" in alone.body, f"{width}x{height}: the strip of the rocks", alone)
+        expect_in("cut_", form.body, f"{width}x{height}: form")
+        expect("cut_" not in alone.body, "the form beside the picture alone", alone)
+        for screen in [alone] + [form] * (height > 20):
+            expect_in("years", screen.body, "axis")
+            expect(len(columns_of_cuts(screen)) == 2 and "▼cut" in screen.body, "two cuts", screen)
+            for light in "CFE":
+                expect_equal(sum(c == "✘" for _, c in marks(screen, light)), fails[light], f"{width}x{height} {light}")
+        expect_in(f"13 years: {fails['C']} without contact, {fails['E']} with too much energy", flat(alone))
+    expect_equal(strips(screens[0]), [False, True], "80x24 with the form: one strip")
+    expect_equal(strips(screens[2]), [True, True], "200x50 with the form: both")
+
+
+def test_small_window():
+    """View 6 at 60 x 20 shows its picture beside the form, not only alone"""
+    screen = shown("wait idle\nkey 6\nwait idle\nresize 60 20\ndump")[0]
+    expect("too narrow" not in screen.body, "no picture in the", screen)
+
+
+def test_figures():
+    """View 6 tells what --years tells: lights year by year, cuts below their mark, the years together"""
+    with Place() as place:
+        screens = place.play("wait idle\nkey 6\nwait idle\nresize 200 50\nkey Tab\ndump\nkey l l l\ndump", "wood.yaml")
+        option = place.years("wood.yaml", 12)
+    years, rotation = option["years"], option["rotation"]
+    for light, name in zip("CFE", ("contact", "free_run", "energy")):
+        found = [MARKS[c] for _, c in marks(screens[0], light)]
+        expect_equal(found, [y["controls"][0]["lights"][name] for y in years], name)
+    at = [column for column, _ in marks(screens[0], "C")]
+    expect_equal([at.index(c) for c in columns_of_cuts(screens[0])], [y["year"] for y in years if y["cut"]], "cuts")
+    text = flat(screens[0])
+    expect_in(f"worst {1000 * max(y['controls'][0]['wooded']['exceed_probability'] for y in years):.0f} "
+              f"in year {rotation['worst_year']};", text)
+    expect_in(f"mean {1000 * rotation['exceed_probability']['mean']:.0f} ±", text)
+    expect_in(f"expected a year: {rotation['passes_per_year']:.3g} pass, {rotation['exceeds_per_year']:.3g} with too much",
+              text)
+    for screen, year in ((screens[0], years[0]), (screens[1], years[3])):
+        number, cut, adc = year_said(screen)
+        stand, wooded = year["stands"][0], year["controls"][0]["wooded"]
+        expect_equal((number, cut), (year["year"], year["cut"]))
+        expect_equal(adc, f"{stand['adc']['adc_m']:.3g}", "ADC")
+        expect_in(f"; of 1000 {1000 * wooded['exceed_probability']:.0f} ±", flat(screen))
+        expect_in("2–38 m: " + (f"{stand['stools_per_ha']:.0f} stools" if stand["stools_per_ha"] else "30 trees of"),
+                  flat(screen), "the stems")
+
+
+def test_cursor():
+    """After Tab, left and right go from year to year, Home and End to the first and the last, and not beyond"""
+    keys = ["", "l", "Right", "Right", "h", "End", "l", "Left", "Home", "Left", "G", "g"]
+    years = [0, 1, 2, 3, 2, 12, 12, 11, 0, 0, 12, 0]
+    script = ["wait idle", "key 6", "wait idle", "resize 120 40", "key Tab"]
+    for key in keys:
+        script += [f"key {key}"] * bool(key) + ["dump"]
+    script += ["key l l", "key Tab", "dump", "key l l", "dump", "key Tab", "dump"]
+    screens = shown("\n".join(script))
+    for key, year, screen in zip(keys, years, screens):
+        expect_equal(year_said(screen)[:2], (year, year in (3, 11)), f"after {key or 'Tab'}")
+    said = [year_said(s)[0] for s in screens[len(keys):]]
+    expect_equal(said, [2, 2, 2], "in the form left and right are the form's")
+    expect_in("left, right: another year", screens[0].note)
+    lines = [len({y for y, line in enumerate(s.body.split("\n")) if "⠅" in line or "⠨" in line}) for s in screens[:4]]
+    expect(all(n > 3 for n in lines), "no line at the year in the picture", lines, screens[0])
+
+
+def test_edits():
+    """cut_year and rotation_years move the cuts and the picture at once; u takes it back, s saves it with its comments"""
+    with Place() as place:
+        screens = place.play("""wait idle
+            resize 200 50
+            key 6
+            wait idle
+            dump
+            find from_m
+            key l l
+            set 5
+            wait idle
+            dump
+            find rotation_years
+            set 3
+            wait idle
+            dump
+            key u
+            wait idle
+            dump
+            key u
+            wait idle
+            dump
+            key Ctrl-R Ctrl-R
+            wait idle
+            key s
+            dump""")
+        text = (place.path / "index.yaml").read_text()
+        check_good(place.path, "index.yaml")
+    cuts, years = [], []
+    for screen in screens[:5]:
+        at = [column for column, _ in marks(screen, "C")]
+        cuts.append([at.index(c) for c in columns_of_cuts(screen)])
+        years.append(int(re.search(r"(\d+) years: ", flat(screen)).group(1)))
+    expect_equal(cuts, [[3, 11], [5, 13], [5, 8], [5, 13], [3, 11]], "cuts")
+    expect_equal(years, [13, 15, 11, 15, 13], "years")
+    expect_equal(screens[0].body.split("\n")[:20], screens[4].body.split("\n")[:20], "the picture after two undos")
+    expect("cut_year: 5   # kept\n" in text and "rotation_years: 3" in text, text)
+
+
+def test_edit_stay():
+    """What stays after a cut is a list of numbers in the form; more trees, a better year of the cut"""
+    screens = shown("""wait idle
+        resize 200 50
+        key 6
+        wait idle
+        key Tab
+        key l l l
+        dump
+        key Tab
+        find stay_per_ha
+        set [300, 200]
+        wait idle
+        dump""")
+    expect_equal((year_said(screens[0]), marks(screens[0], "C")[3][1]), ((3, True, "223"), "✘"))
+    number, cut, adc = year_said(screens[1])
+    expect(number == 3 and cut and float(adc) < 30 and marks(screens[1], "C")[3][1] == "✔", screens[1])
+    expect_in("300 trees of 5 cm", flat(screens[1]))
+
+
+def test_live_rate():
+    """rocks_per_year is live: what is expected a year follows the edit"""
+    screens = shown("""wait idle
+        resize 200 50
+        key 6
+        wait idle
+        dump
+        find rocks_per_year
+        set 200
+        wait idle
+        dump""", "wood.yaml")
+    passes = [float(re.search(r"expected a year: (\S+) pass", flat(s)).group(1)) for s in screens]
+    expect(abs(passes[1] - 100 * passes[0]) <= 0.01 * passes[1], f"{passes}: 100 times the rocks")
+
+
+def test_live_threshold():
+    """An undone threshold changes the lights of the years at once"""
+    screens = shown("""wait idle
+        resize 200 50
+        key 3
+        find threshold_m
+        set 300
+        key 6
+        wait idle
+        dump
+        key u
+        wait idle
+        dump""")
+    found = [[c for _, c in marks(s, "C")] for s in screens]
+    expect_equal([f.count("✘") for f in found], [0, 2], "years without contact at 300 m, at 30 m")
+
+
+def test_more_controls():
+    """Controls added in another view: view 6 shows no figures of places that its years do not have"""
+    with Place() as place:
+        screens = place.play("""wait idle
+            key 6
+            wait idle
+            key 1
+            find controls
+            key a a a a a a a a
+            key 6
+            dump
+            wait idle
+            resize 200 50
+            dump""")
+    shown_at_once = screens[0].whole()
+    rows = [line for line in shown_at_once.body.split("\n") if re.match("[CFE] ", line)]
+    expect(not rows or any("✔" in r or "✘" in r for r in rows), "rows of nothing in the", shown_at_once)
+    expect_equal(len(marks(screens[1], "C")), 13, "years")
+
+
+def test_search_column():
+    """/ with the name of a column puts the cursor on that column's field"""
+    screen = shown("key 6\nfind cut_year\ndump")[0]
+    expect(screen.note.startswith("cut_year"), f"the line above the keys: {screen.note!r}")
+
+
+def test_options():
+    """Each option has its years; ] goes to the next one's"""
+    screens = shown("""wait idle
+        resize 200 50
+        key 6
+        wait idle
+        dump
+        key ]
+        wait idle
+        dump
+        key [
+        wait idle
+        dump""", "reserves.yaml")
+    expect_equal([len(columns_of_cuts(s)) for s in screens], [0, 2, 0], "cuts")
+    expect_equal(screens[0].body, screens[2].body, "back again")
+    expect_in("500 trees of 20 cm", flat(screens[1]))
+    expect_equal([c for _, c in marks(screens[0], "C")], ["✘"] * 27, "60 reserves in all years")
+    screens[1].has("Stand of belt 1: many")
+
+
+def test_no_forest():
+    """Without forest view 6 still stands, and its form asks for a belt"""
+    with Place() as place:
+        place.write("none.yaml", INDEX[:INDEX.index("forest:")] + "forest: []\nsimulation: {rocks: 1000}\n")
+        screens = place.play("wait idle\nkey 6\nwait idle\ndump\nkey Tab\nkey l l\ndump\nresize 200 50\ndump", "none.yaml")
+    for screen in screens:
+        screen.whole()
+    expect_equal([c for _, c in marks(screens[2], "C")], ["✘"] * 11, "contact")
+    expect_in("Year 2:", flat(screens[2]))
+
+
+def test_index_view():
+    """With the contact model index the lower strip shows what stems could take, and the energy is unknown"""
+    screen = shown("wait idle\nresize 200 50\nkey 6\nwait idle\ndump")[0]
+    screen.has("stems could take, kJ per 100 m (Eq. 4)")
+    expect_equal({c for _, c in marks(screen, "E")}, {"?"}, "energy")
+    screen.lacks("of 1000 released")
+
+
+def test_charsets():
+    """View 6 in blocks and in ASCII"""
+    for charset, signs in (("block", "✔✘"), ("ascii", "+x")):
+        screen = shown("wait idle\nresize 120 40\nkey 6\nwait idle\nkey Tab\ndump", charset=charset)[0].whole()
+        expect(charset != "ascii" or screen.text.isascii(), "not ASCII", screen)
+        expect_equal(len(marks(screen, "C", signs)), 13, f"{charset}: lights")
+        expect_equal(len(columns_of_cuts(screen, "v" if charset == "ascii" else "▼")), 2, f"{charset}: cuts")
+
+
+# ---- the key that looks for a value ----
+
+FIND = """key 2
+    find trees[0].per_ha
+    key f
+    """
+
+
+def test_find():
+    """f on a number finds the value for a goal and puts it there: 379 reserves; u takes it back"""
+    with Place() as place:
+        screens = place.play("wait idle\n" + FIND + """dump
+            key Enter Enter Enter
+            wait idle
+            dump
+            key u
+            wait idle
+            dump
+            key Ctrl-R
+            key s
+            dump""", "reserves.yaml")
+        text = (place.path / "reserves.yaml").read_text()
+        check_good(place.path, "reserves.yaml")
+    popup, found, undone, _ = screens
+    for part in ("trees[0].per_ha", "adc", "free-run", "energy=KJ", "exceed=SHARE", "u takes it back"):
+        expect_in(part, popup.popup, "the question")
+    expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
+    expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])
+    for part in ("= 379", "smallest value that reaches the goal", "ADC 29.98 m", "below 30 m"):
+        expect_in(part, re.sub(r"\s+", " ", found.note), "the answer")
+    expect_in("✔ Contact  passes", found.now)
+    expect_equal(undone.row(r"^1 +60")[:2], ["1", "60"])
+    expect_in("undone", undone.note)
+    expect_in("✘ Contact  FAILS", undone.now)
+    expect("per_ha: 379" in text and "per_ha: 500" in text, text)
+
+
+def test_find_other_goals():
+    """f with other goals and ranges, in another option, and with rocks: what the command line finds"""
+    with Place() as place:
+        for scene, option, goal, lo, hi in (("reserves", "more", "adc=20", 100, 1000), ("reserves", "reserves", "free-run", 1, 3000),
+                                            ("wood", None, "exceed=0.4", 10, 5000), ("wood", None, "energy=8", 10, 5000)):
+            path = f"options[{option}].forest[0].stand.trees[0].per_ha" if option else "forest[0].stand.trees[0].per_ha"
+            wanted = good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-n", 2000, "-f", "json",
+                          *(["--option", option] if option else []), place.path / f"{scene}.yaml").json()[0]
+            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, lo, hi))
+            screen = place.play("key 2\n" + ("key ]\n" if option == "more" else "") + "find trees[0].per_ha\nkey f\n" + steps + "dump",
+                                f"{scene}.yaml")[0]
+            expect(wanted["found"], scene, goal, wanted)
+            expect_equal(int(screen.row(rf"^1 +{wanted['value']} ")[1]), wanted["value"], f"{scene} {goal}")
+            expect_in(f"= {wanted['value']}", screen.note)
+
+
+def test_find_nothing():
+    """f where no value reaches the goal: it says so with the nearest, and the field stays"""
+    screen = shown(FIND + "key Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
+    note = re.sub(r"\s+", " ", screen.note)
+    expect("no value of" in note and "nearest: 300" in note, note)
+    expect_equal(screen.row(r"^1 +60")[:2], ["1", "60"])
+
+
+def test_find_refused():
+    """f: wrong goals and ranges are refused in words, the question stays open, and nothing changes"""
+    for goal, lo, hi, words in (("fun", 6, 600, "adc, free-run, energy=KJ or exceed"), ("energy", 6, 600, "energy=50"),
+                                ("adc=x", 6, 600, "adc, free-run, energy=KJ or exceed"), ("adc=-3", 6, 600, "the goal is"),
+                                ("", 6, 600, "the goal is"), ("adc", "x", 600, "numbers"), ("adc", 600, 6, "the smaller first"),
+                                ("adc", 6, "", "numbers"), ("exceed", 6, 600, "index")):
+        steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, lo, hi))
+        with Place() as place:
+            open_, closed = place.play(FIND + steps + "dump\nkey Esc\ndump", "reserves.yaml")
+            expect_equal((place.path / "reserves.yaml").read_text(), RESERVES, "the file")
+        expect_in("Which value reaches a goal?", open_.text, f"{goal} {lo} {hi}: the question is gone")
+        expect_in(words, re.sub(r"\s+", " ", open_.popup + " " + open_.note), f"{goal} {lo} {hi}")
+        expect_equal(closed.row(r"^1 +60")[:2], ["1", "60"], "the field")
+        expect("*" not in closed.title, "something was changed", closed)
+
+
+def test_find_where():
+    """f wants a number under the cursor: on words it says so, on a rotation or a length it asks"""
+    screens = shown("key 2\nfind species\nkey f\ndump\nclear\nkey 6\nfind rotation_years\nkey f\ndump\nkey Esc\n"
+                    "find from_m\nkey l l\nkey f\ndump\nkey Esc\nkey 3\nfind diameter_m\nkey f\ndump\nkey Esc\nkey 4\nkey f\ndump")
+    expect_in("put the cursor on a number first", screens[0].note)
+    for screen, path in zip(screens[1:4], ("rotation_years", "cut_year", "rock.diameter_m")):
+        expect_in(path, screen.popup, "the question")
+    expect_in("put the cursor on a number first", screens[4].note)
+
+
+def test_find_invalid():
+    """f over values that a scene may not have: the reason is said, the scene stays as it was"""
+    screens = shown(FIND + "key Enter\nkey Ctrl-U\ntype -5\nkey Enter Enter\ndump\nkey Esc\nwait idle\ndump", "reserves.yaml")
+    expect_in("per_ha: -5 is below 0", re.sub(r"\s+", " ", screens[0].popup + " " + screens[0].note))
+    expect_equal(screens[1].row(r"^1 +60")[:2], ["1", "60"])
+    expect_in("FAILS 189 m", screens[1].now)
+
+
+# ---- the picture alone ----
+
+
+def wide(line):
+    return sum(2 if unicodedata.east_asian_width(c) in "WF" else not unicodedata.combining(c) for c in line)
+
+
+def picture(place, scene, *arguments):
+    return good("--plot", "rotation", "-n", 1000, *arguments, place.path / scene).out
+
+
+def test_plot():
+    """--plot rotation: any size and charset, as many lines as asked, none wider; with years of one's own"""
+    with Place() as place:
+        for size in ("80x24", "200x50", "60x20", "24x9", "20x6", "300x100"):
+            for charset in ("braille", "block", "ascii"):
+                for scene in ("wood.yaml", "index.yaml"):
+                    text = picture(place, scene, "--size", size, "--charset", charset)
+                    width, height = map(int, size.split("x"))
+                    lines = text.split("\n")[:-1]
+                    expect_equal(len(lines), height, f"{size} {charset}: lines")
+                    expect(all(wide(line) <= width for line in lines), f"{size} {charset}: wider", text)
+                    expect(charset != "ascii" or text.isascii(), "not ASCII", text)
+                    if width < 60:
+                        continue
+                    expect(lines[0].startswith("current: year by year"), "title", text)
+                    pattern = (r"^C[ +x]*x[ +x]*$", r"^ +v") if charset == "ascii" else (r"^C[ ✔✘]*✘[ ✔✘]*$", r"^ +▼")
+                    for p in pattern:
+                        expect(re.search(p, text, re.M), f"{size} {charset}: {p}", text)
+                    expect(("stems could take" in text) == (scene == "index.yaml"), "the lower strip", text)
+        text = picture(place, "wood.yaml", "--years", "20:40:4")
+        expect_equal(len(re.findall("[✔✘]", re.search(r"^C.*", text, re.M).group())), 6, "years of one's own")
+        expect(re.search(r"^ +20 +", text, re.M), "the axis begins at 20", text)
+
+
+def test_plot_options():
+    """--plot rotation: a picture for each option, or for those asked for"""
+    with Place() as place:
+        text = picture(place, "reserves.yaml")
+        expect_equal(re.findall(r"^(.*): year by year", text, re.M), ["reserves", "more"])
+        text = picture(place, "reserves.yaml", "--option", "more")
+        expect_equal(re.findall(r"^(.*): year by year", text, re.M), ["more"])
+        done = ceduo("--plot", "rotation", "-f", "json", place.path / "wood.yaml")
+        expect(done.status == USAGE and done.out == "", done)
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        good("--plot", "rotation", "-n", 50, path)
+
+
+def test_plot_figures():
+    """--plot rotation: a light a year as --years says, and the cuts stand over their years"""
+    with Place() as place:
+        lines = picture(place, "wood.yaml", "--size", "160x40").split("\n")
+        years = result("--years", "0:12", "-n", 1000, place.path / "wood.yaml")["options"][0]["years"]
+    row = {line[0]: line for line in lines if re.match("[CFE] ", line)}
+    for light, name in zip("CFE", ("contact", "free_run", "energy")):
+        expect_equal([MARKS[c] for c in row[light][1:] if c in MARKS], [y["controls"][0]["lights"][name] for y in years], name)
+    at = [i for i, c in enumerate(row["C"]) if i > 0 and c in MARKS]
+    expect_equal([at.index(i) for i, c in enumerate(lines[1]) if c == "▼"], [y["year"] for y in years if y["cut"]], "cuts")
+
+
+def test_plot_cuts():
+    """--plot rotation: where cuts follow each other closely their marks do not cut words to pieces"""
+    with Place() as place:
+        for rotation in (1, 2, 3, 5):
+            text = picture(place, "index.yaml", "-s", f"forest[0].stand.cutting.rotation_years={rotation}", "--years", "0:20")
+            line = text.split("\n")[1]
+            expect(not re.search(r"▼(c|cu|t|ut)(?=[▼ …]|$)", line), f"rotation {rotation}: {line!r}")
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
