@@ -272,17 +272,17 @@ bool ceduo_terminal_there(const char **why)
     return true;
 }
 
-/* A read never waits for a key. Curses reads on behind an event of the mouse that nobody wants, a button's release, and
- * nodelay() does not hold there: all would stand still until the next key. */
-static void read_at_once(void)
+/* The terminal's keys by a way in of our own, on which a read never waits; NULL where it cannot be opened. Curses reads on
+ * behind an event of the mouse that nobody wants, a button's release, and nodelay() does not hold there: all would stand
+ * still until the next key. Standard input itself stays as it is, it is the shell's too. */
+static FILE *open_keys(void)
 {
-    struct termios mode;
-    if (tcgetattr(STDIN_FILENO, &mode) != 0)
-        return;
-    mode.c_cc[VMIN] = 0;
-    mode.c_cc[VTIME] = 0;
-    tcsetattr(STDIN_FILENO, TCSANOW, &mode);
-    def_prog_mode();
+    const char *name = ttyname(STDIN_FILENO);
+    int fd = name ? open(name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
+    FILE *keys = fd >= 0 ? fdopen(fd, "r") : NULL;
+    if (fd >= 0 && !keys)
+        close(fd);
+    return keys;
 }
 
 enum terminal_end ceduo_terminal_run(struct app *app)
@@ -292,9 +292,13 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     if (!getenv("ESCDELAY"))
         set_escdelay(25);
     tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
-    SCREEN *screen = newterm(NULL, stdout, stdin);
-    if (!screen)
+    FILE *keys = open_keys();
+    SCREEN *screen = newterm(NULL, stdout, keys ? keys : stdin);
+    if (!screen) {
+        if (keys)
+            fclose(keys);
         return TERMINAL_NONE;
+    }
     prepare_restore();
     start_colours();
     cbreak();
@@ -302,7 +306,6 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     nonl();
     keypad(stdscr, TRUE);
     nodelay(stdscr, TRUE);
-    read_at_once();
     curs_set(0);
     mouseinterval(0);
     mousemask(BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED, NULL);
@@ -310,6 +313,8 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     loop(app, colours_wanted());
     endwin();
     delscreen(screen);
+    if (keys)
+        fclose(keys);
     if (ending) {
         signal(ending, SIG_DFL);
         raise(ending);

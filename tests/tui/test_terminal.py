@@ -608,6 +608,18 @@ def test_mouse():
         t.sees("from_m  where the belt begins")
 
 
+def test_click_and_wait():
+    """After a click and its release the figures go on by themselves: the program does not wait for a key."""
+    with Place() as place, Tmux(place) as t:
+        t.start("wood.yaml")
+        sgr = t.tmux("display-message", "-p", "#{mouse_sgr_flag}").strip() == "1"
+        t.text("\x1b[<0;12;1M" if sgr else "\x1b[M ,!")
+        t.sees("stools per ha")
+        t.text("\x1b[<0;12;1m" if sgr else "\x1b[M#,!")
+        time.sleep(0.1)
+        t.sees("stools per ha", " 102400 rocks")
+
+
 # ---- at rest ----
 
 def test_idle():
