@@ -103,6 +103,8 @@ static void note(const struct plain_def *def, struct rock *r, struct plain_sums 
     sums->speed2 += speed * speed;
     sums->energy += energy;
     sums->energy2 += energy * energy;
+    if (def->source)
+        def->source->passes(def->source->context, energy);
 }
 
 /* Flies to the hit; false where there is none and the rock leaves the slope. */
@@ -146,7 +148,7 @@ static double facet(const struct plain_def *def, const struct rock *r, double he
 {
     const struct plain_segment *s = &def->segments[r->segment];
     double most = def->roughness_is_height ? atan(s->roughness / def->radius) : s->roughness;
-    double turn = most * uniform(random);
+    double turn = most * (def->source ? def->source->draw(def->source->context, r->contacts) : uniform(random));
     double angle = r->vx * s->cosine + r->vz * s->sine >= 0 ? s->angle + turn : s->angle - turn;
     return sin(heading - angle) > 0 ? s->angle : angle;
 }
@@ -294,9 +296,12 @@ static enum then roll_on(const struct plain_def *def, struct rock *r, struct pla
 
 /* ---- rocks ---- */
 
-static void release(const struct plain_def *def, struct rock *r)
+static void release(const struct plain_def *def, uint64_t number, struct rock *r)
 {
-    *r = (struct rock){.x = def->x, .z = def->z, .vx = def->vx, .vz = def->vz};
+    struct plain_start start = {.x = def->x, .z = def->z, .vx = def->vx, .vz = def->vz};
+    if (def->source)
+        def->source->begin(def->source->context, number, &start);
+    *r = (struct rock){.x = start.x, .z = start.z, .vx = start.vx, .vz = start.vz};
     while (r->segment + 1 < def->count && r->x >= def->segments[r->segment].x1)
         r->segment++;
     r->on_ground = r->z <= ground(&def->segments[r->segment], r->x);
@@ -325,7 +330,7 @@ void plain_loop(const struct plain_def *def, uint64_t rocks, struct plain_sums *
     random.b = split_mix(&seed);
     for (uint64_t i = 0; i < rocks; i++) {
         struct rock r;
-        release(def, &r);
+        release(def, i, &r);
         follow(def, &r, &random, sums);
         sums->rocks++;
         sums->contacts += r.contacts;

@@ -21,6 +21,19 @@ struct plain_segment {
     double roughness; /* the largest facet angle; a height over the radius where the def says so */
 };
 
+/* Where a rock starts. */
+struct plain_start {
+    double x, z, vx, vz;
+};
+
+/* Random numbers from elsewhere, and what passes the control to be kept. */
+struct plain_source {
+    void *context;
+    void (*begin)(void *context, uint64_t rock, struct plain_start *start); /* a rock begins; may move its start */
+    double (*draw)(void *context, uint64_t contact);                        /* in [0, 1), for a contact of this rock */
+    void (*passes)(void *context, double energy);
+};
+
 struct plain_def {
     size_t count;
     const struct plain_segment *segments;
@@ -30,6 +43,7 @@ struct plain_def {
     double x, z, vx, vz;             /* the release, above the ground or on it, without spin */
     double control;                  /* x at which speed and energy are noted, first passage going +x */
     uint64_t seed;
+    const struct plain_source *source; /* NULL: numbers of its own, all rocks start alike */
 };
 
 /* Added to by plain_loop(), so that runs of several seeds can be summed. */

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How often the printed 95 % intervals hold the truth, on the paper's site.
+ *
+ *   bench_coverage [REPEATS [ROCKS]]        default 1000 repeats of 1000 rocks, each with a seed of its own
+ *
+ * Without forest, through the stems, and the differences between that wood and the same with half its stems. What is true is
+ * taken from runs of many more rocks. CSV on stdout; exit 1 where an interval of a mean, a probability or a difference holds
+ * it in fewer than 93 or more than 97 of 100 (from 1000 repeats on; an interval of whole numbers, as for a percentile or a
+ * share near 1, holds it a little more often). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../physics/paper_site.h"
+
+#define ACCEPTED 100e3
+#define TRUE_ROCKS 2000000
+
+enum {
+    BARE_MEAN, BARE_P95, BARE_REACH, BARE_EXCEED, BARE_RELEASED,
+    WOOD_MEAN, WOOD_P95, WOOD_REACH, WOOD_EXCEED, WOOD_RELEASED, WOOD_CONTACTS,
+    LESS_REACH, LESS_EXCEED, LESS_RELEASED, FIGURES
+};
+static const char *const names[FIGURES] = {
+    "bare mean energy", "bare 95 % energy", "bare reach", "bare exceed", "bare energy per released",
+    "wooded mean energy", "wooded 95 % energy", "wooded reach", "wooded exceed", "wooded energy per released",
+    "wooded contacts", "difference of reach", "difference of exceed", "difference of energy per released"};
+
+struct figure {
+    double value, lo, hi;
+};
+
+struct woods {
+    struct paper_site site, half;
+};
+
+static void fail(const char *why)
+{
+    fprintf(stderr, "bench_coverage: %s\n", why);
+    exit(1);
+}
+
+static struct figure about(double value, double se)
+{
+    return (struct figure){value, value - CEDUO_Z95 * se, value + CEDUO_Z95 * se};
+}
+
+static struct ceduo_run *fly(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
+    def.option = option;
+    def.rocks_most = rocks;
+    struct ceduo_run *run;
+    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
+        fail("the run failed");
+    return run;
+}
+
+static void read_run(const struct ceduo_run *run, struct figure *to)
+{
+    struct ceduo_arrivals a;
+    if (ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
+        fail("no memory");
+    to[0] = about(a.energy.mean, a.energy.se);
+    to[1] = (struct figure){a.energy.p95, a.energy.p95_lo, a.energy.p95_hi};
+    to[2] = (struct figure){a.reach_probability, a.reach_lo, a.reach_hi};
+    to[3] = (struct figure){a.exceed_probability, a.exceed_lo, a.exceed_hi};
+    to[4] = about(a.energy_per_released, a.energy_per_released_se);
+    if (!isnan(a.contacts))
+        to[5] = about(a.contacts, a.contacts_se);
+}
+
+static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
+{
+    w->site.scene.simulation.seed = seed;
+    struct ceduo_run *bare = fly(&w->site, NULL, rocks), *wood = fly(&w->site, &w->site.option, rocks),
+                     *half = fly(&w->site, &w->half.option, rocks);
+    read_run(bare, &figures[BARE_MEAN]);
+    read_run(wood, &figures[WOOD_MEAN]);
+    struct ceduo_difference d = ceduo_run_difference(half, wood, 0);
+    figures[LESS_REACH] = about(d.reach_probability.mean, d.reach_probability.se);
+    figures[LESS_EXCEED] = about(d.exceed_probability.mean, d.exceed_probability.se);
+    figures[LESS_RELEASED] = about(d.energy_per_released.mean, d.energy_per_released.se);
+    ceduo_run_free(bare);
+    ceduo_run_free(wood);
+    ceduo_run_free(half);
+}
+
+static void init(struct woods *w)
+{
+    paper_site_init(&w->site);
+    paper_site_init(&w->half);
+    w->site.control.accepted = ACCEPTED;
+    for (int i = 0; i < 2; i++) {
+        struct paper_plot *plot = &w->half.plots[i];
+        plot->shoots.per_ha /= 2;
+        plot->trees.per_ha /= 2;
+        plot->stand.stools_per_ha /= 2;
+        w->half.belts[i].stand = plot->stand;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    unsigned long repeats = argc > 1 ? strtoul(argv[1], NULL, 10) : 1000;
+    uint64_t rocks = argc > 2 ? strtoull(argv[2], NULL, 10) : 1000;
+    if (repeats < 1 || rocks < 2 || rocks > TRUE_ROCKS)
+        fail("usage: bench_coverage [REPEATS [ROCKS]]");
+    static struct woods w;
+    init(&w);
+    struct figure truth[FIGURES], figures[FIGURES];
+    double held[FIGURES] = {0}, width[FIGURES] = {0};
+    fly_all(&w, 1u << 20, TRUE_ROCKS, truth);
+    for (unsigned long i = 0; i < repeats; i++) {
+        fly_all(&w, i + 1, rocks, figures);
+        for (int k = 0; k < FIGURES; k++) {
+            held[k] += figures[k].lo <= truth[k].value && truth[k].value <= figures[k].hi;
+            width[k] += (figures[k].hi - figures[k].lo) / 2;
+        }
+    }
+    bool good = true;
+    puts("figure,true_value,mean_half_width,repeats,rocks,held_percent");
+    for (int k = 0; k < FIGURES; k++) {
+        double percent = 100 * held[k] / (double)repeats;
+        bool whole = k == BARE_P95 || k == WOOD_P95;
+        good &= repeats < 1000 || whole || (percent >= 93 && percent <= 97);
+        printf("%s,%.6g,%.3g,%lu,%llu,%.1f\n", names[k], truth[k].value, width[k] / (double)repeats, repeats,
+               (unsigned long long)rocks, percent);
+    }
+    return good ? 0 : 1;
+}

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How the error falls with run time, on the paper's site.
+ *
+ *   bench_error [REPEATS]        default 40; of 1000 rocks, fewer of more
+ *
+ * First the core, without forest and through its stems, 10^2 to 10^6 rocks: the root mean square of what each figure is off
+ * by, over repeats with seeds of their own, beside the standard error that the program prints. Then other numbers for the
+ * same rocks, by the plain loop: antithetic pairs (u and 1 - u) of the starts alone and of all, and GSL's Sobol points
+ * shifted at random (the first 40 numbers of a rock, plain ones behind). Their gain is by how much less time an error takes:
+ * (error2 x time) of plain numbers over (error2 x time). CSV on stdout. What is true is known from runs with many more rocks,
+ * and what is off by less than twice the truth's own error is not printed. */
+#include <gsl/gsl_qrng.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "../physics/paper_site.h"
+#include "plain_loop.h"
+
+enum { MEAN, P95, REACH, EXCEED, QUANTITIES };
+static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_energy_kJ", "reach", "exceed"};
+
+#define ACCEPTED 100e3 /* J: about half of the rocks bring more */
+#define TRUE_ROCKS 8000000
+#define TRUE_ROCKS_STEMS 1000000
+#define PLAIN_TRUE_ROCKS 4000000
+#define SOBOL_MOST 40
+#define STARTS 4 /* numbers of a start */
+
+static void fail(const char *why)
+{
+    fprintf(stderr, "bench_error: %s\n", why);
+    exit(1);
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sums over the repeats of one row. */
+struct row {
+    double seconds, error2[QUANTITIES], se[QUANTITIES];
+    size_t repeats;
+};
+
+static size_t repeats_of(size_t asked, uint64_t rocks)
+{
+    double n = (double)asked * 1000 / (double)rocks * 10;
+    return n > 4.0 * (double)asked ? 4 * asked : n < 10 ? 10 : (size_t)n;
+}
+
+/* ---- the core ---- */
+
+static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint64_t seed, double value[QUANTITIES],
+                       double se[QUANTITIES])
+{
+    site->scene.simulation.seed = seed;
+    site->scene.simulation.rocks = rocks;
+    double start = now();
+    struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
+    def.option = stems ? &site->option : NULL;
+    struct ceduo_run *run;
+    struct ceduo_arrivals a;
+    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK ||
+        ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
+        fail("the run failed");
+    double seconds = now() - start, n = (double)rocks;
+    ceduo_run_free(run);
+    value[MEAN] = a.energy.mean * 1e-3;
+    value[P95] = a.energy.p95 * 1e-3;
+    value[REACH] = a.reach_probability;
+    value[EXCEED] = a.exceed_probability;
+    se[MEAN] = a.energy.se * 1e-3;
+    se[P95] = (a.energy.p95_hi - a.energy.p95_lo) * 1e-3 / (2 * CEDUO_Z95);
+    se[REACH] = sqrt(a.reach_probability * (1 - a.reach_probability) / n);
+    se[EXCEED] = sqrt(a.exceed_probability * (1 - a.exceed_probability) / n);
+    return seconds;
+}
+
+static void print_row(const char *what, const char *numbers, uint64_t rocks, const struct row *row,
+                      const double true_se[QUANTITIES], const struct row *plain)
+{
+    for (int q = 0; q < QUANTITIES; q++) {
+        double rms = sqrt(row->error2[q] / (double)row->repeats);
+        if (!(rms >= 2 * true_se[q]))
+            continue;
+        printf("%s,%s,%" PRIu64 ",%zu,%.3g,%s,%.4g,", what, numbers, rocks, row->repeats,
+               row->seconds / (double)row->repeats, quantity_names[q], rms);
+        if (!isnan(row->se[q]))
+            printf("%.4g", row->se[q] / (double)row->repeats);
+        putchar(',');
+        if (plain)
+            printf("%.3f", plain->error2[q] / (double)plain->repeats * (plain->seconds / (double)plain->repeats) /
+                               (rms * rms * (row->seconds / (double)row->repeats)));
+        putchar('\n');
+    }
+    fflush(stdout);
+}
+
+static void measure_core(const char *what, bool stems, size_t asked, uint64_t most)
+{
+    struct paper_site site;
+    paper_site_init(&site);
+    site.control.accepted = ACCEPTED;
+    double truth[QUANTITIES], true_se[QUANTITIES];
+    run_core(&site, stems, stems ? TRUE_ROCKS_STEMS : TRUE_ROCKS, 1u << 20, truth, true_se);
+    for (uint64_t rocks = 100; rocks <= most; rocks *= 10) {
+        struct row row = {.repeats = repeats_of(asked, rocks)};
+        for (size_t i = 0; i < row.repeats; i++) {
+            double value[QUANTITIES], se[QUANTITIES];
+            row.seconds += run_core(&site, stems, rocks, i + 1, value, se);
+            for (int q = 0; q < QUANTITIES; q++) {
+                row.error2[q] += (value[q] - truth[q]) * (value[q] - truth[q]);
+                row.se[q] += se[q];
+            }
+        }
+        print_row(what, "core", rocks, &row, true_se, NULL);
+    }
+}
+
+/* ---- other numbers ---- */
+
+enum numbers { PLAIN, ANTITHETIC_STARTS, ANTITHETIC, SOBOL, NUMBERS };
+static const char *const numbers_names[NUMBERS] = {"plain", "antithetic-starts", "antithetic", "sobol"};
+
+struct source {
+    enum numbers kind;
+    bool spread;      /* starts differ */
+    uint64_t seed, state;
+    bool mirrored;    /* the second rock of a pair */
+    gsl_qrng *sobol;
+    double point[SOBOL_MOST], shift[SOBOL_MOST];
+    double *energies;
+    size_t n;
+};
+
+static uint64_t mix(uint64_t *state) /* splitmix64 */
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+}
+
+static double uniform(uint64_t *state)
+{
+    return (double)(mix(state) >> 11) * 0x1p-53;
+}
+
+static double number(struct source *s, unsigned dimension, bool start)
+{
+    double u = uniform(&s->state);
+    if (s->kind == SOBOL && dimension < SOBOL_MOST)
+        return fmod(s->point[dimension] + s->shift[dimension], 1);
+    return s->mirrored && (s->kind == ANTITHETIC || start) ? 1 - u : u;
+}
+
+static void begin(void *context, uint64_t rock, struct plain_start *start)
+{
+    struct source *s = context;
+    bool pairs = s->kind == ANTITHETIC || s->kind == ANTITHETIC_STARTS;
+    s->mirrored = pairs && rock % 2 == 1;
+    s->state = s->seed + 0x5851f42d4c957f2d * (pairs ? rock / 2 : rock);
+    if (s->kind == SOBOL)
+        gsl_qrng_get(s->sobol, s->point);
+    if (s->spread) {
+        start->vx = 0.1 + 2.9 * number(s, 0, true);
+        start->vz = -2 * number(s, 1, true);
+        start->z += 3 * number(s, 2, true);
+        start->x += 9 * number(s, 3, true);
+    }
+    if (s->kind == ANTITHETIC_STARTS) /* from here on numbers of its own */
+        s->state = s->seed + 0x5851f42d4c957f2d * (2 * rock + 1) + 77;
+}
+
+static double draw(void *context, uint64_t contact)
+{
+    return number(context, STARTS + (unsigned)(contact < SOBOL_MOST ? contact : SOBOL_MOST), false);
+}
+
+static void passes(void *context, double energy)
+{
+    struct source *s = context;
+    s->energies[s->n++] = energy;
+}
+
+static void plain_of(const struct paper_site *site, struct plain_segment segments[PAPER_SEGMENTS], struct plain_def *def)
+{
+    struct ceduo_rock rock;
+    if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)
+        fail("bad rock");
+    for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
+        segments[j] = plain_segment_between(site->x[j], site->z[j], site->x[j + 1], site->z[j + 1]);
+        segments[j].rn = site->segments[j].rn.mean;
+        segments[j].rt = site->segments[j].rt.mean;
+        segments[j].roughness = site->segments[j].roughness_rad;
+        segments[j].friction = site->segments[j].friction;
+    }
+    *def = (struct plain_def){.count = PAPER_SEGMENTS,
+                              .segments = segments,
+                              .law = PLAIN_LUMPED,
+                              .gravity = CEDUO_GRAVITY,
+                              .mass = rock.mass,
+                              .radius = rock.radius,
+                              .k = rock.k,
+                              .vx = 0.3,
+                              .vz = -0.3,
+                              .control = 135};
+}
+
+static double run_plain(struct plain_def *def, struct source *s, uint64_t rocks, uint64_t seed, double value[QUANTITIES])
+{
+    const struct plain_source source = {.context = s, .begin = begin, .draw = draw, .passes = passes};
+    struct plain_sums sums = {0};
+    def->source = &source;
+    s->seed = seed * 0x9e3779b97f4a7c15;
+    s->n = 0;
+    s->energies = malloc(rocks * sizeof *s->energies);
+    if (!s->energies)
+        fail("no memory");
+    uint64_t state = s->seed;
+    for (int i = 0; i < SOBOL_MOST; i++)
+        s->shift[i] = uniform(&state);
+    if (s->kind == SOBOL)
+        gsl_qrng_init(s->sobol);
+    double start = now();
+    plain_loop(def, rocks, &sums);
+    double seconds = now() - start;
+    size_t exceeded = 0;
+    for (size_t i = 0; i < s->n; i++)
+        exceeded += s->energies[i] > ACCEPTED;
+    qsort(s->energies, s->n, sizeof *s->energies, by_value);
+    value[MEAN] = sums.energy / (double)sums.passed * 1e-3;
+    value[P95] = s->energies[ceduo_quantile_rank(s->n, 0.95) - 1] * 1e-3;
+    value[REACH] = (double)sums.passed / (double)rocks;
+    value[EXCEED] = (double)exceeded / (double)rocks;
+    free(s->energies);
+    return seconds;
+}
+
+static void measure_numbers(const char *what, bool spread, size_t asked)
+{
+    struct paper_site site;
+    struct plain_segment segments[PAPER_SEGMENTS];
+    struct plain_def def;
+    paper_site_init(&site);
+    plain_of(&site, segments, &def);
+    struct source source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MOST)};
+    if (!source.sobol)
+        fail("no memory");
+    double truth[QUANTITIES], true_se[QUANTITIES];
+    run_plain(&def, &source, PLAIN_TRUE_ROCKS, 1u << 20, truth);
+    for (int q = 0; q < QUANTITIES; q++) /* of shares; about so much of the others */
+        true_se[q] = (q == MEAN || q == P95 ? truth[q] * 0.3 : 0.5) / sqrt(PLAIN_TRUE_ROCKS);
+    for (uint64_t rocks = 100; rocks <= 100000; rocks *= 10) {
+        struct row rows[NUMBERS] = {{0}};
+        size_t repeats = repeats_of(asked, rocks);
+        for (size_t i = 0; i < repeats; i++)
+            for (int k = 0; k < NUMBERS; k++) { /* in turn: other work on the machine slows all alike */
+                double value[QUANTITIES];
+                source.kind = (enum numbers)k;
+                rows[k].seconds += run_plain(&def, &source, rocks, i + 1, value);
+                rows[k].repeats++;
+                for (int q = 0; q < QUANTITIES; q++) {
+                    rows[k].error2[q] += (value[q] - truth[q]) * (value[q] - truth[q]);
+                    rows[k].se[q] = NAN;
+                }
+            }
+        for (int k = 0; k < NUMBERS; k++)
+            print_row(what, numbers_names[k], rocks, &rows[k], true_se, &rows[PLAIN]);
+    }
+    gsl_qrng_free(source.sobol);
+}
+
+int main(int argc, char **argv)
+{
+    size_t repeats = argc > 1 ? strtoul(argv[1], NULL, 10) : 40;
+    if (repeats < 1 || repeats > 1000)
+        fail("usage: bench_error [REPEATS]");
+    puts("what,numbers,rocks,repeats,seconds,quantity,rms_error,printed_se,gain");
+    measure_core("paper-bare", false, repeats, 1000000);
+    measure_core("paper-stems", true, repeats, 100000);
+    measure_numbers("one-start", false, repeats);
+    measure_numbers("spread-starts", true, repeats);
+    return 0;
+}

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A flight solved exactly against one followed in time steps: what each is off by, and what it takes.
+ *
+ *   bench_stepping [FLIGHTS]        default 2000
+ *
+ * Flights leave random places of the paper's slope with random speeds and come down on it. The core's way of it is a quadratic
+ * for the segment it meets. Beside it a fixed step with the exact parabola between steps (contact where it is first found
+ * under the ground, on the straight line between the last two points), a fixed step by Euler's rule (speed first), and GSL's
+ * Runge-Kutta-Fehlberg 4(5) driver, whose local error is bounded by the tolerance, with the contact found by halving the last
+ * step. The error is how far along the ground the contact lies from the exact one; a step can also fly through a corner and
+ * come down elsewhere: those beyond 1 m are counted by themselves. CSV on stdout. */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "../physics/paper_site.h"
+#include "core/landing.h"
+
+#define STEPS_MOST 100000000
+#define MISSED 1.0 /* m */
+
+struct launch {
+    struct flight from;
+    double x; /* of the exact contact */
+};
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double uniform(uint64_t *state) /* splitmix64 */
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+/* Height over the ground; beyond the ends over the last segment carried on. */
+static double height(const struct ground *g, double x, double z, size_t *segment)
+{
+    size_t j = *segment;
+    while (j + 1 < g->n && x >= g->x[j + 1])
+        j++;
+    while (j > 0 && x < g->x[j])
+        j--;
+    *segment = j;
+    return z - (g->z[j] + g->segments[j].m * (x - g->x[j]));
+}
+
+static double by_quadratic(const struct ground *g, const struct launch *l, double step)
+{
+    (void)step;
+    return next_landing(g, &l->from).x;
+}
+
+/* Where the straight line from (x0, h0 >= 0) to (x1, h1 < 0) meets the ground. */
+static double cross(double x0, double h0, double x1, double h1)
+{
+    return x0 + (x1 - x0) * h0 / (h0 - h1);
+}
+
+static double by_parabola_steps(const struct ground *g, const struct launch *l, double step)
+{
+    const struct flight *f = &l->from;
+    size_t segment = f->segment;
+    double x0 = f->x, h0 = 0;
+    for (long i = 1; i < STEPS_MOST; i++) {
+        double t = (double)i * step, x = f->x + f->vx * t, z = f->z + (f->vz - g->half_g * t) * t;
+        double h = height(g, x, z, &segment);
+        if (h < 0)
+            return cross(x0, h0, x, h);
+        x0 = x;
+        h0 = h;
+    }
+    return NAN;
+}
+
+static double by_euler(const struct ground *g, const struct launch *l, double step)
+{
+    double x = l->from.x, z = l->from.z, vz = l->from.vz, h0 = 0;
+    size_t segment = l->from.segment;
+    for (long i = 1; i < STEPS_MOST; i++) {
+        double x0 = x;
+        vz -= g->gravity * step;
+        x += l->from.vx * step;
+        z += vz * step;
+        double h = height(g, x, z, &segment);
+        if (h < 0)
+            return cross(x0, h0, x, h);
+        h0 = h;
+    }
+    return NAN;
+}
+
+static int falling(double t, const double y[], double dydt[], void *params)
+{
+    (void)t;
+    dydt[0] = y[2];
+    dydt[1] = y[3];
+    dydt[2] = 0;
+    dydt[3] = -*(const double *)params;
+    return GSL_SUCCESS;
+}
+
+/* A free step may be as long as the driver likes, but not longer than a tenth of a second: longer ones fly over corners. */
+static double by_gsl(const struct ground *g, const struct launch *l, double tolerance)
+{
+    double gravity = g->gravity, t = 0, result = NAN;
+    gsl_odeiv2_system system = {falling, NULL, 4, &gravity};
+    gsl_odeiv2_driver *d = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rkf45, 1e-3, tolerance, 0);
+    double y[4] = {l->from.x, l->from.z, l->from.vx, l->from.vz}, step = 0.1;
+    size_t segment = l->from.segment;
+    double h0 = 0;
+    for (long i = 0; d && i < STEPS_MOST; i++) {
+        double before[4] = {y[0], y[1], y[2], y[3]}, t0 = t;
+        if (gsl_odeiv2_driver_apply(d, &t, t0 + step, y) != GSL_SUCCESS)
+            break;
+        double h = height(g, y[0], y[1], &segment);
+        if (h >= 0) {
+            h0 = h;
+            continue;
+        }
+        if (step <= tolerance || step < 1e-12) {
+            result = cross(before[0], h0, y[0], h);
+            break;
+        }
+        for (int k = 0; k < 4; k++) /* back, and half as far */
+            y[k] = before[k];
+        t = t0;
+        step /= 2;
+        gsl_odeiv2_driver_reset(d);
+    }
+    gsl_odeiv2_driver_free(d);
+    return result;
+}
+
+static void measure(const struct ground *g, const struct launch *launches, size_t n, const char *what, double step,
+                    double (*contact)(const struct ground *, const struct launch *, double))
+{
+    double sum2 = 0, most = 0, start = now();
+    size_t missed = 0, close = 0;
+    for (size_t i = 0; i < n; i++) {
+        double off = fabs(contact(g, &launches[i], step) - launches[i].x);
+        if (!(off <= MISSED)) {
+            missed++;
+            continue;
+        }
+        close++;
+        sum2 += off * off;
+        most = fmax(most, off);
+    }
+    double seconds = now() - start;
+    printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), most,
+           missed);
+    fflush(stdout);
+}
+
+int main(int argc, char **argv)
+{
+    size_t n = argc > 1 ? strtoul(argv[1], NULL, 10) : 2000;
+    static struct paper_site site;
+    paper_site_init(&site);
+    struct ground g;
+    struct launch *launches = calloc(n + 1, sizeof *launches);
+    if (n < 1 || !launches || !ceduo_ground_init(&g, &site.scene.slope, CEDUO_GRAVITY, 0.34, false))
+        return 1;
+    uint64_t state = 7;
+    for (size_t i = 0; i < n;) {
+        double x = 150 * uniform(&state), along = 20 * uniform(&state), off = 0.2 + 6 * uniform(&state);
+        size_t j = ceduo_slope_segment(&site.scene.slope, x);
+        const struct ground_segment *s = &g.segments[j];
+        struct flight f = {.x = x,
+                           .z = ground_height(&g, j, x),
+                           .vx = along * s->c - off * s->s,
+                           .vz = along * s->s + off * s->c,
+                           .segment = j,
+                           .on_ground = true};
+        struct landing l = next_landing(&g, &f);
+        if (!l.left)
+            launches[i++] = (struct launch){f, l.x};
+    }
+    puts("what,step_s_or_tolerance,flights,ns_per_flight,rms_error_m,largest_error_m,beyond_1_m");
+    for (int repeat = 0; repeat < 200; repeat++) /* warm, and long enough to be timed */
+        by_quadratic(&g, &launches[(size_t)repeat % n], 0);
+    measure(&g, launches, n, "exact", 0, by_quadratic);
+    for (double step = 1e-1; step > 0.9e-5; step /= 10) {
+        measure(&g, launches, n, "parabola-steps", step, by_parabola_steps);
+        measure(&g, launches, n, "euler-steps", step, by_euler);
+        measure(&g, launches, n, "gsl-rkf45", step, by_gsl);
+    }
+    free(launches);
+    ceduo_ground_release(&g);
+    return 0;
+}
