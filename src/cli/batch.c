@@ -400,7 +400,9 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
     enum ceduo_status status = ceduo_pool_create(&def, &pool);
     if (status == CEDUO_OK)
         status = ceduo_pool_fill(pool);
-    if (status == CEDUO_OK && a->tolerance > 0)
+    if (a->stands && a->format == CEDUO_CSV) /* what is asked of the stands no rock answers */
+        report.rocks_asked = def.rocks_most;
+    else if (status == CEDUO_OK && a->tolerance > 0)
         status = ceduo_pool_until(pool, a->tolerance, def.rocks_most, &report.remarks.tolerance_met);
     else if (status == CEDUO_OK)
         status = ceduo_pool_extend(pool, def.rocks_most);

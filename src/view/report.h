@@ -17,6 +17,7 @@ struct ceduo_report {
     struct ceduo_work work;
     const struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: none to show */
     double seconds; /* that the runs took */
+    uint64_t rocks_asked; /* where rows of stands are wanted and none is flown; otherwise 0 */
     struct ceduo_years *const *years; /* one for each option; NULL: not asked for */
 };
 

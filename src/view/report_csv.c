@@ -121,7 +121,7 @@ static void scene_cells(struct row *row, const struct ceduo_report *report)
     string(row, "scene", report->file->path);
     string(row, "title", r->scene->title);
     count(row, "seed", r->scene->simulation.seed);
-    count(row, "rocks", ceduo_result_rocks(r));
+    count(row, "rocks", report->rocks_asked > 0 ? report->rocks_asked : ceduo_result_rocks(r));
     string(row, "law", ceduo_words_law(r->scene->simulation.law));
     row->group = "rock";
     number(row, "mass_kg", r->rock.mass);
