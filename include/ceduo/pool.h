@@ -27,7 +27,7 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 
 #define CEDUO_FEW_ROCKS 100 /* arrivals below which a mean is not waited for */
 
-/* Makes them longer, from one block on and then by what the spread seen so far asks for, until the 95 % half-width of the mean energy of every run at every
+/* Makes them longer, from one block on by an eighth each time, until the 95 % half-width of the mean energy of every run at every
  * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `most` rocks are done. `*met`:
  * whether it is. */
 enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met);

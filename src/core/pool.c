@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/pool.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "ceduo/key.h"
@@ -142,41 +141,33 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks)
     return status;
 }
 
-/* How many times the rocks so far the worst known mean energy of a run needs for the tolerance, its spread being as seen;
- * at most 1: none. */
-static double times_needed(const struct ceduo_run *run, size_t controls, double tolerance)
+static bool precise(const struct ceduo_run *run, size_t controls, double tolerance)
 {
-    double most = 0;
     for (size_t i = 0; i < controls; i++) {
         uint64_t reached;
         double mean, se;
         ceduo_run_energy(run, i, &reached, &mean, &se);
-        if (reached < CEDUO_FEW_ROCKS || CEDUO_Z95 * se <= tolerance * mean)
-            continue;
-        double times = CEDUO_Z95 * se / (tolerance * mean);
-        most = fmax(most, fmax(times * times, 1 + 1e-6));
+        if (reached >= CEDUO_FEW_ROCKS && !(CEDUO_Z95 * se <= tolerance * mean))
+            return false;
     }
-    return most;
+    return true;
 }
 
+/* The counts are fixed, and near to each other: few rocks are flown in vain. */
 enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met)
 {
     *met = false;
-    for (uint64_t rocks = CEDUO_BLOCK_ROCKS;;) {
-        rocks = rocks < most ? rocks : most;
-        enum ceduo_status status = ceduo_pool_extend(pool, rocks);
+    for (uint64_t rocks = CEDUO_BLOCK_ROCKS; !*met; rocks += rocks / 8) {
+        enum ceduo_status status = ceduo_pool_extend(pool, rocks < most ? rocks : most);
         if (status != CEDUO_OK)
             return status;
-        double times = 0;
-        for (size_t i = 0; i < pool->count; i++)
-            times = fmax(times, times_needed(pool->runs[i].run, pool->scene.controls_count, tolerance));
-        *met = times <= 1;
-        if (*met || rocks >= most)
-            return CEDUO_OK;
-        /* a spread seen on few rocks is not well known: a far goal is come near to first */
-        double next = (double)rocks * (times > 4 ? 0.7 * times : 1.01 * times) + 1;
-        rocks = next < (double)most ? (uint64_t)next : most;
+        *met = true;
+        for (size_t i = 0; i < pool->count && *met; i++)
+            *met = precise(pool->runs[i].run, pool->scene.controls_count, tolerance);
+        if (rocks >= most)
+            break;
     }
+    return CEDUO_OK;
 }
 
 struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
