@@ -4,7 +4,8 @@
 #   make            the program, ./ceduo          make check      the tests that CI runs
 #   make deps       installs what Debian lacks    make check-all  sanitizers, valgrind, tmux: slow
 #   make run        the paper's site as a page    make bench      speed, against a plain C loop
-#   make install    PREFIX, DESTDIR               VARIANT=release|debug|asan|tsan|cov
+#   make install    PREFIX, DESTDIR; uninstall    make dist       the sources, in one archive
+#   VARIANT=release|debug|asan|tsan|cov
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -13,6 +14,8 @@ DESTDIR ?=
 BINDIR ?= $(PREFIX)/bin
 DATADIR ?= $(PREFIX)/share/ceduo
 MANDIR ?= $(PREFIX)/share/man
+BASHDIR ?= $(PREFIX)/share/bash-completion/completions
+ZSHDIR ?= $(PREFIX)/share/zsh/site-functions
 BUILD := build/$(VARIANT)
 ifeq ($(origin CC),default)
 CC := gcc
@@ -67,7 +70,8 @@ $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR='"$(DATADIR)"'
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux locales
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux zsh \
+	locales
 
 deps:
 	@missing=; for p in $(DEBIAN); do \
@@ -158,7 +162,19 @@ man: $(TABLES)
 
 # ---- installing ----
 
-install: all
+COMPLETION := $(BUILD)/man/completion
+$(COMPLETION): $(BUILD)/man/completion.o $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo: $(COMPLETION)
+	@mkdir -p $(@D)
+	$(COMPLETION) $(if $(findstring _ceduo,$@),zsh,bash) >$@
+
+install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
+	install -d $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
+	install -m 644 $(BUILD)/completion/ceduo $(DESTDIR)$(BASHDIR)/ceduo
+	install -m 644 $(BUILD)/completion/_ceduo $(DESTDIR)$(ZSHDIR)/_ceduo
 	install -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(DATADIR) $(DESTDIR)$(MANDIR)/man1 $(DESTDIR)$(MANDIR)/man5 \
 	    $(DESTDIR)$(MANDIR)/man7
 	install -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)/ceduo
@@ -171,9 +187,21 @@ uninstall:
 	rm -f $(DESTDIR)$(BINDIR)/ceduo
 	rm -rf $(DESTDIR)$(DATADIR)
 	for p in $(notdir $(PAGES)); do rm -f $(DESTDIR)$(MANDIR)/man$${p##*.}/$$p; done
+	rm -f $(DESTDIR)$(BASHDIR)/ceduo $(DESTDIR)$(ZSHDIR)/_ceduo
+
+# The sources under version control, or in an unpacked archive those that came with it; the same bytes each time.
+DIST := ceduo-$(VERSION)
+dist:
+	rm -rf build/$(DIST) && mkdir -p build/$(DIST)
+	{ git ls-files 2>/dev/null || cat MANIFEST; } >build/MANIFEST
+	tar -cf - -T build/MANIFEST | tar -xf - -C build/$(DIST)
+	cp build/MANIFEST build/$(DIST)/MANIFEST
+	tar --sort=name --mtime=@$${SOURCE_DATE_EPOCH:-0} --owner=0 --group=0 --numeric-owner -C build \
+	    -cf - $(DIST) | gzip -n >$(DIST).tar.gz
+	rm -rf build/$(DIST)
 
 clean:
-	rm -rf build ceduo
+	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-check-threads do-check-memory man install uninstall clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-check-threads do-check-memory man install uninstall dist clean
 .DELETE_ON_ERROR:

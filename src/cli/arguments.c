@@ -36,12 +36,7 @@ enum {
     OPTION_VERSION
 };
 
-static const struct row {
-    const char *name;
-    int letter; /* a character, or one of the above */
-    const char *value;
-    const char *help;
-} rows[] = {
+static const struct argument_row rows[] = {
     {"batch", 'b', NULL, N_("compute the scenes and print the result; no terminal is touched")},
     {"format", 'f', "table|csv|json", N_("how to print it (table)")},
     {"output", 'o', "FILE", N_("where to; a regular file is written whole or not at all")},
@@ -68,6 +63,12 @@ static const struct row {
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])
+
+const struct argument_row *ceduo_arguments_rows(size_t *n)
+{
+    *n = ROWS;
+    return rows;
+}
 
 #define HELP_COLUMN 30
 

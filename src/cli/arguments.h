@@ -54,4 +54,13 @@ void ceduo_arguments_free(struct arguments *arguments);
 
 void ceduo_arguments_help(struct text *text);
 
+/* An option of the command line; `letter` of a character, or above 255 none; `value` NULL: it takes none. */
+struct argument_row {
+    const char *name;
+    int letter;
+    const char *value;
+    const char *help;
+};
+const struct argument_row *ceduo_arguments_rows(size_t *n);
+
 #endif

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes what completes ceduo's command line in a shell: completion bash|zsh. Options and their words come from the
+ * program's own tables; parameters and profiles are asked of the program when they are wanted. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/arguments.h"
+
+/* The words that the value of an option is one of, or NULL. */
+static const char *words_of(const struct argument_row *row)
+{
+    static char words[256];
+    words[0] = '\0';
+    const char *from = strcmp(row->name, "plot") == 0 ? CEDUO_PLOT_NAMES : row->value;
+    if (strcmp(row->name, "goal") == 0)
+        for (int i = GOAL_ADC; i <= GOAL_EXCEED; i++)
+            snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", i > 0 ? " " : "", ceduo_goal_names[i]);
+    else if (from && strpbrk(from, "|,"))
+        for (size_t n = 0; *from && n + 1 < sizeof words; from++) {
+            if (*from != ',')
+                words[n++] = *from == '|' ? ' ' : *from;
+            words[n] = '\0';
+        }
+    return words[0] ? words : NULL;
+}
+
+static bool takes_path(const struct argument_row *row)
+{
+    return row->value && strncmp(row->value, "PATH=", 5) == 0;
+}
+
+static bool takes_file(const struct argument_row *row)
+{
+    return row->value && strncmp(row->value, "FILE", 4) == 0;
+}
+
+/* ---- bash ---- */
+
+static void put_pattern(const struct argument_row *row)
+{
+    if (row->letter < 256)
+        printf("-%c|", row->letter);
+    printf("--%s)", row->name);
+}
+
+static void put_bash(const struct argument_row *rows, size_t n)
+{
+    puts("# bash completion for ceduo\n"
+         "_ceduo()\n"
+         "{\n"
+         "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} program=${COMP_WORDS[0]}\n"
+         "    # --option=value comes in three words\n"
+         "    if [[ $cur == = ]]; then\n"
+         "        cur=\n"
+         "    elif [[ $prev == = ]]; then\n"
+         "        prev=${COMP_WORDS[COMP_CWORD-2]}\n"
+         "    fi\n"
+         "    COMPREPLY=()\n"
+         "    case $prev in");
+    for (size_t i = 0; i < n; i++) {
+        if (!rows[i].value)
+            continue;
+        fputs("    ", stdout);
+        put_pattern(&rows[i]);
+        const char *words = words_of(&rows[i]);
+        if (words)
+            printf(" COMPREPLY=($(compgen -W '%s' -- \"$cur\")); return;;\n", words);
+        else if (takes_path(&rows[i]))
+            puts("\n"
+                 "        COMPREPLY=($(compgen -W \"$(\"$program\" --list-parameters 2>/dev/null |\n"
+                 "            awk 'NR > 1 {print $1 \"=\"}')\" -- \"$cur\"))\n"
+                 "        [[ ${COMPREPLY-} == *= ]] && compopt -o nospace 2>/dev/null\n"
+                 "        return;;");
+        else if (takes_file(&rows[i]))
+            puts(" COMPREPLY=($(compgen -f -- \"$cur\")); return;;");
+        else
+            puts(" return;;");
+    }
+    puts("    esac\n"
+         "    if [[ $cur == -* ]]; then");
+    fputs("        COMPREPLY=($(compgen -W '", stdout);
+    for (size_t i = 0; i < n; i++)
+        printf("%s--%s", i ? " " : "", rows[i].name);
+    puts("' -- \"$cur\"))\n"
+         "    else\n"
+         "        COMPREPLY=($(compgen -f -X '!*.@(yaml|yml|jsonl)' -- \"$cur\") $(compgen -d -- \"$cur\")\n"
+         "            $(compgen -W \"$(\"$program\" --list-profiles 2>/dev/null |\n"
+         "                sed -n 's|^.*/scenes/\\(.*\\)\\.yaml .*|\\1|p')\" -- \"$cur\"))\n"
+         "    fi\n"
+         "}\n"
+         "shopt -s extglob\n"
+         "complete -o filenames -F _ceduo ceduo");
+}
+
+/* ---- zsh ---- */
+
+/* A text between single quotes, in which zsh's _arguments takes [ ] and : for its own. */
+static void put_quoted(const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '\'')
+            fputs("'\\''", stdout);
+        else if (strchr("[]:\\", *text))
+            printf("\\%c", *text);
+        else
+            putchar(*text);
+    }
+}
+
+static void put_zsh_value(const struct argument_row *row)
+{
+    const char *words = words_of(row);
+    if (!row->value)
+        return;
+    putchar(':');
+    put_quoted(row->value);
+    if (words)
+        printf(":(%s)", words);
+    else
+        fputs(takes_path(row) ? ":_ceduo_parameters" : takes_file(row) ? ":_files" : ": ", stdout);
+}
+
+static void put_zsh(const struct argument_row *rows, size_t n)
+{
+    puts("#compdef ceduo\n"
+         "_ceduo_parameters()\n"
+         "{\n"
+         "    local -a paths\n"
+         "    paths=(${(f)\"$($words[1] --list-parameters 2>/dev/null | awk 'NR > 1 {print $1}')\"})\n"
+         "    compadd -S = -a paths\n"
+         "}\n"
+         "_ceduo_scenes()\n"
+         "{\n"
+         "    local -a names\n"
+         "    names=(${(f)\"$($words[1] --list-profiles 2>/dev/null | sed -n 's|^.*/scenes/\\(.*\\)\\.yaml .*|\\1|p')\"})\n"
+         "    compadd -a names\n"
+         "    _files -g '*.(yaml|yml|jsonl)(-.)'\n"
+         "}\n"
+         "_arguments -s \\");
+    for (size_t i = 0; i < n; i++) {
+        bool letter = rows[i].letter < 256;
+        fputs("    ", stdout);
+        const char *equals = rows[i].value ? "=" : "";
+        if (strstr(rows[i].help, "repeated"))
+            letter ? printf("'*'{-%c,--%s%s}'[", rows[i].letter, rows[i].name, equals)
+                   : printf("'*--%s%s[", rows[i].name, equals);
+        else if (letter)
+            printf("'(-%c --%s)'{-%c,--%s%s}'[", rows[i].letter, rows[i].name, rows[i].letter, rows[i].name, equals);
+        else
+            printf("'--%s%s[", rows[i].name, equals);
+        put_quoted(rows[i].help);
+        putchar(']');
+        put_zsh_value(&rows[i]);
+        puts("' \\");
+    }
+    puts("    '*:scene:_ceduo_scenes'");
+}
+
+int main(int argc, char **argv)
+{
+    size_t n;
+    const struct argument_row *rows = ceduo_arguments_rows(&n);
+    if (argc == 2 && strcmp(argv[1], "bash") == 0)
+        put_bash(rows, n);
+    else if (argc == 2 && strcmp(argv[1], "zsh") == 0)
+        put_zsh(rows, n);
+    else
+        return 2;
+    return ferror(stdout) || fclose(stdout) ? 1 : 0;
+}

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Installing to a folder, using what was installed, taking it away again; completion in the shell."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import ROOT, Folder, Skip, Suite, ceduo, environment, expect, expect_equal, expect_in, good, tests_of  # noqa: E402
+
+VARIANT = Path(os.environ.get("BUILD", "build/release")).name
+
+
+def make(*words):
+    env = {k: v for k, v in environment().items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+    done = subprocess.run(["make", "-s", "-C", str(ROOT), f"VARIANT={VARIANT}", *words], env=env, capture_output=True, text=True,
+                          check=False, timeout=300)
+    expect(done.returncode == 0, "make", words, done.stdout, done.stderr)
+
+
+class Installed(Folder):
+    """The program installed below a folder."""
+
+    def __enter__(self):
+        super().__enter__()
+        self.into = [f"DESTDIR={self.path / 'root'}", "PREFIX=/opt/forest"]
+        make("install", *self.into)
+        self.prefix = self.path / "root/opt/forest"
+        return self
+
+    def files(self):
+        return sorted(str(p.relative_to(self.path)) for p in (self.path / "root").rglob("*") if not p.is_dir())
+
+
+def test_install():
+    """make install: program, profiles, pages and completions, all below DESTDIR and PREFIX; uninstall leaves nothing"""
+    with Installed() as place:
+        files = place.files()
+        expect(all(f.startswith("root/opt/forest/") for f in files), files)
+        names = {f.removeprefix("root/opt/forest/") for f in files}
+        expect({"bin/ceduo", "share/man/man1/ceduo.1", "share/man/man7/ceduo-model.7", "share/ceduo/scenes/paper-site.yaml",
+                "share/bash-completion/completions/ceduo", "share/zsh/site-functions/_ceduo"} <= names, names)
+        shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").glob("*.[157]")]
+        expect_equal(len(names), len(shipped) + 3, "files installed")
+        for name in names:
+            expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)
+        (place.prefix / "share/man/man1/other.1").write_text("not ours")
+        make("uninstall", *place.into)
+        expect_equal(place.files(), ["root/opt/forest/share/man/man1/other.1"], "left behind")
+
+
+def test_installed_runs():
+    """The installed program finds its profiles by name from any folder"""
+    with Installed() as place:
+        program = place.prefix / "bin/ceduo"
+        # what it was told when it was built is not below DESTDIR: a staged program looks beside itself
+        done = subprocess.run([program, "--batch", "-n", "10", "-f", "csv", "paper-site"], cwd=place.path, env=environment(),
+                              capture_output=True, text=True, check=False)
+        expect(done.returncode == 0 and done.stdout.count("\n") == 2, "status and output", done)
+        listed = subprocess.run([program, "--list-profiles"], cwd=place.path, env=environment(), capture_output=True, text=True,
+                                check=True).stdout
+        expect_in("/opt/forest/bin/../share/ceduo/scenes/paper-site.yaml", listed)
+
+
+def completed(place, *words):
+    """What bash offers for the last of the words."""
+    script = (place.prefix / "share/bash-completion/completions/ceduo").read_text()
+    line = " ".join(f"'{w}'" for w in words)
+    run = f"{script}\nCOMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; _ceduo; printf '%s\\n' \"${{COMPREPLY[@]}}\""
+    done = subprocess.run(["bash", "--norc", "-c", run], cwd=place.path, env=environment(), capture_output=True, text=True,
+                          check=False)
+    expect(done.stderr == "", done.stderr)
+    return done.stdout.split()
+
+
+def test_bash():
+    """bash completes options, their words, parameters, profiles and files"""
+    if not shutil.which("bash"):
+        raise Skip("no bash here")
+    with Installed() as place:
+        program = str(place.prefix / "bin/ceduo")
+        (place.path / "mine.yaml").write_text("")
+        (place.path / "mine.txt").write_text("")
+        options = set(re.findall(r"--([\w-]+)", good("--help").out.split("\n\n")[0] + good("--help").out))
+        offered = {w.removeprefix("--") for w in completed(place, program, "--")}
+        expect(offered >= {"batch", "years", "find", "plot", "version"} and offered <= options, offered ^ options)
+        expect_equal(completed(place, program, "--to"), ["--tolerance"])
+        expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json"])
+        expect_equal(completed(place, program, "--format", "=", "j"), ["json"])
+        expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json"])
+        expect_equal(completed(place, program, "--plot", "h"), ["height", "histogram"])
+        expect_equal(completed(place, program, "--goal", "e"), ["energy", "exceed"])
+        expect_equal(completed(place, program, "-s", "simulation.scale"), ["simulation.scale_rn="])
+        expect_equal(completed(place, program, "--find", "rocks_per"), ["rocks_per_year="])
+        expect_equal(completed(place, program, "paper"), ["paper-site"])
+        expect_equal(completed(place, program, "mi"), ["mine.yaml"])
+        for plot in completed(place, program, "--plot", ""):
+            expect_equal(ceduo("--plot", plot, "--size", "60x20", "-n", 1, "paper-site").status, 0, plot)
+
+
+def test_zsh():
+    """zsh takes its completion without an error, with every option"""
+    if not shutil.which("zsh"):
+        raise Skip("no zsh here")
+    with Installed() as place:
+        path = place.prefix / "share/zsh/site-functions/_ceduo"
+        done = subprocess.run(["zsh", "-f", "-c", f"autoload -Uz compinit; fpath=({path.parent} $fpath); compinit -u -D; "
+                               "print -r -- $_comps[ceduo]; _arguments() {{ print -rl -- \"$@\" }}; autoload +X _ceduo; _ceduo"
+                               .replace("{{", "{").replace("}}", "}")],
+                              env=environment(), capture_output=True, text=True, check=False)
+        expect(done.returncode == 0 and done.stderr == "", "zsh", done.stdout, done.stderr)
+        lines = done.stdout.split("\n")
+        expect_equal(lines[0], "_ceduo", "what completes ceduo")
+        for option in re.findall(r"^  (?:-\w,|   ) --([\w-]+)", good("--help").out, re.M):
+            expect(any(f"--{option}" in line for line in lines), f"--{option} is missing", done.stdout)
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
