@@ -1,0 +1,652 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WIDE_WALK_H
+#define CEDUO_WIDE_WALK_H
+
+/* The wide walk on the lanes of lanes.h; see wide.h. What is computed here is computed by walk.c, landing.h, law_*.h,
+ * random.h and sincos.h for one rock: the same operations in the same order. */
+
+#include <math.h>
+
+#include "lanes.h"
+#include "law_crsp.h"
+#include "law_lumped.h"
+#include "wide.h"
+
+/* All rocks under way, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
+ * wide_ground do; 0 and n + 1 lie off the slope. */
+struct wide {
+    const struct wide_job *job;
+    const struct wide_ground *ground;
+    const struct ground *g;
+    uint64_t seed;
+    bool small, far; /* the tables have 16 numbers; the ground has blocks */
+    bool varies;     /* the ground from rock to rock */
+    bool against, scale_rn;
+
+    _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
+    uint64_t segment[LANES];
+    /* the landing to come, with the ends and the slope of its segment */
+    double t[LANES], to_x[LANES], to_z[LANES];
+    uint64_t to[LANES];
+    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
+    double along[LANES];   /* of those that roll */
+    double draw[3][LANES]; /* for the facets of the next contacts */
+    double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
+    double radius[LANES], k[LANES];
+    double rn[LANES], rt[LANES], theta[LANES]; /* where the ground varies */
+    uint64_t contacts[LANES], pause[LANES], number[LANES];
+
+    /* bit i is lane i */
+    unsigned live;  /* has a rock */
+    unsigned there; /* is at its next contact already */
+    unsigned rolls; /* of these: with speed `along` on the ground */
+    unsigned left;  /* lands off the slope */
+    bool empty;     /* no rock waits */
+};
+
+/* ---- one lane and its walker ---- */
+
+static void load_draws(struct wide *k, size_t i)
+{
+    const struct walker *w = &k->job->walkers[i];
+    struct random_pair pair = random_pair(w->seed, w->number, w->contacts >> 1, RANDOM_FACET);
+    k->draw[0][i] = pair.u[w->contacts & 1];
+    k->draw[1][i] = pair.u[1];
+}
+
+/* What the walker knows of itself and the scalar walk may have changed. */
+static void load_walker(struct wide *k, size_t i)
+{
+    const struct walker *w = &k->job->walkers[i];
+    k->spin[i] = w->spin;
+    k->next_x[i] = w->next_x;
+    k->stem_ahead[i] = w->stem_ahead;
+    k->stem_behind[i] = w->stem_behind;
+    k->contacts[i] = w->contacts;
+    k->pause[i] = w->pause;
+}
+
+static void load_course(struct wide *k, size_t i, const struct course *c)
+{
+    const struct wide_ground *ground = k->ground;
+    load_walker(k, i);
+    k->x[i] = c->at.x;
+    k->z[i] = c->at.z;
+    k->vx[i] = c->at.vx;
+    k->vz[i] = c->at.vz;
+    k->segment[i] = c->at.segment + 1;
+    k->t[i] = c->flies ? c->l.t : 0;
+    k->to_x[i] = c->flies ? c->l.x : c->at.x;
+    k->to_z[i] = c->flies ? c->l.z : c->at.z;
+    k->along[i] = c->v.along;
+    uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
+    k->to[i] = j;
+    k->x0[i] = ground->x[j];
+    k->z0[i] = ground->z[j];
+    k->x1[i] = ground->x[j + 1];
+    k->z1[i] = ground->z[j + 1];
+    k->m[i] = ground->m[j];
+}
+
+/* The walker brought up to date, and the lane's course. */
+static struct course course_of(struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    unsigned bit = 1u << i;
+    bool left = k->left & bit;
+    size_t to = left ? (k->to[i] == 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
+    w->spin = k->spin[i];
+    w->contacts = k->contacts[i];
+    return (struct course){.at = {.x = k->x[i],
+                                  .z = k->z[i],
+                                  .vx = k->vx[i],
+                                  .vz = k->vz[i],
+                                  .segment = k->segment[i] - 1,
+                                  .on_ground = true},
+                           .flies = !(k->there & bit),
+                           .v = {.along = k->along[i], .off = 0},
+                           .l = {.t = k->t[i],
+                                 .x = k->to_x[i],
+                                 .z = k->to_z[i],
+                                 .segment = to,
+                                 .left = left}};
+}
+
+/* An empty lane goes through the motions where it is, and is never looked at. */
+static void empty_lane(struct wide *k, size_t i)
+{
+    k->empty = true;
+    k->live &= ~(1u << i);
+    k->segment[i] = k->to[i] = 1;
+    k->next_x[i] = k->stem_ahead[i] = INFINITY;
+    k->stem_behind[i] = -INFINITY;
+    k->contacts[i] = 0;
+    k->pause[i] = INT64_MAX;
+}
+
+/* The next rock, at its first contact. */
+static void refill(struct wide *k, size_t i)
+{
+    const struct wide_job *job = k->job;
+    struct walker *w = &job->walkers[i];
+    unsigned bit = 1u << i;
+    k->left &= ~bit;
+    k->rolls &= ~bit;
+    k->there |= bit;
+    while (job->next(job->context, i)) {
+        struct course c;
+        enum ceduo_end end;
+        if (ceduo_walk_start(w, &c, &end)) {
+            load_course(k, i, &c);
+            k->radius[i] = w->rock.radius;
+            k->k[i] = w->k;
+            k->number[i] = w->number;
+            load_draws(k, i);
+            return;
+        }
+        job->ended(job->context, i, end);
+    }
+    empty_lane(k, i);
+}
+
+/* ---- what happens seldom ---- */
+
+/* A flight that passes a mark, comes to a stem or leaves the slope, or a rock of many contacts. */
+static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
+{
+    struct course c = course_of(k, i);
+    unsigned bit = 1u << i;
+    enum ceduo_end end;
+    if (!ceduo_walk_come_down(&k->job->walkers[i], &c, &end)) {
+        k->job->ended(k->job->context, i, end);
+        refill(k, i);
+        return;
+    }
+    load_course(k, i, &c);
+    k->there |= bit;
+}
+
+/* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
+static __attribute__((noinline)) void go_off_alone(struct wide *k, size_t i, double off)
+{
+    struct walker *w = &k->job->walkers[i];
+    struct course c = course_of(k, i);
+    unsigned bit = 1u << i;
+    uint64_t contacts = w->contacts;
+    enum ceduo_end end;
+    c.v.off = off;
+    if (!ceduo_walk_go_off(w, &c, &end)) {
+        k->job->ended(k->job->context, i, end);
+        refill(k, i);
+        return;
+    }
+    load_course(k, i, &c);
+    if (w->contacts != contacts)
+        load_draws(k, i);
+    k->left &= ~bit;
+    if (c.flies) {
+        k->left |= c.l.left ? bit : 0;
+    } else {
+        k->there |= bit;
+        k->rolls |= bit;
+    }
+}
+
+/* ---- random numbers ---- */
+
+LANE void threefry_round(ints *p, ints *q, int turn)
+{
+    *p = add_ints(*p, *q);
+    *q = xor_ints(turn_left(*q, turn), *p);
+}
+
+LANE void threefry_key(ints *p, ints *q, ints a, ints b, uint64_t n)
+{
+    *p = add_ints(*p, a);
+    *q = add_ints(*q, add_ints(b, all_ints(n)));
+}
+
+LANE reals unit(ints p)
+{
+    return mul(reals_of(shift_right(p, 11)), all(0x1p-53));
+}
+
+/* As random_pair(). */
+LANE void draw_pair(uint64_t seed, ints rock, ints event, uint64_t kind, reals *u0, reals *u1)
+{
+    ints a = all_ints(seed), b = rock, c = xor_ints(all_ints(0x1BD11BDAA9FC1A22 ^ seed), rock);
+    ints p = add_ints(event, a), q = add_ints(all_ints(kind), b);
+#define FOUR(r1, r2, r3, r4)      \
+    threefry_round(&p, &q, r1); \
+    threefry_round(&p, &q, r2); \
+    threefry_round(&p, &q, r3); \
+    threefry_round(&p, &q, r4)
+    FOUR(16, 42, 12, 31);
+    threefry_key(&p, &q, b, c, 1);
+    FOUR(16, 32, 24, 21);
+    threefry_key(&p, &q, c, a, 2);
+    FOUR(16, 42, 12, 31);
+    threefry_key(&p, &q, a, b, 3);
+    FOUR(16, 32, 24, 21);
+    threefry_key(&p, &q, b, c, 4);
+    FOUR(16, 42, 12, 31);
+    threefry_key(&p, &q, c, a, 5);
+#undef FOUR
+    *u0 = unit(p);
+    *u1 = unit(q);
+}
+
+/* Draws two contacts ahead for every lane, before every second step. A lane at an odd contact has its next draw already. */
+LANE void draw_ahead(struct wide *k)
+{
+    ints contacts = load_ints(k->contacts), one = all_ints(1);
+    flags odd = same(and_ints(contacts, one), one);
+    reals u0, u1, first = load(k->draw[0]);
+    draw_pair(k->seed, load_ints(k->number), shift_right(add_ints(contacts, one), 1), RANDOM_FACET, &u0, &u1);
+    store(k->draw[0], pick(odd, first, u0));
+    store(k->draw[1], pick(odd, u0, u1));
+    store(k->draw[2], u1);
+}
+
+LANE reals next_draw(struct wide *k)
+{
+    reals u = load(k->draw[0]);
+    store(k->draw[0], load(k->draw[1]));
+    store(k->draw[1], load(k->draw[2]));
+    return u;
+}
+
+/* ---- facet ---- */
+
+LANE reals step_series(reals sum, reals q, double term)
+{
+    return add(mul(sum, q), all(term));
+}
+
+/* As sincos_quarter(). */
+LANE void sincos_lanes(reals angle, reals *sine, reals *cosine)
+{
+    const double half_pi_hi = 1.5707963267948966, half_pi_lo = 6.123233995736766e-17;
+    reals a = size_of_each(angle);
+    flags swap = less(all(0.7853981633974483), a);
+    reals y = pick(swap, add(sub(all(half_pi_hi), a), all(half_pi_lo)), a);
+    reals q = mul(y, y);
+    reals s = step_series(all(1.0 / 355687428096000.0), q, -1.0 / 1307674368000.0);
+    s = step_series(s, q, 1.0 / 6227020800.0);
+    s = step_series(s, q, -1.0 / 39916800.0);
+    s = step_series(s, q, 1.0 / 362880.0);
+    s = step_series(s, q, -1.0 / 5040.0);
+    s = step_series(s, q, 1.0 / 120.0);
+    s = step_series(s, q, -1.0 / 6.0);
+    s = add(y, mul(y, mul(q, s)));
+    reals c = step_series(all(1.0 / 20922789888000.0), q, -1.0 / 87178291200.0);
+    c = step_series(c, q, 1.0 / 479001600.0);
+    c = step_series(c, q, -1.0 / 3628800.0);
+    c = step_series(c, q, 1.0 / 40320.0);
+    c = step_series(c, q, -1.0 / 720.0);
+    c = step_series(c, q, 1.0 / 24.0);
+    c = step_series(c, q, -1.0 / 2.0);
+    c = add(all(1.0), mul(q, c));
+    *sine = with_sign(pick(swap, c, s), angle);
+    *cosine = pick(swap, s, c);
+}
+
+/* The facet that each rock strikes, as turn_facet() and strike_facet(). */
+LANE void facet_lanes(const struct wide *k, reals u, reals largest, reals along, reals off, reals *sine, reals *cosine)
+{
+    reals zero = all(0);
+    if (!k->against)
+        u = sub(mul(all(2), u), all(1));
+    reals angle = pick(less(zero, largest), mul(largest, u), zero);
+    sincos_lanes(angle, sine, cosine);
+    if (k->against)
+        *sine = pick(at_least(along, zero), *sine, as_reals(xor_ints(as_ints(*sine), all_ints((uint64_t)INT64_MIN))));
+    flags leaves = less(zero, sub(mul(off, *cosine), mul(along, *sine)));
+    *sine = pick(leaves, zero, *sine);
+    *cosine = pick(leaves, all(1), *cosine);
+}
+
+/* ---- the laws ---- */
+
+struct impact_lanes {
+    reals vn, vt, spin;
+};
+
+LANE struct impact_lanes lumped_lanes(struct impact_lanes in, reals rn, reals rt, bool scale_rn)
+{
+    if (scale_rn) {
+        reals s = over(in.vn, all(LUMPED_K));
+        rn = over(rn, add(all(1), mul(s, s)));
+    }
+    return (struct impact_lanes){mul(rn, in.vn), mul(rt, in.vt), all(0)};
+}
+
+LANE struct impact_lanes crsp_lanes(struct impact_lanes in, reals rn, reals rt, reals radius, reals k)
+{
+    reals zero = all(0), one = all(1);
+    reals roll = mul(in.spin, radius);
+    reals s = over(sub(in.vt, roll), all(CRSP_A));
+    reals f = add(rt, over(sub(one, rt), add(mul(s, s), all(1.2))));
+    s = over(in.vn, mul(all(CRSP_C), rn));
+    reals sf = over(rt, add(mul(s, s), one));
+    sf = pick(equal(rn, zero), pick(equal(in.vn, zero), rt, zero), sf);
+    reals energy = add(mul(k, mul(roll, roll)), mul(in.vt, in.vt));
+    reals vt = root_of(over(mul(energy, mul(f, sf)), add(one, k)));
+    s = over(in.vn, all(CRSP_K));
+    vt = with_sign(vt, pick(equal(in.vt, zero), in.spin, in.vt));
+    return (struct impact_lanes){over(mul(rn, in.vn), add(one, mul(s, s))), vt, over(vt, radius)};
+}
+
+LANE struct impact_lanes law_lanes(const struct wide *k, enum ceduo_law law, struct impact_lanes in, reals rn, reals rt)
+{
+    if (law == CEDUO_LAW_LUMPED)
+        return lumped_lanes(in, rn, rt, k->scale_rn);
+    return crsp_lanes(in, rn, rt, load(k->radius), load(k->k));
+}
+
+/* ---- one contact in every lane ---- */
+
+/* A rock in each lane, on its way. */
+struct rocks {
+    reals x, z, vx, vz;
+    ints segment;
+    reals x0, z0, x1, z1, m, c, s; /* of the segment */
+};
+
+struct velocities {
+    reals along, off;
+};
+
+struct landings {
+    reals t, x, z;
+    ints segment;
+    reals x0, z0, x1, z1, m;
+    flags left;
+    unsigned far; /* to be looked for by the scalar walk */
+};
+
+/* Those that the scalar walk brings to the next contact. */
+LANE unsigned disturbed(const struct wide *k)
+{
+    reals x = load(k->to_x);
+    flags mark = both(at_least(x, load(k->next_x)), less(all(0), load(k->vx)));
+    flags stem = either(at_least(x, load(k->stem_ahead)), at_least(load(k->stem_behind), x));
+    unsigned way = (bits_of(either(mark, stem)) | k->left) & ~k->there;
+    unsigned many = ~bits_of(more(load_ints(k->pause), load_ints(k->contacts)));
+    return (way | many) & k->live;
+}
+
+/* All lanes come down. */
+LANE struct rocks rocks_down(const struct wide *k)
+{
+    struct rocks r = {.x = load(k->to_x),
+                      .z = load(k->to_z),
+                      .vx = load(k->vx),
+                      .vz = sub(load(k->vz), mul(all(k->g->gravity), load(k->t))),
+                      .segment = load_ints(k->to),
+                      .x0 = load(k->x0),
+                      .z0 = load(k->z0),
+                      .x1 = load(k->x1),
+                      .z1 = load(k->z1),
+                      .m = load(k->m)};
+    r.c = look_up(k->ground->c, r.segment, k->small);
+    r.s = look_up(k->ground->s, r.segment, k->small);
+    return r;
+}
+
+LANE struct velocities velocities_on(const struct wide *k, const struct rocks *r)
+{
+    struct velocities v = {.along = add(mul(r->vx, r->c), mul(r->vz, r->s)),
+                           .off = sub(mul(r->vz, r->c), mul(r->vx, r->s))};
+    if (k->rolls) {
+        flags rolls = flags_of(k->rolls);
+        v.along = pick(rolls, load(k->along), v.along);
+        v.off = pick(rolls, all(0), v.off);
+    }
+    return v;
+}
+
+/* The ground that each rock strikes, where that varies from rock to rock. */
+static __attribute__((noinline)) void ground_alone(struct wide *k)
+{
+    for (size_t i = 0; i < LANES; i++)
+        if (k->live >> i & 1)
+            ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
+}
+
+LANE void strike_lanes(struct wide *k, enum ceduo_law law, struct rocks *r, struct velocities *v)
+{
+    reals rn, rt, largest, sine, cosine, zero = all(0);
+    if (k->varies) {
+        ground_alone(k);
+        rn = load(k->rn);
+        rt = load(k->rt);
+        largest = load(k->theta);
+    } else {
+        rn = look_up(k->ground->rn, r->segment, k->small);
+        rt = look_up(k->ground->rt, r->segment, k->small);
+        largest = look_up(k->ground->theta, r->segment, k->small);
+    }
+    facet_lanes(k, next_draw(k), largest, v->along, v->off, &sine, &cosine);
+    reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
+    struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),
+                              .vt = add(mul(v->along, cosine), mul(v->off, sine)),
+                              .spin = load(k->spin)};
+    struct impact_lanes out = law_lanes(k, law, in, rn, rt);
+    v->along = sub(mul(out.vt, cosine), mul(out.vn, sine));
+    v->off = add(mul(out.vt, sine), mul(out.vn, cosine));
+    v->off = pick(less(zero, v->off), v->off, zero);
+    r->vx = sub(mul(v->along, r->c), mul(v->off, r->s));
+    r->vz = add(mul(v->along, r->s), mul(v->off, r->c));
+    store(k->spin, out.spin);
+    store(k->vx, r->vx);
+    store(k->vz, r->vz);
+}
+
+/* ---- landing ---- */
+
+LANE reals height_at(const struct wide *k, const struct rocks *r, reals t)
+{
+    return add(r->z, mul(sub(r->vz, mul(all(k->g->half_g), t)), t));
+}
+
+/* Which segment each flight lands on, not yet where; `most`: before that time. As land_towards() and land_beyond(). */
+LANE struct landings find_segments(const struct wide *k, const struct rocks *r, reals *latest)
+{
+    ints one = all_ints(1), back = all_ints(UINT64_MAX), first = all_ints(0), last = all_ints(k->g->n + 1);
+    reals zero = all(0), inv = over(all(1), r->vx);
+    flags forth = less(zero, r->vx);
+    ints step = pick_ints(forth, one, back);
+    reals t = mul(sub(pick(forth, r->x1, r->x0), r->x), inv);
+    flags here = but(flags_of(ALL_LANES), at_least(sub(r->vz, mul(r->m, r->vx)), mul(all(k->g->half_g), t)));
+    struct landings l = {.t = t, .segment = r->segment, .left = less(zero, zero)};
+    l.far = k->live & ~bits_of(either(forth, less(r->vx, zero)));
+    *latest = t;
+    unsigned search = k->live & ~bits_of(here) & ~l.far;
+    if (!search)
+        return l;
+    ints p = add_ints(r->segment, pick_ints(forth, one, first));
+    do {
+        flags going = flags_of(search);
+        if (k->far) { /* blocks of segments begin here */
+            unsigned far = search & bits_of(same(and_ints(p, all_ints(GROUND_BLOCK - 1)), one));
+            l.far |= far;
+            search &= ~far;
+            going = flags_of(search);
+        }
+        ints q = add_ints(p, step);
+        reals x = look_up(k->ground->x, q, k->small), z = look_up(k->ground->z, q, k->small);
+        t = mul(sub(x, r->x), inv);
+        flags clear = at_least(sub(height_at(k, r, t), z), zero);
+        flags found = but(going, clear);
+        l.segment = pick_ints(found, pick_ints(forth, p, q), l.segment);
+        *latest = pick(found, t, *latest);
+        p = pick_ints(going, q, p);
+        search &= bits_of(clear);
+    } while (search);
+    l.left = either(same(l.segment, first), same(l.segment, last));
+    return l;
+}
+
+/* As later_root(). */
+LANE reals later_root_lanes(const struct wide *k, reals c, reals b)
+{
+    reals zero = all(0), g = all(k->g->gravity);
+    reals d = add(mul(b, b), mul(all(2 * k->g->gravity), c));
+    reals root = pick(less(zero, d), root_of(d), zero);
+    flags up = at_least(b, zero), some = either(up, less(zero, c));
+    reals t = over(pick(up, add(b, root), mul(all(2), c)), pick(up, g, sub(root, b)));
+    return pick(some, t, zero);
+}
+
+/* As clamp(v, a, b) with a <= b. */
+LANE reals clamp_lanes(reals v, reals a, reals b)
+{
+    return least(b, most(a, v));
+}
+
+/* Where the flights land on their segments. As land_on() and land_at(). */
+LANE void land_lanes(const struct wide *k, const struct rocks *r, reals latest, struct landings *l)
+{
+    ints behind = add_ints(l->segment, all_ints(1));
+    flags here = same(l->segment, r->segment);
+    l->m = look_up(k->ground->m, l->segment, k->small);
+    l->x0 = look_up(k->ground->x, l->segment, k->small);
+    l->z0 = look_up(k->ground->z, l->segment, k->small);
+    l->x1 = look_up(k->ground->x, behind, k->small);
+    l->z1 = look_up(k->ground->z, behind, k->small);
+    reals c = sub(r->z, add(l->z0, mul(l->m, sub(r->x, l->x0))));
+    reals t = later_root_lanes(k, pick(here, all(0), c), sub(r->vz, mul(l->m, r->vx)));
+    l->t = t = least(latest, t);
+    reals x = clamp_lanes(add(r->x, mul(r->vx, t)), l->x0, l->x1);
+    reals z = pick(at_least(x, l->x1), l->z1, add(l->z0, mul(l->m, sub(x, l->x0))));
+    flags steep = less(all(1), size_of_each(l->m));
+    if (bits_of(steep)) {
+        reals lo = least(l->z0, l->z1), hi = most(l->z1, l->z0);
+        reals sz = clamp_lanes(height_at(k, r, t), lo, hi);
+        reals sx = clamp_lanes(add(l->x0, over(sub(sz, l->z0), l->m)), l->x0, l->x1);
+        sx = pick(equal(sz, l->z1), l->x1, sx);
+        x = pick(steep, sx, x);
+        z = pick(steep, sz, z);
+    }
+    l->x = x;
+    l->z = z;
+}
+
+/* Those that fly over an end of the profile. */
+LANE void leave_lanes(const struct wide *k, const struct rocks *r, struct landings *l)
+{
+    reals end = pick(less(all(0), r->vx), l->x0, l->x1);
+    reals t = mul(sub(end, r->x), over(all(1), r->vx));
+    l->t = pick(l->left, t, l->t);
+    l->x = pick(l->left, end, l->x);
+    l->z = pick(l->left, height_at(k, r, t), l->z);
+}
+
+/* Those that roll, as is_roll(); the others that may, where the scalar walk looks again. */
+LANE unsigned perhaps_roll(const struct wide *k, const struct rocks *r, reals off, const struct landings *l)
+{
+    reals radius = load(k->radius), dx = sub(l->x, r->x);
+    flags near = but(less(size_of_each(dx), radius), l->left);
+    flags low = less(mul(off, off), mul(radius, mul(all(2 * k->g->gravity), r->c)));
+    unsigned may = bits_of(both(near, low));
+    if (!may)
+        return 0;
+    flags here = same(l->segment, r->segment), steep = less(all(1), size_of_each(r->m));
+    reals way = over(pick(steep, sub(l->z, r->z), dx), pick(steep, r->s, r->c));
+    return may & ~bits_of(but(here, less(size_of_each(way), radius)));
+}
+
+/* ---- all contacts ---- */
+
+LANE void step_lanes(struct wide *k, enum ceduo_law law)
+{
+    for (unsigned alone = disturbed(k); alone; alone &= alone - 1)
+        come_down_alone(k, (size_t)__builtin_ctz(alone));
+    struct rocks r = rocks_down(k);
+    struct velocities v = velocities_on(k, &r);
+    strike_lanes(k, law, &r, &v);
+    store_ints(k->contacts, add_ints(load_ints(k->contacts), all_ints(1)));
+    reals latest;
+    struct landings l = find_segments(k, &r, &latest);
+    land_lanes(k, &r, latest, &l);
+    k->left = bits_of(l.left) & k->live;
+    if (k->left)
+        leave_lanes(k, &r, &l);
+    store(k->x, r.x);
+    store(k->z, r.z);
+    store_ints(k->segment, r.segment);
+    store(k->t, l.t);
+    store(k->to_x, l.x);
+    store(k->to_z, l.z);
+    store_ints(k->to, l.segment);
+    store(k->x0, l.x0);
+    store(k->z0, l.z0);
+    store(k->x1, l.x1);
+    store(k->z1, l.z1);
+    store(k->m, l.m);
+    unsigned alone = (perhaps_roll(k, &r, v.off, &l) | l.far) & k->live;
+    k->there = k->rolls = 0;
+    if (!alone)
+        return;
+    _Alignas(64) double along[LANES], off[LANES];
+    store(along, v.along);
+    store(off, v.off);
+    for (; alone; alone &= alone - 1) {
+        size_t i = (size_t)__builtin_ctz(alone);
+        k->along[i] = along[i];
+        go_off_alone(k, i, off[i]);
+    }
+}
+
+/* Few are left: one after the other to its end. */
+static void finish_alone(struct wide *k)
+{
+    for (; k->live; k->live &= k->live - 1) {
+        size_t i = (size_t)__builtin_ctz(k->live);
+        struct walker *w = &k->job->walkers[i];
+        struct course c = course_of(k, i);
+        if (!c.flies && !(k->rolls >> i & 1)) { /* a rock that has just begun */
+            const struct ground_segment *s = &k->g->segments[c.at.segment];
+            c.v = (struct velocity){.along = c.at.vx * s->c + c.at.vz * s->s, .off = c.at.vz * s->c - c.at.vx * s->s};
+        }
+        k->job->ended(k->job->context, i, ceduo_walk_on(w, &c, k->job->law));
+    }
+}
+
+HOT void walk_lanes(struct wide *k, enum ceduo_law law)
+{
+    for (uint64_t step = 0;; step++) {
+        if (k->empty && __builtin_popcount(k->live) <= LANES / 4)
+            break;
+        if (step % 2 == 0)
+            draw_ahead(k);
+        step_lanes(k, law);
+    }
+    finish_alone(k);
+}
+
+static void wide_walk(const struct wide_job *job)
+{
+    const struct walker *w = &job->walkers[0];
+    struct wide k = {.job = job, .ground = job->ground, .live = ALL_LANES};
+    for (size_t i = 0; i < LANES; i++) {
+        k.radius[i] = 1;
+        refill(&k, i);
+    }
+    if (!k.live)
+        return;
+    k.g = w->g;
+    k.seed = w->seed;
+    k.small = k.g->n + 3 <= 16;
+    k.far = k.g->top > 0;
+    k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
+    k.against = k.g->facets == CEDUO_AGAINST;
+    k.scale_rn = w->scale_rn;
+    if (job->law == CEDUO_LAW_LUMPED)
+        walk_lanes(&k, CEDUO_LAW_LUMPED);
+    else
+        walk_lanes(&k, CEDUO_LAW_CRSP);
+}
+
+#endif
