@@ -241,6 +241,11 @@ LANE reals pick(flags m, reals p, reals q)
     return (reals){HALF_PICK(m.a, p.a, q.a), HALF_PICK(m.b, p.b, q.b)};
 }
 
+LANE flags pick_flags(flags m, flags p, flags q)
+{
+    return either(both(m, p), but(q, m));
+}
+
 LANE ints pick_ints(flags m, ints p, ints q)
 {
     return (ints){HALF_PICK_INTS(m.a, p.a, q.a), HALF_PICK_INTS(m.b, p.b, q.b)};

@@ -752,6 +752,11 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 
 /* ---- the way in pieces ---- */
 
+void ceduo_walk_pass_marks(struct walker *w, const struct course *c)
+{
+    pass_in_flight(w, c->at, c->l.x, c->l.t);
+}
+
 bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)
 {
     if (c->flies) {

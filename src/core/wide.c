@@ -4,13 +4,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TABLES 8
+#define TABLES 9
 #define SMALL  16 /* the least room of a table */
 
 bool ceduo_wide_ground_init(struct wide_ground *wide, const struct ground *g)
 {
     size_t n = g->n, room = n + 3 < SMALL ? SMALL : n + 3;
-    double **tables[TABLES] = {&wide->x, &wide->z, &wide->m, &wide->c, &wide->s, &wide->rn, &wide->rt, &wide->theta};
+    double **tables[TABLES] = {&wide->x,  &wide->z,  &wide->m,     &wide->c,    &wide->s,
+                               &wide->rn, &wide->rt, &wide->theta, &wide->brake};
     double *all = calloc(TABLES * room, sizeof *all);
     if (!all)
         return false;
@@ -31,6 +32,7 @@ bool ceduo_wide_ground_init(struct wide_ground *wide, const struct ground *g)
         wide->rn[j + 1] = s->rn;
         wide->rt[j + 1] = s->rt;
         wide->theta[j + 1] = s->theta;
+        wide->brake[j + 1] = s->mu * s->c;
     }
     return true;
 }

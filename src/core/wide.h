@@ -13,6 +13,7 @@
 struct wide_ground {
     double *x, *z;
     double *m, *c, *s, *rn, *rt, *theta;
+    double *brake; /* mu c */
 };
 
 /* False without memory. */

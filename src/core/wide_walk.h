@@ -12,6 +12,12 @@
 #include "law_lumped.h"
 #include "wide.h"
 
+/* What is known before the first step, so that the steps are compiled for it. */
+struct form {
+    enum ceduo_law law;
+    bool small; /* the tables have 16 numbers */
+};
+
 /* All rocks under way, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
  * wide_ground do; 0 and n + 1 lie off the slope. */
 struct wide {
@@ -19,8 +25,8 @@ struct wide {
     const struct wide_ground *ground;
     const struct ground *g;
     uint64_t seed;
-    bool small, far; /* the tables have 16 numbers; the ground has blocks */
-    bool varies;     /* the ground from rock to rock */
+    bool far;    /* the ground has blocks */
+    bool varies; /* the ground from rock to rock */
     bool against, scale_rn;
 
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
@@ -164,6 +170,14 @@ static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
     }
     load_course(k, i, &c);
     k->there |= bit;
+}
+
+static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
+{
+    struct course c = course_of(k, i);
+    struct walker *w = &k->job->walkers[i];
+    ceduo_walk_pass_marks(w, &c);
+    k->next_x[i] = w->next_x;
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
@@ -365,19 +379,21 @@ struct landings {
     unsigned far; /* to be looked for by the scalar walk */
 };
 
-/* Those that the scalar walk brings to the next contact. */
-LANE unsigned disturbed(const struct wide *k)
+/* Those that the scalar walk brings to the next contact; and those that only pass a mark on their way there. */
+LANE unsigned disturbed(const struct wide *k, unsigned *pass)
 {
     reals x = load(k->to_x);
     flags mark = both(at_least(x, load(k->next_x)), less(all(0), load(k->vx)));
     flags stem = either(at_least(x, load(k->stem_ahead)), at_least(load(k->stem_behind), x));
-    unsigned way = (bits_of(either(mark, stem)) | k->left) & ~k->there;
+    unsigned flies = k->live & ~k->there;
     unsigned many = ~bits_of(more(load_ints(k->pause), load_ints(k->contacts)));
-    return (way | many) & k->live;
+    unsigned alone = ((bits_of(stem) | k->left) & flies) | (many & k->live);
+    *pass = bits_of(mark) & flies & ~alone;
+    return alone;
 }
 
 /* All lanes come down. */
-LANE struct rocks rocks_down(const struct wide *k)
+LANE struct rocks rocks_down(struct form form, const struct wide *k)
 {
     struct rocks r = {.x = load(k->to_x),
                       .z = load(k->to_z),
@@ -389,8 +405,8 @@ LANE struct rocks rocks_down(const struct wide *k)
                       .x1 = load(k->x1),
                       .z1 = load(k->z1),
                       .m = load(k->m)};
-    r.c = look_up(k->ground->c, r.segment, k->small);
-    r.s = look_up(k->ground->s, r.segment, k->small);
+    r.c = look_up(k->ground->c, r.segment, form.small);
+    r.s = look_up(k->ground->s, r.segment, form.small);
     return r;
 }
 
@@ -414,7 +430,7 @@ static __attribute__((noinline)) void ground_alone(struct wide *k)
             ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
 }
 
-LANE void strike_lanes(struct wide *k, enum ceduo_law law, struct rocks *r, struct velocities *v)
+LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct velocities *v)
 {
     reals rn, rt, largest, sine, cosine, zero = all(0);
     if (k->varies) {
@@ -423,16 +439,16 @@ LANE void strike_lanes(struct wide *k, enum ceduo_law law, struct rocks *r, stru
         rt = load(k->rt);
         largest = load(k->theta);
     } else {
-        rn = look_up(k->ground->rn, r->segment, k->small);
-        rt = look_up(k->ground->rt, r->segment, k->small);
-        largest = look_up(k->ground->theta, r->segment, k->small);
+        rn = look_up(k->ground->rn, r->segment, form.small);
+        rt = look_up(k->ground->rt, r->segment, form.small);
+        largest = look_up(k->ground->theta, r->segment, form.small);
     }
     facet_lanes(k, next_draw(k), largest, v->along, v->off, &sine, &cosine);
     reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
     struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),
                               .vt = add(mul(v->along, cosine), mul(v->off, sine)),
                               .spin = load(k->spin)};
-    struct impact_lanes out = law_lanes(k, law, in, rn, rt);
+    struct impact_lanes out = law_lanes(k, form.law, in, rn, rt);
     v->along = sub(mul(out.vt, cosine), mul(out.vn, sine));
     v->off = add(mul(out.vt, sine), mul(out.vn, cosine));
     v->off = pick(less(zero, v->off), v->off, zero);
@@ -451,7 +467,7 @@ LANE reals height_at(const struct wide *k, const struct rocks *r, reals t)
 }
 
 /* Which segment each flight lands on, not yet where; `most`: before that time. As land_towards() and land_beyond(). */
-LANE struct landings find_segments(const struct wide *k, const struct rocks *r, reals *latest)
+LANE struct landings find_segments(struct form form, const struct wide *k, const struct rocks *r, reals *latest)
 {
     ints one = all_ints(1), back = all_ints(UINT64_MAX), first = all_ints(0), last = all_ints(k->g->n + 1);
     reals zero = all(0), inv = over(all(1), r->vx);
@@ -475,7 +491,7 @@ LANE struct landings find_segments(const struct wide *k, const struct rocks *r, 
             going = flags_of(search);
         }
         ints q = add_ints(p, step);
-        reals x = look_up(k->ground->x, q, k->small), z = look_up(k->ground->z, q, k->small);
+        reals x = look_up(k->ground->x, q, form.small), z = look_up(k->ground->z, q, form.small);
         t = mul(sub(x, r->x), inv);
         flags clear = at_least(sub(height_at(k, r, t), z), zero);
         flags found = but(going, clear);
@@ -506,15 +522,15 @@ LANE reals clamp_lanes(reals v, reals a, reals b)
 }
 
 /* Where the flights land on their segments. As land_on() and land_at(). */
-LANE void land_lanes(const struct wide *k, const struct rocks *r, reals latest, struct landings *l)
+LANE void land_lanes(struct form form, const struct wide *k, const struct rocks *r, reals latest, struct landings *l)
 {
     ints behind = add_ints(l->segment, all_ints(1));
     flags here = same(l->segment, r->segment);
-    l->m = look_up(k->ground->m, l->segment, k->small);
-    l->x0 = look_up(k->ground->x, l->segment, k->small);
-    l->z0 = look_up(k->ground->z, l->segment, k->small);
-    l->x1 = look_up(k->ground->x, behind, k->small);
-    l->z1 = look_up(k->ground->z, behind, k->small);
+    l->m = look_up(k->ground->m, l->segment, form.small);
+    l->x0 = look_up(k->ground->x, l->segment, form.small);
+    l->z0 = look_up(k->ground->z, l->segment, form.small);
+    l->x1 = look_up(k->ground->x, behind, form.small);
+    l->z1 = look_up(k->ground->z, behind, form.small);
     reals c = sub(r->z, add(l->z0, mul(l->m, sub(r->x, l->x0))));
     reals t = later_root_lanes(k, pick(here, all(0), c), sub(r->vz, mul(l->m, r->vx)));
     l->t = t = least(latest, t);
@@ -543,50 +559,123 @@ LANE void leave_lanes(const struct wide *k, const struct rocks *r, struct landin
     l->z = pick(l->left, height_at(k, r, t), l->z);
 }
 
-/* Those that roll, as is_roll(); the others that may, where the scalar walk looks again. */
-LANE unsigned perhaps_roll(const struct wide *k, const struct rocks *r, reals off, const struct landings *l)
+/* ---- rolling ---- */
+
+/* Metres of ground from x, z on; as ground_length(). */
+LANE reals way_lanes(const struct rocks *r, flags steep, reals x, reals z)
 {
-    reals radius = load(k->radius), dx = sub(l->x, r->x);
-    flags near = but(less(size_of_each(dx), radius), l->left);
+    return size_of_each(over(pick(steep, sub(z, r->z), sub(x, r->x)), pick(steep, r->s, r->c)));
+}
+
+/* Those that roll, as is_roll(); `unsure`: those that land on another segment. */
+LANE unsigned rolling(const struct wide *k, const struct rocks *r, reals off, const struct landings *l, flags steep,
+                      unsigned *unsure)
+{
+    reals radius = load(k->radius);
+    flags near = but(less(size_of_each(sub(l->x, r->x)), radius), l->left);
     flags low = less(mul(off, off), mul(radius, mul(all(2 * k->g->gravity), r->c)));
-    unsigned may = bits_of(both(near, low));
-    if (!may)
+    flags may = both(near, low);
+    *unsure = 0;
+    if (!(bits_of(may) & k->live))
         return 0;
-    flags here = same(l->segment, r->segment), steep = less(all(1), size_of_each(r->m));
-    reals way = over(pick(steep, sub(l->z, r->z), dx), pick(steep, r->s, r->c));
-    return may & ~bits_of(but(here, less(size_of_each(way), radius)));
+    flags here = same(l->segment, r->segment);
+    *unsure = bits_of(but(may, here)) & k->live;
+    return bits_of(both(both(may, here), less(way_lanes(r, steep, l->x, l->z), radius))) & k->live;
+}
+
+/* The point a roll of a radius further; as roll_point(). */
+LANE void roll_point_lanes(const struct rocks *r, flags steep, reals c, reals s, reals radius, reals *x, reals *z)
+{
+    reals fx = clamp_lanes(add(r->x, mul(c, radius)), r->x0, r->x1);
+    reals fz = pick(at_least(fx, r->x1), r->z1, add(r->z0, mul(r->m, sub(fx, r->x0))));
+    reals lo = least(r->z0, r->z1), hi = most(r->z1, r->z0);
+    reals sz = clamp_lanes(add(r->z, mul(s, radius)), lo, hi);
+    reals sx = clamp_lanes(add(r->x0, over(sub(sz, r->z0), r->m)), r->x0, r->x1);
+    *x = pick(steep, sx, fx);
+    *z = pick(steep, sz, fz);
+}
+
+/* Rolls those of `rolls` that stay on their segment, do not stop and meet nothing, for a radius to the next contact; as
+ * roll_on(). Returns them. */
+LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, reals along, flags steep,
+                         unsigned rolls, struct landings *l)
+{
+    reals zero = all(0), radius = load(k->radius), u = along, share = all(1);
+    if (form.law != CEDUO_LAW_LUMPED) {
+        reals spin = load(k->spin), inertia = load(k->k);
+        share = add(all(1), inertia);
+        u = over(add(along, mul(mul(inertia, spin), radius)), share);
+    }
+    flags forth = less(zero, u);
+    reals dir = pick(forth, all(1), all(-1));
+    reals to_end = way_lanes(r, steep, pick(forth, r->x1, r->x0), pick(forth, r->z1, r->z0));
+    reals s = mul(dir, r->s), c = mul(dir, r->c), up = mul(pick(forth, all(-1), all(1)), r->s);
+    reals rate = mul(all(2 * k->g->gravity), sub(up, look_up(k->ground->brake, r->segment, form.small)));
+    if (form.law != CEDUO_LAW_LUMPED)
+        rate = over(rate, share);
+    reals u2 = add(mul(u, u), mul(rate, radius)), x, z;
+    roll_point_lanes(r, steep, c, s, radius, &x, &z);
+    flags meets = pick_flags(forth, either(at_least(x, load(k->next_x)), at_least(x, load(k->stem_ahead))),
+                             at_least(load(k->stem_behind), x));
+    flags good = but(both(less(radius, to_end), less(zero, u2)), either(meets, equal(u, zero)));
+    rolls &= bits_of(good);
+    flags which = flags_of(rolls);
+    u = mul(dir, root_of(u2));
+    l->t = pick(which, zero, l->t);
+    l->x = pick(which, x, l->x);
+    l->z = pick(which, z, l->z);
+    r->x = pick(which, x, r->x);
+    r->z = pick(which, z, r->z);
+    store(k->along, u);
+    store(k->vx, pick(which, mul(u, r->c), r->vx));
+    store(k->vz, pick(which, mul(u, r->s), r->vz));
+    if (form.law != CEDUO_LAW_LUMPED)
+        store(k->spin, pick(which, over(u, radius), load(k->spin)));
+    return rolls;
 }
 
 /* ---- all contacts ---- */
 
-LANE void step_lanes(struct wide *k, enum ceduo_law law)
+LANE void store_lanes(struct wide *k, const struct rocks *r, const struct landings *l)
 {
-    for (unsigned alone = disturbed(k); alone; alone &= alone - 1)
+    store(k->x, r->x);
+    store(k->z, r->z);
+    store_ints(k->segment, r->segment);
+    store(k->t, l->t);
+    store(k->to_x, l->x);
+    store(k->to_z, l->z);
+    store_ints(k->to, l->segment);
+    store(k->x0, l->x0);
+    store(k->z0, l->z0);
+    store(k->x1, l->x1);
+    store(k->z1, l->z1);
+    store(k->m, l->m);
+}
+
+LANE void step_lanes(struct form form, struct wide *k)
+{
+    unsigned pass, alone = disturbed(k, &pass);
+    for (; pass; pass &= pass - 1)
+        pass_marks_alone(k, (size_t)__builtin_ctz(pass));
+    for (; alone; alone &= alone - 1)
         come_down_alone(k, (size_t)__builtin_ctz(alone));
-    struct rocks r = rocks_down(k);
+    struct rocks r = rocks_down(form, k);
     struct velocities v = velocities_on(k, &r);
-    strike_lanes(k, law, &r, &v);
+    strike_lanes(form, k, &r, &v);
     store_ints(k->contacts, add_ints(load_ints(k->contacts), all_ints(1)));
     reals latest;
-    struct landings l = find_segments(k, &r, &latest);
-    land_lanes(k, &r, latest, &l);
+    struct landings l = find_segments(form, k, &r, &latest);
+    land_lanes(form, k, &r, latest, &l);
     k->left = bits_of(l.left) & k->live;
     if (k->left)
         leave_lanes(k, &r, &l);
-    store(k->x, r.x);
-    store(k->z, r.z);
-    store_ints(k->segment, r.segment);
-    store(k->t, l.t);
-    store(k->to_x, l.x);
-    store(k->to_z, l.z);
-    store_ints(k->to, l.segment);
-    store(k->x0, l.x0);
-    store(k->z0, l.z0);
-    store(k->x1, l.x1);
-    store(k->z1, l.z1);
-    store(k->m, l.m);
-    unsigned alone = (perhaps_roll(k, &r, v.off, &l) | l.far) & k->live;
-    k->there = k->rolls = 0;
+    flags steep = less(all(1), size_of_each(r.m));
+    unsigned unsure, rolls = rolling(k, &r, v.off, &l, steep, &unsure) & ~l.far;
+    alone = l.far | unsure | rolls;
+    k->rolls = rolls ? roll_lanes(form, k, &r, v.along, steep, rolls, &l) : 0;
+    k->there = k->rolls;
+    alone &= ~k->rolls;
+    store_lanes(k, &r, &l);
     if (!alone)
         return;
     _Alignas(64) double along[LANES], off[LANES];
@@ -614,14 +703,14 @@ static void finish_alone(struct wide *k)
     }
 }
 
-HOT void walk_lanes(struct wide *k, enum ceduo_law law)
+HOT void walk_lanes(struct form form, struct wide *k)
 {
     for (uint64_t step = 0;; step++) {
         if (k->empty && __builtin_popcount(k->live) <= LANES / 4)
             break;
         if (step % 2 == 0)
             draw_ahead(k);
-        step_lanes(k, law);
+        step_lanes(form, k);
     }
     finish_alone(k);
 }
@@ -638,15 +727,19 @@ static void wide_walk(const struct wide_job *job)
         return;
     k.g = w->g;
     k.seed = w->seed;
-    k.small = k.g->n + 3 <= 16;
+    bool small = k.g->n + 3 <= 16;
     k.far = k.g->top > 0;
     k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
-    if (job->law == CEDUO_LAW_LUMPED)
-        walk_lanes(&k, CEDUO_LAW_LUMPED);
+    if (job->law == CEDUO_LAW_LUMPED && small)
+        walk_lanes((struct form){CEDUO_LAW_LUMPED, true}, &k);
+    else if (job->law == CEDUO_LAW_LUMPED)
+        walk_lanes((struct form){CEDUO_LAW_LUMPED, false}, &k);
+    else if (small)
+        walk_lanes((struct form){CEDUO_LAW_CRSP, true}, &k);
     else
-        walk_lanes(&k, CEDUO_LAW_CRSP);
+        walk_lanes((struct form){CEDUO_LAW_CRSP, false}, &k);
 }
 
 #endif
