@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "wide.h"
+
 /* Many numbers at once, one for each lane. A file that includes this has set its target to AVX2, or to AVX-512 with DQ and
  * then WIDE_AVX512 too, and has 8 or 16 lanes: two registers each, so that one half works while the other waits. Every
  * operation is that of plain C, rounded the same, in each lane by itself. */
@@ -44,11 +46,8 @@ typedef __mmask8 half_flags;
 #define HALF_STORE_INTS(to, p) _mm512_store_si512(to, p)
 #define HALF_AS_INTS(p) _mm512_castpd_si512(p)
 #define HALF_AS_REALS(p) _mm512_castsi512_pd(p)
-#define HALF_GATHER(table, i) _mm512_i64gather_pd(i, table, 8)
-
-/* One of the first 16 numbers of a table, without going to memory lane by lane. */
-#define HALF_GATHER_SMALL(table, i) \
-    _mm512_permutex2var_pd(_mm512_loadu_pd(table), i, _mm512_loadu_pd((table) + 8))
+/* One of the first 16 numbers of a table. */
+#define HALF_CHOOSE(table, i) _mm512_permutex2var_pd(_mm512_load_pd(table), i, _mm512_load_pd((table) + 8))
 
 LANE half_reals half_of_ints(half_ints p)
 {
@@ -87,8 +86,6 @@ typedef __m256d half_flags; /* all bits of a lane set, or none */
 #define HALF_STORE_INTS(to, p) _mm256_store_si256((__m256i *)(void *)(to), p)
 #define HALF_AS_INTS(p) _mm256_castpd_si256(p)
 #define HALF_AS_REALS(p) _mm256_castsi256_pd(p)
-#define HALF_GATHER(table, i) _mm256_i64gather_pd(table, i, 8)
-#define HALF_GATHER_SMALL(table, i) HALF_GATHER(table, i)
 
 /* AVX2 does not convert 64-bit integers: the two 32-bit parts are put into doubles as bits. Exact below 2^53. */
 LANE half_reals half_of_ints(half_ints p)
@@ -319,12 +316,46 @@ LANE reals with_sign(reals p, reals q)
     return as_reals(or_ints(as_ints(size_of_each(p)), sign));
 }
 
-/* table[i] for each lane; `small`: the table has 16 numbers. */
-LANE reals look_up(const double *table, ints i, bool small)
+/* Two rows, then four: loads by hand, which are faster than the machine's gathers. */
+LANE __m256d rows(const double (*pairs)[2], uint64_t i, uint64_t j)
 {
-    if (small)
-        return (reals){HALF_GATHER_SMALL(table, i.a), HALF_GATHER_SMALL(table, i.b)};
-    return (reals){HALF_GATHER(table, i.a), HALF_GATHER(table, i.b)};
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(pairs[i])), _mm_load_pd(pairs[j]), 1);
+}
+
+#ifdef WIDE_AVX512
+LANE __m512d half_rows(const double (*pairs)[2], const uint64_t *i)
+{
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(rows(pairs, i[0], i[2])), rows(pairs, i[4], i[6]), 1);
+}
+#define HALF_FIRST(p, q) _mm512_unpacklo_pd(p, q)
+#define HALF_SECOND(p, q) _mm512_unpackhi_pd(p, q)
+#else
+LANE __m256d half_rows(const double (*pairs)[2], const uint64_t *i)
+{
+    return rows(pairs, i[0], i[2]);
+}
+#define HALF_FIRST(p, q) _mm256_unpacklo_pd(p, q)
+#define HALF_SECOND(p, q) _mm256_unpackhi_pd(p, q)
+#endif
+
+/* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
+LANE void look_up(const struct wide_table *table, ints i, bool small, reals *first, reals *second)
+{
+#ifdef WIDE_AVX512
+    if (small) { /* without going to memory lane by lane */
+        *first = (reals){HALF_CHOOSE(table->first, i.a), HALF_CHOOSE(table->first, i.b)};
+        *second = (reals){HALF_CHOOSE(table->second, i.a), HALF_CHOOSE(table->second, i.b)};
+        return;
+    }
+#endif
+    (void)small;
+    _Alignas(64) uint64_t at[LANES];
+    store_ints(at, i);
+    const double(*pairs)[2] = (const double(*)[2])table->pairs;
+    half_reals even = half_rows(pairs, at), odd = half_rows(pairs, at + 1);
+    half_reals even_b = half_rows(pairs, at + HALF), odd_b = half_rows(pairs, at + HALF + 1);
+    *first = (reals){HALF_FIRST(even, odd), HALF_FIRST(even_b, odd_b)};
+    *second = (reals){HALF_SECOND(even, odd), HALF_SECOND(even_b, odd_b)};
 }
 
 #endif

@@ -36,7 +36,7 @@ struct ceduo_run {
     struct ground ground;
     struct marks marks;
     struct wood wood;
-    struct wide_ground wide;
+    struct wide_ground *wide;
     wide_walk_fn *wide_walk; /* NULL: rocks are flown one by one */
     size_t lanes;            /* rocks that a thread flies at once */
     size_t controls;
@@ -297,7 +297,7 @@ static bool fly_block(struct worker *w)
     enum ceduo_law law = run->scene.simulation.law;
     clear_block(w);
     w->next = w->from;
-    const struct wide_job job = {.ground = &run->wide,
+    const struct wide_job job = {.ground = run->wide,
                                  .law = law,
                                  .walkers = w->walkers,
                                  .next = next_rock,
@@ -578,7 +578,7 @@ static bool allocate(struct ceduo_run *run)
     ok = ok && ceduo_marks_init(&run->marks, scene, def->cells, def->cell_x);
     ok = ok && ceduo_ground_init(&run->ground, &scene->slope, scene->simulation.gravity, run->mean.radius,
                                  ceduo_rock_varies(&scene->rock));
-    return ok && (!run->wide_walk || ceduo_wide_ground_init(&run->wide, &run->ground));
+    return ok && (!run->wide_walk || (run->wide = ceduo_wide_ground_create(&run->ground)));
 }
 
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **out)
@@ -624,7 +624,7 @@ void ceduo_run_free(struct ceduo_run *run)
     free(run->cells);
     ceduo_wood_release(&run->wood);
     ceduo_marks_release(&run->marks);
-    ceduo_wide_ground_release(&run->wide);
+    ceduo_wide_ground_free(run->wide);
     ceduo_ground_release(&run->ground);
     free(run);
 }

@@ -4,43 +4,58 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define TABLES 9
-#define SMALL  16 /* the least room of a table */
-
-bool ceduo_wide_ground_init(struct wide_ground *wide, const struct ground *g)
+static void fill(struct wide_table *t, size_t i, double first, double second)
 {
-    size_t n = g->n, room = n + 3 < SMALL ? SMALL : n + 3;
-    double **tables[TABLES] = {&wide->x,  &wide->z,  &wide->m,     &wide->c,    &wide->s,
-                               &wide->rn, &wide->rt, &wide->theta, &wide->brake};
-    double *all = calloc(TABLES * room, sizeof *all);
-    if (!all)
-        return false;
-    for (size_t i = 0; i < TABLES; i++)
-        *tables[i] = all + i * room;
-    for (size_t i = 0; i <= n; i++) {
-        wide->x[i + 1] = g->x[i];
-        wide->z[i + 1] = g->z[i];
+    t->pairs[i][0] = first;
+    t->pairs[i][1] = second;
+    if (i < TABLE_SMALL) {
+        t->first[i] = first;
+        t->second[i] = second;
     }
-    wide->x[0] = g->x[0] - 1;
-    wide->x[n + 2] = g->x[n] + 1;
-    wide->z[0] = wide->z[n + 2] = INFINITY;
-    for (size_t j = 0; j < n; j++) {
-        const struct ground_segment *s = &g->segments[j];
-        wide->m[j + 1] = s->m;
-        wide->c[j + 1] = s->c;
-        wide->s[j + 1] = s->s;
-        wide->rn[j + 1] = s->rn;
-        wide->rt[j + 1] = s->rt;
-        wide->theta[j + 1] = s->theta;
-        wide->brake[j + 1] = s->mu * s->c;
-    }
-    return true;
 }
 
-void ceduo_wide_ground_release(struct wide_ground *wide)
+static void fill_all(struct wide_ground *wide, const struct ground *g)
 {
-    free(wide->x); /* all tables are one piece */
+    size_t n = g->n;
+    fill(&wide->place, 0, g->x[0] - 1, INFINITY);
+    for (size_t i = 0; i <= n; i++)
+        fill(&wide->place, i + 1, g->x[i], g->z[i]);
+    fill(&wide->place, n + 2, g->x[n] + 1, INFINITY);
+    for (size_t j = 0; j < n; j++) {
+        const struct ground_segment *s = &g->segments[j];
+        fill(&wide->slope, j + 1, s->m, s->theta);
+        fill(&wide->tilt, j + 1, s->c, s->s);
+        fill(&wide->share, j + 1, s->rn, s->rt);
+        fill(&wide->brake, j + 1, s->mu * s->c, 0);
+    }
+}
+
+struct wide_ground *ceduo_wide_ground_create(const struct ground *g)
+{
+    struct wide_ground *wide = aligned_alloc(_Alignof(struct wide_ground), sizeof *wide);
+    if (!wide)
+        return NULL;
     *wide = (struct wide_ground){0};
+    struct wide_table *tables[] = {&wide->place, &wide->slope, &wide->tilt, &wide->share, &wide->brake};
+    size_t count = sizeof tables / sizeof tables[0], entries = g->n + 3;
+    wide->small = entries <= TABLE_SMALL;
+    wide->room = calloc(count * entries, sizeof *wide->room);
+    if (!wide->room) {
+        free(wide);
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++)
+        tables[i]->pairs = wide->room + i * entries;
+    fill_all(wide, g);
+    return wide;
+}
+
+void ceduo_wide_ground_free(struct wide_ground *wide)
+{
+    if (!wide)
+        return;
+    free(wide->room);
+    free(wide);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)

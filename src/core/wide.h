@@ -8,17 +8,28 @@
 /* The walk of walk.h for many rocks at once, one in each lane of wide registers: the same bits for every rock. What
  * happens seldom (stems, marks, rolling, far landings on long slopes) is done lane by lane by the scalar walk. */
 
-/* The ground in tables for look_up(): of vertex or segment i at [i + 1]. Before and behind stand walls without top, so
- * that a flight over the profile's end is one that strikes a wall. */
-struct wide_ground {
-    double *x, *z;
-    double *m, *c, *s, *rn, *rt, *theta;
-    double *brake; /* mu c */
+/* Two numbers for each vertex or segment i, at [i + 1]: look_up() of lanes.h. */
+#define TABLE_SMALL 16
+struct wide_table {
+    _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* of a small table, once more */
+    double (*pairs)[2];
 };
 
-/* False without memory. */
-bool ceduo_wide_ground_init(struct wide_ground *wide, const struct ground *g);
-void ceduo_wide_ground_release(struct wide_ground *wide);
+/* The ground in tables. Before and behind stand walls without top, so that a flight over the profile's end is one that
+ * strikes a wall. */
+struct wide_ground {
+    struct wide_table place; /* x, z of a vertex */
+    struct wide_table slope; /* m, largest facet angle */
+    struct wide_table tilt;  /* c, s */
+    struct wide_table share; /* rn, rt */
+    struct wide_table brake; /* mu c */
+    bool small;              /* all fit TABLE_SMALL */
+    double (*room)[2];       /* of all pairs */
+};
+
+/* NULL without memory. */
+struct wide_ground *ceduo_wide_ground_create(const struct ground *g);
+void ceduo_wide_ground_free(struct wide_ground *wide);
 
 /* The wide walk of a kind of registers, or NULL where this machine has none of the kind; how many rocks at once. */
 struct wide_job;

@@ -31,15 +31,15 @@ struct wide {
 
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
     uint64_t segment[LANES];
-    /* the landing to come, with the ends and the slope of its segment */
+    /* the landing to come, with the ends, slope and largest facet angle of its segment */
     double t[LANES], to_x[LANES], to_z[LANES];
     uint64_t to[LANES];
-    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
+    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES], theta[LANES];
     double along[LANES];   /* of those that roll */
     double draw[3][LANES]; /* for the facets of the next contacts */
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
     double radius[LANES], k[LANES];
-    double rn[LANES], rt[LANES], theta[LANES]; /* where the ground varies */
+    double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
 
     /* bit i is lane i */
@@ -87,11 +87,12 @@ static void load_course(struct wide *k, size_t i, const struct course *c)
     k->along[i] = c->v.along;
     uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
     k->to[i] = j;
-    k->x0[i] = ground->x[j];
-    k->z0[i] = ground->z[j];
-    k->x1[i] = ground->x[j + 1];
-    k->z1[i] = ground->z[j + 1];
-    k->m[i] = ground->m[j];
+    k->x0[i] = ground->place.pairs[j][0];
+    k->z0[i] = ground->place.pairs[j][1];
+    k->x1[i] = ground->place.pairs[j + 1][0];
+    k->z1[i] = ground->place.pairs[j + 1][1];
+    k->m[i] = ground->slope.pairs[j][0];
+    k->theta[i] = ground->slope.pairs[j][1];
 }
 
 /* The walker brought up to date, and the lane's course. */
@@ -374,7 +375,7 @@ struct velocities {
 struct landings {
     reals t, x, z;
     ints segment;
-    reals x0, z0, x1, z1, m;
+    reals x0, z0, x1, z1, m, theta;
     flags left;
     unsigned far; /* to be looked for by the scalar walk */
 };
@@ -405,8 +406,7 @@ LANE struct rocks rocks_down(struct form form, const struct wide *k)
                       .x1 = load(k->x1),
                       .z1 = load(k->z1),
                       .m = load(k->m)};
-    r.c = look_up(k->ground->c, r.segment, form.small);
-    r.s = look_up(k->ground->s, r.segment, form.small);
+    look_up(&k->ground->tilt, r.segment, form.small, &r.c, &r.s);
     return r;
 }
 
@@ -432,18 +432,15 @@ static __attribute__((noinline)) void ground_alone(struct wide *k)
 
 LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct velocities *v)
 {
-    reals rn, rt, largest, sine, cosine, zero = all(0);
+    reals rn, rt, sine, cosine, zero = all(0);
     if (k->varies) {
         ground_alone(k);
         rn = load(k->rn);
         rt = load(k->rt);
-        largest = load(k->theta);
     } else {
-        rn = look_up(k->ground->rn, r->segment, form.small);
-        rt = look_up(k->ground->rt, r->segment, form.small);
-        largest = look_up(k->ground->theta, r->segment, form.small);
+        look_up(&k->ground->share, r->segment, form.small, &rn, &rt);
     }
-    facet_lanes(k, next_draw(k), largest, v->along, v->off, &sine, &cosine);
+    facet_lanes(k, next_draw(k), load(k->theta), v->along, v->off, &sine, &cosine);
     reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
     struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),
                               .vt = add(mul(v->along, cosine), mul(v->off, sine)),
@@ -491,7 +488,8 @@ LANE struct landings find_segments(struct form form, const struct wide *k, const
             going = flags_of(search);
         }
         ints q = add_ints(p, step);
-        reals x = look_up(k->ground->x, q, form.small), z = look_up(k->ground->z, q, form.small);
+        reals x, z;
+        look_up(&k->ground->place, q, form.small, &x, &z);
         t = mul(sub(x, r->x), inv);
         flags clear = at_least(sub(height_at(k, r, t), z), zero);
         flags found = but(going, clear);
@@ -526,11 +524,9 @@ LANE void land_lanes(struct form form, const struct wide *k, const struct rocks 
 {
     ints behind = add_ints(l->segment, all_ints(1));
     flags here = same(l->segment, r->segment);
-    l->m = look_up(k->ground->m, l->segment, form.small);
-    l->x0 = look_up(k->ground->x, l->segment, form.small);
-    l->z0 = look_up(k->ground->z, l->segment, form.small);
-    l->x1 = look_up(k->ground->x, behind, form.small);
-    l->z1 = look_up(k->ground->z, behind, form.small);
+    look_up(&k->ground->slope, l->segment, form.small, &l->m, &l->theta);
+    look_up(&k->ground->place, l->segment, form.small, &l->x0, &l->z0);
+    look_up(&k->ground->place, behind, form.small, &l->x1, &l->z1);
     reals c = sub(r->z, add(l->z0, mul(l->m, sub(r->x, l->x0))));
     reals t = later_root_lanes(k, pick(here, all(0), c), sub(r->vz, mul(l->m, r->vx)));
     l->t = t = least(latest, t);
@@ -610,7 +606,9 @@ LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, real
     reals dir = pick(forth, all(1), all(-1));
     reals to_end = way_lanes(r, steep, pick(forth, r->x1, r->x0), pick(forth, r->z1, r->z0));
     reals s = mul(dir, r->s), c = mul(dir, r->c), up = mul(pick(forth, all(-1), all(1)), r->s);
-    reals rate = mul(all(2 * k->g->gravity), sub(up, look_up(k->ground->brake, r->segment, form.small)));
+    reals brake, none;
+    look_up(&k->ground->brake, r->segment, form.small, &brake, &none);
+    reals rate = mul(all(2 * k->g->gravity), sub(up, brake));
     if (form.law != CEDUO_LAW_LUMPED)
         rate = over(rate, share);
     reals u2 = add(mul(u, u), mul(rate, radius)), x, z;
@@ -650,6 +648,7 @@ LANE void store_lanes(struct wide *k, const struct rocks *r, const struct landin
     store(k->x1, l->x1);
     store(k->z1, l->z1);
     store(k->m, l->m);
+    store(k->theta, l->theta);
 }
 
 LANE void step_lanes(struct form form, struct wide *k)
@@ -727,7 +726,7 @@ static void wide_walk(const struct wide_job *job)
         return;
     k.g = w->g;
     k.seed = w->seed;
-    bool small = k.g->n + 3 <= 16;
+    bool small = job->ground->small;
     k.far = k.g->top > 0;
     k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
