@@ -45,6 +45,7 @@ struct ceduo_run {
     struct block whole;    /* all whole blocks */
     struct block tail;     /* the block that is not full yet */
     struct block *slots;   /* CHUNK_BLOCKS in work */
+    bool alike;            /* the rocks differ in nothing but their numbers */
     bool exact;            /* samples are kept; otherwise histograms */
     uint64_t room;         /* rocks that the samples have room for */
     double *samples;       /* [control][quantity][room], NaN where a rock did not arrive */
@@ -66,6 +67,8 @@ struct worker {
     struct ceduo_run *run;
     struct walker *walkers; /* one for each lane */
     struct stems *stems;    /* likewise; NULL: no forest */
+    bool released;          /* where all rocks are alike: `first` is one of them */
+    struct walker first;
     struct block *block;
     uint64_t from, next, to; /* rocks of the block: the first, the next to begin, behind the last */
     struct arrival *arrivals; /* [control][CEDUO_BLOCK_ROCKS] */
@@ -239,6 +242,23 @@ static bool goes_on(struct worker *w, uint64_t r)
     return !atomic_load_explicit(&w->chunk->stop, memory_order_relaxed);
 }
 
+static enum ceduo_status release(struct worker *w, struct walker *walker, uint64_t number)
+{
+    struct ceduo_run *run = w->run;
+    if (w->released) {
+        *walker = w->first;
+        walker->number = number;
+        return CEDUO_OK;
+    }
+    enum ceduo_status status =
+        ceduo_walk_release(walker, &run->scene, &run->ground, &run->marks, &run->mean, number);
+    if (run->alike && status == CEDUO_OK) {
+        w->first = *walker;
+        w->released = true;
+    }
+    return status;
+}
+
 /* The next rock of the block at its release; false where none is left. */
 static bool next_rock(void *context, size_t lane)
 {
@@ -247,8 +267,7 @@ static bool next_rock(void *context, size_t lane)
     while (w->next < w->to && goes_on(w, w->next)) {
         uint64_t number = w->next++;
         clear_samples(run, number);
-        if (ceduo_walk_release(&w->walkers[lane], &run->scene, &run->ground, &run->marks, &run->mean, number) ==
-            CEDUO_OK)
+        if (release(w, &w->walkers[lane], number) == CEDUO_OK)
             return true;
         note_end(w, lane, CEDUO_UNFINISHED);
     }
@@ -299,6 +318,7 @@ static bool fly_block(struct worker *w)
     w->next = w->from;
     const struct wide_job job = {.ground = run->wide,
                                  .law = law,
+                                 .alike = run->alike,
                                  .walkers = w->walkers,
                                  .next = next_rock,
                                  .ended = note_end,
@@ -603,6 +623,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
+    run->alike = run->wood.bare && ceduo_walk_alike(&run->scene, &run->ground);
     *out = run;
     return status;
 }

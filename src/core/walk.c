@@ -84,6 +84,13 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     return CEDUO_OK;
 }
 
+bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g)
+{
+    const struct ceduo_release *r = &scene->release;
+    return !ceduo_rock_varies(&scene->rock) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
+           !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
+}
+
 /* ---- flight ---- */
 
 static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)

@@ -45,6 +45,9 @@ struct walker {
 enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene *scene, const struct ground *g,
                                      const struct marks *marks, const struct ceduo_rock *mean, uint64_t number);
 
+/* Whether all rocks of a scene without forest start alike. */
+bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g);
+
 /* Follows it to its end. */
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 

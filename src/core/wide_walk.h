@@ -47,7 +47,10 @@ struct wide {
     unsigned there; /* is at its next contact already */
     unsigned rolls; /* of these: with speed `along` on the ground */
     unsigned left;  /* lands off the slope */
+    unsigned fresh; /* has no draws yet */
     bool empty;     /* no rock waits */
+    bool same_start; /* every rock comes to its first contact as `start`, without passing a mark */
+    struct course start;
 };
 
 /* ---- one lane and its walker ---- */
@@ -141,14 +144,16 @@ static void refill(struct wide *k, size_t i)
     k->rolls &= ~bit;
     k->there |= bit;
     while (job->next(job->context, i)) {
-        struct course c;
         enum ceduo_end end;
-        if (ceduo_walk_start(w, &c, &end)) {
-            load_course(k, i, &c);
+        size_t mark = w->next_mark;
+        bool known = k->same_start;
+        if (known || ceduo_walk_start(w, &k->start, &end)) {
+            load_course(k, i, &k->start);
             k->radius[i] = w->rock.radius;
             k->k[i] = w->k;
             k->number[i] = w->number;
-            load_draws(k, i);
+            k->fresh |= bit;
+            k->same_start = known || (job->alike && w->next_mark == mark);
             return;
         }
         job->ended(job->context, i, end);
@@ -171,6 +176,16 @@ static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
     }
     load_course(k, i, &c);
     k->there |= bit;
+}
+
+static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    w->contacts = k->contacts[i];
+    w->at.x = k->to_x[i];
+    w->at.z = k->to_z[i];
+    k->job->ended(k->job->context, i, CEDUO_LEFT_SLOPE);
+    refill(k, i);
 }
 
 static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
@@ -380,16 +395,18 @@ struct landings {
     unsigned far; /* to be looked for by the scalar walk */
 };
 
-/* Those that the scalar walk brings to the next contact; and those that only pass a mark on their way there. */
-LANE unsigned disturbed(const struct wide *k, unsigned *pass)
+/* Those that the scalar walk brings to the next contact; those that only pass a mark on their way there; and
+ * those that only leave the slope. */
+LANE unsigned disturbed(const struct wide *k, unsigned *pass, unsigned *leave)
 {
     reals x = load(k->to_x);
     flags mark = both(at_least(x, load(k->next_x)), less(all(0), load(k->vx)));
     flags stem = either(at_least(x, load(k->stem_ahead)), at_least(load(k->stem_behind), x));
     unsigned flies = k->live & ~k->there;
     unsigned many = ~bits_of(more(load_ints(k->pause), load_ints(k->contacts)));
-    unsigned alone = ((bits_of(stem) | k->left) & flies) | (many & k->live);
+    unsigned alone = (bits_of(stem) & flies) | (many & k->live);
     *pass = bits_of(mark) & flies & ~alone;
+    *leave = k->left & ~alone;
     return alone;
 }
 
@@ -463,6 +480,28 @@ LANE reals height_at(const struct wide *k, const struct rocks *r, reals t)
     return add(r->z, mul(sub(r->vz, mul(all(k->g->half_g), t)), t));
 }
 
+/* Flights that are above vertex p, on to the next. */
+struct search {
+    ints p, step;
+    flags forth, going;
+    reals inv;
+};
+
+LANE void search_on(struct form form, const struct wide *k, const struct rocks *r, struct search *s,
+                    struct landings *l, reals *latest)
+{
+    ints q = add_ints(s->p, s->step);
+    reals x, z;
+    look_up(&k->ground->place, pick_ints(s->going, q, s->p), form.small, &x, &z);
+    reals t = mul(sub(x, r->x), s->inv);
+    flags clear = at_least(sub(height_at(k, r, t), z), all(0));
+    flags found = but(s->going, clear);
+    l->segment = pick_ints(found, pick_ints(s->forth, s->p, q), l->segment);
+    *latest = pick(found, t, *latest);
+    s->p = q;
+    s->going = both(s->going, clear);
+}
+
 /* Which segment each flight lands on, not yet where; `most`: before that time. As land_towards() and land_beyond(). */
 LANE struct landings find_segments(struct form form, const struct wide *k, const struct rocks *r, reals *latest)
 {
@@ -475,29 +514,22 @@ LANE struct landings find_segments(struct form form, const struct wide *k, const
     struct landings l = {.t = t, .segment = r->segment, .left = less(zero, zero)};
     l.far = k->live & ~bits_of(either(forth, less(r->vx, zero)));
     *latest = t;
-    unsigned search = k->live & ~bits_of(here) & ~l.far;
-    if (!search)
-        return l;
-    ints p = add_ints(r->segment, pick_ints(forth, one, first));
-    do {
-        flags going = flags_of(search);
-        if (k->far) { /* blocks of segments begin here */
-            unsigned far = search & bits_of(same(and_ints(p, all_ints(GROUND_BLOCK - 1)), one));
-            l.far |= far;
-            search &= ~far;
-            going = flags_of(search);
+    struct search s = {.p = add_ints(r->segment, pick_ints(forth, one, first)), .step = step, .forth = forth, .inv = inv};
+    s.going = flags_of(k->live & ~bits_of(here) & ~l.far);
+    if (k->far) {
+        while (bits_of(s.going)) {
+            flags far = both(s.going, same(and_ints(s.p, all_ints(GROUND_BLOCK - 1)), one));
+            l.far |= bits_of(far); /* blocks of segments begin here */
+            s.going = but(s.going, far);
+            search_on(form, k, r, &s, &l, latest);
         }
-        ints q = add_ints(p, step);
-        reals x, z;
-        look_up(&k->ground->place, q, form.small, &x, &z);
-        t = mul(sub(x, r->x), inv);
-        flags clear = at_least(sub(height_at(k, r, t), z), zero);
-        flags found = but(going, clear);
-        l.segment = pick_ints(found, pick_ints(forth, p, q), l.segment);
-        *latest = pick(found, t, *latest);
-        p = pick_ints(going, q, p);
-        search &= bits_of(clear);
-    } while (search);
+    } else { /* mostly not more than three: no wrong guess of a branch */
+        search_on(form, k, r, &s, &l, latest);
+        search_on(form, k, r, &s, &l, latest);
+        search_on(form, k, r, &s, &l, latest);
+        while (bits_of(s.going))
+            search_on(form, k, r, &s, &l, latest);
+    }
     l.left = either(same(l.segment, first), same(l.segment, last));
     return l;
 }
@@ -651,13 +683,21 @@ LANE void store_lanes(struct wide *k, const struct rocks *r, const struct landin
     store(k->theta, l->theta);
 }
 
-LANE void step_lanes(struct form form, struct wide *k)
+LANE void step_lanes(struct form form, struct wide *k, bool even)
 {
-    unsigned pass, alone = disturbed(k, &pass);
+    unsigned pass, leave, alone = disturbed(k, &pass, &leave);
     for (; pass; pass &= pass - 1)
         pass_marks_alone(k, (size_t)__builtin_ctz(pass));
+    for (; leave; leave &= leave - 1)
+        leave_alone(k, (size_t)__builtin_ctz(leave));
     for (; alone; alone &= alone - 1)
         come_down_alone(k, (size_t)__builtin_ctz(alone));
+    if (even)
+        draw_ahead(k);
+    else
+        for (; k->fresh; k->fresh &= k->fresh - 1)
+            load_draws(k, (size_t)__builtin_ctz(k->fresh));
+    k->fresh = 0;
     struct rocks r = rocks_down(form, k);
     struct velocities v = velocities_on(k, &r);
     strike_lanes(form, k, &r, &v);
@@ -707,9 +747,7 @@ HOT void walk_lanes(struct form form, struct wide *k)
     for (uint64_t step = 0;; step++) {
         if (k->empty && __builtin_popcount(k->live) <= LANES / 4)
             break;
-        if (step % 2 == 0)
-            draw_ahead(k);
-        step_lanes(form, k);
+        step_lanes(form, k, step % 2 == 0);
     }
     finish_alone(k);
 }
