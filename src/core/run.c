@@ -67,8 +67,7 @@ struct worker {
     struct ceduo_run *run;
     struct walker *walkers; /* one for each lane */
     struct stems *stems;    /* likewise; NULL: no forest */
-    bool released;          /* where all rocks are alike: `first` is one of them */
-    struct walker first;
+    struct walker first;    /* a rock at its release: where all are alike, they are as this one */
     struct block *block;
     uint64_t from, next, to; /* rocks of the block: the first, the next to begin, behind the last */
     struct arrival *arrivals; /* [control][CEDUO_BLOCK_ROCKS] */
@@ -245,17 +244,14 @@ static bool goes_on(struct worker *w, uint64_t r)
 static enum ceduo_status release(struct worker *w, struct walker *walker, uint64_t number)
 {
     struct ceduo_run *run = w->run;
-    if (w->released) {
-        *walker = w->first;
-        walker->number = number;
+    if (run->alike && walker->g) {
+        ceduo_walk_release_again(walker, &w->first, number);
         return CEDUO_OK;
     }
     enum ceduo_status status =
         ceduo_walk_release(walker, &run->scene, &run->ground, &run->marks, &run->mean, number);
-    if (run->alike && status == CEDUO_OK) {
+    if (run->alike)
         w->first = *walker;
-        w->released = true;
-    }
     return status;
 }
 

@@ -91,6 +91,19 @@ bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g)
            !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
 }
 
+void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number)
+{
+    w->number = number;
+    w->spin = first->spin;
+    w->at = first->at;
+    w->contacts = 0;
+    w->pause = first->pause;
+    w->cancelled = false;
+    w->facets_of = UINT64_MAX;
+    w->next_mark = first->next_mark;
+    w->next_x = first->next_x;
+}
+
 /* ---- flight ---- */
 
 static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)

@@ -45,8 +45,10 @@ struct walker {
 enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene *scene, const struct ground *g,
                                      const struct marks *marks, const struct ceduo_rock *mean, uint64_t number);
 
-/* Whether all rocks of a scene without forest start alike. */
+/* Whether all rocks of a scene without forest start alike; another such rock, from one at its release and a walker that
+ * was released before. */
 bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g);
+void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number);
 
 /* Follows it to its end. */
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);

@@ -388,7 +388,7 @@ struct velocities {
 };
 
 struct landings {
-    reals t, x, z;
+    reals t, x, z, inv; /* inv: 1/vx */
     ints segment;
     reals x0, z0, x1, z1, m, theta;
     flags left;
@@ -511,7 +511,7 @@ LANE struct landings find_segments(struct form form, const struct wide *k, const
     ints step = pick_ints(forth, one, back);
     reals t = mul(sub(pick(forth, r->x1, r->x0), r->x), inv);
     flags here = but(flags_of(ALL_LANES), at_least(sub(r->vz, mul(r->m, r->vx)), mul(all(k->g->half_g), t)));
-    struct landings l = {.t = t, .segment = r->segment, .left = less(zero, zero)};
+    struct landings l = {.t = t, .inv = inv, .segment = r->segment, .left = less(zero, zero)};
     l.far = k->live & ~bits_of(either(forth, less(r->vx, zero)));
     *latest = t;
     struct search s = {.p = add_ints(r->segment, pick_ints(forth, one, first)), .step = step, .forth = forth, .inv = inv};
@@ -581,7 +581,7 @@ LANE void land_lanes(struct form form, const struct wide *k, const struct rocks 
 LANE void leave_lanes(const struct wide *k, const struct rocks *r, struct landings *l)
 {
     reals end = pick(less(all(0), r->vx), l->x0, l->x1);
-    reals t = mul(sub(end, r->x), over(all(1), r->vx));
+    reals t = mul(sub(end, r->x), l->inv);
     l->t = pick(l->left, t, l->t);
     l->x = pick(l->left, end, l->x);
     l->z = pick(l->left, height_at(k, r, t), l->z);
@@ -589,26 +589,29 @@ LANE void leave_lanes(const struct wide *k, const struct rocks *r, struct landin
 
 /* ---- rolling ---- */
 
-/* Metres of ground from x, z on; as ground_length(). */
-LANE reals way_lanes(const struct rocks *r, flags steep, reals x, reals z)
+/* Whether x, z is less than a radius of ground away, surely, or more, surely: without a division, and not told where
+ * rounding might matter. As ground_length() against the radius. */
+LANE void is_within(const struct rocks *r, flags steep, reals x, reals z, reals radius, flags *less_far, flags *farther)
 {
-    return size_of_each(over(pick(steep, sub(z, r->z), sub(x, r->x)), pick(steep, r->s, r->c)));
+    const double margin = 0x1p-48;
+    reals d = size_of_each(pick(steep, sub(z, r->z), sub(x, r->x)));
+    reals reach = size_of_each(mul(radius, pick(steep, r->s, r->c)));
+    *less_far = less(d, mul(reach, all(1 - margin)));
+    *farther = less(mul(reach, all(1 + margin)), d);
 }
 
-/* Those that roll, as is_roll(); `unsure`: those that land on another segment. */
+/* Those that roll, as is_roll(); `unsure`: where the scalar walk looks again, as those that land on another segment. */
 LANE unsigned rolling(const struct wide *k, const struct rocks *r, reals off, const struct landings *l, flags steep,
                       unsigned *unsure)
 {
     reals radius = load(k->radius);
     flags near = but(less(size_of_each(sub(l->x, r->x)), radius), l->left);
     flags low = less(mul(off, off), mul(radius, mul(all(2 * k->g->gravity), r->c)));
-    flags may = both(near, low);
-    *unsure = 0;
-    if (!(bits_of(may) & k->live))
-        return 0;
-    flags here = same(l->segment, r->segment);
-    *unsure = bits_of(but(may, here)) & k->live;
-    return bits_of(both(both(may, here), less(way_lanes(r, steep, l->x, l->z), radius))) & k->live;
+    flags may = both(near, low), here = same(l->segment, r->segment), less_far, farther;
+    is_within(r, steep, l->x, l->z, radius, &less_far, &farther);
+    flags rolls = both(both(may, here), less_far);
+    *unsure = bits_of(but(but(may, rolls), both(here, farther))) & k->live;
+    return bits_of(rolls) & k->live;
 }
 
 /* The point a roll of a radius further; as roll_point(). */
@@ -636,7 +639,8 @@ LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, real
     }
     flags forth = less(zero, u);
     reals dir = pick(forth, all(1), all(-1));
-    reals to_end = way_lanes(r, steep, pick(forth, r->x1, r->x0), pick(forth, r->z1, r->z0));
+    flags ends, stays;
+    is_within(r, steep, pick(forth, r->x1, r->x0), pick(forth, r->z1, r->z0), radius, &ends, &stays);
     reals s = mul(dir, r->s), c = mul(dir, r->c), up = mul(pick(forth, all(-1), all(1)), r->s);
     reals brake, none;
     look_up(&k->ground->brake, r->segment, form.small, &brake, &none);
@@ -647,7 +651,7 @@ LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, real
     roll_point_lanes(r, steep, c, s, radius, &x, &z);
     flags meets = pick_flags(forth, either(at_least(x, load(k->next_x)), at_least(x, load(k->stem_ahead))),
                              at_least(load(k->stem_behind), x));
-    flags good = but(both(less(radius, to_end), less(zero, u2)), either(meets, equal(u, zero)));
+    flags good = but(both(stays, less(zero, u2)), either(meets, equal(u, zero)));
     rolls &= bits_of(good);
     flags which = flags_of(rolls);
     u = mul(dir, root_of(u2));
@@ -706,8 +710,7 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     struct landings l = find_segments(form, k, &r, &latest);
     land_lanes(form, k, &r, latest, &l);
     k->left = bits_of(l.left) & k->live;
-    if (k->left)
-        leave_lanes(k, &r, &l);
+    leave_lanes(k, &r, &l);
     flags steep = less(all(1), size_of_each(r.m));
     unsigned unsure, rolls = rolling(k, &r, v.off, &l, steep, &unsure) & ~l.far;
     alone = l.far | unsure | rolls;
