@@ -12,6 +12,12 @@
  * then WIDE_AVX512 too, and has 8 or 16 lanes: two registers each, so that one half works while the other waits. Every
  * operation is that of plain C, rounded the same, in each lane by itself. */
 
+#ifdef WIDE_AVX512
+#define LOOK_UP_WRAPS true /* a small table is looked up at i modulo 16, whatever i is */
+#else
+#define LOOK_UP_WRAPS false
+#endif
+
 #define LANE static inline __attribute__((always_inline))
 
 /* ---- half of the lanes: one register ---- */

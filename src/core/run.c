@@ -282,18 +282,19 @@ static void clear_block(struct worker *w)
 static void sum_arrivals(struct worker *w, size_t control)
 {
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
-    struct sums *to = &w->block->controls[control];
+    struct sums *to = &w->block->controls[control], sums = *to;
     double accepted = w->run->scene.controls[control].accepted;
     for (uint64_t i = 0; i < w->to - w->from; i++) {
         const struct arrival *a = &arrivals[i];
         if (a->stems_hit < 0)
             continue;
         for (int q = 0; q < QUANTITIES; q++)
-            ceduo_moments_add(&to->of[q], a->values[q]);
+            ceduo_moments_add(&sums.of[q], a->values[q]);
         if (w->stems)
-            ceduo_moments_add(&to->contacts, a->stems_hit);
-        to->exceeded += a->values[ENERGY] > accepted; /* never, where that is NaN */
+            ceduo_moments_add(&sums.contacts, a->stems_hit);
+        sums.exceeded += a->values[ENERGY] > accepted; /* never, where that is NaN */
     }
+    *to = sums;
 }
 
 static void sum_block(struct worker *w)

@@ -772,9 +772,9 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 
 /* ---- the way in pieces ---- */
 
-void ceduo_walk_pass_marks(struct walker *w, const struct course *c)
+void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t)
 {
-    pass_in_flight(w, c->at, c->l.x, c->l.t);
+    pass_in_flight(w, at, x, t);
 }
 
 bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)

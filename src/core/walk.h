@@ -71,8 +71,8 @@ struct course {
 /* From the release to the first contact. In all of these false: the way ended before, at w->at. */
 bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end);
 
-/* Notes the marks that the flight passes, which nothing ends before its landing. */
-void ceduo_walk_pass_marks(struct walker *w, const struct course *c);
+/* Notes the marks that a flight passes up to x, where it lands after t. */
+void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t);
 
 /* To the next contact. */
 bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end);

@@ -16,6 +16,7 @@
 struct form {
     enum ceduo_law law;
     bool small; /* the tables have 16 numbers */
+    bool wraps; /* and what is looked up beyond them does no harm */
 };
 
 /* All rocks under way, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
@@ -190,9 +191,9 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
 
 static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 {
-    struct course c = course_of(k, i);
     struct walker *w = &k->job->walkers[i];
-    ceduo_walk_pass_marks(w, &c);
+    w->spin = k->spin[i];
+    ceduo_walk_pass_marks(w, (struct flight){.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]}, k->to_x[i], k->t[i]);
     k->next_x[i] = w->next_x;
 }
 
@@ -483,54 +484,55 @@ LANE reals height_at(const struct wide *k, const struct rocks *r, reals t)
 /* Flights that are above vertex p, on to the next. */
 struct search {
     ints p, step;
-    flags forth, going;
+    flags going;
     reals inv;
 };
 
-LANE void search_on(struct form form, const struct wide *k, const struct rocks *r, struct search *s,
-                    struct landings *l, reals *latest)
+LANE void search_on(struct form form, const struct wide *k, const struct rocks *r, struct search *s)
 {
     ints q = add_ints(s->p, s->step);
     reals x, z;
-    look_up(&k->ground->place, pick_ints(s->going, q, s->p), form.small, &x, &z);
+    look_up(&k->ground->place, form.wraps ? q : pick_ints(s->going, q, s->p), form.small, &x, &z);
     reals t = mul(sub(x, r->x), s->inv);
-    flags clear = at_least(sub(height_at(k, r, t), z), all(0));
-    flags found = but(s->going, clear);
-    l->segment = pick_ints(found, pick_ints(s->forth, s->p, q), l->segment);
-    *latest = pick(found, t, *latest);
-    s->p = q;
-    s->going = both(s->going, clear);
+    s->going = both(s->going, at_least(sub(height_at(k, r, t), z), all(0)));
+    s->p = pick_ints(s->going, q, s->p);
 }
 
-/* Which segment each flight lands on, not yet where; `most`: before that time. As land_towards() and land_beyond(). */
-LANE struct landings find_segments(struct form form, const struct wide *k, const struct rocks *r, reals *latest)
+/* Leaves those out that have come to where blocks of segments begin; returns them. */
+LANE unsigned leave_far(struct search *s)
 {
-    ints one = all_ints(1), back = all_ints(UINT64_MAX), first = all_ints(0), last = all_ints(k->g->n + 1);
+    flags far = both(s->going, same(and_ints(s->p, all_ints(GROUND_BLOCK - 1)), all_ints(1)));
+    s->going = but(s->going, far);
+    return bits_of(far);
+}
+
+/* Which segment each flight lands on, not yet where. As land_towards() and land_beyond(). */
+LANE struct landings find_segments(struct form form, const struct wide *k, const struct rocks *r)
+{
+    ints one = all_ints(1), none = all_ints(0), back = all_ints(UINT64_MAX);
     reals zero = all(0), inv = over(all(1), r->vx);
     flags forth = less(zero, r->vx);
-    ints step = pick_ints(forth, one, back);
     reals t = mul(sub(pick(forth, r->x1, r->x0), r->x), inv);
-    flags here = but(flags_of(ALL_LANES), at_least(sub(r->vz, mul(r->m, r->vx)), mul(all(k->g->half_g), t)));
-    struct landings l = {.t = t, .inv = inv, .segment = r->segment, .left = less(zero, zero)};
+    flags clear = at_least(sub(r->vz, mul(r->m, r->vx)), mul(all(k->g->half_g), t));
+    struct landings l = {.inv = inv};
     l.far = k->live & ~bits_of(either(forth, less(r->vx, zero)));
-    *latest = t;
-    struct search s = {.p = add_ints(r->segment, pick_ints(forth, one, first)), .step = step, .forth = forth, .inv = inv};
-    s.going = flags_of(k->live & ~bits_of(here) & ~l.far);
+    clear = both(clear, flags_of(k->live & ~l.far));
+    /* the vertex that the flight comes to, if it is on the ground before that is the end of its segment */
+    struct search s = {.step = pick_ints(forth, one, back), .going = clear, .inv = inv};
+    s.p = add_ints(r->segment, pick_ints(forth, none, one));
+    s.p = add_ints(s.p, pick_ints(clear, s.step, none));
     if (k->far) {
-        while (bits_of(s.going)) {
-            flags far = both(s.going, same(and_ints(s.p, all_ints(GROUND_BLOCK - 1)), one));
-            l.far |= bits_of(far); /* blocks of segments begin here */
-            s.going = but(s.going, far);
-            search_on(form, k, r, &s, &l, latest);
-        }
+        while (l.far |= leave_far(&s), bits_of(s.going))
+            search_on(form, k, r, &s);
     } else { /* mostly not more than three: no wrong guess of a branch */
-        search_on(form, k, r, &s, &l, latest);
-        search_on(form, k, r, &s, &l, latest);
-        search_on(form, k, r, &s, &l, latest);
+        search_on(form, k, r, &s);
+        search_on(form, k, r, &s);
+        search_on(form, k, r, &s);
         while (bits_of(s.going))
-            search_on(form, k, r, &s, &l, latest);
+            search_on(form, k, r, &s);
     }
-    l.left = either(same(l.segment, first), same(l.segment, last));
+    l.segment = add_ints(s.p, pick_ints(forth, none, back));
+    l.left = either(same(l.segment, none), same(l.segment, all_ints(k->g->n + 1)));
     return l;
 }
 
@@ -552,13 +554,14 @@ LANE reals clamp_lanes(reals v, reals a, reals b)
 }
 
 /* Where the flights land on their segments. As land_on() and land_at(). */
-LANE void land_lanes(struct form form, const struct wide *k, const struct rocks *r, reals latest, struct landings *l)
+LANE void land_lanes(struct form form, const struct wide *k, const struct rocks *r, struct landings *l)
 {
     ints behind = add_ints(l->segment, all_ints(1));
     flags here = same(l->segment, r->segment);
     look_up(&k->ground->slope, l->segment, form.small, &l->m, &l->theta);
     look_up(&k->ground->place, l->segment, form.small, &l->x0, &l->z0);
     look_up(&k->ground->place, behind, form.small, &l->x1, &l->z1);
+    reals latest = mul(sub(pick(less(all(0), r->vx), l->x1, l->x0), r->x), l->inv);
     reals c = sub(r->z, add(l->z0, mul(l->m, sub(r->x, l->x0))));
     reals t = later_root_lanes(k, pick(here, all(0), c), sub(r->vz, mul(l->m, r->vx)));
     l->t = t = least(latest, t);
@@ -619,11 +622,15 @@ LANE void roll_point_lanes(const struct rocks *r, flags steep, reals c, reals s,
 {
     reals fx = clamp_lanes(add(r->x, mul(c, radius)), r->x0, r->x1);
     reals fz = pick(at_least(fx, r->x1), r->z1, add(r->z0, mul(r->m, sub(fx, r->x0))));
-    reals lo = least(r->z0, r->z1), hi = most(r->z1, r->z0);
-    reals sz = clamp_lanes(add(r->z, mul(s, radius)), lo, hi);
-    reals sx = clamp_lanes(add(r->x0, over(sub(sz, r->z0), r->m)), r->x0, r->x1);
-    *x = pick(steep, sx, fx);
-    *z = pick(steep, sz, fz);
+    *x = fx;
+    *z = fz;
+    if (bits_of(steep)) {
+        reals lo = least(r->z0, r->z1), hi = most(r->z1, r->z0);
+        reals sz = clamp_lanes(add(r->z, mul(s, radius)), lo, hi);
+        reals sx = clamp_lanes(add(r->x0, over(sub(sz, r->z0), r->m)), r->x0, r->x1);
+        *x = pick(steep, sx, fx);
+        *z = pick(steep, sz, fz);
+    }
 }
 
 /* Rolls those of `rolls` that stay on their segment, do not stop and meet nothing, for a radius to the next contact; as
@@ -648,7 +655,7 @@ LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, real
     if (form.law != CEDUO_LAW_LUMPED)
         rate = over(rate, share);
     reals u2 = add(mul(u, u), mul(rate, radius)), x, z;
-    roll_point_lanes(r, steep, c, s, radius, &x, &z);
+    roll_point_lanes(r, both(steep, flags_of(rolls)), c, s, radius, &x, &z);
     flags meets = pick_flags(forth, either(at_least(x, load(k->next_x)), at_least(x, load(k->stem_ahead))),
                              at_least(load(k->stem_behind), x));
     flags good = but(both(stays, less(zero, u2)), either(meets, equal(u, zero)));
@@ -706,9 +713,8 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     struct velocities v = velocities_on(k, &r);
     strike_lanes(form, k, &r, &v);
     store_ints(k->contacts, add_ints(load_ints(k->contacts), all_ints(1)));
-    reals latest;
-    struct landings l = find_segments(form, k, &r, &latest);
-    land_lanes(form, k, &r, latest, &l);
+    struct landings l = find_segments(form, k, &r);
+    land_lanes(form, k, &r, &l);
     k->left = bits_of(l.left) & k->live;
     leave_lanes(k, &r, &l);
     flags steep = less(all(1), size_of_each(r.m));
@@ -773,13 +779,13 @@ static void wide_walk(const struct wide_job *job)
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
     if (job->law == CEDUO_LAW_LUMPED && small)
-        walk_lanes((struct form){CEDUO_LAW_LUMPED, true}, &k);
+        walk_lanes((struct form){CEDUO_LAW_LUMPED, true, LOOK_UP_WRAPS}, &k);
     else if (job->law == CEDUO_LAW_LUMPED)
-        walk_lanes((struct form){CEDUO_LAW_LUMPED, false}, &k);
+        walk_lanes((struct form){CEDUO_LAW_LUMPED, false, false}, &k);
     else if (small)
-        walk_lanes((struct form){CEDUO_LAW_CRSP, true}, &k);
+        walk_lanes((struct form){CEDUO_LAW_CRSP, true, LOOK_UP_WRAPS}, &k);
     else
-        walk_lanes((struct form){CEDUO_LAW_CRSP, false}, &k);
+        walk_lanes((struct form){CEDUO_LAW_CRSP, false, false}, &k);
 }
 
 #endif
