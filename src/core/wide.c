@@ -65,11 +65,11 @@ wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)
     bool avx2 = __builtin_cpu_supports("avx2");
     bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
     if (avx512 && (kernel == CEDUO_KERNEL_BEST || kernel == CEDUO_KERNEL_AVX512)) {
-        *lanes = 16;
+        *lanes = 32;
         return ceduo_wide_walk_avx512;
     }
     if (avx2 && (kernel == CEDUO_KERNEL_BEST || kernel == CEDUO_KERNEL_AVX2)) {
-        *lanes = 8;
+        *lanes = 16;
         return ceduo_wide_walk_avx2;
     }
     *lanes = 1;
