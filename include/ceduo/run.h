@@ -17,7 +17,7 @@ struct ceduo_run;
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
 /* How the rocks are flown: one by one, or 16 or 32 at once in the lanes of wide registers. All give the same bits. What
- * a machine does not have is flown one by one. */
+ * a machine does not have is flown one by one, and at best also rocks among stems. */
 enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512 };
 
 struct ceduo_run_def {
