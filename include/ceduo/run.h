@@ -16,10 +16,15 @@ struct ceduo_run;
 #define CEDUO_BLOCK_ROCKS 1024                       /* rocks summed as one */
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
+/* How the rocks are flown: one by one, or 16 or 32 at once in the lanes of wide registers. All give the same bits. What
+ * a machine does not have is flown one by one, and at best also rocks among stems. */
+enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512 };
+
 struct ceduo_run_def {
     const struct ceduo_scene *scene; /* checked; what it points to must outlive the run */
     const struct ceduo_option *option; /* whose forest the rocks go through; NULL: none. It must outlive the run */
     unsigned threads;                /* >= 1; the results do not depend on it */
+    enum ceduo_kernel kernel;        /* nor on this */
     uint64_t rocks_most;             /* no longer than this will it be made */
     size_t cells;                    /* envelopes at this many places, 0: none */
     const double *cell_x;            /* rising, on the slope */

@@ -14,7 +14,14 @@ struct ceduo_moments {
     double mean, m2, max;
 };
 
-void ceduo_moments_add(struct ceduo_moments *m, double value);
+static inline void ceduo_moments_add(struct ceduo_moments *m, double value)
+{
+    m->n++;
+    double d = value - m->mean;
+    m->mean += d / (double)m->n;
+    m->m2 += d * (value - m->mean);
+    m->max = m->n == 1 || value > m->max ? value : m->max;
+}
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from);
 
 /* Standard deviation and standard error of the mean; NaN below two values. */

@@ -9,6 +9,7 @@
 #include "envelope.h"
 #include "histogram.h"
 #include "walk.h"
+#include "wide.h"
 
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: what bounds the memory of their sums */
 
@@ -35,12 +36,16 @@ struct ceduo_run {
     struct ground ground;
     struct marks marks;
     struct wood wood;
+    struct wide_ground *wide;
+    wide_walk_fn *wide_walk; /* NULL: rocks are flown one by one */
+    size_t lanes;            /* rocks that a thread flies at once */
     size_t controls;
     int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
     uint64_t rocks;        /* done */
     struct block whole;    /* all whole blocks */
     struct block tail;     /* the block that is not full yet */
     struct block *slots;   /* CHUNK_BLOCKS in work */
+    bool alike;            /* the rocks differ in nothing but their numbers */
     bool exact;            /* samples are kept; otherwise histograms */
     uint64_t room;         /* rocks that the samples have room for */
     double *samples;       /* [control][quantity][room], NaN where a rock did not arrive */
@@ -51,13 +56,22 @@ struct ceduo_run {
     struct envelope_cell *cells;
 };
 
-/* One thread's work on a chunk. */
+/* What a rock brings to a control. */
+struct arrival {
+    double values[QUANTITIES], stems_hit; /* stems_hit < 0: it does not arrive */
+};
+
+/* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
+ * have ended. */
 struct worker {
     struct ceduo_run *run;
-    struct walker walker;
-    struct stems stems;
+    struct walker *walkers; /* one for each lane */
+    struct stems *stems;    /* likewise; NULL: no forest */
+    struct walker first;    /* a rock at its release: where all are alike, they are as this one */
     struct block *block;
-    uint64_t rock;
+    uint64_t from, next, to; /* rocks of the block: the first, the next to begin, behind the last */
+    struct arrival *arrivals; /* [control][CEDUO_BLOCK_ROCKS] */
+    double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
     struct histogram *bins;
     struct envelope_cell *cells;
     bool no_memory;
@@ -129,24 +143,24 @@ static struct histogram *bins_of(struct histogram *bins, const struct ceduo_run 
     return &bins[control * (size_t)run->kept + (size_t)quantity];
 }
 
-static void keep_sample(struct worker *w, size_t control, const double values[QUANTITIES])
+static void keep_sample(struct worker *w, uint64_t rock, size_t control, const double values[QUANTITIES])
 {
     struct ceduo_run *run = w->run;
     for (int q = 0; q < run->kept; q++) {
         if (run->exact)
-            samples_of(run, control, q)[w->rock] = values[q];
+            samples_of(run, control, q)[rock] = values[q];
         else if (!ceduo_histogram_add(bins_of(w->bins, run, control, q), values[q]))
             w->no_memory = true;
     }
-    if (w->rock < run->pairs_room)
-        run->pairs[control * run->pairs_room + w->rock] = values[ENERGY];
+    if (rock < run->pairs_room)
+        run->pairs[control * run->pairs_room + rock] = values[ENERGY];
 }
 
-static void on_cross(void *context, size_t mark, const struct ceduo_crossing *c)
+static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
 {
     struct worker *w = context;
     struct ceduo_run *run = w->run;
-    const struct ceduo_rock *rock = &w->walker.rock;
+    const struct ceduo_rock *rock = &walker->rock;
     size_t what = run->marks.what[mark];
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
@@ -155,20 +169,15 @@ static void on_cross(void *context, size_t mark, const struct ceduo_crossing *c)
         ceduo_envelope_add(&w->cells[what - run->controls], speed, c->height, energy);
         return;
     }
-    const double values[QUANTITIES] = {speed, c->height, energy, translation};
-    struct sums *sums = &w->block->controls[what];
-    for (int q = 0; q < QUANTITIES; q++)
-        ceduo_moments_add(&sums->of[q], values[q]);
-    if (w->walker.stems)
-        ceduo_moments_add(&sums->contacts, (double)c->stems_hit);
-    sums->exceeded += energy > run->scene.controls[what].accepted; /* never, where that is NaN */
-    keep_sample(w, what, values);
+    struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
+    *a = (struct arrival){{speed, c->height, energy, translation}, (double)c->stems_hit};
+    keep_sample(w, walker->number, what, a->values);
 }
 
 /* An unfinished rock counts at each control that it did not reach. */
-static void note_unfinished(struct worker *w)
+static void note_unfinished(struct worker *w, const struct walker *walker)
 {
-    for (size_t m = w->walker.next_mark; m < w->run->marks.n; m++)
+    for (size_t m = walker->next_mark; m < w->run->marks.n; m++)
         if (w->run->marks.what[m] < w->run->controls)
             w->block->controls[w->run->marks.what[m]].unfinished++;
 }
@@ -185,36 +194,34 @@ static void clear_samples(struct ceduo_run *run, uint64_t rock)
     run->stops[rock] = NAN;
 }
 
-static void note_stop(struct worker *w, double x)
+static void note_stop(struct worker *w, uint64_t rock, double x)
 {
     struct ceduo_run *run = w->run;
-    ceduo_moments_add(&w->block->stop_x, x);
+    w->stops[rock - w->from] = x;
     if (run->exact)
-        run->stops[w->rock] = x;
+        run->stops[rock] = x;
     else if (!ceduo_histogram_add(&w->bins[run->controls * (size_t)run->kept], x))
         w->no_memory = true;
 }
 
-static void fly_rock(struct worker *w, uint64_t number)
+static void note_end(void *context, size_t lane, enum ceduo_end end)
 {
-    struct ceduo_run *run = w->run;
-    w->rock = number;
-    clear_samples(run, number);
-    enum ceduo_status status =
-        ceduo_walk_release(&w->walker, &run->scene, &run->ground, &run->marks, &run->mean, number);
-    enum ceduo_end end = status == CEDUO_OK ? ceduo_walk(&w->walker, run->scene.simulation.law) : CEDUO_UNFINISHED;
-    if (w->walker.stems) {
-        w->no_memory |= w->stems.no_memory;
-        w->block->stems.drawn += w->stems.drawn;
-        w->block->stems.hit += w->walker.stems_hit;
-        w->block->stems.met += w->walker.stools_met;
+    struct worker *w = context;
+    const struct walker *walker = &w->walkers[lane];
+    if (walker->stems) {
+        w->no_memory |= walker->stems->no_memory;
+        w->block->stems.drawn += walker->stems->drawn;
+        w->block->stems.hit += walker->stems_hit;
+        w->block->stems.met += walker->stools_met;
     }
-    w->block->contacts += w->walker.contacts;
+    w->block->contacts += walker->contacts;
     w->block->ends[end]++;
     if (end == CEDUO_UNFINISHED)
-        note_unfinished(w);
+        note_unfinished(w, walker);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
-        note_stop(w, w->walker.at.x);
+        note_stop(w, walker->number, walker->at.x);
+    if (walker->cancelled)
+        atomic_store(&w->chunk->stop, true);
 }
 
 /* ---- many rocks ---- */
@@ -226,6 +233,104 @@ static bool cancelled(const struct ceduo_run *run)
 
 #define CANCEL_ROCKS 64 /* how often the flag is looked at */
 
+/* Whether to go on with rock r. */
+static bool goes_on(struct worker *w, uint64_t r)
+{
+    if ((r % CANCEL_ROCKS == 0 && cancelled(w->run)) || w->no_memory)
+        atomic_store(&w->chunk->stop, true);
+    return !atomic_load_explicit(&w->chunk->stop, memory_order_relaxed);
+}
+
+static enum ceduo_status release(struct worker *w, struct walker *walker, uint64_t number)
+{
+    struct ceduo_run *run = w->run;
+    if (run->alike && walker->g) {
+        ceduo_walk_release_again(walker, &w->first, number);
+        return CEDUO_OK;
+    }
+    enum ceduo_status status =
+        ceduo_walk_release(walker, &run->scene, &run->ground, &run->marks, &run->mean, number);
+    if (run->alike)
+        w->first = *walker;
+    return status;
+}
+
+/* The next rock of the block at its release; false where none is left. */
+static bool next_rock(void *context, size_t lane)
+{
+    struct worker *w = context;
+    struct ceduo_run *run = w->run;
+    while (w->next < w->to && goes_on(w, w->next)) {
+        uint64_t number = w->next++;
+        clear_samples(run, number);
+        if (release(w, &w->walkers[lane], number) == CEDUO_OK)
+            return true;
+        note_end(w, lane, CEDUO_UNFINISHED);
+    }
+    return false;
+}
+
+static void clear_block(struct worker *w)
+{
+    size_t n = w->run->controls * CEDUO_BLOCK_ROCKS;
+    for (size_t i = 0; i < n; i++)
+        w->arrivals[i].stems_hit = -1;
+    for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
+        w->stops[i] = NAN;
+}
+
+static void sum_arrivals(struct worker *w, size_t control)
+{
+    const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
+    struct sums *to = &w->block->controls[control], sums = *to;
+    double accepted = w->run->scene.controls[control].accepted;
+    for (uint64_t i = 0; i < w->to - w->from; i++) {
+        const struct arrival *a = &arrivals[i];
+        if (a->stems_hit < 0)
+            continue;
+        for (int q = 0; q < QUANTITIES; q++)
+            ceduo_moments_add(&sums.of[q], a->values[q]);
+        if (w->stems)
+            ceduo_moments_add(&sums.contacts, a->stems_hit);
+        sums.exceeded += a->values[ENERGY] > accepted; /* never, where that is NaN */
+    }
+    *to = sums;
+}
+
+static void sum_block(struct worker *w)
+{
+    for (size_t c = 0; c < w->run->controls; c++)
+        sum_arrivals(w, c);
+    for (uint64_t i = 0; i < w->to - w->from; i++)
+        if (!isnan(w->stops[i]))
+            ceduo_moments_add(&w->block->stop_x, w->stops[i]);
+}
+
+/* Flies the rocks of a block from w->from to before w->to; false where it was stopped. */
+static bool fly_block(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    enum ceduo_law law = run->scene.simulation.law;
+    clear_block(w);
+    w->next = w->from;
+    const struct wide_job job = {.ground = run->wide,
+                                 .law = law,
+                                 .alike = run->alike,
+                                 .walkers = w->walkers,
+                                 .next = next_rock,
+                                 .ended = note_end,
+                                 .context = w};
+    if (run->wide_walk)
+        run->wide_walk(&job);
+    else
+        while (next_rock(w, 0))
+            note_end(w, 0, ceduo_walk(&w->walkers[0], law));
+    if (atomic_load_explicit(&w->chunk->stop, memory_order_relaxed))
+        return false;
+    sum_block(w);
+    return true;
+}
+
 static void *work(void *argument)
 {
     struct worker *w = argument;
@@ -233,33 +338,40 @@ static void *work(void *argument)
     uint64_t first_block = chunk->first / CEDUO_BLOCK_ROCKS;
     for (size_t i; (i = atomic_fetch_add(&chunk->next, 1)) < chunk->blocks;) {
         uint64_t from = (first_block + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
-        from = from < chunk->first ? chunk->first : from;
-        to = to > chunk->end ? chunk->end : to;
+        w->from = from < chunk->first ? chunk->first : from;
+        w->to = to > chunk->end ? chunk->end : to;
         w->block = &w->run->slots[i];
-        for (uint64_t r = from; r < to; r++) {
-            if ((r % CANCEL_ROCKS == 0 && cancelled(w->run)) || w->no_memory)
-                atomic_store(&chunk->stop, true);
-            if (atomic_load_explicit(&chunk->stop, memory_order_relaxed))
-                return NULL;
-            fly_rock(w, r);
-            if (w->walker.cancelled)
-                atomic_store(&chunk->stop, true);
-        }
+        if (!fly_block(w))
+            return NULL;
     }
     return NULL;
+}
+
+static bool init_stems(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    w->stems = calloc(run->lanes, sizeof *w->stems);
+    if (!w->stems)
+        return false;
+    for (size_t i = 0; i < run->lanes; i++) {
+        if (!ceduo_stems_init(&w->stems[i], &run->wood, run->scene.simulation.contact_model == CEDUO_POISSON))
+            return false;
+        w->walkers[i].stems = &w->stems[i];
+    }
+    return true;
 }
 
 static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *chunk)
 {
     *w = (struct worker){.run = run, .chunk = chunk};
-    w->walker.cross = on_cross;
-    w->walker.context = w;
-    w->walker.cancel = run->def.cancel;
-    if (!run->wood.bare) {
-        if (!ceduo_stems_init(&w->stems, &run->wood, run->scene.simulation.contact_model == CEDUO_POISSON))
-            return false;
-        w->walker.stems = &w->stems;
-    }
+    w->walkers = calloc(run->lanes, sizeof *w->walkers);
+    w->arrivals = malloc((run->controls * CEDUO_BLOCK_ROCKS + 1) * sizeof *w->arrivals);
+    if (!w->walkers || !w->arrivals)
+        return false;
+    for (size_t i = 0; i < run->lanes; i++)
+        w->walkers[i] = (struct walker){.cross = on_cross, .context = w, .cancel = run->def.cancel};
+    if (!run->wood.bare && !init_stems(w))
+        return false;
     size_t bins = run->controls * (size_t)run->kept + 1;
     if (!run->exact && !(w->bins = calloc(bins, sizeof *w->bins)))
         return false;
@@ -273,7 +385,11 @@ static void worker_release(struct worker *w)
         ceduo_histogram_clear(&w->bins[i]);
     free(w->bins);
     free(w->cells);
-    ceduo_stems_release(&w->stems);
+    for (size_t i = 0; w->stems && i < w->run->lanes; i++)
+        ceduo_stems_release(&w->stems[i]);
+    free(w->stems);
+    free(w->walkers);
+    free(w->arrivals);
 }
 
 static bool worker_merge(struct worker *w)
@@ -464,6 +580,14 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 
 /* ---- making and freeing ---- */
 
+/* Among stems the scalar walk is faster: nearly all is done for the stems, rock by rock, and those of one rock alone
+ * fit the fastest cache. */
+static void choose_kernel(struct ceduo_run *run)
+{
+    bool stems = !run->wood.bare && run->def.kernel == CEDUO_KERNEL_BEST;
+    run->wide_walk = ceduo_wide_walk(stems ? CEDUO_KERNEL_SCALAR : run->def.kernel, &run->lanes);
+}
+
 static bool allocate(struct ceduo_run *run)
 {
     const struct ceduo_run_def *def = &run->def;
@@ -476,9 +600,11 @@ static bool allocate(struct ceduo_run *run)
     if (def->cells > 0)
         ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
     ok = ok && ceduo_wood_init(&run->wood, &scene->simulation, def->option, run->mean.mean_diameter);
+    choose_kernel(run);
     ok = ok && ceduo_marks_init(&run->marks, scene, def->cells, def->cell_x);
-    return ok && ceduo_ground_init(&run->ground, &scene->slope, scene->simulation.gravity, run->mean.radius,
-                                   ceduo_rock_varies(&scene->rock));
+    ok = ok && ceduo_ground_init(&run->ground, &scene->slope, scene->simulation.gravity, run->mean.radius,
+                                 ceduo_rock_varies(&scene->rock));
+    return ok && (!run->wide_walk || (run->wide = ceduo_wide_ground_create(&run->ground)));
 }
 
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **out)
@@ -502,6 +628,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
+    run->alike = run->wood.bare && ceduo_walk_alike(&run->scene, &run->ground);
     *out = run;
     return status;
 }
@@ -523,6 +650,7 @@ void ceduo_run_free(struct ceduo_run *run)
     free(run->cells);
     ceduo_wood_release(&run->wood);
     ceduo_marks_release(&run->marks);
+    ceduo_wide_ground_free(run->wide);
     ceduo_ground_release(&run->ground);
     free(run);
 }

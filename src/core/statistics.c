@@ -5,15 +5,6 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-void ceduo_moments_add(struct ceduo_moments *m, double value)
-{
-    m->n++;
-    double d = value - m->mean;
-    m->mean += d / (double)m->n;
-    m->m2 += d * (value - m->mean);
-    m->max = m->n == 1 || value > m->max ? value : m->max;
-}
-
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
 {
     if (from->n == 0)

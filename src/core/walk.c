@@ -84,13 +84,33 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     return CEDUO_OK;
 }
 
+bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g)
+{
+    const struct ceduo_release *r = &scene->release;
+    return !ceduo_rock_varies(&scene->rock) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
+           !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
+}
+
+void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number)
+{
+    w->number = number;
+    w->spin = first->spin;
+    w->at = first->at;
+    w->contacts = 0;
+    w->pause = first->pause;
+    w->cancelled = false;
+    w->facets_of = UINT64_MAX;
+    w->next_mark = first->next_mark;
+    w->next_x = first->next_x;
+}
+
 /* ---- flight ---- */
 
 static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)
 {
     struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0,
                                .stems_hit = w->stems_hit};
-    w->cross(w->context, w->next_mark++, &c);
+    w->cross(w->context, w, w->next_mark++, &c);
     set_next_x(w);
 }
 
@@ -283,11 +303,6 @@ HOT struct ceduo_ground_point ground_point(const struct walker *w, size_t j)
         p.rt = ceduo_number_draw(w->g->slope->segments[j].rt, w->rt_u, 0, 1);
     return p;
 }
-
-/* Velocity in the axes of the segment under the rock. */
-struct velocity {
-    double along, off;
-};
 
 HOT struct velocity velocity_on(const struct ground_segment *s, const struct flight *at)
 {
@@ -657,26 +672,60 @@ SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct lan
     return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
-HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
+/* Comes down at `l`, past what stands in the way; false where that ends it. */
+HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, enum ceduo_end *end)
 {
-    struct flight at = w->at; /* w->at is brought up to date for those who are called */
-    struct velocity v = velocity_on(&w->g->segments[at.segment], &at);
-    bool flies = !at.on_ground || v.off > 0;
+    if (stem_on_way(w, l->x) && fly_past_stems(w, at, l)) {
+        w->at = *at;
+        *end = w->cancelled ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
+        return false;
+    }
+    fly(w, at, l);
+    if (l->left) {
+        w->at = *at;
+        *end = CEDUO_LEFT_SLOPE;
+        return false;
+    }
+    return true;
+}
+
+/* The same for a rock that rolls after a contact which it leaves with `along`: to the next contact, or into a flight. */
+static __attribute__((noinline)) bool roll_further(struct walker *w, double along, struct course *c,
+                                                   enum ceduo_end *end)
+{
+    w->at = c->at;
+    enum after_ground then = go_on_ground(w, along, &c->l);
+    c->at = w->at;
+    c->v = (struct velocity){.along = w->along, .off = 0};
+    c->flies = then == GROUND_FLIES;
+    *end = then == GROUND_RESTS    ? CEDUO_AT_REST
+           : then == GROUND_LEAVES  ? CEDUO_LEFT_SLOPE
+           : then == GROUND_STOPPED ? CEDUO_STOPPED_BY_STEMS
+                                    : CEDUO_UNFINISHED;
+    return then == GROUND_FLIES || then == GROUND_CONTACT;
+}
+
+HOT void start(const struct walker *w, struct course *c)
+{
+    c->at = w->at;
+    c->v = velocity_on(&w->g->segments[c->at.segment], &c->at);
+    c->flies = !c->at.on_ground || c->v.off > 0;
+    if (c->flies)
+        c->l = next_landing(w->g, &c->at);
+}
+
+HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law)
+{
+    struct flight at = c.at; /* w->at is brought up to date for those who are called */
+    struct velocity v = c.v;
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
-    struct landing l;
-    if (flies)
-        l = next_landing(w->g, &at);
+    struct landing l = c.l;
+    bool flies = c.flies;
+    enum ceduo_end end;
     for (;;) {
         if (flies) {
-            if (stem_on_way(w, l.x) && fly_past_stems(w, &at, &l)) {
-                w->at = at;
-                return w->cancelled ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
-            }
-            fly(w, &at, &l);
-            if (l.left) {
-                w->at = at;
-                return CEDUO_LEFT_SLOPE;
-            }
+            if (!come_down(w, &at, &l, &end))
+                return end;
             v = velocity_on(&w->g->segments[at.segment], &at);
         }
         if (w->contacts >= w->pause && has_enough(w)) {
@@ -691,38 +740,76 @@ HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
         flies = !is_roll(w, &at, v.off, &l);
         if (flies)
             continue;
-        struct landing off;
-        w->at = at;
-        switch (go_on_ground(w, v.along, &off)) {
-        case GROUND_FLIES:
-            flies = true;
-            l = off;
-            break;
-        case GROUND_RESTS:
-            return CEDUO_AT_REST;
-        case GROUND_LEAVES:
-            return CEDUO_LEFT_SLOPE;
-        case GROUND_STOPPED:
-            return CEDUO_STOPPED_BY_STEMS;
-        case GROUND_TOO_MANY:
-            return CEDUO_UNFINISHED;
-        case GROUND_CONTACT:
-            v = (struct velocity){.along = w->along, .off = 0};
-            break;
-        }
-        at = w->at;
+        c.at = at;
+        if (!roll_further(w, v.along, &c, &end))
+            return end;
+        at = c.at;
+        v = c.v;
+        l = c.l;
+        flies = c.flies;
     }
 }
 
-enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
+enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
 {
     switch (law) {
 #define X(NAME, name)      \
     case CEDUO_LAW_##NAME: \
-        return walk_by(w, CEDUO_LAW_##NAME);
+        return walk_by(w, *c, CEDUO_LAW_##NAME);
         CEDUO_LAWS(X)
 #undef X
     default:
         return CEDUO_UNFINISHED;
     }
+}
+
+enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
+{
+    struct course c = {.flies = false};
+    start(w, &c);
+    return ceduo_walk_on(w, &c, law);
+}
+
+/* ---- the way in pieces ---- */
+
+void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t)
+{
+    pass_in_flight(w, at, x, t);
+}
+
+bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)
+{
+    if (c->flies) {
+        if (!come_down(w, &c->at, &c->l, end))
+            return false;
+        c->v = velocity_on(&w->g->segments[c->at.segment], &c->at);
+        c->flies = false;
+    }
+    if (w->contacts >= w->pause && has_enough(w)) {
+        w->at = c->at;
+        *end = CEDUO_UNFINISHED;
+        return false;
+    }
+    return true;
+}
+
+bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end)
+{
+    start(w, c);
+    return ceduo_walk_come_down(w, c, end);
+}
+
+bool ceduo_walk_go_off(struct walker *w, struct course *c, enum ceduo_end *end)
+{
+    c->l = next_landing(w->g, &c->at);
+    c->flies = !is_roll(w, &c->at, c->v.off, &c->l);
+    return c->flies || roll_further(w, c->v.along, c, end);
+}
+
+void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle)
+{
+    struct ceduo_ground_point p = ground_point(w, segment);
+    *rn = p.rn;
+    *rt = p.rt;
+    *largest_angle = largest_facet(w, segment);
 }

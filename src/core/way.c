@@ -11,8 +11,9 @@ struct noter {
     struct ceduo_crossing *crossings;
 };
 
-static void note_crossing(void *context, size_t mark, const struct ceduo_crossing *crossing)
+static void note_crossing(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing)
 {
+    (void)w;
     struct noter *noter = context;
     if (noter->crossings)
         noter->crossings[noter->marks->what[mark]] = *crossing;

@@ -3,8 +3,9 @@
  *
  *   bench_walk [REPEATS [ROCKS]]        default 7, 100000
  *
- * CSV on stdout: medians of wall time; for the core, making the run and flying the rocks, with every sample kept;
- * ratio_to_plain in contacts per second. Agreement of the two, and memory, on stderr. Exit 1 where they disagree. */
+ * CSV on stdout: medians of wall time; for the core, making the run and flying the rocks, with every sample kept, on the
+ * best kernel of the machine or on the one that is named; ratio_to_plain in contacts per second. Agreement of the two,
+ * whether all kernels give the same contacts and mean speed, and memory, on stderr. Exit 1 where they disagree. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -47,6 +48,7 @@ struct site {
 struct measure {
     const char *what;
     unsigned threads;
+    enum ceduo_kernel kernel;
     uint64_t rocks;
     size_t cells;
     double seconds[REPEATS_MOST];
@@ -177,6 +179,7 @@ static double time_core(const struct site *site, struct measure *m)
     double start = now();
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.threads = m->threads;
+    def.kernel = m->kernel;
     def.cells = m->cells;
     def.cell_x = m->cells > 0 ? cell_x : NULL;
     struct ceduo_run *run;
@@ -239,6 +242,8 @@ static bool check_agreement(const struct site *site, const struct measure *m)
 static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
 {
     struct measure core[] = {
+        {.what = "ceduo-1-thread-scalar", .threads = 1, .kernel = CEDUO_KERNEL_SCALAR, .rocks = rocks},
+        {.what = "ceduo-1-thread-avx2", .threads = 1, .kernel = CEDUO_KERNEL_AVX2, .rocks = rocks},
         {.what = "ceduo-1-thread", .threads = 1, .rocks = rocks},
         {.what = "ceduo-2-threads", .threads = 2, .rocks = rocks},
         {.what = "ceduo-1-thread-200-cells", .threads = 1, .rocks = rocks, .cells = CELLS},
@@ -258,7 +263,11 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
         seconds = median(core[c].seconds, repeats);
         print_line(site, core[c].what, rocks, seconds, (double)core[c].contacts / seconds);
     }
-    return check_agreement(site, &core[0]);
+    bool same = true;
+    for (size_t c = 1; c < n; c++)
+        same &= core[c].contacts == core[0].contacts && core[c].arrivals.speed.mean == core[0].arrivals.speed.mean;
+    fprintf(stderr, "%s %s kernels and threads give %s\n", site->law, site->roughness, same ? "the same" : "OTHER figures");
+    return check_agreement(site, &core[0]) && same;
 }
 
 static void measure_many(const struct site *site, size_t repeats)

@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_LANES_H
+#define CEDUO_LANES_H
+
+#include <immintrin.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "wide.h"
+
+/* Many numbers at once, one for each lane. A file that includes this has set its target to AVX2, or to AVX-512 with DQ and
+ * then WIDE_AVX512 too, and has 16 or 32 lanes: four registers, so that one works while another waits. Every operation is
+ * that of plain C, rounded the same, in each lane by itself. */
+
+#ifdef WIDE_AVX512
+#define LOOK_UP_WRAPS true /* a small table is looked up at i modulo 16, whatever i is */
+#else
+#define LOOK_UP_WRAPS false
+#endif
+
+#define LANE static inline __attribute__((always_inline))
+
+/* ---- a part of the lanes: one register ---- */
+
+#ifdef WIDE_AVX512
+
+#define PART 8
+typedef __m512d part_reals;
+typedef __m512i part_ints;
+typedef __mmask8 part_flags;
+
+#define PART_LESS(p, q) _mm512_cmp_pd_mask(p, q, _CMP_LT_OQ)
+#define PART_AT_LEAST(p, q) _mm512_cmp_pd_mask(p, q, _CMP_GE_OQ)
+#define PART_EQUAL(p, q) _mm512_cmp_pd_mask(p, q, _CMP_EQ_OQ)
+#define PART_SAME(p, q) _mm512_cmpeq_epi64_mask(p, q)
+#define PART_MORE(p, q) _mm512_cmpgt_epi64_mask(p, q)
+#define PART_BOTH(p, q) ((__mmask8)((p) & (q)))
+#define PART_EITHER(p, q) ((__mmask8)((p) | (q)))
+#define PART_BUT(p, q) ((__mmask8)((p) & ~(unsigned)(q)))
+#define PART_BITS(p) ((unsigned)(p))
+#define PART_FLAGS(bits) ((__mmask8)(bits))
+#define PART_PICK(m, p, q) _mm512_mask_blend_pd(m, q, p)
+#define PART_PICK_INTS(m, p, q) _mm512_mask_blend_epi64(m, q, p)
+#define PART_SQRT(p) _mm512_sqrt_pd(p)
+#define PART_LEAST(p, q) _mm512_min_pd(p, q)
+#define PART_MOST(p, q) _mm512_max_pd(p, q)
+#define PART_ALL(x) _mm512_set1_pd(x)
+#define PART_ALL_INTS(x) _mm512_set1_epi64((long long)(x))
+#define PART_LOAD(from) _mm512_load_pd(from)
+#define PART_LOAD_INTS(from) _mm512_load_si512(from)
+#define PART_STORE(to, p) _mm512_store_pd(to, p)
+#define PART_STORE_INTS(to, p) _mm512_store_si512(to, p)
+#define PART_AS_INTS(p) _mm512_castpd_si512(p)
+#define PART_AS_REALS(p) _mm512_castsi512_pd(p)
+/* One of the first 16 numbers of a table. */
+#define PART_CHOOSE(table, i) _mm512_permutex2var_pd(_mm512_load_pd(table), i, _mm512_load_pd((table) + 8))
+
+LANE part_reals part_of_ints(part_ints p)
+{
+    return _mm512_cvtepu64_pd(p);
+}
+
+#else
+
+#define PART 4
+typedef __m256d part_reals;
+typedef __m256i part_ints;
+typedef __m256d part_flags; /* all bits of a lane set, or none */
+
+#define PART_LESS(p, q) _mm256_cmp_pd(p, q, _CMP_LT_OQ)
+#define PART_AT_LEAST(p, q) _mm256_cmp_pd(p, q, _CMP_GE_OQ)
+#define PART_EQUAL(p, q) _mm256_cmp_pd(p, q, _CMP_EQ_OQ)
+#define PART_SAME(p, q) _mm256_castsi256_pd(_mm256_cmpeq_epi64(p, q))
+#define PART_MORE(p, q) _mm256_castsi256_pd(_mm256_cmpgt_epi64(p, q))
+#define PART_BOTH(p, q) _mm256_and_pd(p, q)
+#define PART_EITHER(p, q) _mm256_or_pd(p, q)
+#define PART_BUT(p, q) _mm256_andnot_pd(q, p)
+#define PART_BITS(p) ((unsigned)_mm256_movemask_pd(p))
+#define PART_FLAGS(bits) \
+    PART_SAME(_mm256_and_si256(_mm256_set1_epi64x((long long)(bits)), _mm256_set_epi64x(8, 4, 2, 1)), \
+              _mm256_set_epi64x(8, 4, 2, 1))
+#define PART_PICK(m, p, q) _mm256_blendv_pd(q, p, m)
+#define PART_PICK_INTS(m, p, q) _mm256_castpd_si256(PART_PICK(m, _mm256_castsi256_pd(p), _mm256_castsi256_pd(q)))
+#define PART_SQRT(p) _mm256_sqrt_pd(p)
+#define PART_LEAST(p, q) _mm256_min_pd(p, q)
+#define PART_MOST(p, q) _mm256_max_pd(p, q)
+#define PART_ALL(x) _mm256_set1_pd(x)
+#define PART_ALL_INTS(x) _mm256_set1_epi64x((long long)(x))
+#define PART_LOAD(from) _mm256_load_pd(from)
+#define PART_LOAD_INTS(from) _mm256_load_si256((const __m256i *)(const void *)(from))
+#define PART_STORE(to, p) _mm256_store_pd(to, p)
+#define PART_STORE_INTS(to, p) _mm256_store_si256((__m256i *)(void *)(to), p)
+#define PART_AS_INTS(p) _mm256_castpd_si256(p)
+#define PART_AS_REALS(p) _mm256_castsi256_pd(p)
+
+/* AVX2 does not convert 64-bit integers: the two 32-bit parts are put into doubles as bits. Exact below 2^53. */
+LANE part_reals part_of_ints(part_ints p)
+{
+    part_ints high = _mm256_or_si256(_mm256_srli_epi64(p, 32), _mm256_castpd_si256(_mm256_set1_pd(0x1p84)));
+    part_ints low = _mm256_blend_epi32(p, _mm256_castpd_si256(_mm256_set1_pd(0x1p52)), 0xaa);
+    return (_mm256_castsi256_pd(high) - _mm256_set1_pd(0x1p84 + 0x1p52)) + _mm256_castsi256_pd(low);
+}
+
+#endif
+
+/* ---- all lanes ---- */
+
+#define LANES (4 * PART)
+#define ALL_LANES ((unsigned)(((uint64_t)1 << LANES) - 1))
+
+typedef struct {
+    part_reals a, b, c, d;
+} reals;
+typedef struct {
+    part_ints a, b, c, d;
+} ints;
+typedef struct {
+    part_flags a, b, c, d;
+} flags;
+
+LANE reals all(double x)
+{
+    return (reals){PART_ALL(x), PART_ALL(x), PART_ALL(x), PART_ALL(x)};
+}
+
+LANE ints all_ints(uint64_t x)
+{
+    return (ints){PART_ALL_INTS(x), PART_ALL_INTS(x), PART_ALL_INTS(x), PART_ALL_INTS(x)};
+}
+
+LANE reals load(const double *from)
+{
+    return (reals){PART_LOAD(from), PART_LOAD(from + PART), PART_LOAD(from + 2 * PART), PART_LOAD(from + 3 * PART)};
+}
+
+LANE ints load_ints(const uint64_t *from)
+{
+    return (ints){PART_LOAD_INTS(from), PART_LOAD_INTS(from + PART),
+                  PART_LOAD_INTS(from + 2 * PART), PART_LOAD_INTS(from + 3 * PART)};
+}
+
+LANE void store(double *to, reals p)
+{
+    PART_STORE(to, p.a);
+    PART_STORE(to + PART, p.b);
+    PART_STORE(to + 2 * PART, p.c);
+    PART_STORE(to + 3 * PART, p.d);
+}
+
+LANE void store_ints(uint64_t *to, ints p)
+{
+    PART_STORE_INTS(to, p.a);
+    PART_STORE_INTS(to + PART, p.b);
+    PART_STORE_INTS(to + 2 * PART, p.c);
+    PART_STORE_INTS(to + 3 * PART, p.d);
+}
+
+LANE reals add(reals p, reals q)
+{
+    return (reals){p.a + q.a, p.b + q.b, p.c + q.c, p.d + q.d};
+}
+
+LANE reals sub(reals p, reals q)
+{
+    return (reals){p.a - q.a, p.b - q.b, p.c - q.c, p.d - q.d};
+}
+
+LANE reals mul(reals p, reals q)
+{
+    return (reals){p.a * q.a, p.b * q.b, p.c * q.c, p.d * q.d};
+}
+
+LANE reals over(reals p, reals q)
+{
+    return (reals){p.a / q.a, p.b / q.b, p.c / q.c, p.d / q.d};
+}
+
+LANE reals root_of(reals p)
+{
+    return (reals){PART_SQRT(p.a), PART_SQRT(p.b), PART_SQRT(p.c), PART_SQRT(p.d)};
+}
+
+/* p < q ? p : q and p > q ? p : q, to the letter. */
+LANE reals least(reals p, reals q)
+{
+    return (reals){PART_LEAST(p.a, q.a), PART_LEAST(p.b, q.b), PART_LEAST(p.c, q.c), PART_LEAST(p.d, q.d)};
+}
+
+LANE reals most(reals p, reals q)
+{
+    return (reals){PART_MOST(p.a, q.a), PART_MOST(p.b, q.b), PART_MOST(p.c, q.c), PART_MOST(p.d, q.d)};
+}
+
+LANE flags less(reals p, reals q)
+{
+    return (flags){PART_LESS(p.a, q.a), PART_LESS(p.b, q.b), PART_LESS(p.c, q.c), PART_LESS(p.d, q.d)};
+}
+
+LANE flags at_least(reals p, reals q)
+{
+    return (flags){PART_AT_LEAST(p.a, q.a), PART_AT_LEAST(p.b, q.b), PART_AT_LEAST(p.c, q.c), PART_AT_LEAST(p.d, q.d)};
+}
+
+LANE flags equal(reals p, reals q)
+{
+    return (flags){PART_EQUAL(p.a, q.a), PART_EQUAL(p.b, q.b), PART_EQUAL(p.c, q.c), PART_EQUAL(p.d, q.d)};
+}
+
+LANE flags same(ints p, ints q)
+{
+    return (flags){PART_SAME(p.a, q.a), PART_SAME(p.b, q.b), PART_SAME(p.c, q.c), PART_SAME(p.d, q.d)};
+}
+
+/* p > q, as signed numbers. */
+LANE flags more(ints p, ints q)
+{
+    return (flags){PART_MORE(p.a, q.a), PART_MORE(p.b, q.b), PART_MORE(p.c, q.c), PART_MORE(p.d, q.d)};
+}
+
+LANE flags both(flags p, flags q)
+{
+    return (flags){PART_BOTH(p.a, q.a), PART_BOTH(p.b, q.b), PART_BOTH(p.c, q.c), PART_BOTH(p.d, q.d)};
+}
+
+LANE flags either(flags p, flags q)
+{
+    return (flags){PART_EITHER(p.a, q.a), PART_EITHER(p.b, q.b), PART_EITHER(p.c, q.c), PART_EITHER(p.d, q.d)};
+}
+
+/* p and not q */
+LANE flags but(flags p, flags q)
+{
+    return (flags){PART_BUT(p.a, q.a), PART_BUT(p.b, q.b), PART_BUT(p.c, q.c), PART_BUT(p.d, q.d)};
+}
+
+/* Bit i is lane i. */
+LANE unsigned bits_of(flags p)
+{
+    return PART_BITS(p.a) | PART_BITS(p.b) << PART | PART_BITS(p.c) << 2 * PART | PART_BITS(p.d) << 3 * PART;
+}
+
+LANE flags flags_of(unsigned bits)
+{
+    return (flags){PART_FLAGS(bits), PART_FLAGS(bits >> PART),
+                   PART_FLAGS(bits >> 2 * PART), PART_FLAGS(bits >> 3 * PART)};
+}
+
+LANE reals pick(flags m, reals p, reals q)
+{
+    return (reals){PART_PICK(m.a, p.a, q.a), PART_PICK(m.b, p.b, q.b),
+                   PART_PICK(m.c, p.c, q.c), PART_PICK(m.d, p.d, q.d)};
+}
+
+LANE flags pick_flags(flags m, flags p, flags q)
+{
+    return either(both(m, p), but(q, m));
+}
+
+LANE ints pick_ints(flags m, ints p, ints q)
+{
+    return (ints){PART_PICK_INTS(m.a, p.a, q.a), PART_PICK_INTS(m.b, p.b, q.b),
+                  PART_PICK_INTS(m.c, p.c, q.c), PART_PICK_INTS(m.d, p.d, q.d)};
+}
+
+LANE ints add_ints(ints p, ints q)
+{
+    return (ints){p.a + q.a, p.b + q.b, p.c + q.c, p.d + q.d};
+}
+
+LANE ints and_ints(ints p, ints q)
+{
+    return (ints){p.a & q.a, p.b & q.b, p.c & q.c, p.d & q.d};
+}
+
+LANE ints or_ints(ints p, ints q)
+{
+    return (ints){p.a | q.a, p.b | q.b, p.c | q.c, p.d | q.d};
+}
+
+LANE ints xor_ints(ints p, ints q)
+{
+    return (ints){p.a ^ q.a, p.b ^ q.b, p.c ^ q.c, p.d ^ q.d};
+}
+
+LANE ints shift_left(ints p, int n)
+{
+    return (ints){p.a << n, p.b << n, p.c << n, p.d << n};
+}
+
+/* Without sign. */
+LANE ints shift_right(ints p, int n)
+{
+#ifdef WIDE_AVX512
+    return (ints){_mm512_srl_epi64(p.a, _mm_cvtsi32_si128(n)), _mm512_srl_epi64(p.b, _mm_cvtsi32_si128(n)),
+                  _mm512_srl_epi64(p.c, _mm_cvtsi32_si128(n)), _mm512_srl_epi64(p.d, _mm_cvtsi32_si128(n))};
+#else
+    return (ints){_mm256_srl_epi64(p.a, _mm_cvtsi32_si128(n)), _mm256_srl_epi64(p.b, _mm_cvtsi32_si128(n)),
+                  _mm256_srl_epi64(p.c, _mm_cvtsi32_si128(n)), _mm256_srl_epi64(p.d, _mm_cvtsi32_si128(n))};
+#endif
+}
+
+LANE ints turn_left(ints p, int n)
+{
+    return or_ints(shift_left(p, n), shift_right(p, 64 - n));
+}
+
+/* Integers below 2^53. */
+LANE reals reals_of(ints p)
+{
+    return (reals){part_of_ints(p.a), part_of_ints(p.b), part_of_ints(p.c), part_of_ints(p.d)};
+}
+
+LANE ints as_ints(reals p)
+{
+    return (ints){PART_AS_INTS(p.a), PART_AS_INTS(p.b), PART_AS_INTS(p.c), PART_AS_INTS(p.d)};
+}
+
+LANE reals as_reals(ints p)
+{
+    return (reals){PART_AS_REALS(p.a), PART_AS_REALS(p.b), PART_AS_REALS(p.c), PART_AS_REALS(p.d)};
+}
+
+LANE reals size_of_each(reals p)
+{
+    return as_reals(and_ints(as_ints(p), all_ints(INT64_MAX)));
+}
+
+/* The size of p with the sign of q. */
+LANE reals with_sign(reals p, reals q)
+{
+    ints sign = and_ints(as_ints(q), all_ints((uint64_t)INT64_MIN));
+    return as_reals(or_ints(as_ints(size_of_each(p)), sign));
+}
+
+/* Loads by hand, which are faster than the machine's gathers: two rows, and what stands at i[0], i[1] … */
+LANE __m256d rows(const double (*pairs)[2], uint64_t i, uint64_t j)
+{
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(pairs[i])), _mm_load_pd(pairs[j]), 1);
+}
+
+#ifdef WIDE_AVX512
+LANE __m512d part_rows(const double (*pairs)[2], const uint64_t *i)
+{
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(rows(pairs, i[0], i[2])), rows(pairs, i[4], i[6]), 1);
+}
+
+LANE void part_pair(const double (*pairs)[2], const uint64_t *i, part_reals *first, part_reals *second)
+{
+    __m512d even = part_rows(pairs, i), odd = part_rows(pairs, i + 1);
+    *first = _mm512_unpacklo_pd(even, odd);
+    *second = _mm512_unpackhi_pd(even, odd);
+}
+#else
+LANE void part_pair(const double (*pairs)[2], const uint64_t *i, part_reals *first, part_reals *second)
+{
+    __m256d even = rows(pairs, i[0], i[2]), odd = rows(pairs, i[1], i[3]);
+    *first = _mm256_unpacklo_pd(even, odd);
+    *second = _mm256_unpackhi_pd(even, odd);
+}
+#endif
+
+/* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
+LANE void look_up(const struct wide_table *table, ints i, bool small, reals *first, reals *second)
+{
+#ifdef WIDE_AVX512
+    if (small) { /* without going to memory lane by lane */
+        *first = (reals){PART_CHOOSE(table->first, i.a), PART_CHOOSE(table->first, i.b),
+                         PART_CHOOSE(table->first, i.c), PART_CHOOSE(table->first, i.d)};
+        *second = (reals){PART_CHOOSE(table->second, i.a), PART_CHOOSE(table->second, i.b),
+                          PART_CHOOSE(table->second, i.c), PART_CHOOSE(table->second, i.d)};
+        return;
+    }
+#endif
+    (void)small;
+    _Alignas(64) uint64_t at[LANES];
+    store_ints(at, i);
+    const double(*pairs)[2] = (const double(*)[2])table->pairs;
+    part_pair(pairs, at, &first->a, &second->a);
+    part_pair(pairs, at + PART, &first->b, &second->b);
+    part_pair(pairs, at + 2 * PART, &first->c, &second->c);
+    part_pair(pairs, at + 3 * PART, &first->d, &second->d);
+}
+
+#endif

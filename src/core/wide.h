@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WIDE_H
+#define CEDUO_WIDE_H
+
+#include "ceduo/run.h"
+#include "walk.h"
+
+/* The walk of walk.h for many rocks at once, one in each lane of wide registers: the same bits for every rock. What
+ * happens seldom (stems, marks, rolling, far landings on long slopes) is done lane by lane by the scalar walk. */
+
+/* Two numbers for each vertex or segment i, at [i + 1]: look_up() of lanes.h. */
+#define TABLE_SMALL 16
+struct wide_table {
+    _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* of a small table, once more */
+    double (*pairs)[2];
+};
+
+/* The ground in tables. Before and behind stand walls without top, so that a flight over the profile's end is one that
+ * strikes a wall. */
+struct wide_ground {
+    struct wide_table place; /* x, z of a vertex */
+    struct wide_table slope; /* m, largest facet angle */
+    struct wide_table tilt;  /* c, s */
+    struct wide_table share; /* rn, rt */
+    struct wide_table brake; /* mu c */
+    bool small;              /* all fit TABLE_SMALL */
+    double (*room)[2];       /* of all pairs */
+};
+
+/* NULL without memory. */
+struct wide_ground *ceduo_wide_ground_create(const struct ground *g);
+void ceduo_wide_ground_free(struct wide_ground *wide);
+
+/* The wide walk of a kind of registers, or NULL where this machine has none of the kind; how many rocks at once. */
+struct wide_job;
+typedef void wide_walk_fn(const struct wide_job *job);
+wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes);
+
+/* Many rocks to be followed. They end in another order than they began. */
+struct wide_job {
+    const struct wide_ground *ground;
+    enum ceduo_law law;
+    bool alike;             /* the rocks differ in nothing but their numbers */
+    struct walker *walkers; /* one for each lane, all of one run */
+    bool (*next)(void *context, size_t lane); /* releases the next rock into that lane's walker; false: none left */
+    void (*ended)(void *context, size_t lane, enum ceduo_end end);
+    void *context;
+};
+
+wide_walk_fn ceduo_wide_walk_avx2, ceduo_wide_walk_avx512;
+
+#endif

@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The wide kernels give the same bits as the scalar one, in every figure of a run. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+
+#define SCENES        1200
+#define LASTING_EVERY 600 /* scenes of which one may go on for ever */
+#define CONTROLS_MOST 4
+#define CELLS_MOST    150
+#define LONG_VERTICES 4097
+
+static const enum ceduo_kernel wide[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512};
+#define WIDE (sizeof wide / sizeof wide[0])
+
+/* ---- comparing ---- */
+
+static void expect_same_bits(const char *scene, const char *what, const void *a, const void *b, size_t bytes)
+{
+    if (memcmp(a, b, bytes) != 0)
+        fail_msg("%s: other bits in %s", scene, what);
+}
+
+static void compare_control(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b, size_t control)
+{
+    struct ceduo_arrivals p, q;
+    assert_int_equal(ceduo_run_arrivals(a, control, &p), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(b, control, &q), CEDUO_OK);
+    expect_same_bits(scene, "arrivals", &p, &q, offsetof(struct ceduo_arrivals, exact));
+    assert_int_equal(p.exact, q.exact);
+    static double energies[2][5000];
+    size_t n = ceduo_run_energies(a, control, energies[0], 5000);
+    assert_int_equal(n, ceduo_run_energies(b, control, energies[1], 5000));
+    expect_same_bits(scene, "energies", energies[0], energies[1], n * sizeof(double));
+    struct ceduo_difference d = ceduo_run_difference(a, a, control), e = ceduo_run_difference(b, a, control);
+    expect_same_bits(scene, "differences", &d, &e, sizeof d);
+}
+
+static void compare(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b,
+                    const struct ceduo_run_def *def)
+{
+    assert_int_equal(ceduo_run_rocks(a), ceduo_run_rocks(b));
+    if (ceduo_run_contacts(a) != ceduo_run_contacts(b))
+        fail_msg("%s: %ju contacts, scalar %ju", scene, (uintmax_t)ceduo_run_contacts(b),
+                 (uintmax_t)ceduo_run_contacts(a));
+    struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
+    expect_same_bits(scene, "stems", &s, &t, sizeof s);
+    struct ceduo_ends e, f;
+    assert_int_equal(ceduo_run_ends(a, &e), CEDUO_OK);
+    assert_int_equal(ceduo_run_ends(b, &f), CEDUO_OK);
+    expect_same_bits(scene, "ends", &e, &f, sizeof e);
+    for (size_t i = 0; i < def->cells; i++) {
+        struct ceduo_envelope g, h;
+        ceduo_run_envelope(a, i, &g);
+        ceduo_run_envelope(b, i, &h);
+        expect_same_bits(scene, "envelopes", &g, &h, sizeof g);
+    }
+    for (size_t c = 0; c < def->scene->controls_count; c++)
+        compare_control(scene, a, b, c);
+}
+
+static struct ceduo_run *run_of(struct ceduo_run_def def, enum ceduo_kernel kernel, uint64_t first, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    def.kernel = kernel;
+    def.rocks_most = rocks;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, first), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
+    return run;
+}
+
+/* Runs in two steps, of one thread where it is scalar. Returns the contacts. */
+static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, uint64_t first, uint64_t rocks)
+{
+    struct ceduo_run_def one = *def;
+    one.threads = 1;
+    struct ceduo_run *scalar = run_of(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
+    for (size_t i = 0; i < WIDE; i++) {
+        struct ceduo_run *other = run_of(*def, wide[i], first, rocks);
+        compare(scene, scalar, other, def);
+        ceduo_run_free(other);
+    }
+    uint64_t contacts = ceduo_run_contacts(scalar);
+    ceduo_run_free(scalar);
+    return contacts;
+}
+
+/* ---- random scenes ---- */
+
+struct wild {
+    struct line_scene line;
+    struct ceduo_control controls[CONTROLS_MOST];
+    double cell_x[CELLS_MOST];
+    struct paper_plot plots[2];
+    struct ceduo_belt belts[2];
+    struct ceduo_run_def def;
+    uint64_t first, rocks;
+};
+
+static void add_spreads(struct wild *w, struct line_random *r)
+{
+    struct ceduo_scene *scene = &w->line.scene;
+    enum ceduo_spread_kind kind = line_chance(r, 0.5) ? CEDUO_NORMAL : CEDUO_UNIFORM;
+    if (line_chance(r, 0.5)) {
+        scene->rock.diameter.spread = scene->rock.diameter.mean * line_uniform(r, 0.01, 0.25);
+        scene->rock.diameter.kind = kind;
+    }
+    if (line_chance(r, 0.5)) {
+        scene->release.vx.spread = line_uniform(r, 0, 3);
+        scene->release.vz.spread = line_uniform(r, 0, 3);
+        scene->release.spin.spread = line_uniform(r, 0, 3);
+    }
+    if (line_chance(r, 0.3)) {
+        scene->release.height.mean += 1;
+        scene->release.height.spread = 0.3;
+    }
+    bool rn = line_chance(r, 0.4), rt = line_chance(r, 0.4);
+    for (size_t j = 0; j + 1 < scene->slope.vertices; j++) {
+        if (rn)
+            w->line.segments[j].rn.spread = line_uniform(r, 0, 0.2);
+        if (rt)
+            w->line.segments[j].rt.spread = line_uniform(r, 0, 0.2);
+    }
+}
+
+static void add_places(struct wild *w, struct line_random *r)
+{
+    struct ceduo_scene *scene = &w->line.scene;
+    double end = w->line.x[scene->slope.vertices - 1], at = scene->release.x.mean;
+    scene->controls_count = (size_t)line_uniform(r, 0, CONTROLS_MOST + 0.999);
+    scene->controls = w->controls;
+    for (size_t i = 0; i < scene->controls_count; i++) {
+        w->controls[i] = w->line.control;
+        w->controls[i].x = at + (end - at) * line_uniform(r, 0.01, 1);
+        w->controls[i].accepted = line_chance(r, 0.5) ? NAN : line_log_uniform(r, 1, 1e6);
+    }
+    w->def.cells = line_chance(r, 0.4) ? (size_t)line_uniform(r, 1, CELLS_MOST) : 0;
+    w->def.cell_x = w->cell_x;
+    for (size_t i = 0; i < w->def.cells; i++)
+        w->cell_x[i] = end * (double)(i + 1) / (double)w->def.cells;
+}
+
+static void add_stems(struct wild *w, struct line_random *r)
+{
+    struct ceduo_scene *scene = &w->line.scene;
+    double end = w->line.x[scene->slope.vertices - 1], middle = end * line_uniform(r, 0.1, 0.9);
+    const double from[] = {end * line_uniform(r, 0, 0.1), middle}, to[] = {middle, end};
+    for (int i = 0; i < 2; i++) {
+        paper_plot_init(&w->plots[i], i + 1);
+        if (line_chance(r, 0.3))
+            w->plots[i].shoots.dbh_sd = w->plots[i].trees.dbh_sd = 0.02;
+        w->plots[i].stand.energy = line_chance(r, 0.5) ? CEDUO_BRAUNER : CEDUO_DORREN;
+        w->belts[i] = (struct ceduo_belt){.from = from[i], .to = to[i], .stand = w->plots[i].stand};
+    }
+    w->line.option.belts = w->belts;
+    w->line.option.belts_count = line_chance(r, 0.5) ? 1 : 2;
+    scene->simulation.contact_model = line_chance(r, 0.6) ? CEDUO_STEMS : CEDUO_POISSON;
+    w->def.option = &w->line.option;
+}
+
+static void wild_init(struct wild *w, uint64_t number)
+{
+    struct line_random random = {.state = number * 0x9e3779b97f4a7c15U + 5}, *r = &random;
+    line_scene_random(&w->line, number, LASTING_EVERY);
+    w->def = ceduo_run_def_default(&w->line.scene);
+    w->def.threads = (unsigned)line_uniform(r, 1, 3.999);
+    if (line_chance(r, 0.4))
+        add_spreads(w, r);
+    add_places(w, r);
+    if (line_chance(r, 0.3))
+        add_stems(w, r);
+    if (line_chance(r, 0.1))
+        w->def.exact_bytes = 0;
+    bool long_one = line_chance(r, 0.02), lasts = line_scene_lasts(&w->line);
+    w->rocks = lasts ? 2 : long_one ? 2200 : (uint64_t)line_uniform(r, 1, 90);
+    w->first = (uint64_t)line_uniform(r, 0, (double)w->rocks);
+}
+
+static void random_scenes(void **state)
+{
+    (void)state;
+    static struct wild w;
+    uint64_t contacts = 0, scenes = 0;
+    for (uint64_t number = 0; number < SCENES; number++) {
+        char name[40];
+        snprintf(name, sizeof name, "scene %ju", (uintmax_t)number);
+        wild_init(&w, number);
+        if (ceduo_scene_check(&w.line.scene, NULL) != CEDUO_OK)
+            continue; /* a spread leads off the slope */
+        contacts += expect_same(name, &w.def, w.first, w.rocks);
+        scenes++;
+    }
+    print_message("%ju scenes, %ju contacts\n", (uintmax_t)scenes, (uintmax_t)contacts);
+    assert_true(scenes > SCENES * 9 / 10 && contacts > 1000 * SCENES);
+}
+
+/* ---- scenes of their own ---- */
+
+/* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest. */
+static void the_papers_site(void **state)
+{
+    (void)state;
+    double cell_x[50];
+    for (int i = 0; i < 50; i++)
+        cell_x[i] = paper_x[PAPER_SEGMENTS] * (i + 1) / 50;
+    for (unsigned i = 0; i < 2 * 2 * 2 * 2 * 4; i++) {
+        struct paper_site site;
+        char name[40];
+        snprintf(name, sizeof name, "paper's site %u", i);
+        paper_site_init(&site);
+        struct ceduo_simulation *simulation = &site.scene.simulation;
+        simulation->law = i & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        paper_site_read_theta(&site, i & 2 ? PAPER_HEIGHT : PAPER_ANGLE);
+        site.scene.slope.facets = i & 4 ? CEDUO_BOTH : CEDUO_AGAINST;
+        simulation->scale_rn = i & 8;
+        unsigned forest = i >> 4;
+        simulation->contact_model = forest == 1 ? CEDUO_POISSON : CEDUO_STEMS;
+        if (forest == 3)
+            site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.option = forest == 0 ? NULL : &site.option;
+        def.threads = 2;
+        def.cells = 50;
+        def.cell_x = cell_x;
+        expect_same(name, &def, 1500, 3000);
+    }
+}
+
+/* A profile with blocks of several levels, and steep places. */
+static void a_long_profile(void **state)
+{
+    (void)state;
+    static struct ceduo_segment segments[LONG_VERTICES - 1];
+    static double x[LONG_VERTICES], z[LONG_VERTICES];
+    struct line_random r = {.state = 3};
+    for (size_t i = 0; i < LONG_VERTICES; i++) {
+        x[i] = i == 0 ? 0 : x[i - 1] + line_uniform(&r, 0.05, 0.4);
+        z[i] = -0.8 * x[i] + line_uniform(&r, -0.05, 0.05) + 20 * sin(x[i] / 40);
+        if (line_chance(&r, 0.01))
+            z[i] -= 1;
+    }
+    for (size_t j = 0; j + 1 < LONG_VERTICES; j++)
+        segments[j] = (struct ceduo_segment){.rn = ceduo_number(0.4),
+                                             .rt = ceduo_number(0.9),
+                                             .roughness_m = NAN,
+                                             .roughness_rad = 0.2,
+                                             .friction = 0.4};
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+        struct line_scene line;
+        line_scene_init(&line, 2, x, z, (struct line_ground){0.4, 0.9, 0.4}, 0.3, (enum ceduo_law)law);
+        line_scene_release(&line, 1, 3, 5, 0, 0);
+        line.scene.slope =
+            (struct ceduo_slope){.facets = CEDUO_BOTH, .vertices = LONG_VERTICES, .x = x, .z = z, .segments = segments};
+        line.control = (struct ceduo_control){.x = x[LONG_VERTICES / 2], .accepted = 1e3, .measured_speed = NAN};
+        line.scene.controls_count = 1;
+        struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
+        assert_true(expect_same("long profile", &def, 100, 400) > 5000);
+    }
+}
+
+/* ---- stopping ---- */
+
+static void *raise_soon(void *flag)
+{
+    nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
+    atomic_store((atomic_bool *)flag, true);
+    return NULL;
+}
+
+/* Rocks that hop on level ground for ever: the flag is seen on the way, and nothing of the block stays. */
+static void a_raised_flag_is_seen_by_rocks_under_way(void **state)
+{
+    (void)state;
+    const double x[] = {0, 1e9}, z[] = {0, 0};
+    for (size_t i = 0; i < WIDE; i++) {
+        struct line_scene line;
+        line_scene_init(&line, 2, x, z, (struct line_ground){1, 1, 0}, 0.3, CEDUO_LAW_LUMPED);
+        line_scene_release(&line, 1, 3, 5, 0, 0);
+        atomic_bool flag = false;
+        pthread_t thread;
+        struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
+        def.cancel = &flag;
+        def.kernel = wide[i];
+        def.rocks_most = 10000;
+        struct ceduo_run *run;
+        assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+        assert_int_equal(pthread_create(&thread, NULL, raise_soon, &flag), 0);
+        assert_int_equal(ceduo_run_extend(run, 10000), CEDUO_CANCELLED);
+        pthread_join(thread, NULL);
+        assert_int_equal(ceduo_run_rocks(run), 0);
+        assert_int_equal(ceduo_run_contacts(run), 0);
+        flag = false;
+        assert_int_equal(ceduo_run_extend(run, 3), CEDUO_OK);
+        struct ceduo_run *scalar = run_of(def, CEDUO_KERNEL_SCALAR, 3, 3);
+        compare("after a flag", scalar, run, &def);
+        assert_int_equal(ceduo_run_contacts(run), 3 * CEDUO_CONTACTS_MOST);
+        ceduo_run_free(scalar);
+        ceduo_run_free(run);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(random_scenes),
+        cmocka_unit_test(the_papers_site),
+        cmocka_unit_test(a_long_profile),
+        cmocka_unit_test(a_raised_flag_is_seen_by_rocks_under_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
