@@ -135,7 +135,7 @@ do-check-memory: all
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --plot profile profiles/scenes/paper-site.yaml >/dev/null
 
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
-$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) $(PARTS) $(LIBRARY)
+$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) $(SUPPORT) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
