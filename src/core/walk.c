@@ -523,7 +523,7 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
     return ROLLED;
 }
 
-/* Ground ahead of a roll: the last vertex less than R away. */
+/* Ground ahead of a roll: a vertex less than R away, when it was looked for the last such. */
 struct ahead {
     bool known;
     size_t vertex;
@@ -562,7 +562,8 @@ static bool surely_rolls(const struct walker *w, int dir, size_t j, size_t v, do
     const struct ground_segment *s = &g->segments[j];
     if (!(u2 * (turn * turn) < w->rock.radius * (2 * g->gravity * c_next) * (1 - ROUNDING)))
         return false;
-    look_ahead(w, dir, v, ahead);
+    if (!ahead->known || !(fabs(g->along[ahead->vertex] - g->along[v]) > w->rock.radius / 2))
+        look_ahead(w, dir, v, ahead);
     for (size_t far = dir > 0 ? ahead->vertex - v : v - ahead->vertex; far > 0; far /= 4) {
         size_t p = dir > 0 ? v + far : v - far;
         double dx = fabs(g->x[p] - g->x[v]), above = dir * s->s * dx - s->c * (g->z[p] - g->z[v]);
