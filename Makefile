@@ -4,7 +4,8 @@
 #   make            the program, ./ceduo          make check      the tests that CI runs
 #   make deps       installs what Debian lacks    make check-all  sanitizers, valgrind, tmux: slow
 #   make run        the paper's site as a page    make bench      speed, against a plain C loop
-#   make install    PREFIX, DESTDIR               VARIANT=release|debug|asan|tsan|cov
+#   make install    PREFIX, DESTDIR               make stress     ten million random scenes: slow
+#                                                 VARIANT=release|debug|asan|tsan|cov
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -79,7 +80,7 @@ deps:
 
 # With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
 # asked for, and do their work in a make of their own.
-GOALS := run check check-all bench
+GOALS := run check check-all bench stress
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -133,6 +134,15 @@ do-check-threads: $(T)/physics/test_statistics_of_runs $(PROGRAM)
 do-check-memory: all
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --plot profile profiles/scenes/paper-site.yaml >/dev/null
+
+# So many random scenes, in as many parts as there are cores.
+STRESS ?= 10000000
+do-stress: $(T)/physics/test_stress
+	@rm -f $(T)/stress-*.log; each=$$((($(STRESS) + $(CORES) - 1) / $(CORES))); \
+	for i in $$(seq 0 $$(($(CORES) - 1))); do \
+	    $< $$each $$((100000 + i * each)) >$(T)/stress-$$i.log 2>&1 || echo "FAILED: part $$i" >>$(T)/stress-$$i.log & \
+	done; wait; \
+	grep -h 'scenes:\|scene \|seed \|FAILED' $(T)/stress-*.log; ! grep -q FAILED $(T)/stress-*.log
 
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
 $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) $(SUPPORT) $(PARTS) $(LIBRARY)
