@@ -145,7 +145,7 @@ do-stress: $(T)/physics/test_stress
 	grep -h 'scenes:\|scene \|seed \|FAILED' $(T)/stress-*.log; ! grep -q FAILED $(T)/stress-*.log
 
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
-$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) $(SUPPORT) $(PARTS) $(LIBRARY)
+$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c)) tests/physics/paper_site.c tests/physics/line_scene.c) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 

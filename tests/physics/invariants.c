@@ -89,14 +89,14 @@ static void look_at_flight(struct watch *w, const struct ceduo_piece *p)
     w->flights++;
 }
 
-/* A flight of less than a micrometre between two walls that face each other. A rock sinks down such a crack in ever so
+/* A flight of less than a micrometre, or a thousandth of the radius, between two walls that face each other. A rock sinks down such a crack in ever so
  * many contacts, and may well need more than are counted. */
-static bool is_in_crack(const struct ceduo_slope *s, const struct ceduo_piece *p)
+static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_piece *p)
 {
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
     double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
     double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
-    return !p->rolls && fabs(p->x1 - p->x) < 1e-6 && left < -1e3 && right > 1e3;
+    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-3 * radius) && left < -1e3 && right > 1e3;
 }
 
 /* On the ground a rock gains no more than what it drops. */
@@ -143,7 +143,7 @@ static void look_at_piece(void *context, const struct ceduo_piece *p)
         look_at_roll(w, p);
     else
         look_at_flight(w, p);
-    w->in_crack = is_in_crack(&w->scene->scene.slope, p) ? w->in_crack + 1 : 0;
+    w->in_crack = is_in_crack(&w->scene->scene.slope, w->rock.radius, p) ? w->in_crack + 1 : 0;
     if (w->pieces > 0) {
         w->bad |= p->x != w->last.x1 || p->z != w->last.z1 || p->contacts < w->last.contacts;
         double before = kinetic(w, w->last.vx1, w->last.vz1, spin_at_end(w, &w->last));
