@@ -10,7 +10,9 @@
 #include "histogram.h"
 #include "walk.h"
 
+#ifndef CHUNK_BLOCKS
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: what bounds the memory of their sums */
+#endif
 
 enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 
