@@ -200,6 +200,7 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MOST / 2;
     if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack)
         fail_msg("scene %ju: unfinished", (uintmax_t)number);
+    tally->last = way;
     tally->ends[way.end]++;
     tally->cracks += crack;
     tally->contacts += way.contacts;
