@@ -179,7 +179,7 @@ static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
 void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_tally *tally)
 {
     struct ceduo_way way;
-    struct ceduo_crossing crossing;
+    struct ceduo_crossing crossing = {0};
     struct watch w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
