@@ -104,6 +104,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
 {
     size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
     int level = 0, most = g->top;
+    double xp = g->x[p], zp = g->z[p]; /* kept, for a vertex far away is not at hand */
     while (p != last) {
         if (p == barrier)
             most = g->top;
@@ -115,7 +116,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
             double clear = 0, z, x;
             if (level > 0) {
                 const struct ground_block *b = &g->levels[level][i];
-                if ((i + 1) << shift > g->n || !(h + (g->z[p] - (b->z + b->m * (g->x[p] - b->x))) >= b->rise)) {
+                if ((i + 1) << shift > g->n || !(h + (zp - (b->z + b->m * (xp - b->x))) >= b->rise)) {
                     level--;
                     continue;
                 }
@@ -130,6 +131,8 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
             double above = (f->z + (f->vz - g->half_g * t) * t) - z;
             if (above >= clear) {
                 p = q;
+                xp = x;
+                zp = z;
                 h = above;
                 break;
             }
