@@ -4,8 +4,8 @@
 #   make            the program, ./ceduo          make check      the tests that CI runs
 #   make deps       installs what Debian lacks    make check-all  sanitizers, valgrind, tmux: slow
 #   make run        the paper's site as a page    make bench      speed, against a plain C loop
-#   make install    PREFIX, DESTDIR; uninstall    make dist       the sources, in one archive
-#   VARIANT=release|debug|asan|tsan|cov
+#   make install    PREFIX, DESTDIR; uninstall    make stress     ten million random scenes: slow
+#   make dist       the sources, in one archive   VARIANT=release|debug|asan|tsan|cov
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -83,7 +83,7 @@ deps:
 
 # With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
 # asked for, and do their work in a make of their own.
-GOALS := run check check-all bench
+GOALS := run check check-all bench stress
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -100,7 +100,7 @@ T := $(BUILD)/tests
 UNIT := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/unit/test_*.c tests/physics/test_*.c))
 SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.py tests/physics/test_*.sh)
 TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
-SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c,$(wildcard tests/physics/*.c)))
+SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
 
 # One line at the end: N passed, N failed.
 do-check: all
@@ -138,9 +138,18 @@ do-check-memory: all
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --plot profile profiles/scenes/paper-site.yaml >/dev/null
 
+# So many random scenes, in as many parts as there are cores.
+STRESS ?= 10000000
+do-stress: $(T)/physics/test_stress
+	@rm -f $(T)/stress-*.log; each=$$((($(STRESS) + $(CORES) - 1) / $(CORES))); \
+	for i in $$(seq 0 $$(($(CORES) - 1))); do \
+	    $< $$each $$((100000 + i * each)) >$(T)/stress-$$i.log 2>&1 || echo "FAILED: part $$i" >>$(T)/stress-$$i.log & \
+	done; wait; \
+	grep -h 'scenes:\|scene \|seed \|FAILED' $(T)/stress-*.log; ! grep -q FAILED $(T)/stress-*.log
+
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
-$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c))) \
-		$(BUILD)/tests/physics/paper_site.o $(PARTS) $(LIBRARY)
+$(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c)) \
+		tests/physics/paper_site.c tests/physics/line_scene.c) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 

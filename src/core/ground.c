@@ -1,15 +1,97 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ground.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#ifndef MARGIN
 #define MARGIN 1e-10 /* of the slope's size; only speed depends on it */
+#endif
+#ifndef ON_LINE
+#define ON_LINE (4 * DBL_EPSILON) /* of the slope's size: a vertex this near to a line is on it but for rounding */
+#endif
+#ifndef NO_BREAK
+#define NO_BREAK 1e-7 /* rad; a segment turned no further from the line costs a rolling rock nothing that a double shows */
+#endif
+
+/* ---- vertices that matter ---- */
+
+static bool same_number(struct ceduo_number a, struct ceduo_number b)
+{
+    return a.mean == b.mean && a.spread == b.spread && (a.kind == b.kind || a.spread == 0);
+}
+
+static bool same_ground(const struct ceduo_segment *a, const struct ceduo_segment *b)
+{
+    bool rough = isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
+                                       : a->roughness_m == b->roughness_m;
+    return rough && a->friction == b->friction && same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
+}
+
+/* Lines from one vertex: steepest and gentlest that pass as near to all vertices so far as rounding allows, and likewise
+ * the slopes that no segment so far is turned from. */
+struct lines {
+    double lo, hi;
+};
+
+static void narrow(struct lines *l, double m, double by)
+{
+    l->lo = fmax(l->lo, m - by);
+    l->hi = fmin(l->hi, m + by);
+}
+
+/* The last vertex of the line that segment j begins: all vertices on the way are on it, and all ground is alike. */
+static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near)
+{
+    const double *x = slope->x, *z = slope->z;
+    struct lines l = {-INFINITY, INFINITY};
+    size_t end = j + 1;
+    for (; end + 1 < slope->vertices && same_ground(&slope->segments[j], &slope->segments[end]); end++) {
+        double m = (z[end] - z[end - 1]) / (x[end] - x[end - 1]), next = (z[end + 1] - z[end]) / (x[end + 1] - x[end]);
+        double turn = NO_BREAK * (1 + m * m);
+        if (!(fabs(next - m) <= 2 * turn)) /* by far the most of a rough profile */
+            break;
+        double dx = x[end] - x[j], far = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / far;
+        narrow(&l, m, turn);
+        narrow(&l, (z[end] - z[j]) / dx, near * (1 + fabs(m)) / dx);
+        if (!(chord >= l.lo && chord <= l.hi && fabs(chord - next) <= turn))
+            break;
+    }
+    return end;
+}
+
+static double size_of(const struct ceduo_slope *slope)
+{
+    double size = 0;
+    for (size_t i = 0; i < slope->vertices; i++) {
+        double x = fabs(slope->x[i]), z = fabs(slope->z[i]), most = x > z ? x : z;
+        size = most > size ? most : size;
+    }
+    return size;
+}
+
+/* Sets n and the vertices, and what ground each segment is given. */
+static void keep_vertices(struct ground *g, const struct ceduo_slope *slope, double size)
+{
+    size_t n = 0, i = 0;
+    while (i + 1 < slope->vertices) {
+        g->x[n] = slope->x[i];
+        g->z[n] = slope->z[i];
+        g->given[n++] = &slope->segments[i];
+        i = end_of_line(slope, i, ON_LINE * size);
+    }
+    g->x[n] = slope->x[i];
+    g->z[n] = slope->z[i];
+    g->n = n;
+}
+
+/* ---- segments ---- */
 
 static void prepare_segment(struct ground *g, size_t j, double radius)
 {
-    const struct ceduo_segment *from = &g->slope->segments[j];
+    const struct ceduo_segment *from = g->given[j];
     struct ground_segment *to = &g->segments[j];
     double dx = g->x[j + 1] - g->x[j], dz = g->z[j + 1] - g->z[j];
     double length = hypot(dx, dz);
@@ -19,43 +101,53 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     to->mu = from->friction;
     to->rn = from->rn.mean;
     to->rt = from->rt.mean;
-    to->theta = isnan(from->roughness_m) ? from->roughness_rad : atan(from->roughness_m / radius);
+    if (j > 0 && same_ground(from, g->given[j - 1]))
+        to->theta = g->segments[j - 1].theta;
+    else
+        to->theta = isnan(from->roughness_m) ? from->roughness_rad : atan(from->roughness_m / radius);
     to->steep = fabs(to->m) > 1;
     g->along[j + 1] = g->along[j] + length;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;
 }
 
-static double size_of(const struct ground *g)
+/* ---- blocks ---- */
+
+/* Sets block i of a level from the blocks, or the vertices, of the level below: no more than a bound of what rises. */
+static void bound_block(const struct ground *g, int level, size_t i)
 {
-    double size = 0;
-    for (size_t i = 0; i <= g->n; i++)
-        size = fmax(size, fmax(fabs(g->x[i]), fabs(g->z[i])));
-    return size;
+    struct ground_block *block = &g->levels[level][i];
+    const struct ground_block *below = g->levels[level - 1];
+    size_t first = i << GROUND_BITS, last = (i + 1) << GROUND_BITS;
+    block->rise = 0;
+    for (size_t j = first; j < last; j++) {
+        bool fine = level == 1;
+        double x0 = fine ? g->x[j] : below[j].x, z0 = fine ? g->z[j] : below[j].z;
+        double x1 = fine ? g->x[j + 1] : below[j + 1].x, z1 = fine ? g->z[j + 1] : below[j + 1].z;
+        double above0 = z0 - (block->z + block->m * (x0 - block->x)), above1 = z1 - (block->z + block->m * (x1 - block->x));
+        double rise = (above0 > above1 ? above0 : above1) + (fine ? 0 : below[j].rise);
+        block->rise = rise > block->rise ? rise : block->rise;
+    }
 }
 
-/* How high the vertices of segments [a, b) rise above the chord from a to b. */
-static double rise_above_chord(const struct ground *g, size_t a, size_t b)
+static bool build_levels(struct ground *g, double margin)
 {
-    double m = (g->z[b] - g->z[a]) / (g->x[b] - g->x[a]);
-    double rise = 0;
-    for (size_t i = a + 1; i < b; i++)
-        rise = fmax(rise, g->z[i] - (g->z[a] + m * (g->x[i] - g->x[a])));
-    return rise;
-}
-
-static bool build_levels(struct ground *g)
-{
-    double margin = MARGIN * size_of(g);
-    size_t span = GROUND_BLOCK;
-    for (int level = 1; level < GROUND_LEVELS && 2 * span <= g->n; level++, span *= GROUND_BLOCK) {
-        size_t blocks = g->n / span;
-        g->levels[level] = malloc(blocks * sizeof(double));
-        if (!g->levels[level])
+    for (int level = 1; level < GROUND_LEVELS && g->n >> (GROUND_BITS * level) >= 2; level++) {
+        size_t blocks = g->n >> (GROUND_BITS * level);
+        struct ground_block *to = malloc((blocks + 1) * sizeof *to);
+        if (!to)
             return false;
-        for (size_t i = 0; i < blocks; i++)
-            g->levels[level][i] = rise_above_chord(g, i * span, (i + 1) * span) + margin;
+        g->levels[level] = to;
         g->top = level;
+        for (size_t i = 0; i <= blocks; i++) {
+            size_t vertex = i << (GROUND_BITS * level);
+            to[i] = (struct ground_block){.x = g->x[vertex], .z = g->z[vertex]};
+        }
+        for (size_t i = 0; i < blocks; i++) {
+            to[i].m = (to[i + 1].z - to[i].z) / (to[i + 1].x - to[i].x);
+            bound_block(g, level, i);
+            to[i].rise += margin;
+        }
     }
     return true;
 }
@@ -64,30 +156,43 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
                        bool radius_varies)
 {
     memset(ground, 0, sizeof *ground);
-    size_t n = slope->vertices - 1;
-    ground->n = n;
-    ground->slope = slope;
     ground->facets = slope->facets;
     ground->gravity = gravity;
     ground->half_g = gravity / 2;
-    ground->x = malloc((n + 1) * sizeof(double));
-    ground->z = malloc((n + 1) * sizeof(double));
-    ground->along = malloc((n + 1) * sizeof(double));
-    ground->segments = calloc(n, sizeof *ground->segments);
-    if (!ground->x || !ground->z || !ground->along || !ground->segments)
+    ground->x = malloc(slope->vertices * sizeof(double));
+    ground->z = malloc(slope->vertices * sizeof(double));
+    ground->given = malloc(slope->vertices * sizeof *ground->given);
+    if (!ground->x || !ground->z || !ground->given)
         goto fail;
-    memcpy(ground->x, slope->x, (n + 1) * sizeof(double));
-    memcpy(ground->z, slope->z, (n + 1) * sizeof(double));
+    double size = size_of(slope);
+    keep_vertices(ground, slope, size);
+    ground->along = malloc((ground->n + 1) * sizeof(double));
+    ground->segments = malloc(ground->n * sizeof *ground->segments);
+    if (!ground->along || !ground->segments)
+        goto fail;
     ground->along[0] = 0;
-    for (size_t j = 0; j < n; j++) {
+    for (size_t j = 0; j < ground->n; j++) {
         prepare_segment(ground, j, radius);
-        ground->theta_varies |= radius_varies && slope->segments[j].roughness_m > 0;
+        ground->theta_varies |= radius_varies && ground->given[j]->roughness_m > 0;
     }
-    if (build_levels(ground))
+    if (build_levels(ground, MARGIN * size))
         return true;
 fail:
     ceduo_ground_release(ground);
     return false;
+}
+
+size_t ceduo_ground_segment(const struct ground *ground, double x)
+{
+    size_t lo = 0, hi = ground->n;
+    while (hi - lo > 1) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (ground->x[mid] <= x)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
 }
 
 void ceduo_ground_release(struct ground *ground)
@@ -96,6 +201,7 @@ void ceduo_ground_release(struct ground *ground)
     free(ground->z);
     free(ground->along);
     free(ground->segments);
+    free(ground->given);
     for (int l = 0; l < GROUND_LEVELS; l++)
         free(ground->levels[l]);
     memset(ground, 0, sizeof *ground);

@@ -21,27 +21,38 @@ struct ground_segment {
     bool steep;        /* |m| > 1: z tells where a point lies better than x */
 };
 
-#define GROUND_BLOCK 8   /* segments of a block, blocks of the next level's block */
-#define GROUND_LEVELS 8
+#ifndef GROUND_BITS
+#define GROUND_BITS 3 /* 2^3 segments are a block, 2^3 blocks one of the next level; only speed depends on it */
+#endif
+#define GROUND_LEVELS 16
 
+/* Some neighbouring segments: their first vertex, the slope of the chord to the first of the next block, and how high
+ * the ground rises above that chord, with a margin for rounding. A parabola that is as high above the chord at two places
+ * touches no segment between. */
+struct ground_block {
+    double x, z, m, rise;
+};
+
+/* Neighbours on one line with the same ground are one segment here, so its numbers are not those of the slope. */
 struct ground {
     size_t n; /* segments */
     double *x, *z, *along; /* n + 1; along: metres of ground from the first vertex */
     struct ground_segment *segments;
-    const struct ceduo_slope *slope; /* for spreads and roughness heights */
+    const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
     enum ceduo_facets facets;
     bool rn_varies, rt_varies, theta_varies; /* from rock to rock */
     double gravity, half_g;
-    /* levels[l][i]: how high the ground of block i (GROUND_BLOCK^l segments) rises above its chord, and a margin for
-     * rounding. A parabola this much above both ends of the chord touches no segment between. */
-    int top;
-    double *levels[GROUND_LEVELS];
+    int top; /* level; level l has blocks of 2^(GROUND_BITS l) segments, from 1 on, and only whole ones */
+    struct ground_block *levels[GROUND_LEVELS];
 };
 
 /* Builds `ground` for a checked slope; radius of the mean rock; whether radii differ. False without memory. */
 bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, double gravity, double radius,
                        bool radius_varies);
 void ceduo_ground_release(struct ground *ground);
+
+/* The segment that x lies on, the right-hand one at a vertex. */
+size_t ceduo_ground_segment(const struct ground *ground, double x);
 
 /* Height of the ground at x on segment j. */
 HOT double ground_height(const struct ground *g, size_t j, double x)

@@ -69,61 +69,80 @@ HOT struct landing land_straight(const struct ground *g, const struct flight *f)
     return (struct landing){.t = t, .x = f->x, .z = f->on_ground ? f->z : z, .segment = f->segment, .left = false};
 }
 
-/* Index of the block of `span` segments that begins at vertex p in direction dir; false where none does. */
-HOT bool block_at(const struct ground *g, size_t p, int dir, size_t span, size_t *block)
+/* Beyond the end of the profile. */
+HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, int dir, double inv)
 {
-    if (p % span != 0)
-        return false;
-    if (dir > 0) {
-        *block = p / span;
-        return p + span <= g->n;
-    }
-    *block = p / span - 1;
-    return p >= span;
+    size_t p = dir > 0 ? g->n : 0;
+    double t = (g->x[p] - f->x) * inv;
+    return (struct landing){.t = t,
+                            .x = g->x[p],
+                            .z = f->z + (f->vz - g->half_g * t) * t,
+                            .segment = dir > 0 ? p - 1 : p,
+                            .left = true};
 }
 
-/* Follows the flight from vertex p, which it clears by h, towards dir: the first segment at whose far vertex it would be
- * under the ground. The parabola less a straight line is concave: where it is above both ends of a segment it touches
- * nothing between, and where it is higher above both ends of a block than the block rises over its chord, no segment of
- * the block. NaN is contact. */
-HOT struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, double h, int dir, double inv)
+/* Follows the flight from vertex p, which it clears, towards dir: the first segment at whose far vertex it would be under
+ * the ground. The parabola less a straight line is concave: where it is above both ends of a segment it touches nothing
+ * between. NaN is contact. */
+HOT struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, int dir, double inv)
 {
-    int level = 0;
-    size_t span = 1, block;
-    for (;;) {
-        if (p == (dir > 0 ? g->n : 0)) {
-            double t = (g->x[p] - f->x) * inv;
-            return (struct landing){.t = t,
-                                    .x = g->x[p],
-                                    .z = f->z + (f->vz - g->half_g * t) * t,
-                                    .segment = dir > 0 ? p - 1 : p,
-                                    .left = true};
-        }
-        while (level < g->top && block_at(g, p, dir, span * GROUND_BLOCK, &block) &&
-               h >= g->levels[level + 1][block]) {
-            level++;
-            span *= GROUND_BLOCK;
-        }
+    size_t last = dir > 0 ? g->n : 0;
+    while (p != last) {
+        size_t q = dir > 0 ? p + 1 : p - 1;
+        double t = (g->x[q] - f->x) * inv;
+        if (!((f->z + (f->vz - g->half_g * t) * t) - g->z[q] >= 0))
+            return land_on(g, f, dir > 0 ? p : q, t);
+        p = q;
+    }
+    return land_nowhere(g, f, dir, inv);
+}
+
+/* The same on a long profile, p being cleared by h. Blocks are passed as wholes where the flight is high enough above
+ * their chord: from where it is, be it within the block, to the block's end. */
+SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p,
+                                                       double h, int dir, double inv)
+{
+    size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
+    int level = 0, most = g->top;
+    double xp = g->x[p], zp = g->z[p]; /* kept, for a vertex far away is not at hand */
+    while (p != last) {
+        if (p == barrier)
+            most = g->top;
+        level = level < most ? level + 1 : most;
         for (;;) {
-            if (level > 0 && (!block_at(g, p, dir, span, &block) || !(h >= g->levels[level][block]))) {
-                level--;
-                span /= GROUND_BLOCK;
-                continue;
+            int shift = GROUND_BITS * level;
+            size_t i = (dir > 0 ? p : p - 1) >> shift;
+            size_t q = (dir > 0 ? i + 1 : i) << shift;
+            double clear = 0, z, x;
+            if (level > 0) {
+                const struct ground_block *b = &g->levels[level][i];
+                if ((i + 1) << shift > g->n || !(h + (zp - (b->z + b->m * (xp - b->x))) >= b->rise)) {
+                    level--;
+                    continue;
+                }
+                clear = b->rise;
+                x = b[dir > 0].x;
+                z = b[dir > 0].z;
+            } else {
+                x = g->x[q];
+                z = g->z[q];
             }
-            size_t q = dir > 0 ? p + span : p - span;
-            double t = (g->x[q] - f->x) * inv;
-            double above = (f->z + (f->vz - g->half_g * t) * t) - g->z[q];
-            if (above >= (level > 0 ? g->levels[level][block] : 0)) {
+            double t = (x - f->x) * inv;
+            double above = (f->z + (f->vz - g->half_g * t) * t) - z;
+            if (above >= clear) {
                 p = q;
+                xp = x;
+                zp = z;
                 h = above;
                 break;
             }
             if (level == 0)
-                return land_on(g, f, dir > 0 ? p : q, t);
-            level--;
-            span /= GROUND_BLOCK;
+                return land_on(g, f, i, t);
+            barrier = q;
+            most = --level;
         }
     }
+    return land_nowhere(g, f, dir, inv);
 }
 
 HOT struct landing land_towards(const struct ground *g, const struct flight *f, int dir)
@@ -138,7 +157,7 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
     } else if (!(h >= 0)) {
         return land_on(g, f, j, t);
     }
-    return land_beyond(g, f, q, h, dir, inv);
+    return g->top > 0 ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);
 }
 
 /* The next contact of a flight with the ground. */

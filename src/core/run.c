@@ -11,7 +11,9 @@
 #include "walk.h"
 #include "wide.h"
 
+#ifndef CHUNK_BLOCKS
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: what bounds the memory of their sums */
+#endif
 
 enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 

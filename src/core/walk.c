@@ -6,7 +6,15 @@
 #include "law_crsp.h"
 #include "law_lumped.h"
 
+#ifndef PAUSE
 #define PAUSE 4000 /* contacts; the most are a multiple of it */
+#endif
+#ifndef ROUNDING
+#define ROUNDING 1e-9 /* what is nearer to a limit is looked at more closely; only speed depends on it */
+#endif
+#ifndef STOP_ROUNDING
+#define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: a rock stops no nearer than this */
+#endif
 _Static_assert(CEDUO_CONTACTS_MOST % PAUSE == 0, "a way ends at a pause");
 
 enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
@@ -59,7 +67,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     bool spins = scene->simulation.law != CEDUO_LAW_LUMPED;
     w->k = spins ? w->rock.k : 0;
     w->spin = spins ? draw_release(w, scene->release.spin, 4) : 0;
-    size_t segment = ceduo_slope_segment(g->slope, x);
+    size_t segment = ceduo_ground_segment(g, x);
     w->at = (struct flight){.x = x,
                             .z = ground_height(g, segment, x) + height,
                             .vx = draw_release(w, scene->release.vx, 2),
@@ -288,7 +296,7 @@ HOT double largest_facet(const struct walker *w, size_t j)
 {
     if (!w->g->theta_varies)
         return w->g->segments[j].theta;
-    const struct ceduo_segment *s = &w->g->slope->segments[j];
+    const struct ceduo_segment *s = w->g->given[j];
     return s->roughness_m > 0 ? atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
 }
 
@@ -298,9 +306,9 @@ HOT struct ceduo_ground_point ground_point(const struct walker *w, size_t j)
     struct ceduo_ground_point p = {
         .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn};
     if (w->g->rn_varies)
-        p.rn = ceduo_number_draw(w->g->slope->segments[j].rn, w->rn_u, 0, 1);
+        p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
     if (w->g->rt_varies)
-        p.rt = ceduo_number_draw(w->g->slope->segments[j].rt, w->rt_u, 0, 1);
+        p.rt = ceduo_number_draw(w->g->given[j]->rt, w->rt_u, 0, 1);
     return p;
 }
 
@@ -530,6 +538,91 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
     return ROLLED;
 }
 
+/* Ground ahead of a roll: a vertex less than R away, when it was looked for the last such. */
+struct ahead {
+    bool known;
+    size_t vertex;
+};
+
+static void look_ahead(const struct walker *w, int dir, size_t v, struct ahead *to)
+{
+    const double *along = w->g->along;
+    size_t last = dir > 0 ? w->g->n : 0, step = 1;
+    if (!to->known)
+        to->vertex = v;
+    to->known = true;
+    double r = w->rock.radius * (1 - ROUNDING);
+    for (;; step *= 2) { /* in ever larger steps, */
+        size_t room = dir > 0 ? last - to->vertex : to->vertex;
+        size_t next = dir > 0 ? to->vertex + step : to->vertex - step;
+        if (step > room || !(fabs(along[next] - along[v]) < r))
+            break;
+        to->vertex = next;
+    }
+    for (; step > 0; step /= 2) { /* then smaller ones */
+        size_t room = dir > 0 ? last - to->vertex : to->vertex;
+        size_t next = dir > 0 ? to->vertex + step : to->vertex - step;
+        if (step <= room && fabs(along[next] - along[v]) < r)
+            to->vertex = next;
+    }
+}
+
+/* Whether a rock that comes along segment j over its end v with speed u (u2 = u^2) surely rolls on at this convex vertex:
+ * it rises little, and would be under the ground at a vertex less than R away. Looking at some vertices is enough, as most
+ * often the farthest tells. */
+static bool surely_rolls(const struct walker *w, int dir, size_t j, size_t v, double turn, double c_next, double u2,
+                         struct ahead *ahead)
+{
+    const struct ground *g = w->g;
+    const struct ground_segment *s = &g->segments[j];
+    if (!(u2 * (turn * turn) < w->rock.radius * (2 * g->gravity * c_next) * (1 - ROUNDING)))
+        return false;
+    if (!ahead->known || !(fabs(g->along[ahead->vertex] - g->along[v]) > w->rock.radius / 2))
+        look_ahead(w, dir, v, ahead);
+    for (size_t far = dir > 0 ? ahead->vertex - v : v - ahead->vertex; far > 0; far /= 4) {
+        size_t p = dir > 0 ? v + far : v - far;
+        double dx = fabs(g->x[p] - g->x[v]), above = dir * s->s * dx - s->c * (g->z[p] - g->z[v]);
+        if (2 * u2 * s->c * above < g->gravity * (dx * dx) * (1 - ROUNDING))
+            return true;
+    }
+    return false;
+}
+
+/* Rolls over whole segments, from the vertex that `at` is on, as long as nothing but the speed changes: what may be a
+ * standstill or a flight, a mark or the end of the roll is left to others, and those who look on see each segment. */
+static void roll_over_segments(struct walker *w, struct roll *r)
+{
+    const struct ground *g = w->g;
+    if (w->stems || (w->watch && w->watch->piece))
+        return;
+    int dir = r->dir;
+    double pull = 2 * g->gravity / (1 + w->k);
+    struct ahead ahead = {.known = false};
+    for (;;) {
+        size_t j = w->at.segment, v = dir > 0 ? j + 1 : j;
+        double ds = g->along[j + 1] - g->along[j];
+        if (v == (dir > 0 ? g->n : 0) || !(ds < r->left) || (dir > 0 && w->next_x <= g->x[v]))
+            return;
+        size_t next = dir > 0 ? j + 1 : j - 1;
+        const struct ground_segment *a = &g->segments[j], *b = &g->segments[next];
+        double u2 = r->u2 + pull * (dir * (g->z[j] - g->z[j + 1]) - a->mu * (g->x[j + 1] - g->x[j]));
+        if (!(u2 > 0))
+            return;
+        double turn = dir * (a->c * b->s - a->s * b->c);
+        if (turn > 0) {
+            double cosine = a->c * b->c + a->s * b->s;
+            u2 = cosine > 0 ? u2 * (cosine * cosine) : 0;
+        } else if (turn < 0 && !surely_rolls(w, dir, j, v, turn, b->c, u2, &ahead)) {
+            return;
+        }
+        r->u2 = u2;
+        r->left -= ds;
+        w->at.x = g->x[v];
+        w->at.z = g->z[v];
+        w->at.segment = next;
+    }
+}
+
 /* Rolls for a length R along the ground from speed u; 0: downhill. */
 SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
 {
@@ -546,7 +639,7 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
         bool stands = ds > 0 && rate <= 0 && !(u2 > 0);
         if (stands) {
             double stop = rate < 0 ? -r.u2 / rate : 0;
-            if (stop <= 4 * DBL_EPSILON * (fabs(w->at.x) + fabs(w->at.z)))
+            if (stop <= STOP_ROUNDING * (fabs(w->at.x) + fabs(w->at.z)))
                 stop = 0; /* not a place of its own: rounding must not lift the rock */
             ds = stop < ds ? stop : ds;
         }
@@ -570,6 +663,7 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
         enum after_roll then = roll_over_vertex(w, &r, l);
         if (then != ROLLED)
             return then;
+        roll_over_segments(w, &r);
     }
 }
 

@@ -501,7 +501,7 @@ LANE void search_on(struct form form, const struct wide *k, const struct rocks *
 /* Leaves those out that have come to where blocks of segments begin; returns them. */
 LANE unsigned leave_far(struct search *s)
 {
-    flags far = both(s->going, same(and_ints(s->p, all_ints(GROUND_BLOCK - 1)), all_ints(1)));
+    flags far = both(s->going, same(and_ints(s->p, all_ints(((uint64_t)1 << GROUND_BITS) - 1)), all_ints(1)));
     s->going = but(s->going, far);
     return bits_of(far);
 }

@@ -46,7 +46,9 @@ struct wood_belt {
     const struct wood_stools *stools; /* NULL: none */
 };
 
+#ifndef WOOD_DIRECTIONS
 #define WOOD_DIRECTIONS 512 /* of a half circle */
+#endif
 
 struct wood {
     bool bare; /* nothing to be met */

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "invariants.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#define ENERGY     1e-12
+#define UNDER      1e-9  /* m below the ground, or */
+#define UNDER_SIZE 1e-13 /* of the largest coordinate of the way, whichever is larger */
+
+struct watch {
+    const struct line_scene *scene;
+    struct ceduo_rock rock;
+    double k; /* 0: no spin */
+    bool smooth;
+    struct ceduo_piece last;
+    uint64_t pieces, flights, impacts;
+    uint64_t in_crack;                               /* the last so many pieces flew from wall to wall */
+    double size, under, energy_off, gain, crsp_gain; /* largest so far */
+    bool bad;                                        /* not a number, or a gap between pieces */
+};
+
+static double kinetic(const struct watch *w, double vx, double vz, double spin)
+{
+    double rim = spin * w->rock.radius;
+    return (vx * vx + vz * vz + w->k * (rim * rim)) / 2;
+}
+
+static double spin_at_end(const struct watch *w, const struct ceduo_piece *p)
+{
+    if (!p->rolls || !(w->k > 0))
+        return p->spin;
+    return (p->vx1 < 0 ? -1 : 1) * hypot(p->vx1, p->vz1) / w->rock.radius;
+}
+
+/* Height of a flight's parabola at x, from whichever end is nearer. */
+static double height_of_flight(const struct ceduo_piece *p, double g, double x)
+{
+    if (fabs(x - p->x) < fabs(x - p->x1)) {
+        double t = (x - p->x) / p->vx;
+        return p->z + (p->vz - g / 2 * t) * t;
+    }
+    double t = (x - p->x1) / p->vx1;
+    return p->z1 + (p->vz1 - g / 2 * t) * t;
+}
+
+static void look_under(struct watch *w, size_t j, double x, double z)
+{
+    const struct ceduo_slope *s = &w->scene->scene.slope;
+    double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
+    double below = ((x - s->x[j]) * dz - (z - s->z[j]) * dx) / hypot(dx, dz);
+    w->under = fmax(w->under, below);
+}
+
+/* Above a straight segment the flight is concave: it is lowest over the ends of the segment or of its own. A vertex at
+ * either end is on the segment that lies towards the rest of the flight. */
+static void look_under_flight(struct watch *w, const struct ceduo_piece *p)
+{
+    const struct ceduo_slope *s = &w->scene->scene.slope;
+    double lo = fmin(p->x, p->x1), hi = fmax(p->x, p->x1), g = w->scene->scene.simulation.gravity;
+    size_t j = ceduo_slope_segment(s, lo);
+    double x_lo = lo, z_lo = p->x <= p->x1 ? p->z : p->z1, z_hi = p->x <= p->x1 ? p->z1 : p->z;
+    for (;; j++) {
+        look_under(w, j, x_lo, z_lo);
+        if (j + 2 == s->vertices || s->x[j + 1] >= hi)
+            break;
+        x_lo = s->x[j + 1];
+        z_lo = height_of_flight(p, g, x_lo);
+        look_under(w, j, x_lo, z_lo);
+    }
+    look_under(w, j, hi, z_hi);
+}
+
+static void look_at_flight(struct watch *w, const struct ceduo_piece *p)
+{
+    double g = w->scene->scene.simulation.gravity;
+    double v2 = (p->vx * p->vx + p->vz * p->vz) / 2, v2_end = (p->vx1 * p->vx1 + p->vz1 * p->vz1) / 2;
+    double scale = v2 + g * (fabs(p->x) + fabs(p->z)), scale_end = v2_end + g * (fabs(p->x1) + fabs(p->z1));
+    double off = fabs((v2 + g * p->z) - (v2_end + g * p->z1));
+    if (off > 0)
+        w->energy_off = fmax(w->energy_off, off / fmax(scale, scale_end));
+    look_under_flight(w, p);
+    w->flights++;
+}
+
+/* A flight of less than a micrometre, or a thousandth of the radius, between two walls that face each other. A rock sinks down such a crack in ever so
+ * many contacts, and may well need more than are counted. */
+static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_piece *p)
+{
+    size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
+    double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
+    double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
+    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-3 * radius) && left < -1e3 && right > 1e3;
+}
+
+/* On the ground a rock gains no more than what it drops. */
+static void look_at_roll(struct watch *w, const struct ceduo_piece *p)
+{
+    double g = w->scene->scene.simulation.gravity, share = (1 + w->k) / 2;
+    double before = share * (p->vx * p->vx + p->vz * p->vz), after = share * (p->vx1 * p->vx1 + p->vz1 * p->vz1);
+    double gained = (after + g * p->z1) - (before + g * p->z);
+    double scale = fmax(before + g * (fabs(p->x) + fabs(p->z)), after + g * (fabs(p->x1) + fabs(p->z1)));
+    if (gained > 0)
+        w->energy_off = fmax(w->energy_off, gained / scale);
+    size_t j = ceduo_slope_segment(&w->scene->scene.slope, (p->x + p->x1) / 2);
+    look_under(w, j, p->x, p->z);
+    look_under(w, j, p->x1, p->z1);
+}
+
+/* crsp on a smooth segment: what was along the ground and in the spin becomes at most Rt(Rt + (1 - Rt)/1.2) of it. */
+static void look_at_crsp(struct watch *w, const struct ceduo_piece *p)
+{
+    const struct ceduo_slope *s = &w->scene->scene.slope;
+    if (w->scene->scene.simulation.law != CEDUO_LAW_CRSP || !w->smooth || p->contacts != w->last.contacts + 1)
+        return;
+    size_t j = ceduo_slope_segment(s, p->x);
+    if (p->x == s->x[j] || p->x == s->x[j + 1])
+        return; /* on a vertex: which segment, is not told */
+    double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
+    double before = (w->last.vx1 * dx + w->last.vz1 * dz) / length, after = (p->vx * dx + p->vz * dz) / length;
+    double rim_before = spin_at_end(w, &w->last) * w->rock.radius, rim_after = p->spin * w->rock.radius;
+    double rt = s->segments[j].rt.mean, most = rt * (rt + (1 - rt) / 1.2);
+    double e0 = before * before + w->k * rim_before * rim_before, e1 = after * after + w->k * rim_after * rim_after;
+    double rounding = 1e-15 * (w->last.vx1 * w->last.vx1 + w->last.vz1 * w->last.vz1 + p->vx * p->vx + p->vz * p->vz);
+    if (e1 > most * e0 + rounding && e0 > 1e-280) /* below, squares lose their bits */
+        w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (most * e0) - 1 : INFINITY);
+    w->impacts++;
+}
+
+static void look_at_piece(void *context, const struct ceduo_piece *p)
+{
+    struct watch *w = context;
+    double sum = p->x + p->z + p->vx + p->vz + p->x1 + p->z1 + p->vx1 + p->vz1 + p->spin + p->seconds;
+    w->bad |= !isfinite(sum) || p->seconds < 0;
+    w->size = fmax(w->size, fmax(fmax(fabs(p->x), fabs(p->z)), fmax(fabs(p->x1), fabs(p->z1))));
+    if (p->rolls)
+        look_at_roll(w, p);
+    else
+        look_at_flight(w, p);
+    w->in_crack = is_in_crack(&w->scene->scene.slope, w->rock.radius, p) ? w->in_crack + 1 : 0;
+    if (w->pieces > 0) {
+        w->bad |= p->x != w->last.x1 || p->z != w->last.z1 || p->contacts < w->last.contacts;
+        double before = kinetic(w, w->last.vx1, w->last.vz1, spin_at_end(w, &w->last));
+        double after = kinetic(w, p->vx, p->vz, p->spin);
+        if (after > before && before > 1e-280)
+            w->gain = fmax(w->gain, after / before - 1);
+        look_at_crsp(w, p);
+    }
+    w->last = *p;
+    w->pieces++;
+}
+
+static bool is_smooth(const struct line_scene *s)
+{
+    for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++)
+        if (s->segments[j].roughness_m > 0 || s->segments[j].roughness_rad > 0)
+            return false;
+    return true;
+}
+
+static void expect_number(uint64_t scene, const char *what, double value, double most)
+{
+    if (!(value <= most))
+        fail_msg("scene %ju: %s %g, more than %g", (uintmax_t)scene, what, value, most);
+}
+
+static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
+{
+    if (c->reached && !(isfinite(c->vx + c->vz + c->spin + c->height) && c->vx >= 0 && c->height >= 0))
+        fail_msg("scene %ju: a crossing with %g %g %g %g", (uintmax_t)number, c->vx, c->vz, c->spin, c->height);
+}
+
+void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_tally *tally)
+{
+    struct ceduo_way way;
+    struct ceduo_crossing crossing = {0};
+    struct watch w = {.scene = s, .smooth = is_smooth(s)};
+    assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
+    w.k = s->scene.simulation.law == CEDUO_LAW_CRSP ? w.rock.k : 0;
+    assert_int_equal(ceduo_way_follow(&s->scene, NULL, number % 11,
+                                      &(struct ceduo_watch){.piece = look_at_piece, .context = &w}, &way, &crossing),
+                     CEDUO_OK);
+    if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))
+        fail_msg("scene %ju: not a number, or a gap in the way", (uintmax_t)number);
+    expect_number(number, "energy of a flight changes by", w.energy_off, ENERGY);
+    expect_number(number, "a contact gains", w.gain, ENERGY);
+    expect_number(number, "a contact of crsp gains", w.crsp_gain, ENERGY);
+    expect_number(number, "metres below the ground:", w.under, fmax(UNDER, UNDER_SIZE * w.size));
+    expect_crossing(number, &crossing);
+    double end = s->x[s->scene.slope.vertices - 1];
+    if (way.end == CEDUO_LEFT_SLOPE && way.x != 0 && way.x != end)
+        fail_msg("scene %ju: left the slope at %g", (uintmax_t)number, way.x);
+    bool crack = way.end == CEDUO_UNFINISHED && w.in_crack > CEDUO_CONTACTS_MOST / 2;
+    if (way.end == CEDUO_UNFINISHED && !line_scene_lasts(s) && !crack)
+        fail_msg("scene %ju: unfinished", (uintmax_t)number);
+    tally->last = way;
+    tally->ends[way.end]++;
+    tally->cracks += crack;
+    tally->contacts += way.contacts;
+    tally->pieces += w.pieces;
+    tally->flights += w.flights;
+    tally->impacts += w.impacts;
+    tally->lasting += line_scene_lasts(s);
+    tally->crossed += crossing.reached;
+}

@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Long profiles: what makes them fast changes nothing. Neighbours on one line are one segment inside the core, flights
+ * pass blocks of segments, rolls whole segments; each against the same without it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/landing.h"
+#include "line_scene.h"
+#include "paper_site.h"
+
+#define VERTICES 100000
+#define ROCKS    2000
+
+/* ---- profiles ---- */
+
+static struct ceduo_slope new_slope(size_t vertices)
+{
+    struct ceduo_slope s = {.facets = CEDUO_AGAINST, .vertices = vertices};
+    s.x = malloc(vertices * sizeof *s.x);
+    s.z = malloc(vertices * sizeof *s.z);
+    s.segments = malloc(vertices * sizeof *s.segments);
+    assert_true(s.x && s.z && s.segments);
+    return s;
+}
+
+static void free_slope(struct ceduo_slope *s)
+{
+    free(s->x);
+    free(s->z);
+    free(s->segments);
+}
+
+/* `from` cut along its own lines; its vertices are among the new ones, to the bit. */
+static struct ceduo_slope cut(const struct ceduo_slope *from, size_t vertices)
+{
+    struct ceduo_slope to = new_slope(vertices);
+    double end = from->x[from->vertices - 1];
+    size_t i = 0;
+    for (size_t j = 0; j + 1 < from->vertices; j++) {
+        size_t last = (size_t)(from->x[j + 1] / end * (double)(vertices - 1) + 0.5), first = i;
+        for (; i < last; i++) {
+            double share = (double)(i - first) / (double)(last - first);
+            to.x[i] = from->x[j] + share * (from->x[j + 1] - from->x[j]);
+            to.z[i] = from->z[j] + share * (from->z[j + 1] - from->z[j]);
+            to.segments[i] = from->segments[j];
+        }
+    }
+    to.x[i] = end;
+    to.z[i] = from->z[from->vertices - 1];
+    return to;
+}
+
+static void move_vertices(struct ceduo_slope *s, double by, uint64_t seed)
+{
+    struct line_random r = {.state = seed};
+    for (size_t i = 1; i + 1 < s->vertices; i++)
+        s->z[i] += by * line_uniform(&r, -1, 1);
+}
+
+static size_t segments_inside(const struct ceduo_slope *slope)
+{
+    struct ground g;
+    assert_true(ceduo_ground_init(&g, slope, CEDUO_GRAVITY, 0.34, false));
+    size_t n = g.n;
+    ceduo_ground_release(&g);
+    return n;
+}
+
+/* ---- one line, one segment ---- */
+
+static struct paper_site site;
+
+static void init_site(enum ceduo_law law)
+{
+    paper_site_init(&site);
+    paper_site_read_theta(&site, law == CEDUO_LAW_CRSP ? PAPER_HEIGHT : PAPER_ANGLE);
+    site.scene.simulation.law = law;
+}
+
+static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_scene *b)
+{
+    struct ceduo_follower *f = ceduo_follower_create(a, NULL), *g = ceduo_follower_create(b, NULL);
+    assert_true(f && g);
+    for (uint64_t rock = 0; rock < ROCKS; rock++) {
+        struct ceduo_way v = {0}, w = {0};
+        struct ceduo_crossing c = {0}, d = {0};
+        assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
+        assert_int_equal(ceduo_follower_follow(g, rock, NULL, &w, &d), CEDUO_OK);
+        assert_true(v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z);
+        assert_true(c.reached == d.reached && c.vx == d.vx && c.vz == d.vz && c.spin == d.spin);
+        assert_true(fabs(c.height - d.height) <= 1e-12); /* over a ground that was rounded when it was cut */
+    }
+    ceduo_follower_free(f);
+    ceduo_follower_free(g);
+}
+
+static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(scene);
+    def.rocks_most = ROCKS;
+    struct ceduo_run *run;
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, ROCKS), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    ceduo_run_free(run);
+    return a;
+}
+
+static void a_cut_slope_gives_the_same_ways_and_statistics(void **state)
+{
+    (void)state;
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+        init_site((enum ceduo_law)law);
+        struct ceduo_slope fine = cut(&site.scene.slope, VERTICES);
+        assert_int_equal(segments_inside(&fine), PAPER_SEGMENTS);
+        struct ceduo_scene scene = site.scene;
+        scene.slope = fine;
+        expect_same_ways(&site.scene, &scene);
+        struct ceduo_arrivals a = arrivals(&site.scene), b = arrivals(&scene);
+        assert_true(a.reached == b.reached && a.speed.mean == b.speed.mean && a.speed.se == b.speed.se);
+        assert_true(a.energy.mean == b.energy.mean && a.energy.p95 == b.energy.p95);
+        assert_true(fabs(a.height.mean - b.height.mean) <= 1e-12);
+        free_slope(&fine);
+    }
+}
+
+static void spreads_and_roughness_heights_are_those_of_the_cut_slope(void **state)
+{
+    (void)state;
+    init_site(CEDUO_LAW_CRSP);
+    for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
+        site.segments[j].rn = (struct ceduo_number){.3, .01 * (double)(j % 4), CEDUO_NORMAL};
+        site.segments[j].rt = (struct ceduo_number){.85, .01 * (double)(j % 3), CEDUO_UNIFORM};
+    }
+    site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
+    site.scene.rock.diameter = (struct ceduo_number){.56, .05, CEDUO_NORMAL};
+    struct ceduo_slope fine = cut(&site.scene.slope, 5000);
+    struct ceduo_scene scene = site.scene;
+    scene.slope = fine;
+    expect_same_ways(&site.scene, &scene);
+    free_slope(&fine);
+}
+
+/* A slope of one line that is cut in the middle of a plane too, between two grounds. */
+static void another_ground_is_another_segment(void **state)
+{
+    (void)state;
+    init_site(CEDUO_LAW_LUMPED);
+    struct ceduo_slope two = new_slope(3);
+    memcpy(two.x, (double[3]){0, 64, 160}, sizeof(double[3]));
+    memcpy(two.z, (double[3]){0, -48, -120}, sizeof(double[3]));
+    for (int what = 0; what < 5; what++) {
+        two.segments[0] = two.segments[1] = site.segments[3];
+        struct ceduo_segment *s = &two.segments[1];
+        s->rn.mean *= what == 0 ? .9 : 1;
+        s->rt.mean *= what == 1 ? .9 : 1;
+        s->rt.spread += what == 2 ? .01 : 0;
+        s->friction *= what == 3 ? .9 : 1;
+        s->roughness_rad *= what == 4 ? .9 : 1;
+        assert_int_equal(segments_inside(&two), 2);
+        struct ceduo_slope fine = cut(&two, 1000);
+        assert_int_equal(segments_inside(&fine), 2);
+        struct ceduo_scene a = site.scene, b = site.scene;
+        a.slope = two;
+        b.slope = fine;
+        expect_same_ways(&a, &b);
+        free_slope(&fine);
+    }
+    two.segments[1] = two.segments[0];
+    assert_int_equal(segments_inside(&two), 1);
+    free_slope(&two);
+}
+
+/* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
+static void small_breaks_stay(void **state)
+{
+    (void)state;
+    init_site(CEDUO_LAW_LUMPED);
+    struct ceduo_slope fine = cut(&site.scene.slope, 10000);
+    move_vertices(&fine, 1e-9, 5);
+    assert_true(segments_inside(&fine) > 9000);
+    free_slope(&fine);
+    struct ceduo_slope sliver = new_slope(4);
+    memcpy(sliver.x, (double[4]){0, 50, nextafter(50, 51), 100}, sizeof(double[4]));
+    memcpy(sliver.z, (double[4]){0, -25, nextafter(-25, -26), -50}, sizeof(double[4]));
+    sliver.z[2] = nextafter(sliver.z[2], -26);
+    for (size_t j = 0; j < 3; j++)
+        sliver.segments[j] = site.segments[3];
+    assert_int_equal(segments_inside(&sliver), 3);
+    free_slope(&sliver);
+}
+
+/* ---- flights over blocks ---- */
+
+/* Waves of many lengths. */
+static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t seed)
+{
+    struct ceduo_slope s = new_slope(vertices);
+    struct line_random r = {.state = seed};
+    double x = 0, w[12][3];
+    for (int k = 0; k < 12; k++) {
+        w[k][0] = 6.3 / (spacing * pow(2.5, k + 1));
+        w[k][1] = line_uniform(&r, 0, .3) / w[k][0];
+        w[k][2] = line_uniform(&r, 0, 6.3);
+    }
+    for (size_t i = 0; i < vertices; i++) {
+        s.x[i] = x;
+        s.z[i] = -.6 * x;
+        for (int k = 0; k < 12; k++)
+            s.z[i] += w[k][1] * (sin(w[k][0] * x + w[k][2]) - sin(w[k][2]));
+        s.segments[i] = site.segments[3];
+        x += spacing * (line_chance(&r, .02) ? line_log_uniform(&r, 1e-6, 1e-2) : line_uniform(&r, .2, 2));
+    }
+    return s;
+}
+
+static void flights_land_as_without_blocks(void **state)
+{
+    (void)state;
+    init_site(CEDUO_LAW_LUMPED);
+    struct line_random r = {.state = 7};
+    uint64_t far = 0;
+    for (size_t n = 0; n < 40; n++) {
+        struct ceduo_slope slope = rough_slope((size_t)line_log_uniform(&r, 17, 20000), line_log_uniform(&r, 1e-3, 1), n);
+        struct ground g;
+        assert_true(ceduo_ground_init(&g, &slope, CEDUO_GRAVITY, .34, false) && g.top > 0);
+        struct ground plain = g;
+        plain.top = 0;
+        double end = g.x[g.n];
+        for (int i = 0; i < 2000; i++) {
+            double speed = sqrt(CEDUO_GRAVITY * end * line_log_uniform(&r, 1e-7, 1)), angle = line_uniform(&r, 0, 6.3);
+            double x = line_chance(&r, .2) ? g.x[(size_t)line_uniform(&r, 0, (double)g.n)] : line_uniform(&r, 0, end);
+            size_t j = ceduo_ground_segment(&g, x);
+            bool above = line_chance(&r, .5);
+            struct flight f = {.x = x,
+                               .z = ground_height(&g, j, x) + (above ? line_log_uniform(&r, 1e-6, 1) * end : 0),
+                               .vx = speed * cos(angle),
+                               .vz = speed * sin(angle),
+                               .segment = j,
+                               .on_ground = !above};
+            if (!above && f.vz * g.segments[j].c - f.vx * g.segments[j].s <= 0) /* into the ground */
+                f.vz = f.vx * g.segments[j].m + 1e-3 * speed;
+            struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
+            assert_true(a.t == b.t && a.x == b.x && a.z == b.z && a.segment == b.segment && a.left == b.left);
+            far += a.segment > j + 100 || a.segment + 100 < j;
+        }
+        ceduo_ground_release(&g);
+        free_slope(&slope);
+    }
+    print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
+    assert_true(far > 1000); /* blocks were passed */
+}
+
+/* ---- rolls over whole segments ---- */
+
+static void nobody_minds(void *context, const struct ceduo_piece *piece)
+{
+    (void)context;
+    (void)piece;
+}
+
+/* Somebody who looks on has every segment shown, so nothing is passed as a whole. */
+static void rolls_are_the_same_whoever_looks_on(void **state)
+{
+    (void)state;
+    uint64_t rolled = 0, same = 0, all = 0;
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+        for (int by = -5; by < 0; by++) {
+            init_site((enum ceduo_law)law);
+            struct ceduo_slope fine = cut(&site.scene.slope, 20000);
+            move_vertices(&fine, pow(10, by), 3);
+            struct ceduo_scene scene = site.scene;
+            scene.slope = fine;
+            struct ceduo_follower *f = ceduo_follower_create(&scene, NULL);
+            assert_non_null(f);
+            for (uint64_t rock = 0; rock < 100; rock++) {
+                struct ceduo_way v, w;
+                struct ceduo_crossing c, d;
+                struct ceduo_watch watch = {.piece = nobody_minds};
+                assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
+                assert_int_equal(ceduo_follower_follow(f, rock, &watch, &w, &d), CEDUO_OK);
+                bool alike = v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6 &&
+                             c.reached == d.reached && fabs(c.vx - d.vx) < 1e-6 * (1 + fabs(d.vx));
+                same += alike;
+                rolled += v.x != w.x || v.z != w.z || (c.reached && c.vx != d.vx);
+                all++;
+            }
+            ceduo_follower_free(f);
+            free_slope(&fine);
+        }
+    }
+    print_message("%ju rocks, %ju the same to 1e-6, %ju to other bits\n", (uintmax_t)all, (uintmax_t)same,
+                  (uintmax_t)rolled);
+    assert_true((double)same > .98 * (double)all); /* rounding grows from contact to contact */
+    assert_true(rolled > 0);                       /* something was passed as a whole */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cut_slope_gives_the_same_ways_and_statistics),
+        cmocka_unit_test(spreads_and_roughness_heights_are_those_of_the_cut_slope),
+        cmocka_unit_test(another_ground_is_another_segment),
+        cmocka_unit_test(small_breaks_stay),
+        cmocka_unit_test(flights_land_as_without_blocks),
+        cmocka_unit_test(rolls_are_the_same_whoever_looks_on),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

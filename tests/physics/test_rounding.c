@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The four rounding modes of IEEE 754: what has a closed form comes out the same to 1e-12, statistics within their
+ * error. How far single ways part: tests/bench/bench_rounding.c. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <fenv.h>
+#include <math.h>
+#include <string.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof *(a))
+#define ROCKS     8000
+#define EXACT     1e-12
+
+static const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+
+static void expect_near(double got, double want)
+{
+    if (!(fabs(got - want) <= EXACT * fabs(want)))
+        fail_msg("%.17g, not %.17g", got, want);
+}
+
+/* Follows rock 0 under a rounding mode; all else is done in the usual one. */
+static void follow(const struct line_scene *s, int mode, struct line_way *way)
+{
+    assert_int_equal(fesetround(mode), 0);
+    enum ceduo_status status = line_scene_follow(s, way);
+    assert_int_equal(fesetround(FE_TONEAREST), 0);
+    assert_int_equal(status, CEDUO_OK);
+}
+
+static struct line_scene scene;
+static struct line_way way;
+
+/* A flight to a slope at 45 degrees: x = t and -x = 3 - g/2 t2. */
+static void a_flight_onto_a_slope(void **state)
+{
+    (void)state;
+    const double x[] = {0, 50}, z[] = {0, -50};
+    for (size_t m = 0; m < LENGTH(modes); m++) {
+        line_scene_init(&scene, 2, x, z, (struct line_ground){.5, .8, .5}, .1, CEDUO_LAW_LUMPED);
+        line_scene_release(&scene, 1, 3, 1, 0, 0);
+        follow(&scene, modes[m], &way);
+        double t = (1 + sqrt(1 + 2 * 9.81 * 3)) / 9.81, vz = -9.81 * t;
+        expect_near(way.pieces[0].seconds, t);
+        expect_near(way.pieces[0].x1, 1 + t);
+        expect_near(way.pieces[0].z1, -1 - t);
+        double along = .8 * (1 - vz) / sqrt(2), off = .5 * -(vz + 1) / sqrt(2);
+        expect_near(way.pieces[1].vx, (along + off) / sqrt(2));
+        expect_near(way.pieces[1].vz, (off - along) / sqrt(2));
+    }
+}
+
+/* On the flat from speed v a rock without bounce stops after (1 + k) v2 / (2 g mu), whatever the law. */
+static void the_way_to_a_stop(void **state)
+{
+    (void)state;
+    const double x[] = {0, 1000}, z[] = {0, 0};
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++)
+        for (size_t m = 0; m < LENGTH(modes); m++) {
+            line_scene_init(&scene, 2, x, z, (struct line_ground){.5, 1, .3}, 1, (enum ceduo_law)law);
+            double k = law == CEDUO_LAW_CRSP ? .4 : 0;
+            line_scene_release(&scene, 10, 0, 5, 0, k > 0 ? 5 : 0);
+            follow(&scene, modes[m], &way);
+            assert_int_equal(way.way.end, CEDUO_AT_REST);
+            expect_near(way.way.x, 10 + (1 + k) * 25 / (2 * 9.81 * .3));
+        }
+}
+
+/* Table 3 of the paper without roughness, the first two contacts of crsp: golden to four digits, and the same under every
+ * mode to 1e-12. */
+static void the_first_contacts_on_the_slope_of_table_3(void **state)
+{
+    (void)state;
+    static struct line_way near;
+    line_scene_init(&scene, PAPER_VERTICES, paper_x, paper_y, (struct line_ground){.31, .83, .5}, .34, CEDUO_LAW_CRSP);
+    scene.segments[0].rt.mean = .87;
+    line_scene_release(&scene, 5, 1, 1, 0, 0);
+    follow(&scene, FE_TONEAREST, &near);
+    assert_true(fabs(near.pieces[0].x1 - 5.6993) < 1e-4 && fabs(near.pieces[0].z1 - 114.6014) < 1e-4);
+    assert_true(fabs(near.pieces[1].x1 - 6.5113) < 1e-4 && fabs(near.pieces[1].z1 - 112.9774) < 1e-4);
+    for (size_t m = 1; m < LENGTH(modes); m++) {
+        follow(&scene, modes[m], &way);
+        for (size_t i = 0; i < 3; i++) {
+            expect_near(way.pieces[i].x, near.pieces[i].x);
+            expect_near(way.pieces[i].z, near.pieces[i].z);
+            expect_near(way.pieces[i].vx, near.pieces[i].vx);
+            if (near.pieces[i].vz != 0)
+                expect_near(way.pieces[i].vz, near.pieces[i].vz);
+        }
+    }
+}
+
+/* ---- statistics ---- */
+
+static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, double *contacts)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(s);
+    struct ceduo_run *run;
+    struct ceduo_arrivals a;
+    def.threads = 1;
+    def.rocks_most = ROCKS;
+    assert_int_equal(fesetround(mode), 0);
+    enum ceduo_status made = ceduo_run_create(&def, &run);
+    enum ceduo_status done = made == CEDUO_OK ? ceduo_run_extend(run, ROCKS) : made;
+    assert_int_equal(fesetround(FE_TONEAREST), 0);
+    assert_int_equal(done, CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    *contacts = (double)ceduo_run_contacts(run) / ROCKS;
+    ceduo_run_free(run);
+    return a;
+}
+
+static void expect_within(const char *what, double got, double want, double error)
+{
+    if (!(fabs(got - want) <= error))
+        fail_msg("%s: %.12g, not %.12g within %.3g", what, got, want, error);
+}
+
+static void statistics_agree_within_their_error(void **state)
+{
+    (void)state;
+    static struct paper_site site;
+    for (int kind = 0; kind < 8; kind++) {
+        paper_site_init(&site);
+        paper_site_read_theta(&site, kind & 2 ? PAPER_HEIGHT : PAPER_ANGLE);
+        site.scene.slope.facets = kind & 4 ? CEDUO_BOTH : CEDUO_AGAINST;
+        site.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        double contacts0, contacts, moved = 0;
+        struct ceduo_arrivals near = arrive(&site.scene, FE_TONEAREST, &contacts0);
+        for (size_t m = 1; m < LENGTH(modes); m++) {
+            struct ceduo_arrivals a = arrive(&site.scene, modes[m], &contacts);
+            expect_within("reach", a.reach_probability, near.reach_probability, (near.reach_hi - near.reach_lo) / 3.92);
+            moved += fabs(contacts - contacts0);
+            if (near.reached < 100) /* too few to have a mean */
+                continue;
+            expect_within("speed", a.speed.mean, near.speed.mean, near.speed.se);
+            expect_within("energy", a.energy.mean, near.energy.mean, near.energy.se);
+            expect_within("height", a.height.mean, near.height.mean, near.height.se);
+            assert_true(a.speed.mean != near.speed.mean); /* the mode was another one indeed */
+        }
+        expect_within("contacts", moved / contacts0, 0, .01);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_flight_onto_a_slope),
+        cmocka_unit_test(the_way_to_a_stop),
+        cmocka_unit_test(the_first_contacts_on_the_slope_of_table_3),
+        cmocka_unit_test(statistics_agree_within_their_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

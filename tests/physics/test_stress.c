@@ -1,0 +1,494 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random scenes in bulk and nasty ones by name: what holds on any ground (invariants.h), the same bits when run again, no
+ * invalid operation, and counts that add up.
+ *
+ *   test_stress [SCENES [FIRST]]        default 10000 random scenes; `make stress` has ten million
+ *
+ * Invalid operations, divisions by zero and overflows are looked for while a rock goes its way, and fail the test; but
+ * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
+ * infinity, which times 0 is NaN, and a comparison with that is a contact. (Reading a scene may compare with NaN: that is
+ * how it says that a number is not given.) */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <fenv.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "invariants.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof *(a))
+#define LASTING_EVERY 5000
+#define RUN_EVERY     64 /* scenes of which one is flown as a run, too */
+#define CONTROLS      5
+#define ROCKS         11 /* of a nasty scene */
+
+static uint64_t scenes = 10000, first = 1000000;
+static uint64_t run_rocks = 40;
+static int by_design; /* floating-point exceptions that may be raised */
+
+/* ---- one scene ---- */
+
+struct result {
+    struct ceduo_way way;
+    struct ceduo_crossing crossing;
+};
+
+static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
+{
+    memset(r, 0, sizeof *r);
+    struct ceduo_follower *follower = ceduo_follower_create(&s->scene, NULL);
+    assert_non_null(follower);
+    feclearexcept(FE_ALL_EXCEPT);
+    enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &r->way, &r->crossing);
+    int raised = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) & ~by_design;
+    ceduo_follower_free(follower);
+    assert_int_equal(status, CEDUO_OK);
+    if (raised)
+        fail_msg("seed %ju: floating-point exceptions%s%s%s", (uintmax_t)s->scene.simulation.seed,
+                 raised & FE_INVALID ? " invalid" : "", raised & FE_DIVBYZERO ? " division by zero" : "",
+                 raised & FE_OVERFLOW ? " overflow" : "");
+}
+
+/* Returns where the way ends. */
+static struct ceduo_way expect_the_same_again(const struct line_scene *s, uint64_t rock)
+{
+    struct result a, b;
+    follow(s, rock, &a);
+    follow(s, rock, &b);
+    assert_true(a.way.end == b.way.end && a.way.contacts == b.way.contacts && a.way.x == b.way.x && a.way.z == b.way.z);
+    const struct ceduo_crossing *c = &a.crossing, *d = &b.crossing;
+    assert_true(c->reached == d->reached && c->vx == d->vx && c->vz == d->vz && c->spin == d->spin &&
+                c->height == d->height);
+    return a.way;
+}
+
+/* Whether two ways are the same but for rounding. */
+static bool are_alike(const struct ceduo_way *a, const struct ceduo_way *b)
+{
+    return a->end == b->end && a->contacts == b->contacts && fabs(a->x - b->x) <= 1e-6 * (1 + fabs(b->x));
+}
+
+static void expect_distribution(const struct ceduo_distribution *d, uint64_t n)
+{
+    if (n == 0)
+        return;
+    assert_true(isfinite(d->mean) && isfinite(d->max) && d->mean >= 0 && d->mean <= d->max * (1 + 1e-12));
+    assert_true(d->p50 <= d->p95 && d->p95 <= d->max);
+    assert_true(n == 1 || (isfinite(d->se) && d->se >= 0));
+}
+
+/* A run of the scene: as many ends as rocks; no control is reached by more rocks than one before it. */
+static void expect_counts(const struct line_scene *s)
+{
+    struct ceduo_scene scene = s->scene;
+    struct ceduo_control controls[CONTROLS];
+    double x0 = scene.release.x.mean, x1 = scene.slope.x[scene.slope.vertices - 1];
+    size_t n = 0;
+    for (size_t i = 0; i < CONTROLS; i++) {
+        controls[n] = (struct ceduo_control){
+            .x = x0 + (x1 - x0) * (double)(i + 1) / CONTROLS, .accepted = 1, .measured_speed = NAN};
+        n += controls[n].x > x0 && controls[n].x <= x1;
+    }
+    scene.controls = controls;
+    scene.controls_count = n;
+    struct ceduo_run_def def = ceduo_run_def_default(&scene);
+    def.rocks_most = run_rocks;
+    struct ceduo_run *run;
+    struct ceduo_ends ends;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, run_rocks), CEDUO_OK);
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    uint64_t sum = 0, before = run_rocks;
+    for (int i = 0; i < CEDUO_ENDS; i++)
+        sum += ends.count[i];
+    assert_int_equal(sum, run_rocks);
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_arrivals a;
+        assert_int_equal(ceduo_run_arrivals(run, i, &a), CEDUO_OK);
+        assert_true(a.released == run_rocks && a.reached <= before && a.exceeded <= a.reached);
+        assert_true(a.unfinished <= ends.count[CEDUO_UNFINISHED] && a.reached + a.unfinished <= run_rocks);
+        expect_distribution(&a.speed, a.reached);
+        expect_distribution(&a.energy, a.reached);
+        expect_distribution(&a.height, a.reached);
+        before = a.reached;
+    }
+    ceduo_run_free(run);
+}
+
+/* ---- random scenes ---- */
+
+static void random_scenes(void **state)
+{
+    (void)state;
+    static struct line_scene scene;
+    struct invariants_tally t = {0};
+    uint64_t parted = 0;
+    for (uint64_t number = first; number < first + scenes; number++) {
+        line_scene_random(&scene, number, LASTING_EVERY);
+        invariants_expect(&scene, number, &t);
+        if (line_scene_lasts(&scene))
+            continue;
+        struct ceduo_way unseen = expect_the_same_again(&scene, number % 11);
+        parted += !are_alike(&unseen, &t.last); /* nobody looks on: rolls pass whole segments */
+        if (number % RUN_EVERY == 0)
+            expect_counts(&scene);
+    }
+    uint64_t sum = 0;
+    for (int i = 0; i < CEDUO_ENDS; i++)
+        sum += t.ends[i];
+    assert_int_equal(sum, scenes);
+    print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
+                  "%ju ways part where nobody looks on\n",
+                  (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
+                  (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
+                  (uintmax_t)parted);
+    assert_true(parted <= 2 + scenes / 1000);
+    assert_true(t.cracks <= 2 + scenes / 20000);
+}
+
+/* ---- nasty scenes ---- */
+
+static struct line_scene s;
+static const struct line_ground earth = {.rn = .35, .rt = .85, .friction = .5};
+
+/* Sets the profile; the rest with release(), then look(). */
+static void profile(size_t vertices, const double *x, const double *z, struct line_ground ground, double radius)
+{
+    line_scene_init(&s, vertices, x, z, ground, radius, CEDUO_LAW_LUMPED);
+}
+
+static void release(double x, double height, double vx, double vz)
+{
+    line_scene_release(&s, x, height, vx, vz, 0);
+}
+
+/* Both laws, facets to either side, smooth and rough. */
+static void look(void)
+{
+    struct invariants_tally t = {0};
+    uint64_t number = 0;
+    double end = s.x[s.scene.slope.vertices - 1], x = s.scene.release.x.mean;
+    s.control = (struct ceduo_control){.x = x + .75 * (end - x), .accepted = NAN, .measured_speed = NAN};
+    s.scene.controls_count = s.control.x > x;
+    for (int kind = 0; kind < 8; kind++) {
+        s.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        s.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        for (size_t j = 0; j + 1 < s.scene.slope.vertices; j++) {
+            s.segments[j].roughness_m = NAN;
+            s.segments[j].roughness_rad = kind & 4 ? .4 : 0;
+        }
+        for (uint64_t rock = 0; rock < (kind & 4 ? ROCKS : 1); rock++, number++)
+            invariants_expect(&s, rock, &t);
+        expect_the_same_again(&s, 1);
+        expect_counts(&s);
+    }
+    assert_int_equal(t.ends[CEDUO_AT_REST] + t.ends[CEDUO_LEFT_SLOPE] + t.ends[CEDUO_UNFINISHED], number);
+}
+
+static void grazing_contacts(void **state)
+{
+    (void)state;
+    const double x[] = {0, 20, 40, 60}, z[] = {0, -10, -20, -20};
+    for (double v = 1e-3; v < 100; v *= 10) {
+        for (double height = 1e-15; height < 1; height *= 1e3) {
+            profile(4, x, z, earth, .3);
+            release(1, height, v, -.5 * v);
+            look();
+        }
+        for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground but for the last bits */
+            profile(4, x, z, earth, .3);
+            release(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
+            look();
+        }
+    }
+}
+
+static void launch_at_a_vertex(void **state)
+{
+    (void)state;
+    const double x[] = {0, 3, 7, 8, 12, 30}, z[] = {0, -2, -2.5, -5, -4.5, -9};
+    for (size_t i = 0; i < LENGTH(x) - 1; i++)
+        for (int turn = 0; turn < 16; turn++) {
+            profile(LENGTH(x), x, z, earth, .3);
+            release(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
+            look();
+        }
+}
+
+/* With g = 8 and vx = 1 a fall of 4 m takes 1 s and 1 m: all of it without rounding. */
+static void flights_through_a_vertex_to_the_last_bit(void **state)
+{
+    (void)state;
+    for (int ulps = -1; ulps <= 1; ulps++)
+        for (int peak = 0; peak < 2; peak++) {
+            double at = ulps < 0 ? nextafter(4, 0) : ulps > 0 ? nextafter(4, 8) : 4;
+            const double x[] = {0, .5, 1, 1.5, 20}, z[] = {4, peak ? 0 : 4 - 1.5, at - 4, -6, -30};
+            profile(5, x, z, earth, .05);
+            s.scene.simulation.gravity = 8;
+            release(0, 0, 1, 0);
+            look();
+        }
+}
+
+static void corners_of_one_degree(void **state)
+{
+    (void)state;
+    double half = 10 * tan(.5 * M_PI / 180);
+    const double notch_x[] = {0, 10, 10 + half, 10 + 2 * half, 30}, notch_z[] = {0, -3, -13, -3, -9};
+    const double peak_x[] = {0, 10, 10 + half, 10 + 2 * half, 30}, peak_z[] = {0, -3, 7, -3, -9};
+    for (double r = 1e-3; r <= 1; r *= 10)
+        for (double v = .5; v < 20; v *= 3) {
+            profile(5, notch_x, notch_z, earth, r);
+            release(9, .5, v, 0);
+            look();
+            profile(5, peak_x, peak_z, earth, r);
+            release(9, 1, v, 14);
+            look();
+        }
+}
+
+static void walls_all_but_upright(void **state)
+{
+    (void)state;
+    for (double run = 1e-9; run < 1e-2; run *= 100) {
+        const double x[] = {0, 5, 5 + run, 20, 20 + run, 40}, z[] = {0, -2, -102, -104, -54, -60};
+        for (double v = 1e-3; v < 100; v *= 10) {
+            profile(6, x, z, earth, .3);
+            release(4, 0, v, 0);
+            look();
+            profile(6, x, z, earth, .3);
+            release(19, 30, v, 3);
+            look();
+        }
+    }
+}
+
+static void slivers(void **state)
+{
+    (void)state;
+    double x[41], z[41];
+    for (int down = -1; down <= 1; down++) {
+        for (size_t i = 0; i <= 40; i++) {
+            x[i] = i == 0 ? 0 : x[i - 1] + (i % 2 ? 1 : 1e-12);
+            z[i] = i == 0 ? 0 : z[i - 1] - (i % 2 ? .5 : down * 1e-12);
+        }
+        for (double v = 1e-3; v < 100; v *= 10) {
+            profile(41, x, z, earth, .3);
+            release(.5, .2, v, 0);
+            look();
+        }
+    }
+}
+
+static void large_coordinates(void **state)
+{
+    (void)state;
+    for (double size = 1e3; size <= 1e7; size *= 100) {
+        const double x[] = {0, .3 * size, .31 * size, .9 * size, size};
+        const double z[] = {0, -.25 * size, -.24 * size, -.6 * size, -.61 * size};
+        profile(5, x, z, earth, .3);
+        release(.299 * size, 1, 5, 0);
+        look();
+        profile(5, x, z, earth, .3);
+        release(size - 3, 1, -5, 0);
+        look();
+    }
+}
+
+static void little_and_much_gravity(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
+    for (double g = 1e-3; g <= 1e3; g *= 10) {
+        profile(5, x, z, earth, .3);
+        s.scene.simulation.gravity = g;
+        release(1, 2, 1, 0);
+        look();
+    }
+}
+
+/* Where all is 1 the rocks may go on for ever, and are counted as unfinished. */
+static void shares_of_none_and_all(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10, 20, 30}, z[] = {0, -8, -9, -9};
+    run_rocks = 2;
+    for (int rn = 0; rn < 2; rn++)
+        for (int rt = 0; rt < 2; rt++) {
+            profile(4, x, z, (struct line_ground){rn, rt, .5}, .3);
+            release(1, 2, 1, 0);
+            look();
+        }
+    run_rocks = 40;
+}
+
+static void small_and_large_rocks(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
+    for (double r = 1e-3; r <= 100; r *= 10) {
+        profile(5, x, z, earth, r);
+        release(1, .2, 1, 0);
+        look();
+    }
+}
+
+static void slow_and_fast_rocks(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
+    for (double v = 1e-12; v <= 1e3; v *= 10)
+        for (int turn = 0; turn < 8; turn++) {
+            profile(5, x, z, earth, .3);
+            release(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
+            look();
+        }
+    by_design = FE_OVERFLOW | FE_INVALID;
+    static const double tiny[] = {0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-150};
+    for (size_t i = 0; i < LENGTH(tiny); i++)
+        for (int side = -1; side <= 1; side += 2) {
+            profile(5, x, z, earth, .3);
+            release(15, .5, side * tiny[i], 0);
+            look();
+            profile(5, x, z, earth, .3);
+            release(20, 0, side * tiny[i], 1);
+            look();
+        }
+    by_design = 0;
+}
+
+static void roughness_up_to_89_degrees(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
+    static const double degrees[] = {0, 1e-9, 1, 45, 80, 89};
+    struct invariants_tally t = {0};
+    for (size_t i = 0; i < LENGTH(degrees); i++)
+        for (int kind = 0; kind < 4; kind++) {
+            profile(5, x, z, earth, .3);
+            release(1, .5, 1, 0);
+            s.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+            s.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+            for (size_t j = 0; j < 4; j++) {
+                s.segments[j].roughness_m = NAN;
+                s.segments[j].roughness_rad = degrees[i] * M_PI / 180;
+            }
+            for (uint64_t rock = 0; rock < ROCKS; rock++)
+                invariants_expect(&s, rock, &t);
+            expect_the_same_again(&s, 3);
+            expect_counts(&s);
+        }
+}
+
+static void rebounds_without_end(void **state)
+{
+    (void)state;
+    const double x[] = {0, 10}, z[] = {0, 0};
+    profile(2, x, z, (struct line_ground){1, 1, .5}, .1);
+    release(5, 2, 0, 0);
+    struct result r;
+    follow(&s, 0, &r);
+    assert_true(r.way.end == CEDUO_UNFINISHED && r.way.contacts == CEDUO_CONTACTS_MOST);
+    assert_true(r.way.x == 5);
+}
+
+static void pits(void **state)
+{
+    (void)state;
+    for (double width = .01; width < 20; width *= 3)
+        for (double depth = .01; depth < 20; depth *= 5)
+            for (int flat = 0; flat < 2; flat++) {
+                const double bottom = flat ? .3 * width : 0;
+                const double x[] = {0, 5, 5 + width, 5 + width + bottom + 1e-3, 6 + 2 * width + bottom, 40};
+                const double z[] = {0, -1, -1 - depth, -1 - depth, -1, -5};
+                profile(6, x, z, earth, .3);
+                release(4, .1, 2, 0);
+                look();
+                profile(6, x, z, (struct line_ground){.2, .99, 0}, .3);
+                release(5 + width, 0, 0, 0);
+                look();
+            }
+}
+
+static void noise_of_every_size(void **state)
+{
+    (void)state;
+    const double radius = .3;
+    struct line_random random = {.state = 4};
+    for (double scale = radius / 100; scale <= 101 * radius; scale *= 10)
+        for (double height = scale / 100; height <= 1.1 * scale; height *= 10)
+            for (int style = 0; style < 2; style++) {
+                double x[LINE_SEGMENTS_MOST + 1], z[LINE_SEGMENTS_MOST + 1];
+                for (size_t i = 0; i <= LINE_SEGMENTS_MOST; i++) {
+                    x[i] = scale * (double)i;
+                    z[i] = -.7 * x[i] + height * (style ? (double)(i % 2) : line_uniform(&random, -1, 1));
+                }
+                profile(LINE_SEGMENTS_MOST + 1, x, z, earth, radius);
+                release(scale * 3.3, .1, 2, 0);
+                look();
+            }
+}
+
+/* A million segments, finer than rounding lets most tools have them. */
+static void a_million_segments(void **state)
+{
+    (void)state;
+    const size_t vertices = 1000001;
+    struct line_random random = {.state = 6};
+    double *x = malloc(vertices * sizeof *x), *z = malloc(vertices * sizeof *z);
+    struct ceduo_segment *segments = malloc(vertices * sizeof *segments);
+    assert_true(x && z && segments);
+    const double few_x[] = {0, 500}, few_z[] = {0, -300};
+    profile(2, few_x, few_z, earth, .3);
+    release(1, .5, 2, 0);
+    for (size_t i = 0; i < vertices; i++) {
+        x[i] = 5e-4 * (double)i;
+        z[i] = -.6 * x[i] + 20 * sin(x[i] / 30) + 1e-4 * line_uniform(&random, -1, 1);
+        segments[i] = s.segments[0];
+    }
+    s.scene.slope.vertices = vertices;
+    s.scene.slope.x = x;
+    s.scene.slope.z = z;
+    s.scene.slope.segments = segments;
+    assert_int_equal(ceduo_scene_check(&s.scene, NULL), CEDUO_OK);
+    s.scene.controls_count = 0;
+    expect_the_same_again(&s, 2);
+    expect_counts(&s);
+    free(x);
+    free(z);
+    free(segments);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1)
+        scenes = strtoull(argv[1], NULL, 10);
+    if (argc > 2)
+        first = strtoull(argv[2], NULL, 10);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(grazing_contacts),
+        cmocka_unit_test(launch_at_a_vertex),
+        cmocka_unit_test(flights_through_a_vertex_to_the_last_bit),
+        cmocka_unit_test(corners_of_one_degree),
+        cmocka_unit_test(walls_all_but_upright),
+        cmocka_unit_test(slivers),
+        cmocka_unit_test(large_coordinates),
+        cmocka_unit_test(little_and_much_gravity),
+        cmocka_unit_test(shares_of_none_and_all),
+        cmocka_unit_test(small_and_large_rocks),
+        cmocka_unit_test(slow_and_fast_rocks),
+        cmocka_unit_test(roughness_up_to_89_degrees),
+        cmocka_unit_test(rebounds_without_end),
+        cmocka_unit_test(pits),
+        cmocka_unit_test(noise_of_every_size),
+        cmocka_unit_test(a_million_segments),
+        cmocka_unit_test(random_scenes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
