@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a scene does not need is not computed: by the counters of `work`, and where nothing is counted, by ten million rocks
+that cannot be flown in the processor time that the program is given."""
+import resource
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import PROFILES, Suite, expect, expect_equal, good, result, tests_of  # noqa: E402
+
+MANY = 10_000_000
+SECONDS = 20  # of processor time: ten million rocks take minutes, what is asked here none
+RESERVES = "forest[0].stand.trees[0].per_ha"
+
+
+def bounded(*arguments, **options):
+    """The program on one thread, ended where it takes more than SECONDS."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+
+    return good(*arguments, preexec_fn=limit, timeout=120, **options)
+
+
+def test_no_rocks():
+    """Questions that no rock answers fly none: the index by stands, pictures of stands and ADC, the ADC that is looked for"""
+    for question in (["--batch", "-f", "csv", "--rows", "stands"], ["--plot", "stand"], ["--plot", "adc"], ["--check"],
+                     ["--find", f"{RESERVES}=1:5000", "--goal", "adc"], ["--find", f"{RESERVES}=1:5000", "--goal", "free-run"]):
+        bounded(*question, *([] if "--check" in question else ["-n", MANY]), "-j", 1, "paper-site")
+
+
+def test_index_shares_one_run():
+    """With the contact model index eight options share one run, and stems are never drawn"""
+    work = result("-n", 500, "-s", "simulation.contact_model=index", "four-systems")["work"]
+    expect_equal((work["runs"], work["runs_reused"], work["rocks_flown"], work["stems_drawn"]), (1, 7, 500, 0))
+
+
+def test_options_not_asked():
+    """An option that is not asked for is not flown"""
+    one = result("-n", 500, "--option", "large reserves", "four-systems")["work"]
+    all_ = result("-n", 500, "four-systems")["work"]
+    expect_equal((one["runs"], one["rocks_flown"], all_["runs"], all_["rocks_flown"]), (2, 1000, 9, 4500))
+
+
+def test_same_forest():
+    """Options with the same forest, and one without any, share runs"""
+    forest = "[{from_m: 0, to_m: 60, stand: ads-1}]"
+    work = result("-n", 200, "-s", f"options=[{{name: a, forest: {forest}}}, {{name: b, forest: {forest}}}, {{name: c, forest: []}}]",
+                  four())["work"]
+    expect_equal((work["runs"], work["runs_reused"]), (2, 4))
+
+
+def four():
+    return PROFILES / "scenes" / "four-systems.yaml"
+
+
+def test_years_unchanged():
+    """Years whose stand did not change are not flown again: 27 years and 4 systems, 4 x 26 forests and the bare one at most"""
+    work = result("--years", "0:26", "-n", 50, "rotation")["work"]
+    expect(work["runs"] <= 1 + 4 * 27 and work["runs_reused"] > 0, work)
+    still = result("--years", "0:50", "-n", 50, "paper-site")["work"]
+    expect(still["runs"] <= 2 + 51, still)
+    none = result("--years", "0:50", "-n", 50, "-s", "forest=[]", "paper-site")["work"]
+    expect_equal((none["runs"], none["rocks_flown"]), (1, 50), "without forest")
+
+
+def test_stems_off_the_way():
+    """Stems are made up as a rock comes to them: hardly more than it hits"""
+    found = result("-n", 1000, "paper-site")
+    contacts = found["options"][0]["controls"][0]["wooded"]["contacts"]["mean"]
+    drawn = found["work"]["stems_drawn"] / 1000
+    expect(contacts <= drawn <= 3 * contacts, f"{drawn} drawn, {contacts} hit on the way to the control")
+
+
+def test_nothing_to_draw():
+    """A spread of 0 is no spread, spin is nothing to the law lumped, a spread of diameters of 0 costs no draw: the same bytes"""
+    def out(*sets):
+        words = [w for s in sets for w in ("-s", s)]
+        text = result("-n", 300, *words, "paper-site")
+        text["work"].pop("seconds")
+        return text
+    plain = out()
+    expect_equal(out("rock.density_kg_m3={mean: 2600, spread: 0}"), plain, "density")
+    expect_equal(out("release.vx_m_s={mean: 0.3, spread: 0, kind: uniform}"), plain, "speed")
+    expect_equal(out("release.spin_rad_s=40"), plain, "spin")
+    expect_equal(out("forest[0].stand.shoots[0].dbh_sd_m=0"), plain, "diameters")
+
+
+def test_tolerance_stops():
+    """With a tolerance no more is flown than it asks for"""
+    found = result("-e", 0.05, "-n", MANY, "paper-site")
+    expect(found["rocks"] < 5000, found["rocks"])
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
