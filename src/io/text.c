@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "text.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -128,22 +129,35 @@ size_t ceduo_text_columns(const char *string)
     return columns;
 }
 
+/* The fewest digits that read back, in the form 1.234e+05 in `room`. A number that has one of 15 digits or fewer is
+ * printed by 15 digits as just that, and zeros: only below the smallest normal number has each to be tried. */
+static int shortest_digits(double value, char room[CEDUO_NUMBER_ROOM])
+{
+    int digits = fabs(value) < DBL_MIN ? 1 : 15;
+    for (; digits <= 17; digits++) {
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
+        if (strtod(room, NULL) == value)
+            break;
+    }
+    const char *e = strchr(room, 'e');
+    for (; digits > 1 && digits <= 15 && e[-1] == '0'; e--)
+        digits--;
+    return digits;
+}
+
 const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
 {
     if (!isfinite(value))
         return strcpy(room, "null");
     if (value == 0)
         return strcpy(room, "0"); /* and never -0 */
-    int digits = 1;
-    for (; digits <= 17; digits++) {
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
-        if (strtod(room, NULL) == value)
-            break;
-    }
+    int digits = shortest_digits(value, room);
     int exponent = (int)strtol(strchr(room, 'e') + 1, NULL, 10);
     if (exponent >= -5 && exponent < 17) { /* 50, not 5e+01 */
         int decimals = digits - 1 - exponent;
         snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, value);
+    } else {
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
     }
     return room;
 }

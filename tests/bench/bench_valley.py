@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many small scenes in one call: a valley of profiles that share one slope, by the index, 100 rocks each, a bad one among them.
+
+    bench_valley.py PROGRAM [SCENES [REPEATS]]        default 10000, 3
+
+CSV on stdout: medians; the peak of memory says whether it grows with the scenes."""
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+SCENE = """\
+ceduo: scene/1
+title: profile {i}
+rock: {{shape: sphere, diameter_m: {diameter}}}
+release: {{vx_m_s: 0.5}}
+slope: paper.yaml
+controls: [{{x_m: 135, name: road, accepted_kJ: 50}}]
+forest: [{{from_m: 10, to_m: 130, stand: wood.yaml}}]
+simulation: {{rocks: 100, contact_model: index}}
+"""
+
+
+def run(program, folder, files):
+    start = time.monotonic()
+    done = subprocess.run([program, "--batch", "-f", "csv", "-o", "out.csv", *files], cwd=folder, stderr=subprocess.PIPE,
+                          check=False)
+    seconds = time.monotonic() - start
+    rows = (folder / "out.csv").read_text().count("\n") - 1
+    if done.returncode != 3 or rows != len(files) - 1:
+        sys.exit(f"bench_valley: status {done.returncode}, {rows} rows of {len(files)} scenes")
+    return seconds
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    most = int(sys.argv[2]) if len(sys.argv) > 2 else 10000
+    repeats = int(sys.argv[3]) if len(sys.argv) > 3 else 3
+    profiles = Path(__file__).resolve().parents[2] / "profiles"
+    print("scenes,seconds_median,scenes_per_s,peak_MiB")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "paper.yaml").write_text((profiles / "slopes/paper.yaml").read_text())
+        (folder / "wood.yaml").write_text((profiles / "stands/simple-coppice.yaml").read_text())
+        for i in range(most):
+            text = SCENE.format(i=i, diameter=0.3 + 0.5 * i / most)
+            (folder / f"{i:05}.yaml").write_text(text if i != most // 2 else text.replace("scene/1", "scene/9"))
+        for scenes in (most // 10, most):
+            first = most // 2 - scenes // 2
+            files = [f"{i:05}.yaml" for i in range(first, first + scenes)]
+            seconds = statistics.median(run(program, folder, files) for _ in range(repeats))
+            peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+            print(f"{scenes},{seconds:.3f},{scenes / seconds:.0f},{peak:.1f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
