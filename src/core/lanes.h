@@ -8,9 +8,9 @@
 
 #include "wide.h"
 
-/* Many numbers at once, one for each lane. A file that includes this has set its target to AVX2, or to AVX-512 with DQ and
- * then WIDE_AVX512 too, and has 16 or 32 lanes: four registers, so that one works while another waits. Every operation is
- * that of plain C, rounded the same, in each lane by itself. */
+/* Many numbers at once, one for each lane. A file that includes this has set its target to AVX2, or to AVX-512 with DQ
+ * and then WIDE_AVX512 too, and has 16 or 32 lanes: four registers, so that one works while another waits. Every
+ * operation is that of plain C, rounded the same, in each lane by itself. */
 
 #ifdef WIDE_AVX512
 #define LOOK_UP_WRAPS true /* a small table is looked up at i modulo 16, whatever i is */
@@ -28,6 +28,7 @@
 typedef __m512d part_reals;
 typedef __m512i part_ints;
 typedef __mmask8 part_flags;
+typedef uint64_t part_bits __attribute__((vector_size(64))); /* for sums and shifts, which wrap */
 
 #define PART_LESS(p, q) _mm512_cmp_pd_mask(p, q, _CMP_LT_OQ)
 #define PART_AT_LEAST(p, q) _mm512_cmp_pd_mask(p, q, _CMP_GE_OQ)
@@ -65,6 +66,7 @@ LANE part_reals part_of_ints(part_ints p)
 #define PART 4
 typedef __m256d part_reals;
 typedef __m256i part_ints;
+typedef uint64_t part_bits __attribute__((vector_size(32))); /* for sums and shifts, which wrap */
 typedef __m256d part_flags; /* all bits of a lane set, or none */
 
 #define PART_LESS(p, q) _mm256_cmp_pd(p, q, _CMP_LT_OQ)
@@ -264,7 +266,8 @@ LANE ints pick_ints(flags m, ints p, ints q)
 
 LANE ints add_ints(ints p, ints q)
 {
-    return (ints){p.a + q.a, p.b + q.b, p.c + q.c, p.d + q.d};
+    return (ints){(part_ints)((part_bits)p.a + (part_bits)q.a), (part_ints)((part_bits)p.b + (part_bits)q.b),
+                  (part_ints)((part_bits)p.c + (part_bits)q.c), (part_ints)((part_bits)p.d + (part_bits)q.d)};
 }
 
 LANE ints and_ints(ints p, ints q)
@@ -284,19 +287,14 @@ LANE ints xor_ints(ints p, ints q)
 
 LANE ints shift_left(ints p, int n)
 {
-    return (ints){p.a << n, p.b << n, p.c << n, p.d << n};
+    return (ints){(part_ints)((part_bits)p.a << n), (part_ints)((part_bits)p.b << n),
+                  (part_ints)((part_bits)p.c << n), (part_ints)((part_bits)p.d << n)};
 }
 
-/* Without sign. */
 LANE ints shift_right(ints p, int n)
 {
-#ifdef WIDE_AVX512
-    return (ints){_mm512_srl_epi64(p.a, _mm_cvtsi32_si128(n)), _mm512_srl_epi64(p.b, _mm_cvtsi32_si128(n)),
-                  _mm512_srl_epi64(p.c, _mm_cvtsi32_si128(n)), _mm512_srl_epi64(p.d, _mm_cvtsi32_si128(n))};
-#else
-    return (ints){_mm256_srl_epi64(p.a, _mm_cvtsi32_si128(n)), _mm256_srl_epi64(p.b, _mm_cvtsi32_si128(n)),
-                  _mm256_srl_epi64(p.c, _mm_cvtsi32_si128(n)), _mm256_srl_epi64(p.d, _mm_cvtsi32_si128(n))};
-#endif
+    return (ints){(part_ints)((part_bits)p.a >> n), (part_ints)((part_bits)p.b >> n),
+                  (part_ints)((part_bits)p.c >> n), (part_ints)((part_bits)p.d >> n)};
 }
 
 LANE ints turn_left(ints p, int n)

@@ -164,7 +164,7 @@ static void refill(struct wide *k, size_t i)
 
 /* ---- what happens seldom ---- */
 
-/* A flight that passes a mark, comes to a stem or leaves the slope, or a rock of many contacts. */
+/* A flight that comes to a stem, or a rock of many contacts. */
 static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
 {
     struct course c = course_of(k, i);
@@ -179,6 +179,7 @@ static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
     k->there |= bit;
 }
 
+/* A flight that leaves the slope. */
 static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
@@ -189,11 +190,13 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
     refill(k, i);
 }
 
+/* A flight that passes marks and goes on in its lane. */
 static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = k->spin[i];
-    ceduo_walk_pass_marks(w, (struct flight){.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]}, k->to_x[i], k->t[i]);
+    struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
+    ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
     k->next_x[i] = w->next_x;
 }
 
@@ -267,7 +270,7 @@ LANE void draw_pair(uint64_t seed, ints rock, ints event, uint64_t kind, reals *
     *u1 = unit(q);
 }
 
-/* Draws two contacts ahead for every lane, before every second step. A lane at an odd contact has its next draw already. */
+/* Draws two contacts ahead for every lane, in every second step. A lane at an odd contact has its next draw already. */
 LANE void draw_ahead(struct wide *k)
 {
     ints contacts = load_ints(k->contacts), one = all_ints(1);
@@ -396,8 +399,7 @@ struct landings {
     unsigned far; /* to be looked for by the scalar walk */
 };
 
-/* Those that the scalar walk brings to the next contact; those that only pass a mark on their way there; and
- * those that only leave the slope. */
+/* Those that the scalar walk brings to the next contact. Of the others: which pass a mark, which leave the slope. */
 LANE unsigned disturbed(const struct wide *k, unsigned *pass, unsigned *leave)
 {
     reals x = load(k->to_x);

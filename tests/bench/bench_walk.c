@@ -3,8 +3,8 @@
  *
  *   bench_walk [REPEATS [ROCKS]]        default 7, 100000
  *
- * CSV on stdout: medians of wall time; for the core, making the run and flying the rocks, with every sample kept, on the
- * best kernel of the machine or on the one that is named; ratio_to_plain in contacts per second. Agreement of the two,
+ * CSV on stdout: medians of wall time; for the core, making the run and flying the rocks, with every sample kept, on
+ * the best kernel of the machine or on the one that is named; ratio_to_plain in contacts per second. Agreement of the two,
  * whether all kernels give the same contacts and mean speed, and memory, on stderr. Exit 1 where they disagree. */
 #include <inttypes.h>
 #include <math.h>
@@ -266,7 +266,7 @@ static bool measure_site(struct site *site, size_t repeats, uint64_t rocks)
     bool same = true;
     for (size_t c = 1; c < n; c++)
         same &= core[c].contacts == core[0].contacts && core[c].arrivals.speed.mean == core[0].arrivals.speed.mean;
-    fprintf(stderr, "%s %s kernels and threads give %s\n", site->law, site->roughness, same ? "the same" : "OTHER figures");
+    fprintf(stderr, "%s %s kernels and threads: %s\n", site->law, site->roughness, same ? "the same" : "DISAGREE");
     return check_agreement(site, &core[0]) && same;
 }
 
