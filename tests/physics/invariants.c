@@ -94,6 +94,8 @@ static void look_at_flight(struct watch *w, const struct ceduo_piece *p)
 static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_piece *p)
 {
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
+    if (j > 0 && fmin(p->x, p->x1) == s->x[j]) /* on the vertex at the bottom, the wall is behind it */
+        j--;
     double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
     double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
     return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-3 * radius) && left < -1e3 && right > 1e3;

@@ -398,6 +398,21 @@ static void rebounds_without_end(void **state)
     assert_true(r.way.x == 5);
 }
 
+/* Random scenes in which a rock goes to and fro in a crack of 12 micrometres, or on its bottom with Rn = 1, where the law
+ * takes less and less: more contacts than are counted. */
+static void cracks(void **state)
+{
+    (void)state;
+    static const uint64_t numbers[] = {123445, 2688044};
+    static struct line_scene scene;
+    struct invariants_tally t = {0};
+    for (size_t i = 0; i < LENGTH(numbers); i++) {
+        line_scene_random(&scene, numbers[i], LASTING_EVERY);
+        invariants_expect(&scene, numbers[i], &t);
+    }
+    assert_true(t.cracks == LENGTH(numbers) && t.ends[CEDUO_UNFINISHED] == LENGTH(numbers));
+}
+
 static void pits(void **state)
 {
     (void)state;
@@ -485,6 +500,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(slow_and_fast_rocks),
         cmocka_unit_test(roughness_up_to_89_degrees),
         cmocka_unit_test(rebounds_without_end),
+        cmocka_unit_test(cracks),
         cmocka_unit_test(pits),
         cmocka_unit_test(noise_of_every_size),
         cmocka_unit_test(a_million_segments),
