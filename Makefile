@@ -122,6 +122,7 @@ $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:
 
 DEBIAN_ALL := clang valgrind
+DEBIAN_BENCH := python3-numpy gnuplot-nox
 do-check-all: do-check
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
 	@+$(MAKE) --no-print-directory VARIANT=asan do-check
@@ -154,7 +155,8 @@ $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/benc
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 do-bench: all $(BENCH)
-	@for b in $(BENCH); do $$b || exit 1; done
+	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_BENCH)" deps
+	@CC="$(CC)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py
 
 # ---- the manual ----
 
