@@ -28,6 +28,7 @@ struct ceduo_run_def {
     uint64_t rocks_most;             /* no longer than this will it be made */
     size_t cells;                    /* envelopes at this many places, 0: none */
     const double *cell_x;            /* rising, on the slope */
+    bool arrivals_only;              /* ways end behind the last control or cell: their ends are not known */
     size_t exact_bytes;              /* beyond this percentiles come from a histogram */
     const atomic_bool *cancel;       /* may be NULL; raised by another thread: the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
@@ -96,6 +97,7 @@ struct ceduo_ends {
     double stop_p50, stop_p95, stop_max; /* m, relative; NaN where none stopped */
 };
 
+/* In a run of arrivals only all counts are 0 and all places NaN. */
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
 
 /* Of the rocks that pass a cell: how many, and 5, 50, 95 % and the largest of each. Percentiles from a histogram of

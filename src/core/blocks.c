@@ -33,6 +33,7 @@ static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct
     def.threads = threads;
     def.rocks_most = rocks;
     def.cancel = cancel;
+    def.arrivals_only = true;
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_run_create(&def, &run);
     if (status != CEDUO_OK)

@@ -371,7 +371,8 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     if (!w->walkers || !w->arrivals)
         return false;
     for (size_t i = 0; i < run->lanes; i++)
-        w->walkers[i] = (struct walker){.cross = on_cross, .context = w, .cancel = run->def.cancel};
+        w->walkers[i] = (struct walker){
+            .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
     if (!run->wood.bare && !init_stems(w))
         return false;
     size_t bins = run->controls * (size_t)run->kept + 1;
@@ -823,7 +824,10 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
 
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)
 {
-    *ends = (struct ceduo_ends){.stop_x = run->whole.stop_x, .stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
+    *ends = (struct ceduo_ends){.stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
+    if (run->def.arrivals_only)
+        return CEDUO_OK;
+    ends->stop_x = run->whole.stop_x;
     for (int e = 0; e < CEDUO_ENDS; e++)
         ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
     ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);

@@ -26,6 +26,12 @@ static inline void set_next_x(struct walker *w)
     w->next_x = w->next_mark < w->marks->n ? w->marks->x[w->next_mark] : INFINITY;
 }
 
+static inline void end_at_last_mark(struct walker *w)
+{
+    if (w->arrivals_only && w->next_mark == w->marks->n)
+        w->pause = 0;
+}
+
 static inline void set_next_stems(struct walker *w)
 {
     w->stem_ahead = w->stems->side[0].next;
@@ -82,6 +88,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
         w->next_mark++;
     set_next_x(w);
+    end_at_last_mark(w);
     w->stems_hit = w->stools_met = 0;
     w->stem_ahead = INFINITY;
     w->stem_behind = -INFINITY;
@@ -120,6 +127,7 @@ static inline void pass_mark(struct walker *w, double vx, double vz, double spin
                                .stems_hit = w->stems_hit};
     w->cross(w->context, w, w->next_mark++, &c);
     set_next_x(w);
+    end_at_last_mark(w);
 }
 
 /* The marks that the flight from `at` to `l` passes. */
@@ -739,6 +747,8 @@ static bool rests(const struct walker *w)
 /* Whether a long way is to end here: too many contacts, or nobody waits for it any more. */
 SELDOM bool has_enough(struct walker *w)
 {
+    if (w->arrivals_only && w->next_mark == w->marks->n)
+        return true;
     w->pause += PAUSE;
     w->cancelled = w->cancel && atomic_load_explicit(w->cancel, memory_order_relaxed);
     return w->cancelled || w->contacts >= CEDUO_CONTACTS_MOST;

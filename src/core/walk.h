@@ -36,6 +36,7 @@ struct walker {
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_watch *watch; /* NULL: nobody looks */
     void *context;                   /* of cross */
+    bool arrivals_only;        /* behind the last mark nobody asks on: the way ends soon after it, CEDUO_UNFINISHED */
     const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
     bool cancelled;            /* it was raised, or memory ran out: the way is not at its end */
 };

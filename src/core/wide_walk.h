@@ -198,6 +198,7 @@ static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
     k->next_x[i] = w->next_x;
+    k->pause[i] = w->pause;
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */

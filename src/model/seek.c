@@ -103,6 +103,7 @@ static enum ceduo_status ready_pool(struct search *s)
     def.threads = s->seek->threads;
     def.rocks_most = s->seek->rocks;
     def.cancel = s->seek->cancel;
+    def.arrivals_only = true;
     return ceduo_pool_create(&def, &s->pool);
 }
 

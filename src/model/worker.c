@@ -80,7 +80,10 @@ static struct flight_plan *new_plan(struct worker *w, const struct ceduo_scene *
     def.threads = w->threads;
     def.rocks_most = WORKER_ROCKS_MOST;
     def.cancel = &w->cancel;
-    bool good = ceduo_pool_create(&def, &plan->figures) == CEDUO_OK && ceduo_pool_create(&def, &plan->years) == CEDUO_OK;
+    bool good = ceduo_pool_create(&def, &plan->figures) == CEDUO_OK;
+    def.arrivals_only = true;
+    good = good && ceduo_pool_create(&def, &plan->years) == CEDUO_OK;
+    def.arrivals_only = false;
     plan->cells_count = ceduo_outlook_places(scene, plan->cells);
     def.cells = plan->cells_count;
     def.cell_x = plan->cells;

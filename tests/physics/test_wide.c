@@ -49,6 +49,20 @@ static void compare_control(const char *scene, const struct ceduo_run *a, const 
     expect_same_bits(scene, "differences", &d, &e, sizeof d);
 }
 
+/* Controls and cells. */
+static void compare_places(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b,
+                           const struct ceduo_run_def *def)
+{
+    for (size_t i = 0; i < def->cells; i++) {
+        struct ceduo_envelope g, h;
+        ceduo_run_envelope(a, i, &g);
+        ceduo_run_envelope(b, i, &h);
+        expect_same_bits(scene, "envelopes", &g, &h, sizeof g);
+    }
+    for (size_t c = 0; c < def->scene->controls_count; c++)
+        compare_control(scene, a, b, c);
+}
+
 static void compare(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b,
                     const struct ceduo_run_def *def)
 {
@@ -62,14 +76,7 @@ static void compare(const char *scene, const struct ceduo_run *a, const struct c
     assert_int_equal(ceduo_run_ends(a, &e), CEDUO_OK);
     assert_int_equal(ceduo_run_ends(b, &f), CEDUO_OK);
     expect_same_bits(scene, "ends", &e, &f, sizeof e);
-    for (size_t i = 0; i < def->cells; i++) {
-        struct ceduo_envelope g, h;
-        ceduo_run_envelope(a, i, &g);
-        ceduo_run_envelope(b, i, &h);
-        expect_same_bits(scene, "envelopes", &g, &h, sizeof g);
-    }
-    for (size_t c = 0; c < def->scene->controls_count; c++)
-        compare_control(scene, a, b, c);
+    compare_places(scene, a, b, def);
 }
 
 static struct ceduo_run *run_of(struct ceduo_run_def def, enum ceduo_kernel kernel, uint64_t first, uint64_t rocks)
@@ -83,6 +90,25 @@ static struct ceduo_run *run_of(struct ceduo_run_def def, enum ceduo_kernel kern
     return run;
 }
 
+/* What arrives is the same where ways end behind the last place that is asked for. Returns the contacts saved. */
+static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *whole, const struct ceduo_run_def *def,
+                                     enum ceduo_kernel kernel)
+{
+    struct ceduo_run_def short_def = *def;
+    short_def.arrivals_only = true;
+    struct ceduo_run *run = run_of(short_def, kernel, ceduo_run_rocks(whole), ceduo_run_rocks(whole));
+    assert_true(ceduo_run_contacts(run) <= ceduo_run_contacts(whole));
+    compare_places(scene, whole, run, def);
+    struct ceduo_ends ends;
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    assert_true(ends.count[CEDUO_LEFT_SLOPE] == 0 && isnan(ends.stop_max));
+    uint64_t saved = ceduo_run_contacts(whole) - ceduo_run_contacts(run);
+    ceduo_run_free(run);
+    return saved;
+}
+
+static uint64_t saved; /* contacts */
+
 /* Runs in two steps, of one thread where it is scalar. Returns the contacts. */
 static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, uint64_t first, uint64_t rocks)
 {
@@ -95,6 +121,8 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
         ceduo_run_free(other);
     }
     uint64_t contacts = ceduo_run_contacts(scalar);
+    saved += expect_same_arrivals(scene, scalar, &one, CEDUO_KERNEL_SCALAR);
+    expect_same_arrivals(scene, scalar, def, CEDUO_KERNEL_BEST);
     ceduo_run_free(scalar);
     return contacts;
 }
@@ -204,7 +232,9 @@ static void random_scenes(void **state)
         contacts += expect_same(name, &w.def, w.first, w.rocks);
         scenes++;
     }
-    print_message("%ju scenes, %ju contacts\n", (uintmax_t)scenes, (uintmax_t)contacts);
+    print_message("%ju scenes, %ju contacts, of which %ju lie behind the last control and cell\n", (uintmax_t)scenes,
+                  (uintmax_t)contacts, (uintmax_t)saved);
+    assert_true(saved > contacts / 100);
     assert_true(scenes > SCENES * 9 / 10 && contacts > 1000 * SCENES);
 }
 
