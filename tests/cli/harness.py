@@ -90,7 +90,7 @@ def only_text(data, what):
     expect(not bad, f"{what} holds control characters {bad}:", repr(data[:2000]))
 
 
-def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, timeout=30, **options):
+def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, timeout=120, **options):
     """Runs the program to its end. A crash, a hang or a control character in its output is a failure everywhere."""
     command = [CEDUO, *map(str, arguments)]
     start = time.monotonic()

@@ -1689,7 +1689,7 @@ def interrupted(number, path, most):
                 p.send_signal(number)
                 start = time.monotonic()
                 try:
-                    out, err = p.communicate(timeout=20)
+                    out, err = p.communicate(timeout=120)
                 except subprocess.TimeoutExpired as late:
                     p.kill()
                     raise Failure("it goes on after the signal") from late
@@ -1729,7 +1729,7 @@ def test_nohup():
                               stderr=subprocess.PIPE, env=environment()) as p:
             time.sleep(0.1)
             p.send_signal(signal.SIGHUP)
-            out, err = p.communicate(timeout=20)
+            out, err = p.communicate(timeout=120)
     finally:
         signal.signal(signal.SIGHUP, old)
     expect(p.returncode == DONE and b"300000" in out and err == b"", p.returncode, out, err)
@@ -1741,7 +1741,7 @@ def test_interrupt_between():
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment()) as p:
         time.sleep(0.2)
         p.send_signal(signal.SIGINT)
-        out, _ = p.communicate(timeout=20)
+        out, _ = p.communicate(timeout=120)
     expect_equal((p.returncode, out), (-signal.SIGINT, b""))
 
 

@@ -881,7 +881,7 @@ def test_interrupt():
                 expect(p.poll() is None, "it ended before the signal", p.returncode)
                 p.send_signal(signal.SIGINT)
                 try:
-                    out, err = p.communicate(timeout=20)
+                    out, err = p.communicate(timeout=120)
                 except subprocess.TimeoutExpired as late:
                     p.kill()
                     raise Failure("it goes on after the signal") from late
