@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Many small scenes in one call: a valley of profiles that share one slope, by the index, 100 rocks each, a bad one among them.
 
-    bench_valley.py PROGRAM [SCENES [REPEATS]]        default 10000, 3
+    bench_valley.py [PROGRAM [SCENES [REPEATS]]]        default ceduo of the build, 10000, 3
 
-CSV on stdout: medians; the peak of memory says whether it grows with the scenes."""
+CSV on stdout: medians; the peak of memory says whether it grows with the scenes (with -o it holds what it is
+to write)."""
 import os
 import resource
 import statistics
@@ -28,8 +29,9 @@ simulation: {{rocks: 100, contact_model: index}}
 
 def run(program, folder, files):
     start = time.monotonic()
-    done = subprocess.run([program, "--batch", "-f", "csv", "-o", "out.csv", *files], cwd=folder, stderr=subprocess.PIPE,
-                          check=False)
+    with open(folder / "out.csv", "wb") as out:
+        done = subprocess.run([program, "--batch", "-f", "csv", *files], cwd=folder, stdout=out, stderr=subprocess.PIPE,
+                              check=False)
     seconds = time.monotonic() - start
     rows = (folder / "out.csv").read_text().count("\n") - 1
     if done.returncode != 3 or rows != len(files) - 1:
@@ -38,7 +40,7 @@ def run(program, folder, files):
 
 
 def main():
-    program = os.path.abspath(sys.argv[1])
+    program = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parents[2] / "build/release/ceduo")
     most = int(sys.argv[2]) if len(sys.argv) > 2 else 10000
     repeats = int(sys.argv[3]) if len(sys.argv) > 3 else 3
     profiles = Path(__file__).resolve().parents[2] / "profiles"
