@@ -751,7 +751,7 @@ SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct lan
     return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
-HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
+HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law, bool blocks)
 {
     struct flight at = w->at; /* w->at is brought up to date for those who are called */
     struct velocity v = velocity_on(&w->g->segments[at.segment], &at);
@@ -759,7 +759,7 @@ HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
     struct landing l;
     if (flies)
-        l = next_landing(w->g, &at);
+        l = next_landing_over(w->g, &at, blocks);
     for (;;) {
         if (flies) {
             if (stem_on_way(w, l.x) && fly_past_stems(w, &at, &l)) {
@@ -781,7 +781,7 @@ HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
         w->contacts++;
         turn_facet(w, at.segment, &facet);
         at.on_ground = true;
-        l = next_landing(w->g, &at);
+        l = next_landing_over(w->g, &at, blocks);
         flies = !is_roll(w, &at, v.off, &l);
         if (flies)
             continue;
@@ -811,9 +811,9 @@ HOT enum ceduo_end walk_by(struct walker *w, enum ceduo_law law)
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 {
     switch (law) {
-#define X(NAME, name)      \
-    case CEDUO_LAW_##NAME: \
-        return walk_by(w, CEDUO_LAW_##NAME);
+#define X(NAME, name)                                                                                                  \
+    case CEDUO_LAW_##NAME:                                                                                             \
+        return w->g->top > 0 ? walk_by(w, CEDUO_LAW_##NAME, true) : walk_by(w, CEDUO_LAW_##NAME, false);
         CEDUO_LAWS(X)
 #undef X
     default:
