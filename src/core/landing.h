@@ -145,7 +145,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
     return land_nowhere(g, f, dir, inv);
 }
 
-HOT struct landing land_towards(const struct ground *g, const struct flight *f, int dir)
+HOT struct landing land_towards(const struct ground *g, const struct flight *f, int dir, bool blocks)
 {
     double inv = 1 / f->vx;
     size_t j = f->segment, q = dir > 0 ? j + 1 : j;
@@ -157,17 +157,23 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
     } else if (!(h >= 0)) {
         return land_on(g, f, j, t);
     }
-    return g->top > 0 ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);
+    return blocks ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);
 }
 
-/* The next contact of a flight with the ground. */
-HOT struct landing next_landing(const struct ground *g, const struct flight *f)
+/* The next contact of a flight with the ground; `blocks`: whether it has any. The walk says so where it knows it as it is
+ * compiled, as a call to what it does not need would cost it registers. */
+HOT struct landing next_landing_over(const struct ground *g, const struct flight *f, bool blocks)
 {
     if (f->vx > 0)
-        return land_towards(g, f, 1);
+        return land_towards(g, f, 1, blocks);
     if (f->vx < 0)
-        return land_towards(g, f, -1);
+        return land_towards(g, f, -1, blocks);
     return land_straight(g, f);
+}
+
+HOT struct landing next_landing(const struct ground *g, const struct flight *f)
+{
+    return next_landing_over(g, f, g->top > 0);
 }
 
 #endif

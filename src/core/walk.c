@@ -818,7 +818,7 @@ HOT void start(const struct walker *w, struct course *c)
         c->l = next_landing(w->g, &c->at);
 }
 
-HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law)
+HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law, bool blocks)
 {
     struct flight at = c.at; /* w->at is brought up to date for those who are called */
     struct velocity v = c.v;
@@ -840,7 +840,7 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
         w->contacts++;
         turn_facet(w, at.segment, &facet);
         at.on_ground = true;
-        l = next_landing(w->g, &at);
+        l = next_landing_over(w->g, &at, blocks);
         flies = !is_roll(w, &at, v.off, &l);
         if (flies)
             continue;
@@ -857,9 +857,9 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
 enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
 {
     switch (law) {
-#define X(NAME, name)      \
-    case CEDUO_LAW_##NAME: \
-        return walk_by(w, *c, CEDUO_LAW_##NAME);
+#define X(NAME, name)                                                                                                      \
+    case CEDUO_LAW_##NAME:                                                                                                 \
+        return w->g->top > 0 ? walk_by(w, *c, CEDUO_LAW_##NAME, true) : walk_by(w, *c, CEDUO_LAW_##NAME, false);
         CEDUO_LAWS(X)
 #undef X
     default:

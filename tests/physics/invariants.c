@@ -50,12 +50,25 @@ static double height_of_flight(const struct ceduo_piece *p, double g, double x)
     return p->z1 + (p->vz1 - g / 2 * t) * t;
 }
 
+static double depth_under(const struct ceduo_slope *s, size_t j, double x, double z)
+{
+    double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
+    return ((x - s->x[j]) * dz - (z - s->z[j]) * dx) / hypot(dx, dz);
+}
+
 static void look_under(struct watch *w, size_t j, double x, double z)
 {
+    w->under = fmax(w->under, depth_under(&w->scene->scene.slope, j, x, z));
+}
+
+/* The same at an end of a roll. The x of a place on a wall may round to that of the wall's end: then it is on the wall. */
+static void look_under_roll(struct watch *w, size_t j, double x, double z)
+{
     const struct ceduo_slope *s = &w->scene->scene.slope;
-    double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
-    double below = ((x - s->x[j]) * dz - (z - s->z[j]) * dx) / hypot(dx, dz);
-    w->under = fmax(w->under, below);
+    double depth = depth_under(s, j, x, z);
+    if (j > 0 && x == s->x[j])
+        depth = fmin(depth, depth_under(s, j - 1, x, z));
+    w->under = fmax(w->under, depth);
 }
 
 /* Above a straight segment the flight is concave: it is lowest over the ends of the segment or of its own. A vertex at
@@ -111,8 +124,8 @@ static void look_at_roll(struct watch *w, const struct ceduo_piece *p)
     if (gained > 0)
         w->energy_off = fmax(w->energy_off, gained / scale);
     size_t j = ceduo_slope_segment(&w->scene->scene.slope, (p->x + p->x1) / 2);
-    look_under(w, j, p->x, p->z);
-    look_under(w, j, p->x1, p->z1);
+    look_under_roll(w, j, p->x, p->z);
+    look_under_roll(w, j, p->x1, p->z1);
 }
 
 /* crsp on a smooth segment: what was along the ground and in the spin becomes at most Rt(Rt + (1 - Rt)/1.2) of it. */

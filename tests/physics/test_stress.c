@@ -411,6 +411,9 @@ static void cracks(void **state)
         invariants_expect(&scene, numbers[i], &t);
     }
     assert_true(t.cracks == LENGTH(numbers) && t.ends[CEDUO_UNFINISHED] == LENGTH(numbers));
+    line_scene_random(&scene, 3596987, LASTING_EVERY); /* one of 60 nm, in which it rests on the wall */
+    invariants_expect(&scene, 3596987, &t);
+    assert_true(t.last.end == CEDUO_AT_REST);
 }
 
 static void pits(void **state)
