@@ -11,6 +11,7 @@
 #include "key.h"
 #include "material.h"
 #include "number.h"
+#include "part.h"
 #include "pool.h"
 #include "result.h"
 #include "rock.h"

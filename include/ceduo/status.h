@@ -13,7 +13,8 @@ enum ceduo_status {
     CEDUO_RELEASE_OFF_SLOPE, /* the release, or a part of its spread, lies beyond the slope */
     CEDUO_RELEASE_BELOW,     /* the release, or a part of its spread, lies below the ground */
     CEDUO_CONTROL_OFF_SLOPE, /* a control lies beyond the slope */
-    CEDUO_CONTROL_BEHIND     /* a control does not lie beyond the release */
+    CEDUO_CONTROL_BEHIND,    /* a control does not lie beyond the release */
+    CEDUO_BAD_PART           /* bytes that are no part of this run, or not the next one */
 };
 
 #endif

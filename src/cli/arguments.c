@@ -12,6 +12,7 @@
 #include "ceduo/scene.h"
 #include "ceduo/years.h"
 #include "io/intl.h"
+#include "io/part_file.h"
 
 #define THREADS_MOST 1024
 #define WIDTH_LEAST  20
@@ -25,6 +26,8 @@ enum {
     OPTION_YEARS,
     OPTION_FIND,
     OPTION_GOAL,
+    OPTION_SHARD,
+    OPTION_MERGE,
     OPTION_PLOT,
     OPTION_SIZE,
     OPTION_CHARSET,
@@ -50,6 +53,8 @@ static const struct argument_row rows[] = {
     {"years", OPTION_YEARS, "A:B[:STEP]", N_("every option year by year, from the stands as filed (year 0)")},
     {"find", OPTION_FIND, "PATH=LO:HI", N_("the value of a parameter that reaches --goal at the worst control")},
     {"goal", OPTION_GOAL, "GOAL[=VALUE]", N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+    {"shard", OPTION_SHARD, "I/N", N_("compute part I of N of each scene, and write it as a line for --merge")},
+    {"merge", OPTION_MERGE, NULL, N_("print what the parts in the files given come to, as one run would")},
     {"plot", OPTION_PLOT, "WHAT", N_("print a picture: profile, energy, height, histogram, adc, rotation, stand or compare")},
     {"size", OPTION_SIZE, "WxH", N_("of a picture in columns and lines (80x24)")},
     {"charset", OPTION_CHARSET, "braille|block|ascii", N_("what pictures are made of (the locale's)")},
@@ -96,6 +101,8 @@ void ceduo_arguments_help(struct text *text)
                            "usage: ceduo [SCENE.yaml]\n"
                            "       ceduo --batch [OPTION...] SCENE.yaml...\n"
                            "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
+                           "       ceduo --shard I/N [OPTION...] SCENE.yaml...\n"
+                           "       ceduo --merge [OPTION...] PART...\n"
                            "       ceduo --check SCENE.yaml...\n"
                            "       ceduo --list-parameters | --list-profiles\n\n"
                            "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
@@ -307,6 +314,23 @@ static enum exit_status read_goal(struct arguments *a, char *value)
     return EXIT_DONE;
 }
 
+/* "I/N" */
+static enum exit_status read_shard(struct arguments *a, const char *value)
+{
+    char *part = strdup(value), *parts = part ? strchr(part, '/') : NULL;
+    if (parts)
+        *parts++ = '\0';
+    bool good = parts && ceduo_count_read(parts, 1, SHARDS_MOST, &a->shards) == CEDUO_NUMBER_GOOD &&
+                ceduo_count_read(part, 1, (double)a->shards, &a->shard) == CEDUO_NUMBER_GOOD;
+    free(part);
+    if (!good)
+        return usage(_("--shard: '%s' is no part of a whole; write I/N, I from 1 to N, as 3/8, N up to %d"), value,
+                     SHARDS_MOST);
+    if (a->mode == MODE_TERMINAL)
+        a->mode = MODE_BATCH;
+    return EXIT_DONE;
+}
+
 static enum exit_status read_threads(struct arguments *a, const char *value)
 {
     uint64_t n;
@@ -341,6 +365,7 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
             a->mode = MODE_BATCH;
         return EXIT_DONE;
     case 'f':
+        a->format_given = true;
         return read_format(a, value);
     case 'o':
         a->output = value;
@@ -357,7 +382,15 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
     case 'q':
         a->quiet = true;
         return EXIT_DONE;
+    case OPTION_SHARD:
+        return read_shard(a, value);
+    case OPTION_MERGE:
+        a->merge = true;
+        if (a->mode <= MODE_BATCH)
+            a->mode = MODE_MERGE;
+        return EXIT_DONE;
     case OPTION_ROWS:
+        a->rows_given = true;
         return read_rows(a, value);
     case OPTION_SEED:
         return read_seed(a, value);
@@ -400,9 +433,56 @@ static void fill_getopt(struct option *longs, char *shorts)
     *shorts = '\0';
 }
 
-static enum exit_status check_together(const struct arguments *a)
+/* What one of --shard and --merge does not go with. */
+struct other_option {
+    const char *name;
+    bool given;
+};
+
+static enum exit_status check_others(const char *one, const char *why, const struct other_option *others, size_t n)
 {
-    bool wants_scene = a->mode == MODE_BATCH || a->mode == MODE_CHECK || a->mode == MODE_FIND;
+    for (size_t i = 0; i < n; i++)
+        if (others[i].given)
+            return usage(_("--%s does not go with --%s: %s"), one, others[i].name, why);
+    return EXIT_DONE;
+}
+
+static enum exit_status check_parts(struct arguments *a)
+{
+    const struct other_option others[] = {
+        {"shard", a->shards > 0 && a->merge},
+        {"years", a->years},
+        {"find", a->find != NULL},
+        {"plot", a->plot != CEDUO_PLOT_NONE},
+        {"check", a->mode == MODE_CHECK},
+        {"script", a->script != NULL},
+        {"tolerance", a->tolerance > 0},
+        {"list-parameters", a->mode == MODE_PARAMETERS},
+        {"list-profiles", a->mode == MODE_PROFILES},
+        /* of one of the two alone */
+        {"format", a->shards > 0 && a->format_given},
+        {"rows", a->shards > 0 && a->rows_given},
+        {"rocks", a->merge && a->rocks > 0},
+        {"seed", a->merge && a->seed[0] != '\0'},
+        {"set", a->merge && a->sets_count > 0},
+        {"option", a->merge && a->options_count > 0}};
+    size_t n = sizeof others / sizeof others[0];
+    if (a->merge)
+        return check_others("merge", _("what is printed was computed with the parts"), others, n);
+    if (a->shards == 0)
+        return EXIT_DONE;
+    enum exit_status status = check_others("shard", _("it writes a part of one run, which --merge prints"), others, n);
+    a->format = CEDUO_JSON; /* lines, one for each scene */
+    return status;
+}
+
+static enum exit_status check_together(struct arguments *a)
+{
+    if (a->mode < MODE_HELP && check_parts(a) != EXIT_DONE)
+        return EXIT_USAGE;
+    if (a->mode == MODE_MERGE && a->scenes_count == 0)
+        return usage(_("--merge wants files with the parts that --shard wrote, '-' for standard input"));
+    bool wants_scene = a->mode == MODE_BATCH || a->mode == MODE_MERGE || a->mode == MODE_CHECK || a->mode == MODE_FIND;
     if (a->mode == MODE_FIND && !a->goal_given)
         return usage(_("--find wants a --goal: adc, free-run, energy=KJ or exceed"));
     if (a->goal_given && a->mode != MODE_FIND)

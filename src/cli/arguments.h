@@ -11,7 +11,7 @@
 /* Exit statuses, as the manual has them. */
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
-enum mode { MODE_TERMINAL, MODE_BATCH, MODE_FIND, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_HELP, MODE_VERSION };
+enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_HELP, MODE_VERSION };
 
 /* What --find is to reach at the worst control. */
 enum find_goal { GOAL_ADC, GOAL_FREE_RUN, GOAL_ENERGY, GOAL_EXCEED };
@@ -19,6 +19,7 @@ enum find_goal { GOAL_ADC, GOAL_FREE_RUN, GOAL_ENERGY, GOAL_EXCEED };
 struct arguments {
     enum mode mode;
     enum ceduo_format format;
+    bool format_given, rows_given;
     enum ceduo_plot plot;       /* a picture instead of the page */
     int plot_width, plot_height; /* cells, title and all */
     const char *script; /* keys and commands for the terminal program; NULL: none */
@@ -44,6 +45,8 @@ struct arguments {
     enum find_goal goal;
     bool goal_given;
     double goal_value;  /* NaN: the light's own limit */
+    uint64_t shard, shards; /* only this part of so many, from 1; 0: all */
+    bool merge;         /* the scenes are parts to be joined */
 };
 
 /* EXIT_DONE, or EXIT_USAGE with the reason on standard error. */

@@ -13,7 +13,7 @@
 #include "io/file.h"
 #include "io/intl.h"
 
-static double now(void)
+double ceduo_batch_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -115,24 +115,24 @@ enum exit_status ceduo_batch_write(const struct arguments *a, const struct text 
 
 /* ---- progress ---- */
 
-struct progress {
-    double start, shown;
-    uint64_t most;
-    bool wanted, open;
-};
+struct progress ceduo_progress_begin(const struct arguments *a, uint64_t before)
+{
+    return (struct progress){
+        .start = ceduo_batch_now(), .before = before, .wanted = !a->quiet && isatty(STDERR_FILENO)};
+}
 
-static void show_progress(void *context, uint64_t rocks)
+void ceduo_progress_show(void *context, uint64_t rocks)
 {
     struct progress *p = context;
-    double t = now();
+    double t = ceduo_batch_now();
     if (!p->wanted || t - p->start < 1 || t - p->shown < 0.2)
         return;
-    fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)rocks, t - p->start);
+    fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)(rocks - p->before), t - p->start);
     p->shown = t;
     p->open = true;
 }
 
-static void end_progress(const struct progress *p)
+void ceduo_progress_end(const struct progress *p)
 {
     if (p->open)
         fputs("\r                              \r", stderr);
@@ -149,7 +149,7 @@ static bool is_wanted(const struct arguments *a, const char *name)
 }
 
 /* Keeps only the options that were asked for, in the scene's order. */
-static enum exit_status choose_options(const struct arguments *a, struct scene_file *file)
+enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file *file)
 {
     for (size_t i = 0; i < a->options_count; i++) {
         bool found = false;
@@ -177,10 +177,11 @@ static enum exit_status choose_options(const struct arguments *a, struct scene_f
     return good ? EXIT_DONE : EXIT_RUN;
 }
 
-enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
+enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct shelf *shelf,
+                                  struct scene_file *file)
 {
     struct problems problems = {0};
-    bool good = ceduo_scene_read(file, path, a->sets, a->sets_count, &problems);
+    bool good = ceduo_scene_read_by(file, shelf, path, a->sets, a->sets_count, &problems);
     ceduo_problems_close(&problems);
     ceduo_batch_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
@@ -256,9 +257,9 @@ static struct ceduo_block *fly_blocks(const struct arguments *a, const struct ce
     return NULL;
 }
 
-static enum exit_status report_run(const struct arguments *a, const struct scene_file *file,
-                                   struct ceduo_pool *pool, struct ceduo_report *report, double start,
-                                   struct text *out)
+enum exit_status ceduo_batch_report(const struct arguments *a, const struct scene_file *file,
+                                    struct ceduo_pool *pool, struct ceduo_report *report, double start,
+                                    struct text *out)
 {
     struct ceduo_result *result;
     if (ceduo_result_create(&file->scene, pool, &result) != CEDUO_OK) {
@@ -273,7 +274,8 @@ static enum exit_status report_run(const struct arguments *a, const struct scene
     }
     report->years = years;
     report->work = ceduo_pool_work(pool);
-    report->seconds = now() - start;
+    if (start > 0)
+        report->seconds = ceduo_batch_now() - start;
     struct ceduo_block *blocks = NULL;
     if (a->format == CEDUO_TABLE && !a->years && file->scene.controls_count > 0)
         blocks = fly_blocks(a, &file->scene, ceduo_result_rocks(result));
@@ -288,7 +290,7 @@ static enum exit_status report_run(const struct arguments *a, const struct scene
 }
 
 /* -n, or with a tolerance alone as many as may be, or the scene's. */
-static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file *file)
+uint64_t ceduo_batch_rocks(const struct arguments *a, const struct scene_file *file)
 {
     if (a->rocks > 0)
         return a->rocks;
@@ -383,12 +385,12 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
 
 static enum exit_status run_scene(const struct arguments *a, const struct scene_file *file, struct text *out)
 {
-    struct progress progress = {.start = now(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
+    struct progress progress = ceduo_progress_begin(a, 0);
     struct ceduo_run_def def = ceduo_run_def_default(&file->scene);
     def.threads = a->threads;
-    def.rocks_most = rocks_wanted(a, file);
+    def.rocks_most = ceduo_batch_rocks(a, file);
     def.cancel = ceduo_interrupt_flag();
-    def.progress = show_progress;
+    def.progress = ceduo_progress_show;
     def.context = &progress;
     double cell_x[CEDUO_OUTLOOK_CELLS];
     if (ceduo_plot_needs_cells(a->plot))
@@ -406,29 +408,31 @@ static enum exit_status run_scene(const struct arguments *a, const struct scene_
         status = ceduo_pool_until(pool, a->tolerance, def.rocks_most, &report.remarks.tolerance_met);
     else if (status == CEDUO_OK)
         status = ceduo_pool_extend(pool, def.rocks_most);
-    end_progress(&progress);
+    ceduo_progress_end(&progress);
     enum exit_status done = EXIT_RUN;
     if (status == CEDUO_OK && a->plot != CEDUO_PLOT_NONE)
         done = plot_run(a, file, pool, &def, out);
     else if (status == CEDUO_OK)
-        done = report_run(a, file, pool, &report, progress.start, out);
+        done = ceduo_batch_report(a, file, pool, &report, progress.start, out);
     else if (status != CEDUO_CANCELLED)
         ceduo_batch_complain(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
     ceduo_pool_free(pool);
     return done;
 }
 
-static enum exit_status batch_scene(const struct arguments *a, const char *path, struct text *out)
+static enum exit_status batch_scene(const struct arguments *a, size_t i, struct text *out)
 {
     struct scene_file file;
-    enum exit_status status = ceduo_batch_read(a, path, &file);
+    struct shelf shelf = {0};
+    enum exit_status status = ceduo_batch_read(a, a->scenes[i], a->shards > 0 ? &shelf : NULL, &file);
     if (status == EXIT_DONE)
-        status = choose_options(a, &file);
+        status = ceduo_batch_choose(a, &file);
     if (status == EXIT_DONE && a->plot != CEDUO_PLOT_NONE && !ceduo_plot_needs_run(a->plot)) {
         add_plots(a, &file.scene, NULL, NULL, out);
     } else if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
-        status = run_scene(a, &file, out);
+        status = a->shards > 0 ? ceduo_batch_shard(a, a->scenes[i], &shelf, &file, i + 1, out)
+                               : run_scene(a, &file, out);
     }
     ceduo_scene_release(&file);
     return status;
@@ -443,7 +447,7 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
     bool first = true;
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct text one = {0};
-        enum exit_status result = batch_scene(a, a->scenes[i], &one);
+        enum exit_status result = batch_scene(a, i, &one);
         status = worse(status, result);
         bool interrupted = atomic_load(ceduo_interrupt_flag());
         if (result <= EXIT_RUN && one.bytes && !interrupted) {
@@ -476,9 +480,9 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
     enum exit_status status = EXIT_DONE;
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
-        enum exit_status one = ceduo_batch_read(a, a->scenes[i], &file);
+        enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
         if (one == EXIT_DONE)
-            one = choose_options(a, &file);
+            one = ceduo_batch_choose(a, &file);
         ceduo_scene_release(&file);
         status = worse(status, one);
     }

@@ -88,7 +88,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
         size_t option = 0;
-        enum exit_status one = ceduo_batch_read(a, a->scenes[i], &file);
+        enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
         if (one == EXIT_DONE)
             one = choose(a, &file.scene, &option);
         if (one == EXIT_DONE) {

@@ -3,7 +3,9 @@
 
 #include <stdlib.h>
 
+#include "bytes.h"
 #include "ceduo/key.h"
+#include "ceduo/part.h"
 
 struct pooled {
     uint64_t key;
@@ -183,4 +185,54 @@ struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
         work.stems.met += stems.met;
     }
     return work;
+}
+
+/* ---- parts ---- */
+
+/* The runs in their order, each with its key and its length. */
+enum ceduo_status ceduo_pool_save(const struct ceduo_pool *pool, unsigned char **bytes, size_t *n)
+{
+    struct bytes b = {0};
+    uint64_t count = pool->count;
+    enum ceduo_status status = CEDUO_OK;
+    ceduo_bytes_count(&b, &count);
+    for (size_t i = 0; i < pool->count && status == CEDUO_OK; i++) {
+        uint64_t key = pool->runs[i].key, size = 0;
+        ceduo_bytes_count(&b, &key);
+        size_t place = b.length;
+        ceduo_bytes_count(&b, &size); /* not known yet */
+        status = ceduo_run_pack(pool->runs[i].run, &b);
+        size = b.length - place - 8;
+        size_t end = b.length;
+        b.length = place;
+        ceduo_bytes_count(&b, &size);
+        b.length = end;
+    }
+    *bytes = b.to;
+    *n = b.length;
+    if (status == CEDUO_OK && !b.no_memory)
+        return CEDUO_OK;
+    free(b.to);
+    *bytes = NULL;
+    return CEDUO_NO_MEMORY;
+}
+
+enum ceduo_status ceduo_pool_adopt(struct ceduo_pool *pool, const unsigned char *bytes, size_t n)
+{
+    struct bytes b = {.reads = true, .from = bytes, .length = n};
+    uint64_t count, key, size;
+    ceduo_bytes_count(&b, &count);
+    if (count != pool->count)
+        return CEDUO_BAD_PART;
+    for (size_t i = 0; i < pool->count; i++) {
+        ceduo_bytes_count(&b, &key);
+        ceduo_bytes_count(&b, &size);
+        const unsigned char *run = size <= ceduo_bytes_left(&b) ? ceduo_bytes_read(&b, (size_t)size) : NULL;
+        if (!run || key != pool->runs[i].key)
+            return CEDUO_BAD_PART;
+        enum ceduo_status status = ceduo_run_adopt(pool->runs[i].run, run, (size_t)size);
+        if (status != CEDUO_OK)
+            return status;
+    }
+    return ceduo_bytes_left(&b) == 0 ? CEDUO_OK : CEDUO_BAD_PART;
 }

@@ -5,7 +5,10 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
+#include "bytes.h"
+#include "ceduo/part.h"
 #include "envelope.h"
 #include "histogram.h"
 #include "walk.h"
@@ -14,6 +17,7 @@
 #ifndef CHUNK_BLOCKS
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: what bounds the memory of their sums */
 #endif
+#define CHUNK_SECONDS 0.5 /* about so long they take: somebody waits for a sign of progress */
 
 enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 
@@ -43,7 +47,11 @@ struct ceduo_run {
     size_t lanes;            /* rocks that a thread flies at once */
     size_t controls;
     int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
-    uint64_t rocks;        /* done */
+    uint64_t rocks;        /* done; of a part: with those before it */
+    uint64_t first;        /* rocks before a part, otherwise 0 */
+    struct block *kept_blocks; /* of a part: the whole blocks one by one */
+    size_t kept_count, kept_room;
+    size_t chunk;          /* blocks to take on next */
     struct block whole;    /* all whole blocks */
     struct block tail;     /* the block that is not full yet */
     struct block *slots;   /* CHUNK_BLOCKS in work */
@@ -150,7 +158,7 @@ static void keep_sample(struct worker *w, uint64_t rock, size_t control, const d
     struct ceduo_run *run = w->run;
     for (int q = 0; q < run->kept; q++) {
         if (run->exact)
-            samples_of(run, control, q)[rock] = values[q];
+            samples_of(run, control, q)[rock - run->first] = values[q];
         else if (!ceduo_histogram_add(bins_of(w->bins, run, control, q), values[q]))
             w->no_memory = true;
     }
@@ -192,8 +200,8 @@ static void clear_samples(struct ceduo_run *run, uint64_t rock)
         return;
     for (size_t c = 0; c < run->controls; c++)
         for (int q = 0; q < run->kept; q++)
-            samples_of(run, c, q)[rock] = NAN;
-    run->stops[rock] = NAN;
+            samples_of(run, c, q)[rock - run->first] = NAN;
+    run->stops[rock - run->first] = NAN;
 }
 
 static void note_stop(struct worker *w, uint64_t rock, double x)
@@ -201,7 +209,7 @@ static void note_stop(struct worker *w, uint64_t rock, double x)
     struct ceduo_run *run = w->run;
     w->stops[rock - w->from] = x;
     if (run->exact)
-        run->stops[rock] = x;
+        run->stops[rock - run->first] = x;
     else if (!ceduo_histogram_add(&w->bins[run->controls * (size_t)run->kept], x))
         w->no_memory = true;
 }
@@ -422,6 +430,22 @@ static void run_workers(struct worker *workers, unsigned n)
     free(threads);
 }
 
+/* Room for the blocks of a chunk; only a part keeps them. */
+static bool grow_kept(struct ceduo_run *run, size_t more)
+{
+    if (!run->def.part || run->kept_count + more <= run->kept_room)
+        return true;
+    size_t room = 2 * run->kept_room + more;
+    struct block *blocks = realloc(run->kept_blocks, room * sizeof *blocks);
+    if (!blocks)
+        return false;
+    run->kept_blocks = blocks;
+    for (; run->kept_room < room; run->kept_room++)
+        if (!block_init(&blocks[run->kept_room], run->controls))
+            return false;
+    return true;
+}
+
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, struct worker *workers, unsigned n)
 {
     bool no_memory = false;
@@ -431,11 +455,15 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         return CEDUO_NO_MEMORY;
     if (atomic_load(&chunk->stop))
         return CEDUO_CANCELLED;
+    if (!grow_kept(run, chunk->blocks))
+        return CEDUO_NO_MEMORY;
     for (unsigned i = 0; i < n; i++)
         if (!worker_merge(&workers[i]))
             return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < chunk->blocks; i++) {
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
+        if (full && run->def.part)
+            block_merge(&run->kept_blocks[run->kept_count++], &run->slots[i], run->controls);
         if (full)
             block_merge(&run->whole, &run->slots[i], run->controls);
         else
@@ -492,6 +520,7 @@ static bool fits_exact(const struct ceduo_run *run, uint64_t rocks)
 /* Makes room for the samples of `rocks` rocks. */
 static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
 {
+    rocks -= run->first;
     if (rocks <= run->room)
         return true;
     uint64_t room = 2 * run->room;
@@ -501,7 +530,8 @@ static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
     if (!grown)
         return false;
     for (size_t i = 0; run->samples && i < c; i++)
-        memcpy(grown + i * room, run->samples + i * run->room, (size_t)run->rocks * sizeof(double));
+        memcpy(grown + i * room, run->samples + i * run->room,
+               (size_t)(run->rocks - run->first) * sizeof(double));
     free(run->samples);
     run->samples = grown;
     run->room = room;
@@ -530,7 +560,7 @@ static bool keep_pairs(struct ceduo_run *run)
         return false;
     run->pairs_room = room;
     for (size_t c = 0; c < run->controls; c++)
-        for (uint64_t r = 0; r < run->rocks && r < room; r++)
+        for (uint64_t r = 0; run->samples && r < run->rocks && r < room; r++)
             run->pairs[c * room + r] = energy_of(run, c, r);
     return true;
 }
@@ -562,6 +592,25 @@ static bool prepare_samples(struct ceduo_run *run, uint64_t rocks)
     return fits_exact(run, rocks) ? grow_samples(run, rocks) : bin_samples(run);
 }
 
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The next chunk after one of so many blocks: as many as take CHUNK_SECONDS by its speed, at most twice as many, and as
+ * many for each thread, so that none waits long for the others at its end. What is found does not depend on it. */
+static void choose_chunk(struct ceduo_run *run, size_t blocks, double seconds)
+{
+    size_t threads = run->def.threads, most = 2 * run->chunk;
+    double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)most;
+    run->chunk = wanted < (double)most ? (size_t)wanted : most;
+    run->chunk = (run->chunk + threads - 1) / threads * threads;
+    run->chunk = run->chunk < threads ? threads : run->chunk;
+    run->chunk = run->chunk > CHUNK_BLOCKS ? CHUNK_BLOCKS : run->chunk;
+}
+
 enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 {
     if (rocks > run->def.rocks_most)
@@ -571,10 +620,12 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
     if (!prepare_samples(run, rocks))
         return CEDUO_NO_MEMORY;
     while (run->rocks < rocks) {
-        uint64_t end = (run->rocks / CEDUO_BLOCK_ROCKS + CHUNK_BLOCKS) * CEDUO_BLOCK_ROCKS;
+        uint64_t block = run->rocks / CEDUO_BLOCK_ROCKS, end = (block + run->chunk) * CEDUO_BLOCK_ROCKS;
+        double start = seconds_now();
         enum ceduo_status status = fly_chunk(run, end < rocks ? end : rocks);
         if (status != CEDUO_OK)
             return status;
+        choose_chunk(run, (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), seconds_now() - start);
         if (run->def.progress)
             run->def.progress(run->def.context, run->rocks);
     }
@@ -582,6 +633,13 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 }
 
 /* ---- making and freeing ---- */
+
+/* A part keeps what the whole run would keep. */
+static bool begin_part(struct ceduo_run *run)
+{
+    run->rocks = run->first = run->def.first;
+    return fits_exact(run, run->def.rocks_most) || bin_samples(run);
+}
 
 /* Among stems the scalar walk is faster: nearly all is done for the stems, rock by rock, and those of one rock alone
  * fit the fastest cache. */
@@ -626,8 +684,9 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->exact = true;
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_rock_varies(&def->scene->rock);
     run->kept = one_energy ? HEIGHT + 1 : QUANTITIES;
+    run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
     status = ceduo_rock_of_means(&def->scene->rock, &run->mean);
-    if (!allocate(run)) {
+    if (!allocate(run) || (def->part && !begin_part(run))) {
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
@@ -645,6 +704,9 @@ void ceduo_run_free(struct ceduo_run *run)
     for (size_t i = 0; run->slots && i < CHUNK_BLOCKS; i++)
         free(run->slots[i].controls);
     free(run->slots);
+    for (size_t i = 0; i < run->kept_room; i++)
+        free(run->kept_blocks[i].controls);
+    free(run->kept_blocks);
     for (size_t i = 0; run->bins && i < columns(run); i++)
         ceduo_histogram_clear(&run->bins[i]);
     free(run->bins);
@@ -869,4 +931,228 @@ size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *t
         if (!isnan(column[r]))
             to[n++] = from_speed ? 0.5 * run->mean.mass * (column[r] * column[r]) : column[r];
     return n;
+}
+
+/* ---- parts ---- */
+
+static void pack_moments(struct bytes *b, struct ceduo_moments *m)
+{
+    ceduo_bytes_count(b, &m->n);
+    ceduo_bytes_number(b, &m->mean);
+    ceduo_bytes_number(b, &m->m2);
+    ceduo_bytes_number(b, &m->max);
+}
+
+static void pack_block(struct bytes *b, struct block *block, size_t controls)
+{
+    ceduo_bytes_count(b, &block->contacts);
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        ceduo_bytes_count(b, &block->ends[e]);
+    ceduo_bytes_count(b, &block->stems.drawn);
+    ceduo_bytes_count(b, &block->stems.hit);
+    ceduo_bytes_count(b, &block->stems.met);
+    pack_moments(b, &block->stop_x);
+    for (size_t c = 0; c < controls; c++) {
+        struct sums *s = &block->controls[c];
+        for (int q = 0; q < QUANTITIES; q++)
+            pack_moments(b, &s->of[q]);
+        pack_moments(b, &s->contacts);
+        ceduo_bytes_count(b, &s->exceeded);
+        ceduo_bytes_count(b, &s->unfinished);
+    }
+}
+
+static bool good_moments(const struct ceduo_moments *m, uint64_t n)
+{
+    return m->n == n && isfinite(m->mean) && isfinite(m->m2) && isfinite(m->max) && m->m2 >= 0;
+}
+
+/* Whether the counts of a block agree with each other: of so many rocks, and so many that hit stems where there are. */
+static bool good_block(const struct ceduo_run *run, const struct block *block, uint64_t rocks)
+{
+    uint64_t ends = 0, stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
+    for (int e = 0; e < CEDUO_ENDS; e++) {
+        if (block->ends[e] > rocks)
+            return false;
+        ends += block->ends[e];
+    }
+    if (ends != rocks || !good_moments(&block->stop_x, stops))
+        return false;
+    for (size_t c = 0; c < run->controls; c++) {
+        const struct sums *s = &block->controls[c];
+        uint64_t reached = s->of[SPEED].n;
+        if (reached > rocks || s->unfinished > rocks - reached || s->exceeded > reached ||
+            !good_moments(&s->contacts, run->wood.bare ? 0 : reached))
+            return false;
+        for (int q = 0; q < QUANTITIES; q++)
+            if (!good_moments(&s->of[q], reached))
+                return false;
+    }
+    return true;
+}
+
+/* What a part begins with: its rocks, and what decides the shape of the rest. */
+struct part_head {
+    uint64_t first, end, rocks, controls, kept, bare, exact, pairs;
+};
+
+static void pack_head(struct bytes *b, struct part_head *h)
+{
+    uint64_t *const counts[] = {&h->first, &h->end, &h->rocks, &h->controls, &h->kept, &h->bare, &h->exact, &h->pairs};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
+        ceduo_bytes_count(b, counts[i]);
+}
+
+static struct part_head head_of(const struct ceduo_run *run, uint64_t first, uint64_t end)
+{
+    return (struct part_head){first,
+                              end,
+                              run->def.rocks_most,
+                              run->controls,
+                              (uint64_t)run->kept,
+                              run->wood.bare,
+                              run->exact,
+                              run->pairs_room};
+}
+
+/* The first rocks' energies that lie in a part. */
+static uint64_t pairs_of(const struct ceduo_run *run, uint64_t first, uint64_t end)
+{
+    uint64_t to = end < run->pairs_room ? end : run->pairs_room;
+    return to > first ? to - first : 0;
+}
+
+/* The samples of rocks first…end - 1, or the histograms, in `bins`. `reached[control]`, then the stops: how many there
+ * are; where they are read, how many there must be. False: not those, or no memory. */
+static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end, struct histogram *bins,
+                         uint64_t *reached)
+{
+    size_t n = (size_t)(end - first), from = (size_t)(first - run->first);
+    uint64_t there;
+    for (size_t c = 0; c <= run->controls; c++) {
+        int kept = c < run->controls ? run->kept : 1;
+        double *column = run->exact ? samples_of(run, c, SPEED) + from : NULL;
+        if (run->exact && (!ceduo_bytes_column(b, column, n, &there) || (b->reads && there != reached[c])))
+            return false;
+        for (int q = 0; q < kept; q++) {
+            if (run->exact && q > 0 && !ceduo_bytes_column_as(b, column, samples_of(run, c, q) + from, n))
+                return false;
+            struct histogram *h = run->exact ? NULL : bins_of(bins, run, c, q);
+            if (h && (!ceduo_histogram_pack(h, b, n) || (b->reads && h->n != reached[c])))
+                return false;
+        }
+    }
+    n = (size_t)pairs_of(run, first, end);
+    for (size_t c = 0; n > 0 && c < run->controls; c++)
+        if (!ceduo_bytes_column(b, &run->pairs[c * run->pairs_room + first], n, &there) ||
+            (b->reads && there > reached[c]))
+            return false;
+    return true;
+}
+
+/* The blocks of a part: those that are kept, and the one that is not full. */
+static void save_blocks(const struct ceduo_run *run, struct bytes *b)
+{
+    for (size_t i = 0; i < run->kept_count; i++)
+        pack_block(b, &run->kept_blocks[i], run->controls);
+    struct block tail = run->tail;
+    if (run->rocks % CEDUO_BLOCK_ROCKS != 0)
+        pack_block(b, &tail, run->controls);
+}
+
+enum ceduo_status ceduo_run_pack(const struct ceduo_run *run, struct bytes *b)
+{
+    struct ceduo_run from = *run; /* it is only read */
+    struct part_head head = head_of(run, run->first, run->rocks);
+    uint64_t *reached = calloc(run->controls + 1, sizeof *reached);
+    pack_head(b, &head);
+    save_blocks(run, b);
+    bool good = reached && (run->rocks == run->first ||
+                            pack_samples(&from, b, run->first, run->rocks, from.bins, reached));
+    free(reached);
+    return good && !b->no_memory ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
+enum ceduo_status ceduo_run_save(const struct ceduo_run *run, unsigned char **bytes, size_t *n)
+{
+    struct bytes b = {0};
+    enum ceduo_status status = ceduo_run_pack(run, &b);
+    if (status != CEDUO_OK)
+        free(b.to);
+    *bytes = status == CEDUO_OK ? b.to : NULL;
+    *n = b.length;
+    return status;
+}
+
+/* Reads the blocks of a part into `block`, one after the other. Merges them where `merges`; otherwise checks them and
+ * adds up what reached each control, and the stops. */
+static bool read_blocks(struct ceduo_run *run, struct bytes *b, const struct part_head *head, struct block *block,
+                        uint64_t *reached, bool merges)
+{
+    for (uint64_t at = head->first; at < head->end; at += CEDUO_BLOCK_ROCKS) {
+        uint64_t rocks = head->end - at < CEDUO_BLOCK_ROCKS ? head->end - at : CEDUO_BLOCK_ROCKS;
+        block_clear(block, run->controls);
+        pack_block(b, block, run->controls);
+        if (merges) {
+            block_merge(rocks == CEDUO_BLOCK_ROCKS ? &run->whole : &run->tail, block, run->controls);
+            continue;
+        }
+        if (b->bad || !good_block(run, block, rocks))
+            return false;
+        for (size_t c = 0; c < run->controls; c++)
+            reached[c] += block->controls[c].of[SPEED].n;
+        reached[run->controls] += block->stop_x.n;
+    }
+    return true;
+}
+
+static bool good_head(const struct ceduo_run *run, const struct part_head *h)
+{
+    struct part_head own = head_of(run, run->rocks, h->end);
+    bool whole_blocks = h->first % CEDUO_BLOCK_ROCKS == 0 && (h->end % CEDUO_BLOCK_ROCKS == 0 || h->end == h->rocks);
+    return memcmp(h, &own, sizeof own) == 0 && whole_blocks && h->end >= h->first && h->end <= h->rocks;
+}
+
+/* Everything is read and checked before the run is changed; samples behind its last rock are nobody's yet. */
+static enum ceduo_status adopt(struct ceduo_run *run, struct bytes *b, struct block *block, struct histogram *bins,
+                               uint64_t *reached)
+{
+    struct part_head head;
+    pack_head(b, &head);
+    if (b->bad || !good_head(run, &head))
+        return CEDUO_BAD_PART;
+    struct bytes blocks = *b;
+    bool good = read_blocks(run, b, &head, block, reached, false) &&
+                (head.end == head.first || pack_samples(run, b, head.first, head.end, bins, reached));
+    if (b->no_memory)
+        return CEDUO_NO_MEMORY;
+    if (!good || b->bad || ceduo_bytes_left(b) > 0)
+        return CEDUO_BAD_PART;
+    for (size_t i = 0; !run->exact && i < columns(run); i++)
+        if (!ceduo_histogram_merge(&run->bins[i], &bins[i]))
+            return CEDUO_NO_MEMORY;
+    read_blocks(run, &blocks, &head, block, reached, true);
+    run->rocks = head.end;
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_run_adopt(struct ceduo_run *run, const unsigned char *bytes, size_t n)
+{
+    bool fits = fits_exact(run, run->def.rocks_most);
+    if (run->def.part || run->def.cells > 0 || run->rocks % CEDUO_BLOCK_ROCKS != 0)
+        return CEDUO_BAD_PART;
+    if (run->exact && !(fits ? grow_samples(run, run->def.rocks_most) : bin_samples(run)))
+        return CEDUO_NO_MEMORY;
+    struct bytes b = {.reads = true, .from = bytes, .length = n};
+    struct block block;
+    struct histogram *bins = calloc(columns(run), sizeof *bins);
+    uint64_t *reached = calloc(run->controls + 1, sizeof *reached);
+    bool ready = block_init(&block, run->controls) && bins && reached;
+    enum ceduo_status status = ready ? adopt(run, &b, &block, bins, reached) : CEDUO_NO_MEMORY;
+    for (size_t i = 0; bins && i < columns(run); i++)
+        ceduo_histogram_clear(&bins[i]);
+    free(bins);
+    free(reached);
+    free(block.controls);
+    return status;
 }

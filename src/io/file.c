@@ -53,6 +53,93 @@ static int open_to_read(const char *path)
     return fd;
 }
 
+bool ceduo_file_take(const char *path, struct text *text, size_t most)
+{
+    bool standard = strcmp(path, "-") == 0;
+    int fd = standard ? STDIN_FILENO : open_to_read(path);
+    bool good = fd >= 0 && read_all(fd, text, most);
+    int why = errno;
+    if (fd >= 0 && !standard)
+        close(fd);
+    errno = why;
+    return good;
+}
+
+/* ---- the shelf ---- */
+
+static bool same(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+static const char *keep(struct arena *arena, const char *string)
+{
+    return string ? ceduo_arena_string(arena, string) : NULL;
+}
+
+bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside,
+                      const char *folder, const char *path)
+{
+    struct shelf_find *find = ceduo_arena_take(arena, sizeof *find);
+    if (!find)
+        return false;
+    *find = (struct shelf_find){.name = keep(arena, name),
+                                .beside = keep(arena, beside),
+                                .folder = keep(arena, folder),
+                                .path = keep(arena, path),
+                                .before = shelf->finds};
+    shelf->finds = find;
+    return !arena->failed;
+}
+
+bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length)
+{
+    struct shelf_file *file = ceduo_arena_take(arena, sizeof *file);
+    if (!file)
+        return false;
+    *file = (struct shelf_file){
+        .path = keep(arena, path), .bytes = bytes, .length = length, .before = shelf->files};
+    shelf->files = file;
+    return !arena->failed;
+}
+
+static const struct shelf_file *on_shelf(const struct shelf *shelf, const char *path)
+{
+    for (const struct shelf_file *f = shelf ? shelf->files : NULL; f; f = f->before)
+        if (strcmp(f->path, path) == 0)
+            return f;
+    return NULL;
+}
+
+/* Into the arena, and onto its shelf: a file that is used twice is read once. */
+static bool read_into(struct arena *arena, const char *path, size_t most, struct source *source)
+{
+    struct shelf *shelf = arena->shelf;
+    const struct shelf_file *known = on_shelf(shelf, path);
+    if (known && known->length > most) {
+        errno = EFBIG;
+        return false;
+    }
+    if (known) {
+        source->bytes = known->bytes;
+        source->length = known->length;
+        return true;
+    }
+    struct text text = {0};
+    errno = ENOENT;
+    bool good = !(shelf && shelf->closed) && ceduo_file_take(path, &text, most);
+    int why = errno;
+    if (good) {
+        source->length = text.length;
+        source->bytes = ceduo_arena_copy(arena, text.bytes ? text.bytes : "", text.length);
+        good = source->bytes && (!shelf || ceduo_shelf_file(arena, shelf, path, source->bytes, source->length));
+        why = ENOMEM;
+    }
+    ceduo_text_free(&text);
+    errno = why;
+    return good;
+}
+
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems)
 {
     bool standard = strcmp(path, "-") == 0;
@@ -63,21 +150,9 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
         return NULL;
     }
     *source = (struct source){.name = name};
-    int fd = standard ? STDIN_FILENO : open_to_read(path);
-    struct text text = {0};
-    bool good = fd >= 0 && read_all(fd, &text, most);
-    int why = errno;
-    if (fd >= 0 && !standard)
-        close(fd);
-    if (good) {
-        source->length = text.length;
-        source->bytes = ceduo_arena_copy(arena, text.bytes ? text.bytes : "", text.length);
-        good = source->bytes != NULL;
-        why = ENOMEM;
-    }
-    ceduo_text_free(&text);
-    if (good)
+    if (read_into(arena, path, most, source))
         return source;
+    int why = errno;
     if (why == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
     else
@@ -171,7 +246,7 @@ static const char *find_in(struct arena *arena, const char *root, const char *na
     return is_file(longer) ? longer : NULL;
 }
 
-const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
+static const char *find(struct arena *arena, const char *name, const char *beside, const char *folder)
 {
     if (name[0] == '/')
         return is_file(name) ? name : NULL;
@@ -184,6 +259,18 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
         if ((path = find_in(arena, folders[i], name, folder)))
             return path;
     return NULL;
+}
+
+const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
+{
+    struct shelf *shelf = arena->shelf;
+    if (!shelf)
+        return find(arena, name, beside, folder);
+    for (const struct shelf_find *f = shelf->finds; f; f = f->before)
+        if (strcmp(f->name, name) == 0 && same(f->beside, beside) && same(f->folder, folder))
+            return f->path;
+    const char *path = shelf->closed ? NULL : find(arena, name, beside, folder);
+    return path && ceduo_shelf_find(arena, shelf, name, beside, folder, path) ? path : NULL;
 }
 
 static int by_name(const void *a, const void *b)

@@ -664,7 +664,13 @@ static bool read_source(struct scene_file *file, const struct source *source, co
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems)
 {
-    *file = (struct scene_file){.path = path};
+    return ceduo_scene_read_by(file, NULL, path, sets, sets_count, problems);
+}
+
+bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const char *path, const char *const *sets,
+                         size_t sets_count, struct problems *problems)
+{
+    *file = (struct scene_file){.path = path, .arena = {.shelf = shelf}};
     const struct source *source = ceduo_file_read(&file->arena, scene_path(file, path), YAML_BYTES_MOST, problems);
     return source && read_source(file, source, sets, sets_count, problems);
 }

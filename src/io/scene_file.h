@@ -22,6 +22,10 @@ struct scene_file {
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems);
+/* The same by way of a shelf (see file.h), which must outlive the scene; NULL: as above. What stands on it already must
+ * live elsewhere. */
+bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const char *path, const char *const *sets,
+                         size_t sets_count, struct problems *problems);
 /* The same from text in memory. */
 bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);

@@ -1,0 +1,415 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "part_file.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ceduo/key.h"
+#include "ceduo/part.h"
+#include "ceduo/version.h"
+#include "core/bytes.h"
+#include "json.h"
+
+/* ---- base64 ---- */
+
+static const char letters[65] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+static void put_base64(struct text *out, const unsigned char *bytes, size_t n)
+{
+    char four[4096];
+    size_t filled = 0;
+    for (size_t i = 0; i < n; i += 3) {
+        uint32_t group = (uint32_t)bytes[i] << 16;
+        group |= i + 1 < n ? (uint32_t)bytes[i + 1] << 8 : 0;
+        group |= i + 2 < n ? bytes[i + 2] : 0;
+        four[filled++] = letters[group >> 18];
+        four[filled++] = letters[group >> 12 & 63];
+        four[filled++] = i + 1 < n ? letters[group >> 6 & 63] : '=';
+        four[filled++] = i + 2 < n ? letters[group & 63] : '=';
+        if (filled == sizeof four || i + 3 >= n) {
+            ceduo_text_add(out, four, filled);
+            filled = 0;
+        }
+    }
+}
+
+/* In place; false where it is none. */
+static bool take_base64(char *text, size_t n, size_t *length)
+{
+    static const char pad = '=';
+    unsigned char value[256];
+    memset(value, 64, sizeof value);
+    for (unsigned i = 0; i < 64; i++)
+        value[(unsigned char)letters[i]] = (unsigned char)i;
+    *length = 0;
+    if (n % 4 != 0)
+        return false;
+    size_t last = n > 0 ? (size_t)(text[n - 1] == pad) + (size_t)(text[n - 1] == pad && text[n - 2] == pad) : 0;
+    unsigned char *to = (unsigned char *)text;
+    for (size_t i = 0; i < n; i += 4) {
+        size_t missing = i + 4 == n ? last : 0;
+        uint32_t group = 0;
+        for (size_t k = 0; k < 4 - missing; k++) {
+            unsigned char v = value[(unsigned char)text[i + k]];
+            if (v > 63)
+                return false;
+            group |= (uint32_t)v << (18 - 6 * k);
+        }
+        for (size_t k = 0; k < 3 - missing; k++)
+            to[(*length)++] = (unsigned char)(group >> (16 - 8 * k));
+    }
+    return true;
+}
+
+/* ---- the line ---- */
+
+#define START  "{\"format\": \"ceduo-part-"
+#define FORMAT "1"
+#define SUM    ", \"sum\": \""
+#define SUM_LENGTH (sizeof SUM - 1 + 16 + 2) /* with 16 digits, a quote and a brace */
+
+void ceduo_part_write(struct text *out, const struct part *part)
+{
+    struct json json = {.text = out}, *j = &json;
+    size_t start = out->length;
+    char key[17];
+    snprintf(key, sizeof key, "%016" PRIx64, part->key);
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "format", "ceduo-part-" FORMAT);
+    ceduo_json_string(j, "version", CEDUO_VERSION);
+    ceduo_json_string(j, "scene", part->scene);
+    ceduo_json_count(j, "place", part->place);
+    ceduo_json_count(j, "shard", part->shard);
+    ceduo_json_count(j, "shards", part->shards);
+    ceduo_json_count(j, "rocks", part->rocks);
+    ceduo_json_number(j, "seconds", part->seconds);
+    ceduo_json_string(j, "hash", key);
+    ceduo_text_put(out, ", \"inputs\": \"");
+    put_base64(out, part->inputs, part->inputs_length);
+    ceduo_text_put(out, "\", \"runs\": \"");
+    put_base64(out, part->runs, part->runs_length);
+    ceduo_text_char(out, '"');
+    if (out->failed)
+        return;
+    uint64_t sum = ceduo_bytes_sum(out->bytes + start, out->length - start);
+    ceduo_text_format(out, SUM "%016" PRIx64 "\"}\n", sum);
+}
+
+/* What is still to be read of a line. */
+struct cursor {
+    char *at, *end;
+};
+
+static bool take(struct cursor *c, const char *word)
+{
+    size_t n = strlen(word);
+    if ((size_t)(c->end - c->at) < n || memcmp(c->at, word, n) != 0)
+        return false;
+    c->at += n;
+    return true;
+}
+
+static bool take_hex(struct cursor *c, size_t digits, uint64_t *value)
+{
+    *value = 0;
+    for (size_t i = 0; i < digits; i++, c->at++) {
+        const char *hex = "0123456789abcdef", *p = c->at < c->end && *c->at ? strchr(hex, *c->at) : NULL;
+        if (!p)
+            return false;
+        *value = *value << 4 | (uint64_t)(p - hex);
+    }
+    return true;
+}
+
+static bool take_count(struct cursor *c, const char *name, double lo, double hi, uint64_t *value)
+{
+    char digits[24];
+    size_t n = 0;
+    if (!take(c, name))
+        return false;
+    while (c->at < c->end && *c->at >= '0' && *c->at <= '9' && n + 1 < sizeof digits)
+        digits[n++] = *c->at++;
+    digits[n] = '\0';
+    return n > 0 && ceduo_count_read(digits, lo, hi, value) == CEDUO_NUMBER_GOOD;
+}
+
+static bool take_seconds(struct cursor *c, double *value)
+{
+    char digits[CEDUO_NUMBER_ROOM];
+    size_t n = 0;
+    while (c->at < c->end && *c->at != ',' && *c->at && n + 1 < sizeof digits)
+        digits[n++] = *c->at++;
+    digits[n] = '\0';
+    return ceduo_number_read(digits, value) == CEDUO_NUMBER_GOOD && *value >= 0;
+}
+
+static void put_utf8(struct text *text, uint32_t code)
+{
+    if (code < 0x80) {
+        ceduo_text_char(text, (char)code);
+        return;
+    }
+    if (code >= 0x800) {
+        ceduo_text_char(text, (char)(0xe0 | code >> 12));
+        ceduo_text_char(text, (char)(0x80 | (code >> 6 & 0x3f)));
+    } else {
+        ceduo_text_char(text, (char)(0xc0 | code >> 6));
+    }
+    ceduo_text_char(text, (char)(0x80 | (code & 0x3f)));
+}
+
+/* A string after its quote, with the escapes that json.c writes. */
+static char *take_string(struct arena *arena, struct cursor *c)
+{
+    struct text text = {0};
+    bool good = true;
+    uint64_t code;
+    while (good && c->at < c->end && *c->at != '"') {
+        if (*c->at != '\\') {
+            ceduo_text_char(&text, *c->at++);
+            continue;
+        }
+        c->at++;
+        if (take(c, "u")) {
+            good = take_hex(c, 4, &code) && code > 0;
+            put_utf8(&text, (uint32_t)code);
+        } else if (c->at < c->end) {
+            ceduo_text_char(&text, *c->at++);
+        }
+    }
+    good = good && take(c, "\"") && !text.failed;
+    char *string = good ? ceduo_arena_string(arena, text.bytes ? text.bytes : "") : NULL;
+    ceduo_text_free(&text);
+    return string;
+}
+
+static bool take_data(struct cursor *c, const char *name, const unsigned char **bytes, size_t *n)
+{
+    if (!take(c, name))
+        return false;
+    char *from = c->at, *quote = memchr(from, '"', (size_t)(c->end - from));
+    if (!quote)
+        return false;
+    c->at = quote + 1;
+    *bytes = (const unsigned char *)from;
+    return take_base64(from, (size_t)(quote - from), n);
+}
+
+/* Whether the line ends in the sum of what stands before. Sets its end to before the sum. */
+static enum part_fault check_sum(struct cursor *c)
+{
+    size_t n = (size_t)(c->end - c->at);
+    if (n < SUM_LENGTH || memcmp(c->end - 2, "\"}", 2) != 0)
+        return PART_CUT;
+    struct cursor tail = {c->end - SUM_LENGTH, c->end};
+    uint64_t sum;
+    if (!take(&tail, SUM) || !take_hex(&tail, 16, &sum) || sum != ceduo_bytes_sum(c->at, n - SUM_LENGTH))
+        return PART_CHANGED;
+    c->end -= SUM_LENGTH;
+    return PART_GOOD;
+}
+
+enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *line, size_t n)
+{
+    struct cursor c = {line, line + n};
+    if (!take(&c, START)) /* a beginning of it alone is a part that was cut */
+        return n > 0 && n < sizeof START - 1 && memcmp(line, START, n) == 0 ? PART_CUT : PART_NONE;
+    if (c.at < c.end && !take(&c, FORMAT "\", \"version\": \""))
+        return (size_t)(c.end - c.at) > 1 && memcmp(c.at, FORMAT "\"", 2) != 0 ? PART_FORMAT : PART_CUT;
+    struct cursor whole = {line, line + n};
+    enum part_fault fault = check_sum(&whole);
+    if (fault != PART_GOOD)
+        return fault;
+    c.end = whole.end;
+    char *version = take_string(arena, &c);
+    if (!version)
+        return arena->failed ? PART_MEMORY : PART_CHANGED;
+    part->scene = version;
+    if (strcmp(version, CEDUO_VERSION) != 0)
+        return PART_VERSION;
+    part->scene = take(&c, ", \"scene\": \"") ? take_string(arena, &c) : NULL;
+    if (!part->scene)
+        return arena->failed ? PART_MEMORY : PART_CHANGED;
+    bool good = take_count(&c, ", \"place\": ", 1, 1e9, &part->place) &&
+                take_count(&c, ", \"shard\": ", 1, SHARDS_MOST, &part->shard) &&
+                take_count(&c, ", \"shards\": ", (double)part->shard, SHARDS_MOST, &part->shards) &&
+                take_count(&c, ", \"rocks\": ", 1, CEDUO_ROCKS_MOST, &part->rocks) && take(&c, ", \"seconds\": ") &&
+                take_seconds(&c, &part->seconds) && take(&c, ", \"hash\": \"") && take_hex(&c, 16, &part->key) &&
+                take_data(&c, "\", \"inputs\": \"", &part->inputs, &part->inputs_length) &&
+                take_data(&c, ", \"runs\": \"", &part->runs, &part->runs_length) && c.at == c.end;
+    return good ? PART_GOOD : PART_CHANGED;
+}
+
+/* ---- the key ---- */
+
+static void add_count(struct text *text, uint64_t value)
+{
+    char bytes[8];
+    for (int i = 0; i < 8; i++)
+        bytes[i] = (char)(value >> (8 * i) & 0xff);
+    ceduo_text_add(text, bytes, sizeof bytes);
+}
+
+static void add_string(struct text *text, const char *string)
+{
+    add_count(text, string ? strlen(string) : UINT64_MAX);
+    ceduo_text_put(text, string ? string : "");
+}
+
+static void add_node(struct text *text, const struct node *node)
+{
+    add_count(text, (uint64_t)node->kind << 1 | node->quoted);
+    add_string(text, node->key);
+    add_string(text, node->text);
+    add_count(text, node->n);
+    for (size_t i = 0; i < node->n; i++)
+        add_node(text, node->items[i]);
+}
+
+static void add_number(struct text *text, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    add_count(text, bits);
+}
+
+uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks)
+{
+    const struct ceduo_scene *scene = &file->scene;
+    struct text text = {0};
+    add_count(&text, rocks);
+    add_string(&text, scene->title);
+    add_number(&text, scene->slope.origin_x);
+    add_number(&text, scene->slope.origin_z);
+    add_count(&text, ceduo_scene_key(scene));
+    for (size_t i = 0; i < scene->options_count; i++)
+        add_count(&text, ceduo_option_key(&scene->simulation, &scene->options[i]));
+    add_node(&text, file->root);
+    uint64_t key = text.bytes ? ceduo_bytes_sum(text.bytes, text.length) : 0;
+    ceduo_text_free(&text);
+    return key;
+}
+
+/* ---- inputs ---- */
+
+static void pack_string(struct bytes *b, const char *string, size_t n)
+{
+    uint64_t length = string ? n : UINT64_MAX;
+    ceduo_bytes_count(b, &length);
+    unsigned char *to = string ? ceduo_bytes_write(b, n) : NULL;
+    if (to && n > 0)
+        memcpy(to, string, n);
+}
+
+static void pack_word(struct bytes *b, const char *word)
+{
+    pack_string(b, word, word ? strlen(word) : 0);
+}
+
+static void pack_words(struct bytes *b, const char *const *words, size_t n)
+{
+    uint64_t count = n;
+    ceduo_bytes_count(b, &count);
+    for (size_t i = 0; i < n; i++)
+        pack_word(b, words[i]);
+}
+
+unsigned char *ceduo_part_inputs(const struct part_inputs *in, size_t *n)
+{
+    struct bytes b = {0};
+    uint64_t finds = 0, files = 0;
+    pack_word(&b, in->path);
+    pack_words(&b, in->sets, in->sets_count);
+    pack_words(&b, in->options, in->options_count);
+    for (const struct shelf_find *f = in->shelf.finds; f; f = f->before)
+        finds++;
+    ceduo_bytes_count(&b, &finds);
+    for (const struct shelf_find *f = in->shelf.finds; f; f = f->before) {
+        const char *const words[] = {f->name, f->beside, f->folder, f->path};
+        pack_words(&b, words, 4);
+    }
+    for (const struct shelf_file *f = in->shelf.files; f; f = f->before)
+        files++;
+    ceduo_bytes_count(&b, &files);
+    for (const struct shelf_file *f = in->shelf.files; f; f = f->before) {
+        pack_word(&b, f->path);
+        pack_string(&b, f->bytes, f->length);
+    }
+    *n = b.length;
+    if (!b.no_memory)
+        return b.to;
+    free(b.to);
+    return NULL;
+}
+
+/* NULL: none was written, or it is not there (b->bad). The bytes of a word have no NUL. */
+static const char *unpack_word(struct arena *arena, struct bytes *b)
+{
+    uint64_t length;
+    ceduo_bytes_count(b, &length);
+    if (length == UINT64_MAX || b->bad)
+        return NULL;
+    b->bad |= length > ceduo_bytes_left(b);
+    const unsigned char *from = b->bad ? NULL : ceduo_bytes_read(b, (size_t)length);
+    b->bad |= from && memchr(from, '\0', (size_t)length) != NULL;
+    return b->bad ? NULL : ceduo_arena_copy(arena, (const char *)from, (size_t)length);
+}
+
+/* Words that must all be there. */
+static const char **unpack_words(struct arena *arena, struct bytes *b, size_t *n)
+{
+    uint64_t count;
+    ceduo_bytes_count(b, &count);
+    *n = 0;
+    b->bad |= count > ceduo_bytes_left(b) / 8;
+    const char **words = b->bad ? NULL : ceduo_arena_take(arena, ((size_t)count + 1) * sizeof *words);
+    for (uint64_t i = 0; words && i < count && !b->bad; i++) {
+        words[i] = unpack_word(arena, b);
+        b->bad |= !words[i];
+        *n = (size_t)i + 1;
+    }
+    return words;
+}
+
+static void unpack_find(struct arena *arena, struct bytes *b, struct shelf *shelf)
+{
+    uint64_t four;
+    ceduo_bytes_count(b, &four);
+    b->bad |= four != 4;
+    const char *words[4];
+    for (size_t i = 0; i < 4; i++)
+        words[i] = unpack_word(arena, b);
+    b->bad |= !words[0] || !words[3] || !ceduo_shelf_find(arena, shelf, words[0], words[1], words[2], words[3]);
+}
+
+static void unpack_file(struct arena *arena, struct bytes *b, struct shelf *shelf)
+{
+    const char *path = unpack_word(arena, b);
+    uint64_t length;
+    ceduo_bytes_count(b, &length);
+    b->bad |= !path || length > ceduo_bytes_left(b);
+    const unsigned char *from = b->bad ? NULL : ceduo_bytes_read(b, (size_t)length);
+    /* readers of text want a NUL behind it */
+    const char *copy = from ? ceduo_arena_copy(arena, (const char *)from, (size_t)length) : NULL;
+    b->bad |= !copy || !ceduo_shelf_file(arena, shelf, path, copy, (size_t)length);
+}
+
+bool ceduo_part_inputs_read(struct arena *arena, struct part_inputs *in, const unsigned char *bytes, size_t n)
+{
+    struct bytes b = {.reads = true, .from = bytes, .length = n};
+    uint64_t count;
+    *in = (struct part_inputs){.path = unpack_word(arena, &b)};
+    in->sets = unpack_words(arena, &b, &in->sets_count);
+    in->options = unpack_words(arena, &b, &in->options_count);
+    ceduo_bytes_count(&b, &count);
+    for (uint64_t i = 0; i < count && !b.bad; i++)
+        unpack_find(arena, &b, &in->shelf);
+    ceduo_bytes_count(&b, &count);
+    for (uint64_t i = 0; i < count && !b.bad; i++)
+        unpack_file(arena, &b, &in->shelf);
+    in->shelf.closed = true;
+    return in->path && !b.bad && !arena->failed && ceduo_bytes_left(&b) == 0;
+}
