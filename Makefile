@@ -71,7 +71,7 @@ $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR='"$(DATADIR)"'
 # ---- a fresh machine ----
 
 DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux zsh \
-	locales
+	locales parallel
 
 deps:
 	@missing=; for p in $(DEBIAN); do \
@@ -192,6 +192,7 @@ install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 	for k in scenes slopes stands; do \
 	    install -d $(DESTDIR)$(DATADIR)/$$k && install -m 644 profiles/$$k/*.yaml $(DESTDIR)$(DATADIR)/$$k/ || exit 1; \
 	done
+	install -d $(DESTDIR)$(DATADIR)/jobs && install -m 644 profiles/jobs/*.sbatch $(DESTDIR)$(DATADIR)/jobs/
 	for p in $(PAGES); do install -m 644 $$p $(DESTDIR)$(MANDIR)/man$${p##*.}/ || exit 1; done
 
 uninstall:

@@ -44,6 +44,7 @@ def test_install():
         expect({"bin/ceduo", "share/man/man1/ceduo.1", "share/man/man7/ceduo-model.7", "share/ceduo/scenes/paper-site.yaml",
                 "share/bash-completion/completions/ceduo", "share/zsh/site-functions/_ceduo"} <= names, names)
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").glob("*.[157]")]
+        shipped += (ROOT / "profiles/jobs").iterdir()
         expect_equal(len(names), len(shipped) + 3, "files installed")
         for name in names:
             expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)
