@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,27 +16,39 @@
 
 /* ---- reading ---- */
 
-static bool read_all(int fd, struct text *into, size_t most)
+#define ROOM_FIRST ((size_t)64 * 1024)
+
+/* What a file holds, straight into the arena: a large one is in memory once. `size` is what the file says of itself; a
+ * device or pipe says nothing. */
+static bool read_all(int fd, struct arena *arena, size_t size, size_t most, struct source *into)
 {
-    char part[65536];
-    for (;;) {
-        ssize_t n = read(fd, part, sizeof part);
-        if (n < 0 && errno == EINTR)
+    size_t room = size > 0 ? size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
+    char *bytes = ceduo_arena_take(arena, room + 1);
+    while (bytes) {
+        ssize_t got = read(fd, bytes + n, room - n);
+        if (got < 0 && errno == EINTR)
             continue;
-        if (n < 0)
+        if (got < 0)
             return false;
-        if (n == 0)
+        n += (size_t)got;
+        into->bytes = bytes;
+        into->length = n;
+        if (got == 0)
             return true;
-        ceduo_text_add(into, part, (size_t)n);
-        if (into->failed) {
-            errno = ENOMEM;
-            return false;
-        }
-        if (into->length > most) {
+        if (n > most) {
             errno = EFBIG;
             return false;
         }
+        if (n < room)
+            continue;
+        room *= 2;
+        char *more = ceduo_arena_take(arena, room + 1);
+        if (more)
+            memcpy(more, bytes, n);
+        bytes = more;
     }
+    errno = ENOMEM;
+    return false;
 }
 
 /* Does not wait for somebody to open the other end of a FIFO; waits for what a writer that is there has to say. */
@@ -64,21 +77,22 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     }
     *source = (struct source){.name = name};
     int fd = standard ? STDIN_FILENO : open_to_read(path);
-    struct text text = {0};
-    bool good = fd >= 0 && read_all(fd, &text, most);
+    struct stat st;
+    bool sized = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && st.st_size > 0;
+    bool good = fd >= 0;
+    if (sized && (uintmax_t)st.st_size > most) {
+        errno = EFBIG; /* told without reading it */
+        good = false;
+    }
+    good = good && read_all(fd, arena, sized ? (size_t)st.st_size : 0, most, source);
     int why = errno;
     if (fd >= 0 && !standard)
         close(fd);
-    if (good) {
-        source->length = text.length;
-        source->bytes = ceduo_arena_copy(arena, text.bytes ? text.bytes : "", text.length);
-        good = source->bytes != NULL;
-        why = ENOMEM;
-    }
-    ceduo_text_free(&text);
     if (good)
         return source;
-    if (why == EFBIG)
+    if (why == ENOMEM)
+        ceduo_problem_memory(problems);
+    else if (why == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
     else
         ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"), strerror(why));
