@@ -5,7 +5,8 @@
 #   make deps       installs what Debian lacks    make check-all  sanitizers, valgrind, tmux: slow
 #   make run        the paper's site as a page    make bench      speed, against a plain C loop
 #   make install    PREFIX, DESTDIR; uninstall    make stress     ten million random scenes: slow
-#   make dist       the sources, in one archive   VARIANT=release|debug|asan|tsan|cov
+#   make dist       the sources, in one archive   VARIANT=release|debug|asan|tsan|cov|fuzz
+#   make fuzz       libFuzzer, FUZZ_SECONDS=600 for each reader
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -27,6 +28,7 @@ OPTIMISE_debug := -O0 -g
 OPTIMISE_asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPTIMISE_tsan := -O1 -g -fsanitize=thread
 OPTIMISE_cov := -O0 -g --coverage
+OPTIMISE_fuzz := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: a fused multiply-add would give other bits on other machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
@@ -83,7 +85,7 @@ deps:
 
 # With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
 # asked for, and do their work in a make of their own.
-GOALS := run check check-all bench stress
+GOALS := run check check-all bench stress fuzz
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -106,7 +108,8 @@ SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c 
 do-check: all
 	@rm -rf $(TAPS)
 	@+$(MAKE) --no-print-directory -j$(CORES) $(TAPS)
-	@tests/summary $(TAPS)
+	@+$(MAKE) --no-print-directory -j$(CORES) VARIANT=asan do-replay
+	@tests/summary $(TAPS) $(REPLAYS:%=build/asan/tests/fuzz/%.tap)
 
 $(UNIT): $(T)/%: $(BUILD)/tests/%.o $(SUPPORT) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
@@ -121,6 +124,45 @@ $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
 $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:
 
+# Readers and keys on input of any bytes. Within `make check` the seeds and so many changes of them, always the same; by
+# `make fuzz` what libFuzzer makes of them.
+FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
+REPLAYS := $(FUZZERS:%=replay_%)
+CHANGES_scene := 8000
+CHANGES_csv := 60000
+CHANGES_set := 3000
+CHANGES_keys := 600
+SEEDS_scene := $(wildcard profiles/scenes/*.yaml)
+$(REPLAYS:%=$(T)/fuzz/%): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/replay.o $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(REPLAYS:%=do-%): do-replay_%: $(T)/fuzz/replay_%
+	@printf '#!/bin/sh\nexec $(CURDIR)/$< $* $(CHANGES_$*) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)\n' >$<.sh
+	@chmod +x $<.sh
+	@rm -f $<.tap
+	@tests/run $<.tap $<.sh
+
+do-replay: $(REPLAYS:%=do-%)
+
+$(FUZZERS:%=$(T)/fuzz/%): $(T)/fuzz/%: $(BUILD)/tests/fuzz/fuzz_%.o $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -fsanitize=fuzzer -o $@ $^ $(LIBS)
+
+FUZZ_SECONDS ?= 600
+FUZZ_OPTIONS = -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1000 -max_len=8192 -print_final_stats=1 \
+	-dict=tests/fuzz/words.dict -artifact_prefix=$(T)/fuzz/
+$(FUZZERS:%=do-fuzz_%): do-fuzz_%: $(T)/fuzz/%
+	@mkdir -p $(T)/fuzz/corpus/$*
+	$< $(FUZZ_OPTIONS) $(CURDIR)/$(T)/fuzz/corpus/$* $(addprefix $(CURDIR)/,tests/fuzz/seeds/$* $(if $(SEEDS_$*),profiles/scenes)) \
+	    2>$<.log || { tail -40 $<.log; exit 1; }
+	@grep 'stat::number_of_executed_units\|cov:' $<.log | tail -2
+
+do-fuzz:
+	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_FUZZ)" deps
+	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz $(FUZZERS:%=do-fuzz_%)
+
+DEBIAN_FUZZ := clang libclang-rt-dev
 DEBIAN_ALL := clang valgrind
 DEBIAN_BENCH := python3-numpy gnuplot-nox
 do-check-all: do-check
@@ -215,5 +257,5 @@ dist:
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-check-threads do-check-memory man install uninstall dist clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory man install uninstall dist clean
 .DELETE_ON_ERROR:

@@ -168,7 +168,7 @@ static void read_row(const struct source *s, const struct columns *c, struct spa
 
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems)
 {
-    size_t before = problems->count;
+    size_t before = problems->met;
     const struct source *s = ceduo_file_read(arena, path, CSV_BYTES_MOST, problems);
     if (!s)
         return false;
@@ -190,5 +190,5 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *
     for (size_t number = 2; next_line(s, &at, &line); number++)
         if (!is_blank(line))
             read_row(s, &columns, line, number, points, problems);
-    return problems->count == before;
+    return problems->met == before;
 }

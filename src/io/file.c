@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,42 @@
 
 /* ---- reading ---- */
 
-static bool read_all(int fd, struct text *into, size_t most)
+#define ROOM_FIRST ((size_t)64 * 1024)
+
+/* What a file holds, straight into the arena: a large one is in memory once. `size` is what the file says of itself; a
+ * device or pipe says nothing. */
+static bool read_all(int fd, struct arena *arena, size_t size, size_t most, struct source *into)
+{
+    size_t room = size > 0 ? size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
+    char *bytes = ceduo_arena_take(arena, room + 1);
+    while (bytes) {
+        ssize_t got = read(fd, bytes + n, room - n);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return false;
+        n += (size_t)got;
+        into->bytes = bytes;
+        into->length = n;
+        if (got == 0)
+            return true;
+        if (n > most) {
+            errno = EFBIG;
+            return false;
+        }
+        if (n < room)
+            continue;
+        room *= 2;
+        char *more = ceduo_arena_take(arena, room + 1);
+        if (more)
+            memcpy(more, bytes, n);
+        bytes = more;
+    }
+    errno = ENOMEM;
+    return false;
+}
+
+static bool read_text(int fd, struct text *into, size_t most)
 {
     char part[65536];
     for (;;) {
@@ -53,11 +89,30 @@ static int open_to_read(const char *path)
     return fd;
 }
 
+static bool read_file(struct arena *arena, const char *path, size_t most, struct source *source)
+{
+    bool standard = strcmp(path, "-") == 0;
+    int fd = standard ? STDIN_FILENO : open_to_read(path);
+    struct stat st;
+    bool sized = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && st.st_size > 0;
+    bool good = fd >= 0;
+    if (sized && (uintmax_t)st.st_size > most) {
+        errno = EFBIG; /* told without reading it */
+        good = false;
+    }
+    good = good && read_all(fd, arena, sized ? (size_t)st.st_size : 0, most, source);
+    int why = errno;
+    if (fd >= 0 && !standard)
+        close(fd);
+    errno = why;
+    return good;
+}
+
 bool ceduo_file_take(const char *path, struct text *text, size_t most)
 {
     bool standard = strcmp(path, "-") == 0;
     int fd = standard ? STDIN_FILENO : open_to_read(path);
-    bool good = fd >= 0 && read_all(fd, text, most);
+    bool good = fd >= 0 && read_text(fd, text, most);
     int why = errno;
     if (fd >= 0 && !standard)
         close(fd);
@@ -125,17 +180,13 @@ static bool read_into(struct arena *arena, const char *path, size_t most, struct
         source->length = known->length;
         return true;
     }
-    struct text text = {0};
     errno = ENOENT;
-    bool good = !(shelf && shelf->closed) && ceduo_file_take(path, &text, most);
+    bool good = !(shelf && shelf->closed) && read_file(arena, path, most, source);
     int why = errno;
-    if (good) {
-        source->length = text.length;
-        source->bytes = ceduo_arena_copy(arena, text.bytes ? text.bytes : "", text.length);
-        good = source->bytes && (!shelf || ceduo_shelf_file(arena, shelf, path, source->bytes, source->length));
+    if (good && shelf && !ceduo_shelf_file(arena, shelf, path, source->bytes, source->length)) {
+        good = false;
         why = ENOMEM;
     }
-    ceduo_text_free(&text);
     errno = why;
     return good;
 }
@@ -153,7 +204,9 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     if (read_into(arena, path, most, source))
         return source;
     int why = errno;
-    if (why == EFBIG)
+    if (why == ENOMEM)
+        ceduo_problem_memory(problems);
+    else if (why == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
     else
         ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"), strerror(why));

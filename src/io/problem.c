@@ -5,7 +5,10 @@
 
 #include "intl.h"
 
-#define LINE_MOST 100 /* columns of the source line that are shown */
+#define LINE_MOST    100 /* columns of the source line that are shown */
+#define MESSAGE_MOST 1000 /* bytes: known keys take some hundred */
+#define TAIL         200
+#define COUNTED      1000
 
 /* Byte range of line number `line` (from 1). */
 static bool find_line(const struct source *s, size_t line, size_t *from, size_t *to)
@@ -62,31 +65,75 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     ceduo_text_free(&caret);
 }
 
+/* A message may quote a word of a megabyte: its middle is left out, so that the mend at its end stays. */
+static void put_message(struct text *out, const char *message)
+{
+    size_t n = strlen(message), head = MESSAGE_MOST - TAIL, tail = n - TAIL;
+    if (n <= MESSAGE_MOST) {
+        ceduo_text_safe_n(out, message, n);
+        return;
+    }
+    while (head > 0 && ((unsigned char)message[head] & 0xc0) == 0x80)
+        head--;
+    while (tail < n && ((unsigned char)message[tail] & 0xc0) == 0x80)
+        tail++;
+    ceduo_text_safe_n(out, message, head);
+    ceduo_text_put(out, "\xe2\x80\xa6");
+    ceduo_text_safe_n(out, message + tail, n - tail);
+}
+
+/* Place and message: the same for a fault that is met twice. FNV-1a. */
+static uint64_t hash_of(const struct text *text)
+{
+    uint64_t hash = 0xcbf29ce484222325;
+    for (size_t i = 0; i < text->length; i++)
+        hash = (hash ^ (unsigned char)text->bytes[i]) * 0x100000001b3;
+    return hash;
+}
+
+/* A file that is used in two places has its faults once. */
+static bool is_known(const struct problems *problems, uint64_t hash)
+{
+    for (size_t i = 0; i < problems->count && i < CEDUO_PROBLEMS_MOST; i++)
+        if (problems->shown[i] == hash)
+            return true;
+    return false;
+}
+
 void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
                    const char *format, ...)
 {
     problems->usage |= source && source->is_option;
-    struct text message = {0};
+    problems->met++;
+    if (problems->count >= COUNTED) { /* whether it is known matters no more; a million of them take no time */
+        problems->count++;
+        return;
+    }
+    struct text message = {0}, one = {0};
     va_list args;
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    struct text one = {0}, *out = &one;
     if (source) {
-        ceduo_text_safe(out, source->name);
+        ceduo_text_safe(&one, source->name);
         if (line > 0)
-            ceduo_text_format(out, ":%zu:%zu", line, column);
-        ceduo_text_put(out, ": ");
+            ceduo_text_format(&one, ":%zu:%zu", line, column);
+        ceduo_text_put(&one, ": ");
     }
     if (message.bytes)
-        ceduo_text_safe(out, message.bytes);
-    ceduo_text_char(out, '\n');
-    if (source && line > 0)
-        show_line(out, source, line, column);
-    /* a file that is used in two places has its faults once */
-    bool known = one.bytes && problems->text.bytes && strstr(problems->text.bytes, one.bytes);
-    if (!known && problems->count++ < CEDUO_PROBLEMS_MOST && one.bytes)
-        ceduo_text_add(&problems->text, one.bytes, one.length);
+        put_message(&one, message.bytes);
+    ceduo_text_char(&one, '\n');
+    uint64_t hash = hash_of(&one);
+    if (!is_known(problems, hash)) {
+        if (problems->count < CEDUO_PROBLEMS_MOST) { /* of a million only these look for their line */
+            if (source && line > 0)
+                show_line(&one, source, line, column);
+            problems->shown[problems->count] = hash;
+            if (one.bytes)
+                ceduo_text_add(&problems->text, one.bytes, one.length);
+        }
+        problems->count++;
+    }
     problems->memory |= message.failed || one.failed || problems->text.failed;
     ceduo_text_free(&one);
     ceduo_text_free(&message);

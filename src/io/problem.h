@@ -19,6 +19,8 @@ struct source {
 struct problems {
     struct text text;
     size_t count;
+    size_t met;  /* with those that were known already: whether a step went well */
+    uint64_t shown[CEDUO_PROBLEMS_MOST]; /* hashes of those printed in full */
     bool usage;  /* at least one is about the command line */
     bool memory; /* memory ran out: the list may lack some */
 };

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "resolve.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -9,6 +10,21 @@
 #include "intl.h"
 
 #define BASES_MOST 8
+#define FILES_MOST 1000
+
+/* A file that was read before. A stand that a thousand belts name is read once. */
+struct known_file {
+    const char *path;
+    const struct node *root; /* NULL: what is wrong with it was said */
+    const struct known_file *before;
+};
+
+struct resolver {
+    struct arena *arena;
+    struct problems *problems;
+    const struct known_file *files;
+    size_t files_count;
+};
 
 /* ---- files ---- */
 
@@ -59,8 +75,7 @@ static const struct node *csv_map(struct arena *arena, const struct node *node)
     return filled ? in_place_of(arena, filled, node) : NULL;
 }
 
-static const struct node *follow(struct arena *arena, const struct object *object, const struct node *node, int depth,
-                                 struct problems *problems);
+static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
 /* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
 static const struct node *merge(struct arena *arena, const struct node *base, const struct node *over)
@@ -77,29 +92,25 @@ static const struct node *merge(struct arena *arena, const struct node *base, co
     return merged;
 }
 
-static const struct node *merge_base(struct arena *arena, const struct object *object, const struct node *node,
-                                     int depth, struct problems *problems)
+static const struct node *merge_base(struct resolver *r, const struct object *object, const struct node *node,
+                                     int depth)
 {
     const struct node *base = ceduo_node_get(node, "base");
     if (!base || object != ceduo_schema_stand())
         return node;
     if (base->kind != NODE_SCALAR) {
-        ceduo_node_problem(problems, base, "base", _("a path to a file is wanted"));
+        ceduo_node_problem(r->problems, base, "base", _("a path to a file is wanted"));
         return NULL;
     }
-    const struct node *below = follow(arena, object, base, depth + 1, problems);
+    const struct node *below = follow(r, object, base, depth + 1);
     if (!below)
         return NULL;
     if (below->kind != NODE_MAP)
         return below;
-    const struct node *merged = merge(arena, below, node);
-    if (!merged) {
-        ceduo_problem_memory(problems);
-        return NULL;
-    }
-    struct node *copy = ceduo_arena_take(arena, sizeof *copy);
+    const struct node *merged = merge(r->arena, below, node);
+    struct node *copy = merged ? ceduo_arena_take(r->arena, sizeof *copy) : NULL;
     if (!copy) {
-        ceduo_problem_memory(problems);
+        ceduo_problem_memory(r->problems);
         return NULL;
     }
     *copy = *merged;
@@ -114,75 +125,116 @@ static const struct node *merge_base(struct arena *arena, const struct object *o
     return copy;
 }
 
-static const struct node *follow(struct arena *arena, const struct object *object, const struct node *node, int depth,
-                                 struct problems *problems)
+/* The document in a file, read once. */
+static const struct node *read_file(struct resolver *r, const struct node *node, const char *path)
+{
+    for (const struct known_file *f = r->files; f; f = f->before)
+        if (strcmp(f->path, path) == 0) {
+            r->problems->met += !f->root;
+            return f->root;
+        }
+    if (r->files_count == FILES_MOST) {
+        ceduo_node_problem(r->problems, node, node->key, _("more than %d files in one scene"), FILES_MOST);
+        return NULL;
+    }
+    struct known_file *file = ceduo_arena_take(r->arena, sizeof *file);
+    if (!file) {
+        ceduo_problem_memory(r->problems);
+        return NULL;
+    }
+    const struct source *source = ceduo_file_read(r->arena, path, YAML_BYTES_MOST, r->problems);
+    *file = (struct known_file){
+        .path = path, .root = source ? ceduo_yaml_read(r->arena, source, r->problems) : NULL, .before = r->files};
+    r->files = file;
+    r->files_count++;
+    return file->root;
+}
+
+static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
     if (depth > BASES_MOST) {
-        ceduo_node_problem(problems, node, node->key, _("more than %d files that start from one another: a loop?"),
+        ceduo_node_problem(r->problems, node, node->key, _("more than %d files that start from one another: a loop?"),
                            BASES_MOST);
         return NULL;
     }
     if (node->kind != NODE_SCALAR)
-        return merge_base(arena, object, node, depth, problems);
+        return merge_base(r, object, node, depth);
     if (object == ceduo_schema_slope() && ends_in(node->text, ".csv"))
-        return csv_map(arena, node);
-    const char *path = locate(arena, node, object->folder, problems);
-    const struct source *source = path ? ceduo_file_read(arena, path, YAML_BYTES_MOST, problems) : NULL;
-    const struct node *found = source ? ceduo_yaml_read(arena, source, problems) : NULL;
-    if (!found)
-        return NULL;
-    if (found->kind == NODE_MAP)
-        found = merge_base(arena, object, found, depth, problems);
-    const struct node *placed = found ? in_place_of(arena, found, node) : NULL;
+        return csv_map(r->arena, node);
+    const char *path = locate(r->arena, node, object->folder, r->problems);
+    const struct node *found = path ? read_file(r, node, path) : NULL;
+    if (found && found->kind == NODE_MAP)
+        found = merge_base(r, object, found, depth);
+    const struct node *placed = found ? in_place_of(r->arena, found, node) : NULL;
     if (found && !placed)
-        ceduo_problem_memory(problems);
+        ceduo_problem_memory(r->problems);
     return placed;
 }
 
 const struct node *ceduo_resolve(struct arena *arena, const struct object *object, const struct node *node,
                                  struct problems *problems)
 {
-    return follow(arena, object, node, 0, problems);
+    struct resolver r = {.arena = arena, .problems = problems};
+    return follow(&r, object, node, 0);
+}
+
+/* A list with item i replaced. `*own`: it was made here before, and nobody else has seen it: a long list is copied
+ * once, not for each of its items. */
+static const struct node *put_item(struct arena *arena, const struct node *list, bool *own, size_t i,
+                                   const struct node *item)
+{
+    if (*own) {
+        ((const struct node **)(uintptr_t)list->items)[i] = item;
+        return list;
+    }
+    *own = true;
+    return ceduo_node_replaced(arena, list, i, item);
 }
 
 /* All references at and below a mapping that `object` describes. */
-static const struct node *resolve_map(struct arena *arena, const struct object *object, const struct node *map,
-                                      struct problems *problems);
+static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map);
 
-static const struct node *resolve_entry(struct arena *arena, const struct field *f, const struct node *entry,
-                                        struct problems *problems)
+static const struct node *resolve_items(struct resolver *r, const struct object *object, const struct node *list)
 {
-    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS)
-        return follow(arena, f->object, entry, 0, problems);
-    if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
-        return entry;
-    for (size_t i = 0; i < entry->n; i++) {
-        if (entry->items[i]->kind != NODE_MAP)
+    bool own = false;
+    for (size_t i = 0; list && i < list->n; i++) {
+        if (list->items[i]->kind != NODE_MAP)
             continue;
-        const struct node *item = resolve_map(arena, f->object, entry->items[i], problems);
-        if (item != entry->items[i])
-            entry = ceduo_node_replaced(arena, entry, i, item);
-        if (!entry)
-            return NULL;
+        const struct node *item = resolve_map(r, object, list->items[i]);
+        if (item != list->items[i])
+            list = item ? put_item(r->arena, list, &own, i, item) : NULL;
     }
-    return entry;
+    return list;
 }
 
-static const struct node *resolve_map(struct arena *arena, const struct object *object, const struct node *map,
-                                      struct problems *problems)
+static const struct node *resolve_entry(struct resolver *r, const struct field *f, const struct node *entry)
+{
+    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS)
+        return follow(r, f->object, entry, 0);
+    if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
+        return entry;
+    if (strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST) { /* before so many files are looked for */
+        ceduo_node_problem(r->problems, entry, f->key, _("%zu are more than the %d that can be computed at once"), entry->n,
+                           CEDUO_ITEMS_MOST);
+        return NULL;
+    }
+    return resolve_items(r, f->object, entry);
+}
+
+static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map)
 {
     for (size_t i = 0; i < map->n; i++) {
         const struct field *f = ceduo_schema_field(object, map->items[i]->key);
         if (!f)
             continue;
-        size_t before = problems->count;
-        const struct node *entry = resolve_entry(arena, f, map->items[i], problems);
-        if (!entry && problems->count == before && !problems->memory)
-            ceduo_problem_memory(problems);
+        size_t before = r->problems->met;
+        const struct node *entry = resolve_entry(r, f, map->items[i]);
+        if (!entry && r->problems->met == before && !r->problems->memory)
+            ceduo_problem_memory(r->problems);
         if (entry && entry != map->items[i]) {
-            const struct node *replaced = ceduo_node_replaced(arena, map, i, entry);
+            const struct node *replaced = ceduo_node_replaced(r->arena, map, i, entry);
             if (!replaced) {
-                ceduo_problem_memory(problems);
+                ceduo_problem_memory(r->problems);
                 return NULL;
             }
             ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
@@ -194,7 +246,8 @@ static const struct node *resolve_map(struct arena *arena, const struct object *
 
 const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems)
 {
-    return root->kind == NODE_MAP ? resolve_map(arena, ceduo_schema_scene(), root, problems) : root;
+    struct resolver r = {.arena = arena, .problems = problems};
+    return root->kind == NODE_MAP ? resolve_map(&r, ceduo_schema_scene(), root) : root;
 }
 
 /* ---- paths ---- */
@@ -359,13 +412,9 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
     const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
     size_t i;
     /* a belt may be named by its stand: follow it first */
-    for (size_t k = 0; object && k < list->n; k++) {
-        const struct node *item = list->items[k]->kind == NODE_MAP
-                                      ? resolve_map(s->arena, object, list->items[k], s->problems)
-                                      : list->items[k];
-        if (item && item != list->items[k] && !(list = ceduo_node_replaced(s->arena, list, k, item)))
-            return NULL;
-    }
+    struct resolver r = {.arena = s->arena, .problems = s->problems};
+    if (object && !(list = resolve_items(&r, object, list)))
+        return NULL;
     if (!find_item(list, step, &i))
         return fail_at(s, step, _("no such item"));
     const struct node *item = set_in(s, NULL, object, list->items[i], at);
@@ -400,9 +449,9 @@ const struct node *ceduo_resolve_set(struct arena *arena, const struct node *roo
                                      size_t path_length, const struct node *value, struct problems *problems)
 {
     struct setter s = {arena, set, path_length, value, problems};
-    size_t before = problems->count;
+    size_t before = problems->met;
     const struct node *changed = set_in(&s, NULL, ceduo_schema_scene(), root, 0);
-    if (!changed && problems->count == before)
+    if (!changed && problems->met == before)
         ceduo_problem_memory(problems);
     return changed;
 }

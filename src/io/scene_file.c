@@ -385,6 +385,14 @@ static bool check_control(struct maker *m, const char *path, const struct ceduo_
     return true;
 }
 
+/* Says so where a list is longer than anybody reads. */
+static bool too_many(struct maker *m, const char *path, size_t n)
+{
+    if (n > CEDUO_ITEMS_MOST)
+        complain(m, path, _("%zu are more than the %d that can be computed at once"), n, CEDUO_ITEMS_MOST);
+    return n > CEDUO_ITEMS_MOST;
+}
+
 static void make_controls(struct maker *m)
 {
     struct ceduo_scene *scene = &m->file->scene;
@@ -398,7 +406,8 @@ static void make_controls(struct maker *m)
         complain(m, "", _("'controls' is missing: at least one place where the rocks that pass are counted"));
         return;
     }
-    if (!(scene->controls = take(m, n, sizeof *scene->controls)))
+    if (too_many(m, listed ? "controls" : "controls_m", n) ||
+        !(scene->controls = take(m, n, sizeof *scene->controls)))
         return;
     for (size_t i = 0; i < n; i++) {
         const struct control_form *f = listed ? (struct control_form *)m->form.controls.items + i : NULL;
@@ -447,7 +456,7 @@ static void make_stand(struct maker *m, const char *path, const struct stand_for
     if (f->growth.shoots_young < f->growth.shoots_old)
         complain(m, path_of(m, "%s.growth.shoots_young", path), _("%s is below shoots_old, %s: shoots only become fewer"),
                  shown(f->growth.shoots_young, a), shown(f->growth.shoots_old, b));
-    if (f->shoots.n > 0 && ceduo_stand_shoots(stand) / f->stools_per_ha > SHOOTS_MOST)
+    if (f->stools_per_ha > 0 && ceduo_stand_shoots(stand) / f->stools_per_ha > SHOOTS_MOST)
         complain(m, path_of(m, "%s.shoots", path), _("%s shoots on each stool are more than the %d that can be drawn"),
                  shown(ceduo_stand_shoots(stand) / f->stools_per_ha, a), SHOOTS_MOST);
     if (f->shoots.n > 0 && !(f->stools_per_ha > 0))
@@ -526,7 +535,7 @@ static void make_options(struct maker *m)
         return;
     }
     size_t n = many ? m->form.options.n : 1;
-    if (!(scene->options = take(m, n, sizeof *scene->options)))
+    if (too_many(m, "options", n) || !(scene->options = take(m, n, sizeof *scene->options)))
         return;
     for (size_t i = 0; i < n; i++) {
         const struct option_form *f = many ? (struct option_form *)m->form.options.items + i : NULL;

@@ -139,7 +139,7 @@ static const char *nearest(const char *word, const char *const *words, size_t n)
 
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
-    const char *words[KEYS_SHOWN_MOST];
+    const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++)
         words[n++] = object->fields[i].key;

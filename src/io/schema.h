@@ -4,6 +4,8 @@
 
 #include "node.h"
 
+#define CEDUO_ITEMS_MOST 1000 /* controls; options; belts: each is computed and printed by itself */
+
 /* What a file may hold: one table of parameters, read by the files' reader, --set, --list-parameters, the manual and the
  * forms. */
 

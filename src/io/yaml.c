@@ -8,6 +8,8 @@
 
 #define DEPTH_MOST 16
 #define KEYS_MOST 64 /* of one mapping: several times what any has */
+#define VALUES_MOST 250000 /* of one file: 80000 vertices. Each takes some 160 bytes, whatever it says. */
+#define TEXT_MOST 65536 /* bytes of one value */
 
 struct reader {
     struct arena *arena;
@@ -15,6 +17,7 @@ struct reader {
     struct problems *problems;
     yaml_parser_t parser;
     size_t skip, skip_column; /* bytes before the part that libyaml sees; characters of them in its first line */
+    size_t values;
     bool stopped;
 };
 
@@ -137,6 +140,10 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
     size_t length = event->data.scalar.length;
     if (memchr(value, '\0', length)) {
         STOP(r, event->start_mark, _("a NUL character in a text; take it out"));
+        return NULL;
+    }
+    if (length > TEXT_MOST) {
+        STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
         return NULL;
     }
     node->end_line = (uint32_t)line_of(event->end_mark);
@@ -311,6 +318,10 @@ static struct node *read_value(struct reader *r, const yaml_event_t *event, int 
 {
     if (depth >= DEPTH_MOST) {
         STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
+        return NULL;
+    }
+    if (++r->values > VALUES_MOST) {
+        STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MOST);
         return NULL;
     }
     if (has_anchor_or_tag(r, event))

@@ -1,0 +1,564 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The error table of the manual, row by row: each row is caused, and its message, place, status and cost are looked at.
+
+Cost: 10 s of processor time, and 64 MiB beyond the largest file that is read. Nothing on standard output.
+"""
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, environment,  # noqa: E402
+                     expect, expect_equal, expect_in, only_text, scene)
+from test_input import FILES, SCENE, mutated  # noqa: E402
+
+SECONDS = 10
+MEBIBYTE = 1 << 20
+BEYOND = 64 * MEBIBYTE
+SANITIZED = bool(re.search("asan|tsan", CEDUO))  # they need memory of their own
+
+
+class Ended:
+    def __init__(self, arguments, status, out, err, memory):
+        self.arguments, self.status, self.out, self.err, self.memory = arguments, status, out, err, memory
+
+    def __str__(self):
+        return (f"ceduo {' '.join(map(str, self.arguments))[:500]}\nstatus {self.status}, {self.memory >> 20} MiB\n"
+                f"stdout: {self.out[:1000]}\nstderr: {self.err[:2000]}")
+
+
+def limited(*arguments, program=CEDUO, stdin=subprocess.DEVNULL, stdout=None, env=None, **options):
+    """Runs the program within the processor time; a hang, a crash or a control character is a failure."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
+
+    with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
+        p = subprocess.Popen([program, *map(str, arguments)], stdin=stdin, stdout=stdout or out, stderr=err, preexec_fn=limit,
+                             env=environment(**(env or {})), **options)
+        watch = threading.Timer(120, p.kill)
+        watch.start()
+        _, status, usage = os.wait4(p.pid, 0)
+        watch.cancel()
+        p.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: Popen must not look again
+        out.seek(0)
+        err.seek(0)
+        bytes_out, bytes_err = out.read(), err.read()
+    only_text(bytes_out, "stdout")
+    only_text(bytes_err, "stderr")
+    done = Ended(arguments, p.returncode, bytes_out.decode("utf-8", "replace"), bytes_err.decode("utf-8", "replace"),
+                 usage.ru_maxrss * 1024)
+    expect(0 <= done.status <= 4, "killed by a signal, or out of processor time", done)
+    return done
+
+
+def expect_small(done, size):
+    expect(SANITIZED or done.memory <= size + BEYOND, f"{done.memory >> 20} MiB of memory", done)
+
+
+# ---- the table ----
+
+def rows():
+    """The messages of the manual's table, as they are printed: {message: section}."""
+    found, section, inside = {}, "", False
+    for line in (ROOT / "man/ceduo.1").read_text().splitlines():
+        if line.startswith(".Sh "):
+            inside = line == ".Sh DIAGNOSTICS"
+        elif inside and line.startswith(".Ss "):
+            section = line[4:].strip('"')
+        elif inside and line.startswith(".It "):
+            text = line[4:].strip('"')
+            for code, sign in (("\\(aq", "'"), ("\\-", "-"), ("\\(dq", '"'), ("\\ex", "\\x"), ("\\ ", " ")):
+                text = text.replace(code, sign)
+            expect(text not in found, f"twice in the manual: {text}")
+            found[text] = section
+    return found
+
+
+def as_pattern(row):
+    """'...' stands for any words; what is in brackets at the end is a remark."""
+    text = re.sub(r" \((status [^)]*|in the result)\)$", "", row)
+    return ".*".join(re.escape(part.strip()) for part in text.split("..."))
+
+
+def expect_message(row, done, place, status):
+    """The row's message stands in one line, behind its place."""
+    expect_equal(done.status, status, f"status; {done}")
+    expect_equal(done.out, "", f"standard output; {done}")
+    lines = [line for line in done.err.splitlines() if re.search(as_pattern(row), line)]
+    expect(lines, f"no line says {row!r}", done)
+    if place:
+        expect(any(line.startswith(place) for line in lines), f"not at {place!r}:", done)
+
+
+# ---- faults in the three files ----
+
+class File:
+    """A change in one of the three files of test_input; @@ is where the caret stands."""
+
+    def __init__(self, name, old, new, at=True):
+        self.name, self.old, self.new, self.at = name, old, new, at
+
+    def __call__(self, row):
+        files, place = mutated(self.name, self.old, self.new)
+        expect(place or not self.at, f"no @@ in {self.new!r}")
+        with Folder() as f:
+            for name, text in files.items():
+                f.write(name, text)
+            for mode in ("--check", "--batch"):
+                done = limited(mode, "scene.yaml", cwd=f.path)
+                expect_message(row, done, f"{self.name}:{place[0]}:{place[1]}: " if place else None, INPUT)
+                expect_small(done, 4096)
+            expect(not place or any(line.strip() == "^" for line in done.err.splitlines()), "no caret", done)
+
+
+def sc(old, new, at=True):
+    return File("scene.yaml", old, new, at)
+
+
+def sl(old, new, at=True):
+    return File("slope.yaml", old, new, at)
+
+
+def st(old, new, at=True):
+    return File("stand.yaml", old, new, at)
+
+
+ROCK = "rock: {shape: sphere, diameter_m: 0.5}"
+VERTICES = "[[0, 64], [50, 30], [100, 0]]"
+MATERIALS = "segments:\n  - {rn: 0.35, rt: 0.87, roughness_rad: 0.1, friction: 0.5}\n  - {rn: 0.31, rt: 0.83, roughness_m: 0.1}\n"
+SMALL = {"ceduo": "scene/1", "rock": {"diameter_m": 0.5}, "slope": "line.csv", "controls_m": [75]}
+
+
+class Text:
+    """A scene of its own: the whole text with @@ at the place."""
+
+    def __init__(self, text, more=None, place=None):
+        self.text, self.more, self.place = text, more or {}, place
+
+    def __call__(self, row):
+        text, place = self.text, self.place
+        if isinstance(text, str) and "@@" in text:
+            before = text[:text.index("@@")]
+            place = f"s.yaml:{before.count(chr(10)) + 1}:{len(before) - before.rfind(chr(10))}: "
+            text = text.replace("@@", "")
+        with Folder() as f:
+            f.write("s.yaml", text)
+            for name, content in self.more.items():
+                f.write(name, content)
+            for mode in ("--check", "--batch"):
+                done = limited(mode, "s.yaml", cwd=f.path)
+                expect_message(row, done, place, INPUT)
+                expect_small(done, len(text))
+
+
+def csv(content, place, **slope):
+    """A scene over a CSV profile with a fault."""
+    import json
+    mapping = {**SMALL, "slope": {"csv": "line.csv", **slope}} if slope else SMALL
+    return Text(json.dumps(mapping), {"line.csv": content}, place)
+
+
+class Sparse:
+    """A file of a gigabyte that takes no room on the disk."""
+
+    def __init__(self, name, most):
+        self.name, self.most = name, most
+
+    def __call__(self, row):
+        with Folder() as f:
+            path = f.write("line.csv" if self.name == "line.csv" else "s.yaml", b"")
+            os.truncate(path, 1 << 30)
+            if self.name == "line.csv":
+                f.write("s.yaml", scene(slope="line.csv"))
+            for mode in ("--check", "--batch"):
+                done = limited(mode, "s.yaml", cwd=f.path)
+                expect_message(row, done, f"{self.name}: ", INPUT)
+                expect_small(done, 0)  # told from its size
+            with open(path, "rb") as bytes_in:  # of standard input nothing is told in advance
+                if self.name != "line.csv":
+                    with subprocess.Popen(["cat"], stdin=bytes_in, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as cat:
+                        done = limited("--check", "-", stdin=cat.stdout)
+                        cat.stdout.close()
+                    expect_message(row, done, "standard input: ", INPUT)
+                    expect_small(done, self.most)
+
+
+# ---- the command line ----
+
+class Words:
+    """Words of the command line, on a good scene unless they name their own; '@' is that scene."""
+
+    def __init__(self, *words, status=USAGE, start="ceduo: ", stdout=None):
+        self.words, self.status, self.start, self.stdout = words, status, start, stdout
+
+    def __call__(self, row):
+        with Folder() as f:
+            for name, text in FILES.items():
+                f.write(name, text)
+            words = ["scene.yaml" if w == "@" else w for w in self.words]
+            done = limited(*words, cwd=f.path)
+            expect_message(row, done, self.start, self.status)
+            expect_small(done, 0)
+
+
+class Set:
+    """Changes by --set; @@ is the place within the last of them."""
+
+    def __init__(self, *changes):
+        self.changes = changes
+
+    def __call__(self, row):
+        words = [word for change in self.changes for word in ("-s", change.replace("@@", ""))]
+        Words("--batch", *words, "@", start=f"--set:1:{self.changes[-1].index('@@') + 1}: ")(row)
+
+
+def as_nobody(row, *words, forbidden, status, start):
+    """Run without the rights of root. The program is copied to where nobody can start it."""
+    if os.geteuid() != 0:
+        program, rights = CEDUO, {}
+    else:
+        rights = {"user": 65534, "group": 65534, "extra_groups": []}
+    with Folder() as f:
+        os.chmod(f.path, 0o755)
+        program = shutil.copy(CEDUO, f.path / "ceduo")
+        os.chmod(program, 0o755)
+        for name, text in FILES.items():
+            f.write(name, text)
+        f.write("out.csv", "old")
+        os.chmod(f.path / forbidden, 0o000 if forbidden == "scene.yaml" else 0o444)
+        try:
+            done = limited(*words, cwd=f.path, program=program, **rights)
+        except PermissionError as error:
+            raise Skip("the folder for temporary files is closed to others") from error
+        expect_message(row, done, start, status)
+        os.chmod(f.path / forbidden, 0o644)
+        expect_equal((f.path / "out.csv").read_text(), "old")
+        expect_equal(f.names(), sorted([*FILES, "ceduo", "out.csv"]), "left behind")
+
+
+class Script:
+    def __init__(self, text, line=1, status=USAGE):
+        self.text, self.line, self.status = text, line, status
+
+    def __call__(self, row):
+        with Folder() as f:
+            for name, text in FILES.items():
+                f.write(name, text)
+            f.write("play.txt", self.text)
+            expect_message(row, limited("--script", "play.txt", "scene.yaml", cwd=f.path), f"play.txt:{self.line}: ", self.status)
+
+
+def full(row):
+    with open("/dev/full", "wb") as out:
+        done = limited("--batch", "-n", 10, PROFILES / "scenes/paper-site.yaml", stdout=out)
+    expect_message(row, done, "standard output: ", OUTPUT)
+
+
+def moving(row):
+    ground = {"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 1, "rt": 1, "roughness_rad": 0, "friction": 0}]}
+    with Folder() as f:
+        path = f.write("s.yaml", scene(release={"x_m": 5, "height_m": 3}, slope=ground, controls=[{"x_m": 30}],
+                                       simulation={"rocks": 4}))
+        done = limited("--batch", path)
+    expect_equal((done.status, done.err), (RUN, ""), str(done))
+    expect(re.search(as_pattern(row), " ".join(done.out.split())), done)
+
+
+class Elsewhere:
+    """What another test looks at."""
+
+    def __init__(self, path, name):
+        self.path, self.name = path, name
+
+    def __call__(self, row):
+        expect_in(self.name, (ROOT / self.path).read_text(), f"the test of {row!r}")
+
+
+def on_terminal(row, name):
+    """The terminal program on a terminal of that name."""
+    master, slave = os.openpty()
+    try:
+        expect_message(row, limited("paper-site", stdin=slave, stdout=slave, env={"TERM": name}), "ceduo: ", USAGE)
+    finally:
+        os.close(master)
+        os.close(slave)
+
+
+def impossible(_):
+    raise Skip("nothing is known that leads here: what comes before it looks at the same")
+
+
+LINE = "distance,elevation\n0,64\n100,0\n"
+CASES = {
+    # Reading a file
+    "cannot read it: No such file or directory": Words("--batch", "none.yaml", status=INPUT, start="none.yaml: "),
+    "cannot read it: Is a directory": Words("--batch", ".", status=INPUT, start=".: "),
+    "cannot read it: Permission denied": lambda row: as_nobody(row, "--check", "scene.yaml", forbidden="scene.yaml",
+                                                               status=INPUT, start="scene.yaml: "),
+    "larger than 16 MiB": Sparse("s.yaml", 16 * MEBIBYTE),
+    "larger than 64 MiB": Sparse("line.csv", 64 * MEBIBYTE),
+    "cannot find 'x.yaml' beside this file or among the profiles": sc("slope: slope.yaml", "slope: @@x.yaml"),
+    "cannot find 'p.csv' beside this file": sl("vertices_m: " + VERTICES, "csv: @@p.csv"),
+    "more than 8 files that start from one another: a loop?": st("ceduo: stand/1\n", "ceduo: stand/1\nbase: @@stand.yaml\n"),
+    "more than 1000 files in one scene": Text(
+        "ceduo: scene/1\noptions:\n  - forest:\n" + "".join(f"    - {{stand: {i}.yaml}}\n" for i in range(1000)) +
+        "  - forest:\n    - {stand: @@1000.yaml}\n", {f"{i}.yaml": "{}" for i in range(1001)}),
+    # YAML
+    "malformed YAML: did not find expected ',' or ']' while parsing ...": sc("title: small", "title: [a\ntitle@@: small"),
+    "malformed YAML: mapping values are not allowed in this context": sc("title: small", "title: a@@: b"),
+    "malformed YAML: no value can start with this character": sc("title: small", "title: @@`small"),
+    "a tab; indent with spaces": sc("release: {x_m", "release:\n@@\tx_m: 5\nextra: {x_m"),
+    "an alias; write the value out": sc("title: small", "title: @@*small"),
+    "an anchor; take it out and write the value where it is needed": sc("title: small", "title: @@&t small"),
+    "a tag; take it out": sc("title: small", "title: @@!!str small"),
+    "title: given twice, first on line 2; keep one": sc("simulation: {", "@@title: again\nsimulation: {"),
+    "a key must be a plain word": sc("title: small", "? @@[a]\n: small"),
+    "more than 64 keys in one mapping": Text("".join(f"k{i}: 1\n" for i in range(64)) + "@@k64: 1\n"),
+    "more than 16 levels deep": sc("title: small", "title: " + "[" * 15 + "@@[" + "]" * 16),
+    "a value of more than 65536 bytes; look for a missing quote": sc("title: small", "title: @@" + "x" * 65537),
+    "more than 250000 values in one file; write a long profile as CSV": Text("title:\n" + "- 1\n" * 249998 + "- @@1\n" * 1),
+    "a second document; keep one to a file": sc("simulation: {", "@@---\nsimulation: {"),
+    "not UTF-8; save the file as UTF-8": Text(b"title: \xfc\n", place="s.yaml:1:8: "),
+    "a control character (\\x01); take it out": sc("title: small", "title: sm@@\x01all"),
+    "a NUL character in a text; take it out": sc("title: small", 'title: @@"sm\\0all"'),
+    "holds no value": Text("# nothing\n", place="s.yaml: "),
+    "a scene is a mapping that begins with 'ceduo: scene/1'": Text("@@- 1\n"),
+    # Keys and values
+    "'scene/2': 'scene/1' is wanted here": sc("ceduo: scene/1", "ceduo: @@scene/2"),
+    "unknown key; did you mean 'diameter_m'?": sc("diameter_m: 0.5", "@@diametre_m: 0.5"),
+    "unknown key; known here: ...": sc("{x_m: 90}", "{x_m: 90, @@qqqqqqqqqqqqqqq: 1}"),
+    "'rn' is missing: normal restitution Rn": sl("  - {rn: 0.35, ", "  - @@{"),
+    "'0.8' is in quotes; write the number without them": sl("rt: 0.87", "rt: @@'0.8'"),
+    "'0.8 m' is no number": sc("diameter_m: 0.5", "diameter_m: @@0.8 m"),
+    "'0,8' is no number; write a dot for the decimals ...": st("dbh_m: 0.07", "dbh_m: @@0,8"),
+    "too large a number": st("per_ha: 5000", "per_ha: @@" + "9" * 400),
+    "'10.5' is no whole number": sc("rocks: 20", "rocks: @@10.5"),
+    "-0.07 is below 0 m": st("dbh_m: 0.07", "dbh_m: @@-0.07"),
+    "0 is not above 0 m": sc("diameter_m: 0.5", "diameter_m: @@0"),
+    "1.83 is above 1": sl("rn: 0.35", "rn: @@1.83"),
+    "1.5707963267948966 is not below 1.5707963267948966 rad": sl("roughness_rad: 0.1", "roughness_rad: @@1.5707963267948966"),
+    "'lumpd' is unknown; did you mean 'lumped'? (lumped, crsp)": sc("law: lumped", "law: @@lumpd"),
+    "'sand' is unknown; one of: ...": sl(MATERIALS, "materials: [{from_m: 0, to_m: 100, material: @@sand}]\n"),
+    "'yes': true or false is wanted": sc("scale_rn: false", "scale_rn: @@yes"),
+    "a number is wanted here, not a list": st("per_ha: 5000", "per_ha: @@[5000]"),
+    "a mapping is wanted here, not a single value": sc(ROCK, "rock: @@0.5"),
+    "a list is wanted here, not a mapping": st("trees:\n", "trees: @@{}\nextra:\n"),
+    "a pair [x, z] is wanted": sl("[50, 30]", "@@[50]"),
+    "a list of three numbers is wanted": sc(ROCK, "rock: {shape: block, axes_m: @@[1, 2]}"),
+    "a mapping {kind, text} is wanted": st("source: {kind: measured, text: by hand}", "source: @@by hand"),
+    "'kind' is missing: measured, literature or assumed": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
+    "'mean' is missing": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
+    "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(
+        "diameter_m: 0.5}", "diameter_m: @@{mean: 0.8, spread: 1.2, kind: uniform}}"),
+    # Rock
+    "does not belong to the shape 'sphere'; take it out": sc("diameter_m: 0.5}", "diameter_m: 0.5, height_m: @@1}"),
+    "'height_m' is missing: the shape 'cylinder' needs it": sc("rock: {shape: sphere", "rock: @@{shape: cylinder"),
+    "a sphere is given by one of diameter_m, volume_m3 and mass_kg ...": sc(ROCK, "rock: @@{shape: sphere}"),
+    "mass_kg says it already; keep one of the two": sc(
+        ROCK, "rock: {shape: block, axes_m: [1, 2, 3], mass_kg: 5, density_kg_m3: @@2600}"),
+    "too small or too large a rock to compute with": sc(ROCK, "rock: @@{shape: block, axes_m: [1e-150, 1e-150, 1e-150]}"),
+    # Slope
+    "x 10 does not lie beyond 10; x must rise: ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
+    "a profile needs two vertices or more": sl(VERTICES, "@@[[0, 64]]"),
+    "two vertices lie too close together for their distance from the first": sl(
+        f"ceduo: slope/1\nname: line\nfacets: against\nvertices_m: {VERTICES}",
+        "ceduo: slope/1\nname: line\nfacets: against\nvertices_m: [[-900000000, 64], [100, 30], [100.00000000000001, 0]]", at=False),
+    "'vertices_m' is missing: the profile": sl(f"vertices_m: {VERTICES}\n", "", at=False),
+    "vertices_m and csv together; keep one": sl("facets: against", "csv: line.csv", at=False),
+    "'segments' or 'materials' is missing: the ground": sl(MATERIALS, "", at=False),
+    "segments say the ground already; keep one of the two": sl(
+        "segments:\n", "materials: @@[{from_m: 0, to_m: 100, material: talus}]\nsegments:\n"),
+    "3 segments for 2 stretches between vertices; ...": sl("  - {rn: 0.31", "  - {rn: 0.31, rt: 0.8}\n  - {rn: 0.31", at=False),
+    "roughness_rad says it already; keep one": sl("roughness_m: 0.1", "roughness_rad: 0.1, roughness_m: @@0.1"),
+    "50 leaves a gap or overlaps; it must begin at 40": sl(
+        MATERIALS, "materials: [{from_m: 0, to_m: 40, material: talus}, {from_m: @@50, to_m: 100, material: talus}]\n"),
+    "40 ends before the profile, at 100": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@40, material: talus}]\n"),
+    "-1 does not lie beyond from_m, 0": sl(MATERIALS, "materials: [{from_m: 0, to_m: @@-1, material: talus}]\n"),
+    "the first line must name the columns 'distance' and 'elevation'": csv("0,64\n100,0\n", "line.csv:1:1: "),
+    "too few columns": csv("distance,elevation\n0,64\n50\n100,0\n", "line.csv:3:1: "),
+    "a value is missing; take the line out": csv("distance,elevation\n0,64\n50,\n100,0\n", "line.csv:3:4: "),
+    "'100,5' is no number; write a dot for the decimals": csv("distance;elevation\n0;64\n100,5;0\n", "line.csv:3:1: "),
+    "distance 0 does not lie beyond 0; distances must rise": csv("distance,elevation\n0,64\n0,0\n", "line.csv:3:1: "),
+    "beyond 1e9 m": csv("distance,elevation\n0,64\n100,-1e10\n", "line.csv:3:5: "),
+    "holds nothing": csv("", "line.csv: "),
+    # Release, controls, forest
+    "100 lies beyond the slope, which has room for a release from ...": sc("{x_m: 5, h", "{x_m: @@100, h"),
+    "900 lies beyond the slope, which ends at 100 m": sc("{x_m: 90}", "{x_m: @@900}"),
+    "-10 lies before the slope, which begins at 0 m": sc("  - from_m: 10\n", "  - from_m: @@-10\n"),
+    "0 does not lie beyond the release, 0 m": sc("x_m: 5, height_m: 0, vx_m_s: 1}\nslope: slope.yaml\ncontrols:\n  - {x_m: 75",
+                                                 "x_m: 0}\nslope: slope.yaml\ncontrols:\n  - {x_m: @@0"),
+    "90 is given twice": sc("{x_m: 75, name", "{x_m: 90, name", at=False),
+    "controls say it already; keep one of the two": sc("forest:\n", "controls_m: @@[80]\nforest:\n"),
+    "options say it already; keep one of the two": sc("simulation: {", "options: [{name: a}]\nsimulation: {", at=False),
+    "'controls' is missing: at least one place ...": sc(
+        "controls:\n  - {x_m: 75, name: road, accepted_kJ: 50}\n  - {x_m: 90}\n", "", at=False),
+    "the list is empty": sl(MATERIALS, "materials: @@[]\n"),
+    "1001 are more than the 1000 that can be computed at once": sc(
+        "controls:\n  - {x_m: 75, name: road, accepted_kJ: 50}\n  - {x_m: 90}\n",
+        "controls_m: @@[" + ", ".join(str(10 + i / 20) for i in range(1001)) + "]\n"),
+    "'a' is given twice; names must differ": Text(
+        SCENE.split("forest:")[0].replace("slope.yaml", "{vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}") +
+        "options: [{name: a}, {name: @@a}]\n"),
+    "10 lies before the end of the belt before it, 20; belts must not overlap": sc(
+        "to_m: 40\n    stand: stand.yaml\n  - {from_m: 40", "to_m: 20\n    stand: stand.yaml\n  - {from_m: @@10"),
+    "8 does not lie beyond from_m, 10": sc("    to_m: 40\n", "    to_m: @@8\n"),
+    "shoots without stools; ...": st("stools: {per_ha: 2000, spacing_m: 0.25}\n", "", at=False),
+    "stools without shoots; ...": st("shoots:\n  - per_ha: 5000\n    dbh_m: 0.07\n    height_m: 6\n", "", at=False),
+    "6000 shoots on 7000 stools: a stool has one shoot at least": st(
+        "stools: {per_ha: 2000, spacing_m: 0.25}\nshoots:\n  - per_ha: 5000",
+        "stools: {per_ha: @@7000, spacing_m: 0.25}\nshoots:\n  - per_ha: 6000"),
+    "'bare', but there are stems; name the system or take them out": st("system: simple-coppice", "system: @@bare"),
+    # Changes by --set
+    "PATH=VALUE is wanted": Set("@@rock.diameter_m"),
+    "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
+    "'diameter': unknown key (ceduo --list-parameters)": Set("rock.@@diameter=1"),
+    "'3': no such item": Set("controls[@@3].x_m=50"),
+    "'0': there is no list here": Set("rock[@@0]=1"),
+    "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
+    "'trees': there is none to change": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
+    # Usage
+    "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
+    "TERM names no terminal that is known; ...": lambda row: on_terminal(row, "no-such-terminal"),
+    "this terminal cannot place the cursor; ...": lambda row: on_terminal(row, "dumb"),
+    "this terminal cannot be used; ...": impossible,
+    "no scene; name a file, ...": Words("--batch"),
+    "options such as -s, -n, -f and -o belong to --batch": Words("-n", "5", "@"),
+    "the terminal program opens one scene; --batch takes several": Words("@", "@"),
+    "a list takes no scene: 'mine.yaml'": Words("--list-profiles", "mine.yaml"),
+    "standard input can be read only once": Words("--batch", "-", "-"),
+    "no such option, or not one alone: '--xyz'": Words("--xyz"),
+    "'-f' needs a value": Words("--batch", "@", "-f"),
+    "--format: 'xml' is unknown; one of table, csv, json": Words("--batch", "-f", "xml", "@"),
+    "--rows: 'x' is unknown; one of controls, stands": Words("--batch", "--rows", "x", "@"),
+    "--plot: 'x' is unknown; one of profile, energy, ...": Words("--plot", "x", "@"),
+    "--charset: 'x' is unknown; one of braille, block, ascii": Words("--charset", "x", "@"),
+    "--rocks: '1.5' is no whole number": Words("--batch", "-n", "1.5", "@"),
+    "--rocks: 0 lies outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
+    "--tolerance: 1 lies outside 0 to 1": Words("--batch", "-e", "1", "@"),
+    "--size: '80' is no size; write columns x lines, as 80x24": Words("--plot", "adc", "--size", "80", "@"),
+    "--size: 10x5 lies outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
+    "--years: '5' is no stretch of years; write A:B or A:B:STEP, as 0:25": Words("--years", "5", "@"),
+    "--years: 9:1 goes backwards, or too far": Words("--years", "9:1", "@"),
+    "--years: 0:5000 are more than 1000 years at a time": Words("--years", "0:5000", "@"),
+    "--find: 'x' is not PATH=LO:HI, as ...": Words("--find", "x", "--goal", "adc", "@"),
+    "--find: the range 9:1 goes backwards": Words("--find", "a=9:1", "--goal", "adc", "@"),
+    "--find wants a --goal: adc, free-run, energy=KJ or exceed": Words("--find", "a=1:9", "@"),
+    "--goal: 'x' is unknown; one of adc, free-run, energy, exceed": Words("--find", "a=1:9", "--goal", "x", "@"),
+    "--goal energy wants the mean energy in kJ: energy=50": Words("--find", "a=1:9", "--goal", "energy", "@"),
+    "--goal goes with --find": Words("--batch", "--goal", "adc", "@"),
+    "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
+    "--find goes with neither --plot, --years nor --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
+    "--size goes with --plot": Words("--batch", "--size", "80x24", "@"),
+    "--plot prints a picture; it has no --format csv or json": Words("--plot", "adc", "-f", "csv", "@"),
+    "--option: no option 'x' in mine.yaml": lambda row: Words("--batch", "--option", "x", "@")(row.replace("mine", "scene")),
+    # Scripts
+    "key, type, resize, wait idle, dump or roles is wanted: x": Script("# first\nx\n", 2),
+    "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),
+    "a width and a height are wanted: 80": Script("resize 80\n"),
+    "No such file or directory: out/x.txt (status 4)": Script("dump out/x.txt\n", status=OUTPUT),
+    # Running and writing
+    "out of memory (status 1, in a file 3)": Elsewhere("tests/cli/test_faults.py", "out of memory"),
+    "cannot be computed (status 1)": impossible,
+    "4 rocks were still moving after 1000000 contacts ... (in the result)": moving,
+    "x, 90 m: whether 50 of 1000 rocks at most arrive with too much energy is too close to call; ... (in the result)":
+        Elsewhere("tests/cli/test_batch.py", "def test_table_close_call"),
+    "standard output: No space left on device (status 4)": full,
+    "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
+                                                                  forbidden="out.csv", status=OUTPUT, start="out.csv: "),
+}
+
+
+def test_table_whole():
+    """Every row of the manual's table has a case here, and no case is without a row"""
+    wanted = set(rows())
+    expect_equal(sorted(wanted - set(CASES)), [], "rows without a case")
+    expect_equal(sorted(set(CASES) - wanted), [], "cases without a row")
+
+
+# ---- floods: a large file of one fault ----
+
+HEAD = "ceduo: scene/1\nrock: {diameter_m: 0.5}\n"
+LINEAR = HEAD + "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+BELT = "stand: {trees: [{per_ha: 1, dbh_m: 0.2, height_m: 9}]}"
+MANY = "are more than the 1000 that can be computed at once"
+NAMED = HEAD + "slope: line.csv\ncontrols_m: [75]\n"
+FLOODS = [
+    # (what, scene and its CSV as functions: made when needed, for what the test holds counts as the program's; words)
+    ("a million CSV rows that are no numbers", lambda: NAMED, lambda: "distance,elevation\n" + "x,1\n" * 1000000,
+     "999980 more problems"),
+    ("60 MiB of blank CSV lines", lambda: NAMED.replace("75", "175"), lambda: LINE + "\n" * (60 << 20), "beyond the slope"),
+    ("a CSV field of 60 MiB", lambda: NAMED, lambda: LINE + "5" * (60 << 20) + ",1", "line.csv:4:1: '…' is no number"),
+    ("200000 vertices that are no pairs, each on its line", lambda: HEAD + "slope: {segments: [{rn: 0.3, rt: 0.8}], vertices_m: [\n" +
+     "1,\n" * 200000 + "1]}\ncontrols_m: [75]\n", None, "more problems"),
+    ("8 million values", lambda: "title: [" + "1," * 8000000 + "1]\n", None, "more than 250000 values"),
+    ("200000 controls", lambda: LINEAR + "controls_m: [" + ",".join(str(1 + i * 1e-4) for i in range(200000)) + "]\n", None, MANY),
+    ("200000 times the same control", lambda: LINEAR + "controls_m: [" + "75," * 200000 + "75]\n", None, MANY),
+    ("50000 options", lambda: LINEAR + "controls_m: [75]\noptions: [" + ",".join(f"{{name: a{i}}}" for i in range(50000)) + "]\n",
+     None, MANY),
+    ("20000 belts", lambda: LINEAR + "controls_m: [75]\nforest: [" +
+     ",".join(f"{{from_m: {i / 1000}, to_m: {i / 1000}1, {BELT}}}" for i in range(20000)) + "]\n", None, MANY),
+    ("60000 belts of one shipped stand", lambda: LINEAR + "controls_m: [75]\nforest: [" +
+     ",".join(f"{{from_m: {i}, to_m: {i}.5, stand: ads-1}}" for i in range(60000)) + "]\n", None, MANY),
+    ("a number of 15 million digits", lambda: LINEAR + "controls_m: [" + "5" * 15000000 + "x]\n", None, "more than 65536 bytes"),
+    ("a number of 65536 digits", lambda: LINEAR + "controls_m: [" + "5" * 65535 + "x]\n", None, "is no number"),
+    ("5 million dashes", lambda: "- " * 5000000, None, "levels deep"),
+    ("16 million brackets", lambda: "[" * 16000000, None, "levels deep"),
+    ("3 million anchors", lambda: "title: [" + "&a , " * 3000000, None, "an anchor"),
+]
+
+
+def flood(text, csv_text, words):
+    with Folder() as f:
+        size = f.write("s.yaml", text()).stat().st_size
+        if csv_text:
+            size = f.write("line.csv", csv_text()).stat().st_size
+        for mode in ("--check", "--batch"):
+            done = limited(mode, "s.yaml", cwd=f.path)
+            expect_equal((done.status, done.out), (INPUT, ""), str(done))
+            expect_in(words, done.err)
+            expect(len(done.err) < 65536, f"{len(done.err)} characters of messages")
+            expect_small(done, size)
+
+
+def test_shared_fault():
+    """A file that is no YAML and that two belts name is reported once, and nothing else is"""
+    with Folder() as f:
+        f.write("s.yaml", LINEAR + "controls_m: [75]\nforest:\n" +
+                "".join(f"  - {{from_m: {i}, to_m: {i + 1}, stand: stand.yaml}}\n" for i in range(2)))
+        f.write("stand.yaml", "name: [\n")
+        done = limited("--check", "s.yaml", cwd=f.path)
+        expect_equal((done.status, len(done.err.splitlines())), (INPUT, 3), str(done))
+
+
+def test_names_on_the_screen():
+    """Control characters in names and titles do not reach the terminal program's screen"""
+    nasty = '"\\e[31mred\\a\\u009b2J\\u202eevil\\n\\t\\r"'
+    with Folder() as f:
+        f.write("s.yaml", f"title: {nasty}\n" + LINEAR + f"controls: [{{x_m: 75, name: {nasty}}}]\noptions:\n  - name: {nasty}\n"
+                f"    forest: [{{from_m: 10, to_m: 20, stand: {{name: {nasty}, trees: [{{per_ha: 9, dbh_m: 0.3, height_m: 20}}]}}}}]\n"
+                "simulation: {rocks: 20}\n")
+        f.write("play.txt", "wait idle\n" + "".join(f"key {view}\ndump -\nkey Down Enter\ndump -\nkey Esc\n" for view in range(1, 7)))
+        done = limited("--script", "play.txt", "s.yaml", cwd=f.path)  # raw ones are looked for there
+        expect_equal((done.status, done.err), (0, ""), str(done))
+        expect("evil" in done.out and "\u202e" not in done.out and "\x9b" not in done.out, ascii(done.out[:500]))
+
+
+def main():
+    suite = Suite()
+    suite.run([test_table_whole, test_shared_fault, test_names_on_the_screen])
+    for what, text, csv_text, words in FLOODS:
+        suite.check(f"{what}: {words}", flood, text, csv_text, words)
+    for row, case in CASES.items():
+        suite.check(row, case, row)
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()

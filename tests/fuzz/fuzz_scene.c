@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scene's text. What passes the checks can be started, and written out and read again it is the same scene. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ceduo/pool.h"
+#include "fuzz.h"
+#include "io/emit.h"
+#include "io/scene_file.h"
+
+#define NAME "profiles/scenes/fuzz.yaml" /* no such file; references are looked for beside it */
+
+static void fail(const char *what, const char *text)
+{
+    fprintf(stderr, "%s:\n%s\n", what, text);
+    abort();
+}
+
+/* The same tree comes back from its text. */
+static void check_emitted(struct scene_file *file)
+{
+    const struct node *plain = ceduo_emit_unresolve(&file->arena, file->root);
+    struct text text = {0};
+    if (!plain)
+        abort();
+    ceduo_emit(&text, plain);
+    struct scene_file again;
+    struct problems problems = {0};
+    if (!ceduo_scene_read_text(&again, NAME, text.bytes, &problems))
+        fail(problems.text.bytes, text.bytes);
+    if (!ceduo_node_equal(file->root, again.root))
+        fail("written out it is another scene", text.bytes);
+    ceduo_scene_release(&again);
+    ceduo_problems_free(&problems);
+    ceduo_text_free(&text);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (!text)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    struct scene_file file;
+    struct problems problems = {0};
+    if (ceduo_scene_read_text(&file, NAME, text, &problems)) {
+        struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
+        struct ceduo_pool *pool;
+        if (ceduo_pool_create(&def, &pool) != CEDUO_OK)
+            fail("checked, but it cannot be computed", text);
+        ceduo_pool_free(pool);
+        check_emitted(&file);
+    } else if (problems.count == 0) {
+        fail("refused without a word", text);
+    }
+    ceduo_problems_close(&problems);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    free(text);
+    return 0;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes by --set, a line each, to a shipped scene: two with files below, one with options. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "fuzz.h"
+#include "io/scene_file.h"
+
+#define SETS_MOST 8
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static const char *const scenes[] = {"profiles/scenes/paper-site.yaml", "profiles/scenes/rotation.yaml",
+                                         "profiles/scenes/road-below.yaml"};
+    char *text = malloc(size + 1);
+    if (!text)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    const char *sets[SETS_MOST];
+    size_t n = 0;
+    for (char *save, *line = strtok_r(text, "\n", &save); line && n < SETS_MOST; line = strtok_r(NULL, "\n", &save))
+        sets[n++] = line;
+    struct scene_file file;
+    struct problems problems = {0};
+    if (!ceduo_scene_read(&file, scenes[size % 3], sets, n, &problems) && problems.count == 0)
+        abort();
+    ceduo_problems_close(&problems);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    free(text);
+    return 0;
+}

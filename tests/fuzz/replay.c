@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A harness without libFuzzer: every seed, and so many changes of them, always the same. Prints TAP.
+ *   replay NAME CHANGES FILE… */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "fuzz.h"
+
+#define ROOM 65536
+
+struct seed {
+    uint8_t *bytes;
+    size_t n;
+};
+
+static uint64_t state = 0x9e3779b97f4a7c15;
+
+static size_t draw(size_t below)
+{
+    state ^= state << 13; /* xorshift64 */
+    state ^= state >> 7;
+    state ^= state << 17;
+    return (size_t)(state % below);
+}
+
+static struct seed read_seed(const char *path)
+{
+    struct seed seed = {malloc(ROOM), 0};
+    FILE *f = fopen(path, "rb");
+    if (!seed.bytes || !f) {
+        printf("Bail out! %s cannot be read\n", path);
+        exit(1);
+    }
+    seed.n = fread(seed.bytes, 1, ROOM, f);
+    fclose(f);
+    return seed;
+}
+
+/* n bytes at `at` replaced by others. */
+static void splice(struct seed *s, size_t at, size_t n, const void *bytes, size_t m)
+{
+    if (s->n - n + m > ROOM)
+        return;
+    memmove(s->bytes + at + m, s->bytes + at + n, s->n - at - n);
+    memcpy(s->bytes + at, bytes, m);
+    s->n += m - n;
+}
+
+static void change(struct seed *s, const struct seed *other)
+{
+    static const char *const words[] = {"\n", " ", ":", ": ", "- ", "[", "]", "{", "}", ",", "=", "\"", "'", "#", "&a ", "*a",
+                                        "!", "|\n", "\t", "\xff", "\xc3", "\xe2\x80\xa6", "\xef\xbb\xbf", "1e999", "-", "0",
+                                        "1e-320", "nan", "---\n", "? ", "\r\n", "\x1b[2J", "[0]", "[a]", ".", "base: ",
+                                        "mean: ", "source: ", "999999999", "0.5", "\x01", "key ", "type ", "Enter ", "Esc "};
+    size_t at = draw(s->n + 1), left = s->n - at;
+    switch (draw(6)) {
+    case 0:
+        if (left > 0)
+            s->bytes[at] = (uint8_t)draw(256);
+        break;
+    case 1: {
+        const char *word = words[draw(sizeof words / sizeof words[0])];
+        splice(s, at, 0, word, strlen(word));
+        break;
+    }
+    case 2: {
+        size_t n = draw(2) ? 1 : draw(60);
+        splice(s, at, n < left ? n : left, "", 0);
+        break;
+    }
+    case 3: {
+        uint8_t copy[100];
+        size_t n = draw(sizeof copy);
+        n = n < left ? n : left;
+        memcpy(copy, s->bytes + at, n);
+        splice(s, draw(s->n + 1), 0, copy, n);
+        break;
+    }
+    case 4: {
+        const char *word = words[draw(sizeof words / sizeof words[0])];
+        size_t n = draw(12);
+        splice(s, at, n < left ? n : left, word, strlen(word));
+        break;
+    }
+    default:
+        if (other->n > 0) {
+            size_t from = draw(other->n), n = draw(200);
+            splice(s, at, 0, other->bytes + from, n < other->n - from ? n : other->n - from);
+        }
+        break;
+    }
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 4)
+        return 2;
+    size_t n = (size_t)argc - 3, changes = strtoul(argv[2], NULL, 10);
+    struct seed *seeds = calloc(n, sizeof *seeds), one = {malloc(ROOM), 0};
+    if (!seeds || !one.bytes)
+        return 1;
+    for (size_t i = 0; i < n; i++)
+        seeds[i] = read_seed(argv[i + 3]);
+    for (size_t i = 0; i < n; i++)
+        LLVMFuzzerTestOneInput(seeds[i].bytes, seeds[i].n);
+    for (size_t i = 0; i < changes; i++) {
+        const struct seed *from = &seeds[draw(n)];
+        memcpy(one.bytes, from->bytes, one.n = from->n);
+        for (size_t k = 1 + draw(4); k > 0; k--)
+            change(&one, &seeds[draw(n)]);
+        LLVMFuzzerTestOneInput(one.bytes, one.n);
+    }
+    printf("ok 1 - fuzz: %s: %zu seeds and %zu changes of them\n1..1\n", argv[1], n, changes);
+    for (size_t i = 0; i < n; i++)
+        free(seeds[i].bytes);
+    free(seeds);
+    free(one.bytes);
+    return 0;
+}
