@@ -2,6 +2,7 @@
 /* How long a person waits: from a key to the first new picture of at least 1000 rocks, on the grid of cells (what a
  * terminal adds is its own), to 10 000 rocks, and for an edit of a stand: to its index, and to the first rocks through it.
  * Prints CSV. */
+#include <ftw.h>
 #include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,6 +48,14 @@ static void to_field(struct app *app, const char *path)
     for (size_t i = 0; i < form->n; i++)
         if (form->rows[i].n > 0 && strcmp(form->rows[i].cells[0].path, path) == 0)
             form->row = i;
+}
+
+static int remove_entry(const char *path, const struct stat *st, int type, struct FTW *where)
+{
+    (void)st;
+    (void)type;
+    (void)where;
+    return remove(path);
 }
 
 int main(int argc, char **argv)
@@ -95,9 +104,6 @@ int main(int argc, char **argv)
     free(all);
     free(stand);
     free(wooded);
-    char folder[sizeof state + 8];
-    snprintf(folder, sizeof folder, "%s/ceduo", state);
-    rmdir(folder);
-    rmdir(state);
+    nftw(state, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return 0;
 }
