@@ -102,8 +102,8 @@ static void look_at_flight(struct watch *w, const struct ceduo_piece *p)
     w->flights++;
 }
 
-/* A flight of less than a micrometre, or a thousandth of the radius, between two walls that face each other. A rock sinks down such a crack in ever so
- * many contacts, and may well need more than are counted. */
+/* A flight of less than a micrometre, or a hundredth of the radius, between two walls that face each other. A rock, which is
+ * a point here, sinks down such a crack in ever so many contacts, and may well need more than are counted. */
 static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct ceduo_piece *p)
 {
     size_t j = ceduo_slope_segment(s, fmin(p->x, p->x1)), k = ceduo_slope_segment(s, fmax(p->x, p->x1));
@@ -111,7 +111,7 @@ static bool is_in_crack(const struct ceduo_slope *s, double radius, const struct
         j--;
     double left = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]);
     double right = (s->z[k + 1] - s->z[k]) / (s->x[k + 1] - s->x[k]);
-    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-3 * radius) && left < -1e3 && right > 1e3;
+    return !p->rolls && fabs(p->x1 - p->x) < fmax(1e-6, 1e-2 * radius) && left < -1e3 && right > 1e3;
 }
 
 /* On the ground a rock gains no more than what it drops. */
