@@ -119,6 +119,12 @@ void ceduo_arguments_help(struct text *text)
                            "see man ceduo\n"));
 }
 
+static enum exit_status no_memory(void)
+{
+    fputs(_("ceduo: out of memory\n"), stderr);
+    return EXIT_RUN;
+}
+
 __attribute__((format(printf, 1, 2))) static enum exit_status usage(const char *format, ...)
 {
     struct text message = {0}, safe = {0};
@@ -127,10 +133,12 @@ __attribute__((format(printf, 1, 2))) static enum exit_status usage(const char *
     ceduo_text_vformat(&message, format, args);
     va_end(args);
     ceduo_text_safe(&safe, message.bytes ? message.bytes : "");
-    fprintf(stderr, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes ? safe.bytes : "");
+    bool good = !message.failed && !safe.failed && safe.bytes;
+    if (good)
+        fprintf(stderr, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
     ceduo_text_free(&message);
     ceduo_text_free(&safe);
-    return EXIT_USAGE;
+    return good ? EXIT_USAGE : no_memory();
 }
 
 static enum exit_status read_count(const char *name, const char *value, double lo, double hi, uint64_t *to)
@@ -199,6 +207,8 @@ static enum exit_status read_size(struct arguments *a, const char *value)
 {
     char *width = strdup(value), *height = width ? strchr(width, 'x') : NULL;
     double w = 0, h = 0;
+    if (!width)
+        return no_memory();
     if (height)
         *height++ = '\0';
     bool good = height && ceduo_number_read(width, &w) == CEDUO_NUMBER_GOOD &&
@@ -250,7 +260,9 @@ static enum exit_status read_years(struct arguments *a, const char *value)
     double parts[3] = {0, 0, 1};
     char *copy = strdup(value), *rest = copy;
     int n = 0;
-    bool good = copy != NULL;
+    bool good = true;
+    if (!copy)
+        return no_memory();
     while (good && rest && n < 3) {
         char *part = rest, *colon = strchr(rest, ':');
         rest = colon ? colon + 1 : NULL;
@@ -530,7 +542,7 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
                             .sets = calloc(most, sizeof *a->sets),
                             .options = calloc(most, sizeof *a->options)};
     if (!a->sets || !a->options)
-        return usage(_("out of memory"));
+        return no_memory();
     opterr = 0;
     for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
         const char *word = argv[optind - 1];

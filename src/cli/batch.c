@@ -65,6 +65,8 @@ void ceduo_batch_say(struct text *text)
     ceduo_batch_localise(text);
     if (text->bytes)
         fputs(text->bytes, stderr);
+    if (text->failed)
+        fputs(_("ceduo: out of memory\n"), stderr); /* what was to be said is cut short */
 }
 
 void ceduo_batch_complain(const char *what, const char *why)
@@ -101,7 +103,7 @@ static bool write_stdout(const char *bytes, size_t n)
 
 enum exit_status ceduo_batch_write(const struct arguments *a, const struct text *text)
 {
-    if (text->failed) {
+    if (ceduo_text_lost() || text->failed) {
         ceduo_batch_complain("ceduo", _("out of memory"));
         return EXIT_RUN;
     }
@@ -257,6 +259,14 @@ static struct ceduo_block *fly_blocks(const struct arguments *a, const struct ce
     return NULL;
 }
 
+/* Why something came to nothing: an interruption says nothing. */
+static enum exit_status fell_short(const struct scene_file *file)
+{
+    if (!atomic_load(ceduo_interrupt_flag()))
+        ceduo_batch_complain(file->path, _("out of memory"));
+    return EXIT_RUN;
+}
+
 enum exit_status ceduo_batch_report(const struct arguments *a, const struct scene_file *file,
                                     struct ceduo_pool *pool, struct ceduo_report *report, double start,
                                     struct text *out)
@@ -270,17 +280,18 @@ enum exit_status ceduo_batch_report(const struct arguments *a, const struct scen
     struct ceduo_years **years = a->years ? fly_years(a, &file->scene, pool, &result->bare) : NULL;
     if (a->years && !years) {
         ceduo_result_free(result);
-        return EXIT_RUN;
+        return fell_short(file);
     }
     report->years = years;
     report->work = ceduo_pool_work(pool);
     if (start > 0)
         report->seconds = ceduo_batch_now() - start;
     struct ceduo_block *blocks = NULL;
-    if (a->format == CEDUO_TABLE && !a->years && file->scene.controls_count > 0)
+    bool with_blocks = a->format == CEDUO_TABLE && !a->years && file->scene.controls_count > 0;
+    if (with_blocks)
         blocks = fly_blocks(a, &file->scene, ceduo_result_rocks(result));
     report->blocks = blocks;
-    enum exit_status status = write_report(a, report, out);
+    enum exit_status status = with_blocks && !blocks ? fell_short(file) : write_report(a, report, out);
     free(blocks);
     free_years(years);
     if (ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result))
@@ -368,7 +379,7 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
     if (a->plot == CEDUO_PLOT_ROTATION &&
         !(years = fly_years(a, &file->scene, pool, &outlook->bare->flown))) {
         ceduo_outlook_free(outlook);
-        return EXIT_RUN;
+        return fell_short(file);
     }
     add_plots(a, &file->scene, outlook, years, out);
     free_years(years);
@@ -460,7 +471,7 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         }
         out.failed |= one.failed;
         ceduo_text_free(&one);
-        if (!a->output && out.length > 0 && !interrupted) {
+        if (!a->output && (out.length > 0 || out.failed) && !interrupted) {
             enum exit_status written = ceduo_batch_write(a, &out);
             status = worse(status, written);
             out.length = 0;
@@ -469,7 +480,7 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         }
         ceduo_interrupt_release();
     }
-    if (a->output && !first)
+    if (a->output && (!first || out.failed))
         status = worse(status, ceduo_batch_write(a, &out));
     ceduo_text_free(&out);
     return status;

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <locale.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include "batch.h"
@@ -73,6 +74,7 @@ int main(int argc, char **argv)
 {
     keep_standard_streams();
     set_locale();
+    signal(SIGXFSZ, SIG_IGN); /* a file that is too large for its limit is an error like a full disk */
     gsl_set_error_handler_off(); /* its own would abort */
     struct arguments arguments;
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);

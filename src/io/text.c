@@ -7,6 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+static _Thread_local bool lost;
+
+bool ceduo_text_lost(void)
+{
+    bool was = lost;
+    lost = false;
+    return was;
+}
+
 static bool reserve(struct text *text, size_t more)
 {
     if (text->failed)
@@ -18,7 +27,7 @@ static bool reserve(struct text *text, size_t more)
         room *= 2;
     char *bytes = realloc(text->bytes, room);
     if (!bytes) {
-        text->failed = true;
+        text->failed = lost = true;
         return false;
     }
     text->bytes = bytes;

@@ -15,6 +15,10 @@ struct text {
     bool failed;
 };
 
+/* Whether some text of this thread was cut short since this was asked last. A page is made of many that are used and
+ * freed on the way: one that lacks a word must not pass for whole. */
+bool ceduo_text_lost(void);
+
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);

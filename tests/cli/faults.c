@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Put before the C library by LD_PRELOAD: one call of a kind goes wrong. The test says which:
+ *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all after it, too
+ *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, renames or removes fails with EIO
+ *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call
+ *   FAULT=short               every write takes one byte, or is interrupted
+ *   FAULT=threads             no thread can be started
+ * FAULT_MARK names a file that is made when it happens. */
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+void *__libc_malloc(size_t n);
+void *__libc_calloc(size_t n, size_t size);
+void *__libc_realloc(void *p, size_t n);
+
+static enum { NOTHING, MEMORY, CALL, KILL, SHORT, THREADS } fault;
+static unsigned long fault_at;
+static bool fault_on;
+static atomic_ulong count;
+
+__attribute__((constructor)) static void set_up(void)
+{
+    static const char *const names[] = {"", "memory", "call", "kill", "short", "threads"};
+    const char *name = getenv("FAULT"), *at = getenv("FAULT_AT");
+    for (int i = 1; name && i < 6; i++)
+        if (strcmp(name, names[i]) == 0)
+            fault = i;
+    fault_at = at ? strtoul(at, NULL, 10) : 0;
+    fault_on = getenv("FAULT_ON") != NULL;
+}
+
+static void mark(void)
+{
+    const char *path = getenv("FAULT_MARK");
+    if (path)
+        syscall(SYS_close, syscall(SYS_openat, AT_FDCWD, path, O_CREAT | O_WRONLY, 0600));
+}
+
+static bool happens(void)
+{
+    unsigned long n = atomic_fetch_add(&count, 1) + 1;
+    if (n == fault_at)
+        mark();
+    return n == fault_at || (fault_on && n > fault_at);
+}
+
+static bool no_memory(void)
+{
+    if (fault != MEMORY || !happens())
+        return false;
+    errno = ENOMEM;
+    return true;
+}
+
+void *malloc(size_t n)
+{
+    return no_memory() ? NULL : __libc_malloc(n);
+}
+
+void *calloc(size_t n, size_t size)
+{
+    return no_memory() ? NULL : __libc_calloc(n, size);
+}
+
+void *realloc(void *p, size_t n)
+{
+    return no_memory() ? NULL : __libc_realloc(p, n);
+}
+
+/* True where this call is to fail. */
+static bool fails(void)
+{
+    if ((fault != CALL && fault != KILL) || !happens())
+        return false;
+    if (fault == KILL)
+        raise(SIGKILL);
+    errno = EIO;
+    return true;
+}
+
+#define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
+
+int open(const char *path, int flags, ...)
+{
+    va_list args;
+    va_start(args, flags);
+    int mode = va_arg(args, int);
+    va_end(args);
+    return fails() ? -1 : (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+}
+
+int mkstemp(char *path)
+{
+    return fails() ? -1 : NEXT(mkstemp)(path);
+}
+
+int fchmod(int fd, mode_t mode)
+{
+    return fails() ? -1 : (int)syscall(SYS_fchmod, fd, mode);
+}
+
+ssize_t write(int fd, const void *bytes, size_t n)
+{
+    static atomic_uint turn;
+    if (fault == SHORT && n > 1) {
+        mark();
+        if (atomic_fetch_add(&turn, 1) % 3 == 0) {
+            errno = EINTR;
+            return -1;
+        }
+        n = 1;
+    }
+    return fails() ? -1 : syscall(SYS_write, fd, bytes, n);
+}
+
+int fsync(int fd)
+{
+    return fails() ? -1 : (int)syscall(SYS_fsync, fd);
+}
+
+int close(int fd)
+{
+    bool bad = fails();
+    int done = (int)syscall(SYS_close, fd); /* it is closed even so */
+    return bad ? -1 : done;
+}
+
+int rename(const char *from, const char *to)
+{
+    return fails() ? -1 : (int)syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0);
+}
+
+int unlink(const char *path)
+{
+    return fails() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
+}
+
+int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument)
+{
+    if (fault == THREADS) {
+        mark();
+        return EAGAIN;
+    }
+    return NEXT(pthread_create)(thread, attributes, start, argument);
+}

@@ -1,0 +1,297 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faults of the machine: no memory, a full disk, failing calls, a sudden death, no threads, streams that are closed.
+
+A library that is loaded before the C library (faults.c) makes one call after the other go wrong.
+"""
+import os
+import resource
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, USAGE, Folder, Skip, Suite, environment, expect, expect_equal,  # noqa: E402
+                     expect_in, good, only_text, tests_of)
+from test_input import FILES  # noqa: E402
+
+SANITIZED = b"__asan_init" in Path(CEDUO).read_bytes() or b"__tsan_init" in Path(CEDUO).read_bytes()
+EACH = int(os.environ.get("FAULTS_EACH") or 3)  # of so many allocations one is made to fail; 1: each
+
+
+class Place(Folder):
+    """A folder with the three files, and the library."""
+
+    def __enter__(self):
+        super().__enter__()
+        for name, text in FILES.items():
+            self.write(f"work/{name}", text)
+        self.work = self.path / "work"
+        self.library = self.path / "faults.so"
+        subprocess.run([*shlex.split(os.environ.get("CC") or "gcc"), "-D_GNU_SOURCE", "-shared", "-fPIC", "-O1", "-o", self.library,
+                        Path(__file__).parent / "faults.c", "-ldl"], check=True)
+        return self
+
+    def run(self, *words, fault, at=0, on=False):
+        """Runs the program with the fault. Says whether it came to it."""
+        if SANITIZED:
+            raise Skip("the sanitizers have their own malloc")
+        mark = self.path / "mark"
+        mark.unlink(missing_ok=True)
+        env = environment(LD_PRELOAD=str(self.library), FAULT=fault, FAULT_AT=str(at), FAULT_MARK=str(mark),
+                          FAULT_ON="1" if on else None)
+        done = subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              env=env, cwd=self.work, timeout=60, check=False)
+        only_text(done.stdout, "stdout")
+        only_text(done.stderr, "stderr")
+        return done, mark.exists()
+
+
+def told(done, at):
+    return f"at {at}: status {done.returncode}\n{done.stdout[:500]!r}\n{done.stderr[:800]!r}"
+
+
+# ---- memory ----
+
+def no_memory(words, on, most=100000):
+    """Allocations fail in turn: status 1 or 3 and 'out of memory', or the same result as ever."""
+    with Place() as place:
+        wanted, _ = place.run(*words, fault="none")
+        expect_equal(wanted.returncode, DONE, wanted.stderr)
+        plain = subprocess.run([CEDUO, *map(str, words)], stdout=subprocess.PIPE, env=environment(LC_ALL="C"), cwd=place.work,
+                               check=False).stdout  # a locale needs memory, too
+        at = failed = 0
+        while at < most:
+            at += EACH
+            done, reached = place.run(*words, fault="memory", at=at, on=on)
+            if not reached:
+                break
+            if done.returncode == DONE:
+                expect(done.stdout in (wanted.stdout, plain) and done.stderr == b"", told(done, at))
+                continue
+            failed += 1
+            expect(done.returncode in (RUN, INPUT, USAGE) and b"out of memory" in done.stderr, told(done, at))
+            expect(done.returncode != USAGE or b"try 'ceduo --help'" in done.stderr, told(done, at))
+            expect_equal(done.stdout, b"", told(done, at))
+            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted(FILES), told(done, at))
+        print(f"# {at - EACH} allocations, {failed} of them end the program")
+        expect(failed > 20, f"{failed} failures: is the library loaded?")
+
+
+BATCH = ("--batch", "-f", "csv", "-n", 20, "-j", 1, "scene.yaml")
+
+
+def test_memory_check():
+    """Allocations of --check fails once: status 1 or 3, 'out of memory', or all is well"""
+    no_memory(("--check", "scene.yaml"), False)
+
+
+def test_memory_check_on():
+    """From some allocation of --check on no more memory: status 1 or 3, 'out of memory'"""
+    no_memory(("--check", "scene.yaml"), True)
+
+
+def test_memory_batch():
+    """Allocations of a run with CSV fails once"""
+    no_memory(BATCH, False)
+
+
+def test_memory_batch_on():
+    """From some allocation of a run on no more memory"""
+    no_memory(BATCH, True)
+
+
+def test_memory_page():
+    """Allocations of a run with its page, and of one with a change and years, fails once"""
+    no_memory(("--batch", "-n", 20, "-j", 1, "scene.yaml"), False)
+    no_memory(("--years", "0:3", "-f", "json", "-n", 2, "-j", 1, "-s", "forest[0].stand.stools.spacing_m=0.5", "scene.yaml"), True)
+
+
+def test_memory_plot():
+    """From some allocation of a picture on no more memory"""
+    no_memory(("--plot", "profile", "-n", 20, "-j", 1, "scene.yaml"), True)
+
+
+def test_memory_output():
+    """Allocations of a run that writes a file fails once: the old file is whole, or the new one"""
+    with Place() as place:
+        out = place.work / "out.csv"
+        place.run(*BATCH, "-o", "out.csv", fault="none")
+        new, at, reached = out.read_bytes(), 0, True
+        while reached:
+            at += EACH
+            out.write_text("old")
+            done, reached = place.run(*BATCH, "-o", "out.csv", fault="memory", at=at)
+            expect(done.returncode in (DONE, RUN, USAGE, INPUT, OUTPUT), told(done, at))
+            expect_equal(out.read_bytes(), new if done.returncode == DONE else b"old", told(done, at))
+            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), told(done, at))
+
+
+# ---- calls that fail, and a sudden death ----
+
+# A change, saved as scene.yaml again: the file that the terminal program must not lose.
+SAVE = "key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\nkey s\nkey Enter Enter\n"
+
+
+def saves(place):
+    """(what, command, the file) of what writes a file."""
+    place.write("play.txt", SAVE)
+    return (("-o", (*BATCH, "-o", "out.csv"), place.work / "out.csv"),
+            ("a save of the terminal program", ("--script", "../play.txt", "scene.yaml"), place.work / "scene.yaml"))
+
+
+def one_call(fault, status_tells):
+    with Place() as place:
+        for what, command, file in saves(place):
+            old = file.read_bytes() if file.exists() else b"old"
+            file.write_bytes(old)
+            done, _ = place.run(*command, fault="none")
+            expect_equal(done.returncode, DONE, what)
+            new, at, seen = file.read_bytes(), 0, set()
+            expect(new != old, what, "writes nothing")
+            while True:
+                at += 1
+                for p in place.work.iterdir():
+                    if p.name not in FILES:
+                        p.unlink()
+                file.write_bytes(old)
+                done, reached = place.run(*command, fault=fault, at=at)
+                if not reached:
+                    break
+                found = file.read_bytes()
+                seen.add(found)
+                expect(found in (old, new), what, "half a file", told(done, at), repr(found[:200]))
+                if status_tells:
+                    expect(0 <= done.returncode <= 4, what, told(done, at))
+                    left = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
+                    expect(not left, what, f"left behind: {left}", told(done, at))
+                    if what == "-o":
+                        expect((done.returncode == DONE) == (found == new), what, told(done, at))
+                else:
+                    expect_equal(done.returncode, -9, told(done, at))
+                    left = [p for p in place.work.iterdir() if p.name not in FILES and p != file]
+                    expect(all(not p.name.endswith(".yaml") for p in left), f"{left} would be taken for scenes")
+            print(f"# {what}: {at - 1} calls")
+            expect_equal(seen, {old, new}, what)
+
+
+def test_calls():
+    """Each call that opens, writes, syncs, closes, renames or removes fails once: status, old file or new one whole, nothing left"""
+    one_call("call", True)
+
+
+def test_kill():
+    """SIGKILL before each call of a save: the old file or the new one is whole"""
+    one_call("kill", False)
+
+
+def test_short_writes():
+    """Writes that take a byte at a time, or are interrupted, give the same bytes"""
+    with Place() as place:
+        wanted, _ = place.run(*BATCH, fault="none")
+        for more in ((), ("-o", "out.csv")):
+            done, reached = place.run(*BATCH, *more, fault="short")
+            found = (place.work / "out.csv").read_bytes() if more else done.stdout
+            expect(reached and done.returncode == DONE and found == wanted.stdout, told(done, 0))
+
+
+def test_no_threads():
+    """Where no thread can be started the result is the same to the last byte; the terminal program says so"""
+    with Place() as place:
+        wanted, _ = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="none")
+        done, reached = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="threads")
+        expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, told(done, 0))
+        place.write("play.txt", "key q\n")
+        done, reached = place.run("--script", "../play.txt", "scene.yaml", fault="threads")
+        expect(reached and done.returncode in (RUN, INPUT) and done.stderr != b"", told(done, 0))
+
+
+# ---- disks ----
+
+def test_file_size_limit():
+    """A file beyond the limit of the process: status 4, the old file whole, nothing left behind"""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+
+    with Folder() as f:
+        for name, text in FILES.items():
+            f.write(name, text)
+        f.write("out.csv", "old")
+        done = subprocess.run([CEDUO, *map(str, BATCH), "-o", "out.csv"], cwd=f.path, env=environment(), preexec_fn=limit,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+        expect(done.returncode == OUTPUT and b"out.csv: File too large" in done.stderr, told(done, 0))
+        expect_equal((f.path / "out.csv").read_text(), "old")
+        expect_equal(f.names(), sorted([*FILES, "out.csv"]))
+
+
+def test_full_disk():
+    """A disk without room: status 4, the old file whole, nothing left behind"""
+    if not shutil.which("unshare") or os.geteuid() != 0:
+        raise Skip("needs a file system of its own")
+    with Folder() as f:
+        for name, text in FILES.items():
+            f.write(name, text)
+        os.mkdir(f.path / "disk")
+        words = " ".join(shlex.quote(str(w)) for w in (CEDUO, *BATCH, "-o", "disk/out.csv"))
+        script = ("mount -t tmpfs -o size=8k none disk || exit 77; echo old >disk/out.csv; cat /dev/zero >disk/ballast 2>/dev/null; "
+                  f"{words}; status=$?; cat disk/out.csv; ls disk; exit $status")
+        done = subprocess.run(["unshare", "-m", "sh", "-c", script], cwd=f.path, env=environment(), stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, check=False)
+        if done.returncode == 77 or b"unshare" in done.stderr:
+            raise Skip("a file system cannot be mounted here")
+        expect(done.returncode == OUTPUT and b"No space left" in done.stderr, told(done, 0))
+        expect_equal(done.stdout, b"old\nballast\nout.csv\n")
+
+
+def test_replaced_while_read():
+    """A scene that is replaced again and again is read as it was or as it is, never half"""
+    with Folder() as f:
+        for name, text in FILES.items():
+            f.write(name, text)
+        f.write("long.yaml", FILES["scene.yaml"] + "# " + "x" * 3000000 + "\n")
+        f.write("short.yaml", FILES["scene.yaml"])
+        script = "exec 2>/dev/null; while :; do cp long.yaml t; mv t scene.yaml; cp short.yaml t; mv t scene.yaml; done"
+        with subprocess.Popen(["sh", "-c", script], cwd=f.path) as other:
+            try:
+                for _ in range(40):
+                    good("--check", "scene.yaml", cwd=f.path)
+            finally:
+                other.kill()
+                other.wait()
+
+
+# ---- streams ----
+
+def test_streams_closed():
+    """All three standard streams closed: a file is still written whole; without a file status 4; a bad scene status 3"""
+    with Folder() as f:
+        for name, text in FILES.items():
+            f.write(name, text)
+        f.write("bad.yaml", "x: [\n")
+        words = " ".join(map(shlex.quote, map(str, (CEDUO, *BATCH))))
+        for more, status in (("-o out.csv", DONE), ("", OUTPUT), ("bad.yaml -o both.csv", INPUT)):
+            done = subprocess.run(["sh", "-c", f"exec {words} {more} <&- >&- 2>&-"], cwd=f.path, env=environment(), check=False)
+            expect_equal(done.returncode, status, more)
+        wanted = good(*BATCH, cwd=f.path).out
+        expect_equal((f.path / "out.csv").read_text(), wanted)
+        expect_equal((f.path / "both.csv").read_text(), wanted)
+
+
+def test_reader_leaves():
+    """A reader that takes one byte ends the program by SIGPIPE, without a word"""
+    done = subprocess.run(["bash", "-c", f"{shlex.quote(CEDUO)} --list-parameters | head -c 1; echo \" ${{PIPESTATUS[0]}}\""],
+                          env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+    expect(done.stdout in (b"p 0\n", b"p 141\n", b"p 4\n") and done.stderr == b"", told(done, 0))
+    expect_in(b"p ", done.stdout)
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
