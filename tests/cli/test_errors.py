@@ -472,6 +472,22 @@ CASES = {
     "standard output: No space left on device (status 4)": full,
     "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
+    # Parts of a run
+    "'mine.yaml' is in 8 shards, and these are missing: 3, 5-7": Elsewhere("tests/cli/test_shard.py", "def test_missing"),
+    "a part by version 0.1.0, and this is 0.2.0; ...": Elsewhere("tests/cli/test_shard.py", "def test_version"),
+    "a part in a format that this version (0.2.0) does not know": Elsewhere("tests/cli/test_shard.py", "def test_version"),
+    "a part that is cut short; fly this shard again": Elsewhere("tests/cli/test_shard.py", "def test_cut"),
+    "a part that was changed after it was written; fly this shard again": Elsewhere("tests/cli/test_shard.py", "def test_edited"),
+    "holds no part": Elsewhere("tests/cli/test_shard.py", "def test_no_parts"),
+    "no part that --shard wrote": Elsewhere("tests/cli/test_shard.py", "def test_no_parts"),
+    "shard 2 of 3 of 'mine.yaml', of which a.jsonl:1 is one of 8": Elsewhere("tests/cli/test_shard.py", "def test_foreign"),
+    "shard 2 of 8 of 'mine.yaml' does not fit the others; fly it again": Elsewhere("tests/cli/test_shard.py", "def test_forged"),
+    "shard 3 of 8 of 'mine.yaml' once more; it stands in b.jsonl:1 already": Elsewhere("tests/cli/test_shard.py", "def test_doubled"),
+    "shard 3 of 8 of another 'mine.yaml' than that of a.jsonl:1: ...": Elsewhere("tests/cli/test_shard.py", "def test_foreign"),
+    "--merge does not go with --rocks: what is printed was computed with the parts": Words("--merge", "-n", 5, "@"),
+    "--merge wants files with the parts that --shard wrote, ...": Words("--merge"),
+    "--shard does not go with --format: it writes a part of one run, ...": Words("--shard", "1/2", "-f", "csv", "@"),
+    "--shard: '0/3' is no part of a whole; write I/N, ...": Words("--shard", "0/3", "@"),
 }
 
 
