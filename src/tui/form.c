@@ -124,7 +124,7 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
     char path[FORM_PATH];
     const struct node *node = ceduo_document_node(d, list);
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, title);
-    for (size_t k = 0; keys[k] && k < FORM_COLUMNS; k++) {
+    for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
         const char *dot = strrchr(keys[k], '.');
         snprintf(head->cells[k].text, sizeof head->cells[k].text, "%s", dot ? dot + 1 : keys[k]);
         head->n = k + 1;
@@ -136,7 +136,7 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
         struct form_row *row = add_row(form, FORM_FIELDS, label);
         snprintf(row->list, sizeof row->list, "%s", list);
         row->index = i;
-        for (size_t k = 0; keys[k] && k < FORM_COLUMNS; k++) {
+        for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
             snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", keys[k]);
             fill_cell(&row->cells[k], d, find_field(object, keys[k]), path);
             row->n = k + 1;

@@ -16,9 +16,8 @@ void ceduo_line_set(struct line *line, const char *text)
 
 static size_t before(const struct line *line, size_t at)
 {
-    do
-        at--;
-    while (at > 0 && ((unsigned char)line->text[at] & 0xc0) == 0x80);
+    while (at > 0 && ((unsigned char)line->text[--at] & 0xc0) == 0x80)
+        continue;
     return at;
 }
 

@@ -44,7 +44,7 @@ void ceduo_words_number(struct text *text, double value, int digits)
         return;
     }
     double size = fabs(value);
-    int before = size >= 1 ? (int)floor(log10(size)) + 1 : (int)floor(log10(size)) + 1;
+    int before = (int)floor(log10(size)) + 1;
     int decimals = digits - before;
     if (decimals > 6 || size >= 1e9)
         ceduo_text_format(text, "%.*g", digits, value);
