@@ -11,7 +11,7 @@
 #include "io/intl.h"
 #include "io/part_file.h"
 
-#define PART_BYTES_MOST ((size_t)64 * 1024 * 1024 * 1024)
+#define PART_BYTES_MOST (SIZE_MAX / 2) /* of a file; what memory holds is the bound */
 
 /* All parts, in the order in which they are read until they are sorted. */
 struct parts {
