@@ -7,7 +7,7 @@
 CSV on stdout: medians; the peak of memory says whether it grows with the scenes (with -o it holds what it is
 to write)."""
 import os
-import resource
+import re
 import statistics
 import subprocess
 import sys
@@ -27,16 +27,30 @@ simulation: {{rocks: 100, contact_model: index}}
 """
 
 
+def high_water(pid):
+    """The most memory of a process so far, in MiB; 0 where it has ended."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return 0
+    found = re.search(r"VmHWM:\s+(\d+)", status)
+    return int(found[1]) / 1024 if found else 0
+
+
 def run(program, folder, files):
+    """Seconds, and the most memory."""
     start = time.monotonic()
     with open(folder / "out.csv", "wb") as out:
-        done = subprocess.run([program, "--batch", "-f", "csv", *files], cwd=folder, stdout=out, stderr=subprocess.PIPE,
-                              check=False)
+        p = subprocess.Popen([program, "--batch", "-f", "csv", *files], cwd=folder, stdout=out, stderr=subprocess.DEVNULL)
+        peak = 0
+        while p.poll() is None:
+            peak = max(peak, high_water(p.pid))
+            time.sleep(0.005)
     seconds = time.monotonic() - start
     rows = (folder / "out.csv").read_text().count("\n") - 1
-    if done.returncode != 3 or rows != len(files) - 1:
-        sys.exit(f"bench_valley: status {done.returncode}, {rows} rows of {len(files)} scenes")
-    return seconds
+    if p.returncode != 3 or rows != len(files) - 1:
+        sys.exit(f"bench_valley: status {p.returncode}, {rows} rows of {len(files)} scenes")
+    return seconds, peak
 
 
 def main():
@@ -55,9 +69,9 @@ def main():
         for scenes in (most // 10, most):
             first = most // 2 - scenes // 2
             files = [f"{i:05}.yaml" for i in range(first, first + scenes)]
-            seconds = statistics.median(run(program, folder, files) for _ in range(repeats))
-            peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-            print(f"{scenes},{seconds:.3f},{scenes / seconds:.0f},{peak:.1f}", flush=True)
+            found = [run(program, folder, files) for _ in range(repeats)]
+            seconds = statistics.median(f[0] for f in found)
+            print(f"{scenes},{seconds:.3f},{scenes / seconds:.0f},{max(f[1] for f in found):.1f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -34,7 +34,7 @@ for bench; do
     name=$(basename "$bench")
     name=${name%.*}
     echo "== $name"
-    "$bench" >"results/$name.new"
+    (cd ../.. && "$bench") >"results/$name.new" # scenes are named from there
     status=$?
     cat "results/$name.new"
     if [ $status = 0 ]; then
