@@ -154,6 +154,25 @@ static int shortest_digits(double value, char room[CEDUO_NUMBER_ROOM])
     return digits;
 }
 
+/* Writes 1.234e+05 in `room`, of which the first `digits` digits count, without its exponent; a print of its own would cost
+ * as much again. */
+static void write_plainly(char room[CEDUO_NUMBER_ROOM], int digits, int exponent)
+{
+    char from[CEDUO_NUMBER_ROOM], *to = room;
+    int n = 0;
+    for (const char *p = room; *p != 'e' && n < digits; p++)
+        if (*p >= '0' && *p <= '9')
+            from[n++] = *p;
+    if (*room == '-')
+        to++;
+    for (int place = exponent < 0 ? exponent : 0; place < n || place <= exponent; place++) { /* digit 0 is the first */
+        if (place == exponent + 1)
+            *to++ = '.';
+        *to++ = place >= 0 && place < n ? from[place] : '0';
+    }
+    *to = '\0';
+}
+
 const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
 {
     if (!isfinite(value))
@@ -162,7 +181,9 @@ const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
         return strcpy(room, "0"); /* and never -0 */
     int digits = shortest_digits(value, room);
     int exponent = (int)strtol(strchr(room, 'e') + 1, NULL, 10);
-    if (exponent >= -5 && exponent < 17) { /* 50, not 5e+01 */
+    if (exponent >= -5 && exponent < 15) { /* 50, not 5e+01 */
+        write_plainly(room, digits, exponent);
+    } else if (exponent >= 15 && exponent < 17) { /* whole, and perhaps not quite what few digits read back as */
         int decimals = digits - 1 - exponent;
         snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, value);
     } else {
