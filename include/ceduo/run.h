@@ -85,9 +85,10 @@ struct ceduo_difference {
     struct ceduo_paired energy_per_released; /* J */
 };
 
-/* `run` less `baseline`: two runs of one scene, with as many rocks (all NaN where one is longer). Because both fly the same rocks the error of a
- * difference is far smaller than those of the two figures. In runs too long to keep their samples the standard error
- * comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes goes. */
+/* `run` less `baseline`: two runs of one scene, with as many rocks (all NaN where one is longer). Both fly the same rocks,
+ * so that the error of a difference is the smaller the more alike the two forests are. In runs too long to keep their
+ * samples the standard error comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as
+ * exact_bytes goes. */
 #define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control);
