@@ -127,15 +127,12 @@ static uint64_t count_bits(const unsigned char *bits, size_t n)
     return n % 8 != 0 && bits[n / 8] >> n % 8 != 0 ? UINT64_MAX : count;
 }
 
-static bool read_column(struct bytes *b, double *column, size_t n, uint64_t *there)
+/* A value wherever `first`, which may be `column` itself, is a number. */
+static bool read_values(struct bytes *b, const double *first, double *column, size_t n, size_t there)
 {
-    const unsigned char *bits = ceduo_bytes_read(b, (n + 7) / 8);
-    *there = bits ? count_bits(bits, n) : 0;
-    if (!bits || *there > n)
-        return false;
-    const unsigned char *p = ceduo_bytes_read(b, (size_t)*there * 8);
+    const unsigned char *p = ceduo_bytes_read(b, there * 8);
     for (size_t i = 0; p && i < n; i++) {
-        if (!(bits[i / 8] >> i % 8 & 1)) {
+        if (isnan(first[i])) {
             column[i] = NAN;
             continue;
         }
@@ -145,6 +142,17 @@ static bool read_column(struct bytes *b, double *column, size_t n, uint64_t *the
             return false;
     }
     return p != NULL;
+}
+
+static bool read_column(struct bytes *b, double *column, size_t n, uint64_t *there)
+{
+    const unsigned char *bits = ceduo_bytes_read(b, (n + 7) / 8);
+    *there = bits ? count_bits(bits, n) : 0;
+    if (!bits || *there > n)
+        return false;
+    for (size_t i = 0; i < n; i++)
+        column[i] = bits[i / 8] >> i % 8 & 1 ? 0 : NAN;
+    return read_values(b, column, column, n, (size_t)*there);
 }
 
 bool ceduo_bytes_column(struct bytes *b, double *column, size_t n, uint64_t *there)
@@ -157,17 +165,5 @@ bool ceduo_bytes_column_as(struct bytes *b, const double *first, double *column,
     size_t there = 0;
     for (size_t i = 0; i < n; i++)
         there += isnan(first[i]) ? 0 : 1;
-    if (!b->reads)
-        return write_values(b, first, column, n, there);
-    const unsigned char *p = ceduo_bytes_read(b, there * 8);
-    for (size_t i = 0; p && i < n; i++) {
-        column[i] = NAN;
-        if (isnan(first[i]))
-            continue;
-        column[i] = get_number(p);
-        p += 8;
-        if (!isfinite(column[i]))
-            return false;
-    }
-    return p != NULL;
+    return b->reads ? read_values(b, first, column, n, there) : write_values(b, first, column, n, there);
 }

@@ -10,19 +10,14 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "measure.h"
 #include "tui/app.h"
 
-static double now(void)
+static double milliseconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec * 1e3 + 1e-6 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static void report(const char *what, double *ms, size_t n, double goal_median, double goal_p99)
@@ -80,20 +75,20 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < repeats; i++) {
         ceduo_app_key(&app, '3');
         to_field(&app, "rock.diameter_m");
-        double start = now();
+        double start = milliseconds();
         ceduo_app_key(&app, i % 2 ? '-' : '+');
         wait_for(&app, 1000);
-        first[i] = now() - start;
+        first[i] = milliseconds() - start;
         wait_for(&app, 10000);
-        all[i] = now() - start;
+        all[i] = milliseconds() - start;
         ceduo_app_key(&app, '2');
         to_field(&app, "forest[0].stand.stools.per_ha");
-        start = now();
+        start = milliseconds();
         ceduo_app_key(&app, i % 2 ? '-' : '+');
         ceduo_app_draw(&app);
-        stand[i] = now() - start;
+        stand[i] = milliseconds() - start;
         wait_for(&app, 1000);
-        wooded[i] = now() - start;
+        wooded[i] = milliseconds() - start;
     }
     report("key to a picture of 1000 rocks", first, repeats, 33, 100);
     report("key to a picture of 10000 rocks", all, repeats, 250, 0);

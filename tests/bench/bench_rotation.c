@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "measure.h"
 #include "ceduo/years.h"
 #include "io/scene_file.h"
 
@@ -14,17 +15,11 @@
 #define LAST         25
 #define GOAL_SECONDS 2 /* with 10 000 rocks on two cores */
 
-static double now(clockid_t clock)
+static double seconds_of(clockid_t clock)
 {
     struct timespec t;
     clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* All of it once, from a scene that was read; what was done goes to *work. */
@@ -62,10 +57,10 @@ static void measure(const char *path, size_t repeats, uint64_t rocks, unsigned t
     struct ceduo_work work = {0};
     double seconds[REPEATS_MOST], busy[REPEATS_MOST];
     for (size_t r = 0; r < repeats; r++) {
-        double start = now(CLOCK_MONOTONIC), start_busy = now(CLOCK_PROCESS_CPUTIME_ID);
+        double start = seconds_of(CLOCK_MONOTONIC), start_busy = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
         fly(&file.scene, threads, rocks, &work);
-        seconds[r] = now(CLOCK_MONOTONIC) - start;
-        busy[r] = now(CLOCK_PROCESS_CPUTIME_ID) - start_busy;
+        seconds[r] = seconds_of(CLOCK_MONOTONIC) - start;
+        busy[r] = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - start_busy;
     }
     qsort(seconds, repeats, sizeof *seconds, by_value);
     qsort(busy, repeats, sizeof *busy, by_value);

@@ -17,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "measure.h"
 #include "ceduo/ceduo.h"
 #include "physics/paper_site.h"
 
@@ -62,12 +63,6 @@ static void fly(struct ceduo_follower *f, uint64_t rock, int mode, struct track 
     fesetround(FE_TONEAREST);
     if (status != CEDUO_OK)
         fail("no memory");
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static void add(struct sums *s, double v)

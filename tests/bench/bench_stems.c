@@ -4,8 +4,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "measure.h"
 #include "ceduo/ceduo.h"
 #include "io/scene_file.h"
 
@@ -18,13 +18,6 @@ struct kind {
     struct ceduo_stem_counts stems;
     double seconds[REPEATS_MOST];
 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t repeat)
 {
@@ -40,12 +33,6 @@ static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t
     k->contacts = ceduo_run_contacts(run);
     k->stems = ceduo_run_stems(run);
     ceduo_run_free(run);
-}
-
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static void measure(const char *path, size_t repeats, uint64_t rocks)

@@ -29,8 +29,8 @@ class Place(Folder):
         for name, text in FILES.items():
             self.write(f"work/{name}", text)
         self.work = self.path / "work"
-        self.library = self.path / "faults.so"
-        subprocess.run([*shlex.split(os.environ.get("CC") or "gcc"), "-D_GNU_SOURCE", "-shared", "-fPIC", "-O1", "-o", self.library,
+        self.preload = self.path / "faults.so"
+        subprocess.run([*shlex.split(os.environ.get("CC") or "gcc"), "-D_GNU_SOURCE", "-shared", "-fPIC", "-O1", "-o", self.preload,
                         Path(__file__).parent / "faults.c", "-ldl"], check=True)
         return self
 
@@ -40,7 +40,7 @@ class Place(Folder):
             raise Skip("the sanitizers have their own malloc")
         mark = self.path / "mark"
         mark.unlink(missing_ok=True)
-        env = environment(LD_PRELOAD=str(self.library), FAULT=fault, FAULT_AT=str(at), FAULT_MARK=str(mark),
+        env = environment(LD_PRELOAD=str(self.preload), FAULT=fault, FAULT_AT=str(at), FAULT_MARK=str(mark),
                           FAULT_ON="1" if on else None)
         done = subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               env=env, cwd=self.work, timeout=60, check=False)
