@@ -177,13 +177,13 @@ do-lint:
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
 	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
 	    "-DCEDUO_DATADIR=\"\"" 2>/dev/null' tidy
-DEBIAN_ALL := clang valgrind
+DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
 DEBIAN_BENCH := python3-numpy gnuplot-nox
 do-check-all: do-check
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
 	@+$(MAKE) --no-print-directory VARIANT=asan do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
-	@+$(MAKE) --no-print-directory do-check-memory
+	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
 
 # Threads are exercised by these.
 do-check-threads: $(T)/physics/test_statistics_of_runs $(PROGRAM)
@@ -194,6 +194,17 @@ do-check-threads: $(T)/physics/test_statistics_of_runs $(PROGRAM)
 do-check-memory: all
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
 	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --plot profile profiles/scenes/paper-site.yaml >/dev/null
+
+# The workflows once more, with a Slurm of one node for their job arrays; where none can be started it says why.
+do-check-slurm: all
+	CEDUO=$(CURDIR)/$(PROGRAM) tests/slurm.sh tests/cli/test_workflows.py || [ $$? = 77 ]
+
+# The archive, unpacked elsewhere, passes too.
+do-check-dist: dist
+	rm -rf build/unpacked && mkdir -p build/unpacked
+	tar -xzf $(DIST).tar.gz -C build/unpacked
+	+$(MAKE) --no-print-directory -C build/unpacked/$(DIST) check
+	rm -rf build/unpacked
 
 # So many random scenes, in as many parts as there are cores.
 STRESS ?= 10000000
@@ -271,5 +282,5 @@ dist:
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory man install uninstall dist clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist man install uninstall dist clean
 .DELETE_ON_ERROR:

@@ -35,14 +35,39 @@ def blocks(way):
     return [plain(body) for name, body in RUN.findall(PAGE.read_text()) if name == way]
 
 
-# What stands for Slurm: the tasks of an array one after the other.
+# What stands for Slurm: the tasks of an array one after the other. Where tests/slurm.sh runs these tests it is a real one.
+SLURM = "SLURM_CONF" in os.environ
 SBATCH = """#!/bin/sh
-range=${1#--array=}
+tasks=${1#--array=}
 shift
-for i in $(seq "${range%-*}" "${range#*-}"); do
-    SLURM_ARRAY_TASK_ID=$i SLURM_CPUS_PER_TASK=1 sh "$@" || exit 1
+failed=0
+for range in $(echo "$tasks" | tr , ' '); do
+    for i in $(seq "${range%-*}" "${range#*-}"); do
+        SLURM_ARRAY_TASK_ID=$i SLURM_CPUS_PER_TASK=1 sh "$@" || failed=1
+    done
 done
+exit $failed
 """
+
+
+class Machine(Folder):
+    """A home with the program, its profiles and Slurm on the path."""
+
+    def __enter__(self):
+        super().__enter__()
+        (self.path / "bin").mkdir()
+        (self.path / "bin/ceduo").symlink_to(CEDUO)
+        (self.path / "share").mkdir()
+        (self.path / "share/ceduo").symlink_to(ROOT / "profiles")
+        if not SLURM:
+            self.write("bin/sbatch", SBATCH).chmod(0o755)
+        return self
+
+    def run(self, text, cwd):
+        env = harness.environment(PATH=f"{self.path / 'bin'}{os.pathsep}{os.environ['PATH']}", HOME=str(self.path),
+                                  XDG_STATE_HOME=str(self.path), SBATCH_WAIT="1")
+        return subprocess.run(["sh", "-e"], input=text, text=True, encoding="utf-8", capture_output=True, cwd=cwd, env=env,
+                              timeout=600, check=False)
 
 
 class Walk:
@@ -50,17 +75,9 @@ class Walk:
 
     def __init__(self, way, may_say=lambda err: False):
         self.outputs, self.files = [], {}
-        with Folder() as work, Folder() as other:
-            (other.path / "bin").mkdir()
-            (other.path / "bin/ceduo").symlink_to(CEDUO)
-            (other.path / "share").mkdir()
-            (other.path / "share/ceduo").symlink_to(ROOT / "profiles")
-            other.write("bin/sbatch", SBATCH).chmod(0o755)
-            env = harness.environment(PATH=f"{other.path / 'bin'}{os.pathsep}{os.environ['PATH']}", HOME=str(other.path),
-                                      XDG_STATE_HOME=str(other.path))
+        with Folder() as work, Machine() as machine:
             for number, block in enumerate(blocks(way), 1):
-                done = subprocess.run(["sh", "-e"], input=block, text=True, encoding="utf-8", capture_output=True,
-                                      cwd=work.path, env=env, timeout=600, check=False)
+                done = machine.run(block, work.path)
                 expect(done.returncode == 0 and (done.stderr == "" or may_say(done.stderr)), f"block {number} of {way}:", block,
                        f"status {done.returncode}", done.stderr, done.stdout)
                 self.outputs.append(done.stdout)
@@ -381,6 +398,37 @@ def test_job_array():
             done = subprocess.run(["sh", script, *map(str, words)], capture_output=True, text=True, check=False, cwd=f.path,
                                   env=harness.environment(SLURM_ARRAY_TASK_ID=task))
             expect(done.returncode != 0 and say in done.stderr, words, done)
+
+
+def test_job_array_again():
+    """Of a job array some tasks die: no half file is left, --merge names their shards, and they alone are flown again"""
+    with Folder() as work, Machine() as machine:
+        machine.write("share/array", (ROOT / "profiles/jobs/ceduo-array.sbatch").read_text())
+        (machine.path / "bin/ceduo").unlink()
+        machine.write("bin/ceduo", f"""#!/bin/sh
+case $*:$(cat {work.path}/well) in
+*" 2/5 "*: | *" 4/5 "*:)
+    {CEDUO} "$@" -n 100000000 & # hours
+    sleep 0.5
+    kill -9 $!
+    wait $!
+    ;;
+*) exec {CEDUO} "$@" ;;
+esac
+""").chmod(0o755)
+        work.write("well", "")
+        script = f"{machine.path}/share/array shard 5 parts -n 5000 paper-site"
+        done = machine.run(f"sbatch --array=1-5 {script} || echo some failed", work.path)
+        expect_in("some failed", done.stdout, done)
+        expect_equal(sorted(os.listdir(work.path / "parts")), ["part-1.jsonl", "part-3.jsonl", "part-5.jsonl"], "files")
+        merged = machine.run("ceduo --merge -f csv parts/part-*.jsonl", work.path)
+        expect_equal((merged.returncode, merged.stdout), (harness.INPUT, ""), merged.stderr)
+        expect_in("is in 5 shards, and these are missing: 2, 4", merged.stderr, merged)
+        work.write("well", "yes")
+        done = machine.run(f"sbatch --array=2,4 {script}\nceduo --merge -f csv -o all.csv parts/part-*.jsonl", work.path)
+        expect_equal((done.returncode, done.stderr), (0, ""), done.stdout)
+        wanted = harness.good("--batch", "-f", "csv", "-n", "5000", "paper-site").out
+        expect_equal(without_path((work.path / "all.csv").read_text()), without_path(wanted), "rows")
 
 
 if __name__ == "__main__":
