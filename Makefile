@@ -201,10 +201,8 @@ do-check-slurm: all
 
 # The archive, unpacked elsewhere, passes too.
 do-check-dist: dist
-	rm -rf build/unpacked && mkdir -p build/unpacked
-	tar -xzf $(DIST).tar.gz -C build/unpacked
-	+$(MAKE) --no-print-directory -C build/unpacked/$(DIST) check
-	rm -rf build/unpacked
+	+to=$$(mktemp -d) && tar -xzf $(DIST).tar.gz -C "$$to" && \
+	    $(MAKE) --no-print-directory -C "$$to/$(DIST)" check; status=$$?; rm -rf "$$to"; exit $$status
 
 # So many random scenes, in as many parts as there are cores.
 STRESS ?= 10000000
