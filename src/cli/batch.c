@@ -13,6 +13,8 @@
 #include "io/file.h"
 #include "io/intl.h"
 
+#define HELD_MOST ((size_t)256 * 1024) /* bytes of results that wait in memory */
+
 double ceduo_batch_now(void)
 {
     struct timespec t;
@@ -101,18 +103,50 @@ static bool write_stdout(const char *bytes, size_t n)
     return true;
 }
 
-enum exit_status ceduo_batch_write(const struct arguments *a, const struct text *text)
+/* First what the open file `before` holds (-1: nothing). */
+static enum exit_status write_after(int before, const struct arguments *a, const struct text *text)
 {
     if (ceduo_text_lost() || text->failed) {
         ceduo_batch_complain("ceduo", _("out of memory"));
         return EXIT_RUN;
     }
     const char *bytes = text->bytes ? text->bytes : "";
-    bool good = a->output ? ceduo_file_write(a->output, bytes, text->length) : write_stdout(bytes, text->length);
+    bool good = a->output ? ceduo_file_write_after(before, a->output, bytes, text->length)
+                          : write_stdout(bytes, text->length);
     if (good)
         return EXIT_DONE;
     ceduo_batch_complain(a->output ? a->output : _("standard output"), strerror(errno));
     return EXIT_OUTPUT;
+}
+
+enum exit_status ceduo_batch_write(const struct arguments *a, const struct text *text)
+{
+    return write_after(-1, a, text);
+}
+
+bool ceduo_batch_can_write(const struct arguments *a)
+{
+    if (!a->output || ceduo_file_can_write(a->output))
+        return true;
+    ceduo_batch_complain(a->output, strerror(errno));
+    return false;
+}
+
+/* Results that wait for the last scene go into a nameless file once they are large, so that thousands of scenes need no
+ * more memory than one. Where there is no room for such a file they stay in memory. */
+static void set_aside(FILE **spool, struct text *out)
+{
+    if (out->failed || out->length < HELD_MOST)
+        return;
+    if (!*spool && (*spool = tmpfile()))
+        setvbuf(*spool, NULL, _IONBF, 0);
+    long end = *spool ? ftell(*spool) : -1;
+    if (end < 0)
+        return;
+    if (fwrite(out->bytes, 1, out->length, *spool) == out->length)
+        out->length = 0;
+    else if (fseek(*spool, end, SEEK_SET) != 0 || ftruncate(fileno(*spool), end) != 0)
+        out->failed = true;
 }
 
 /* ---- progress ---- */
@@ -454,6 +488,7 @@ static enum exit_status batch_scene(const struct arguments *a, size_t i, struct 
 enum exit_status ceduo_batch_run(const struct arguments *a)
 {
     struct text out = {0};
+    FILE *spool = NULL;
     enum exit_status status = EXIT_DONE;
     bool first = true;
     for (size_t i = 0; i < a->scenes_count; i++) {
@@ -471,7 +506,9 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         }
         out.failed |= one.failed;
         ceduo_text_free(&one);
-        if (!a->output && (out.length > 0 || out.failed) && !interrupted) {
+        if (a->output) {
+            set_aside(&spool, &out);
+        } else if ((out.length > 0 || out.failed) && !interrupted) {
             enum exit_status written = ceduo_batch_write(a, &out);
             status = worse(status, written);
             out.length = 0;
@@ -481,7 +518,9 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         ceduo_interrupt_release();
     }
     if (a->output && (!first || out.failed))
-        status = worse(status, ceduo_batch_write(a, &out));
+        status = worse(status, write_after(spool ? fileno(spool) : -1, a, &out));
+    if (spool)
+        fclose(spool);
     ceduo_text_free(&out);
     return status;
 }

@@ -15,6 +15,9 @@ enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
 
+/* Whether it can be written to where --output says, as far as that can be told; says why not. */
+bool ceduo_batch_can_write(const struct arguments *arguments);
+
 /* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
 enum exit_status ceduo_batch_write(const struct arguments *arguments, const struct text *text);
 

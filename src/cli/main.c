@@ -48,6 +48,8 @@ static void fill_version(struct text *text)
 
 static enum exit_status act(const struct arguments *a)
 {
+    if (!ceduo_batch_can_write(a)) /* told before anything is computed */
+        return EXIT_OUTPUT;
     switch (a->mode) {
     case MODE_BATCH:
         return ceduo_batch_run(a);

@@ -386,12 +386,32 @@ static bool write_all(int fd, const char *bytes, size_t n)
     return true;
 }
 
-static bool write_straight(const char *path, const char *bytes, size_t n)
+/* What is to be written: all of a file that was filled before, if there is one, then these bytes. */
+struct content {
+    int before; /* -1: none */
+    const char *bytes;
+    size_t n;
+};
+
+static bool write_content(int fd, const struct content *content)
+{
+    char part[65536];
+    ssize_t n = 0;
+    off_t at = 0;
+    while (content->before >= 0 && (n = pread(content->before, part, sizeof part, at)) > 0) {
+        if (!write_all(fd, part, (size_t)n))
+            return false;
+        at += n;
+    }
+    return n == 0 && write_all(fd, content->bytes, content->n);
+}
+
+static bool write_straight(const char *path, const struct content *content)
 {
     int fd = open(path, O_WRONLY | O_CLOEXEC);
     if (fd < 0)
         return false;
-    bool good = write_all(fd, bytes, n);
+    bool good = write_content(fd, content);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -414,9 +434,9 @@ static void sync_folder(char *path)
     }
 }
 
-static bool fill_temporary(int fd, mode_t mode, const char *bytes, size_t n, bool wait)
+static bool fill_temporary(int fd, mode_t mode, const struct content *content, bool wait)
 {
-    bool good = fchmod(fd, mode) == 0 && write_all(fd, bytes, n) && (!wait || fsync(fd) == 0);
+    bool good = fchmod(fd, mode) == 0 && write_content(fd, content) && (!wait || fsync(fd) == 0);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -424,7 +444,7 @@ static bool fill_temporary(int fd, mode_t mode, const char *bytes, size_t n, boo
     return good;
 }
 
-static bool write_whole(char *target, mode_t mode, const char *bytes, size_t n, bool wait)
+static bool write_whole(char *target, mode_t mode, const struct content *content, bool wait)
 {
     size_t length = strlen(target);
     char *temporary = malloc(length + 8);
@@ -433,7 +453,7 @@ static bool write_whole(char *target, mode_t mode, const char *bytes, size_t n, 
     memcpy(temporary, target, length);
     memcpy(temporary + length, ".XXXXXX", 8);
     int fd = mkstemp(temporary);
-    bool good = fd >= 0 && fill_temporary(fd, mode, bytes, n, wait) && rename(temporary, target) == 0;
+    bool good = fd >= 0 && fill_temporary(fd, mode, content, wait) && rename(temporary, target) == 0;
     int why = errno;
     if (!good && fd >= 0)
         unlink(temporary);
@@ -474,18 +494,18 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
-static bool write_file(const char *path, const char *bytes, size_t n, bool wait)
+static bool write_file(const char *path, const struct content *content, bool wait)
 {
     struct stat st;
     bool exists = stat(path, &st) == 0;
     if (exists && !S_ISREG(st.st_mode))
-        return write_straight(path, bytes, n);
+        return write_straight(path, content);
     if (exists && access(path, W_OK) != 0)
         return false;
     char *target = exists ? realpath(path, NULL) : follow_links(path); /* a link stays a link */
     if (!target)
         return false;
-    bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), bytes, n, wait);
+    bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), content, wait);
     int why = errno;
     free(target);
     errno = why;
@@ -494,10 +514,38 @@ static bool write_file(const char *path, const char *bytes, size_t n, bool wait)
 
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
-    return write_file(path, bytes, n, true);
+    return write_file(path, &(struct content){-1, bytes, n}, true);
 }
 
 bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
 {
-    return write_file(path, bytes, n, false);
+    return write_file(path, &(struct content){-1, bytes, n}, false);
+}
+
+bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n)
+{
+    return write_file(path, &(struct content){before, bytes, n}, true);
+}
+
+bool ceduo_file_can_write(const char *path)
+{
+    struct stat st;
+    bool exists = stat(path, &st) == 0;
+    if (exists && S_ISDIR(st.st_mode))
+        errno = EISDIR;
+    if (exists ? S_ISDIR(st.st_mode) || access(path, W_OK) != 0 : errno != ENOENT || !*path)
+        return false;
+    if (exists && !S_ISREG(st.st_mode))
+        return true;
+    char *target = exists ? realpath(path, NULL) : follow_links(path);
+    if (!target)
+        return false;
+    char *slash = strrchr(target, '/');
+    if (slash)
+        slash[slash == target] = '\0';
+    bool good = access(slash ? target : ".", W_OK | X_OK) == 0; /* a file beside it is to take its place */
+    int why = errno;
+    free(target);
+    errno = why;
+    return good;
 }

@@ -56,4 +56,10 @@ bool ceduo_file_write(const char *path, const char *bytes, size_t n);
 /* The same without waiting for the disk: it survives the program, but maybe not a power cut. */
 bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n);
 
+/* The same as ceduo_file_write(), but first what the open file `before` holds (-1: nothing). */
+bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n);
+
+/* Whether ceduo_file_write() could begin, as far as that can be told without writing. False with errno set. */
+bool ceduo_file_can_write(const char *path);
+
 #endif

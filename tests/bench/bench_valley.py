@@ -4,8 +4,7 @@
 
     bench_valley.py [PROGRAM [SCENES [REPEATS]]]        default ceduo of the build, 10000, 3
 
-CSV on stdout: medians; the peak of memory says whether it grows with the scenes (with -o it holds what it is
-to write)."""
+CSV on stdout: medians; the peak of memory says whether it grows with the scenes."""
 import os
 import re
 import statistics
@@ -40,12 +39,11 @@ def high_water(pid):
 def run(program, folder, files):
     """Seconds, and the most memory."""
     start = time.monotonic()
-    with open(folder / "out.csv", "wb") as out:
-        p = subprocess.Popen([program, "--batch", "-f", "csv", *files], cwd=folder, stdout=out, stderr=subprocess.DEVNULL)
-        peak = 0
-        while p.poll() is None:
-            peak = max(peak, high_water(p.pid))
-            time.sleep(0.005)
+    p = subprocess.Popen([program, "--batch", "-f", "csv", "-o", "out.csv", *files], cwd=folder, stderr=subprocess.DEVNULL)
+    peak = 0
+    while p.poll() is None:
+        peak = max(peak, high_water(p.pid))
+        time.sleep(0.005)
     seconds = time.monotonic() - start
     rows = (folder / "out.csv").read_text().count("\n") - 1
     if p.returncode != 3 or rows != len(files) - 1:

@@ -1400,6 +1400,36 @@ def test_output_impossible():
         expect_equal(f.names(), [])
 
 
+def test_output_told_first():
+    """That -o cannot be written is told before anything is read or computed"""
+    with Folder() as f:
+        for target in (f.path, f.path / "no" / "out.txt", "", f.path / ("x" * 300)):
+            for words in (["--batch"], ["--merge"], ["--find", "rock.diameter_m=0.2:1", "--goal", "adc=30"]):
+                done = ceduo(*words, "-o", target, f.path / "no-scene.yaml", cwd=f.path)
+                expect_equal(done.status, OUTPUT, done)
+                expect(done.out == "" and "no-scene" not in done.err, done)
+
+
+def test_output_large():
+    """-o of many scenes: what stdout gets, and memory does not grow with them"""
+    wanted = good("--batch", "-f", "csv", "-n", 10, *[PAPER] * 1000).out
+    expect(len(wanted) > 2_000_000, "bytes of output", len(wanted))
+    peaks = []
+    with Folder() as f:
+        good("--batch", "-f", "csv", "-n", 10, "-o", f.path / "out.csv", *[PAPER] * 1000)
+        expect_equal((f.path / "out.csv").read_text(), wanted, "rows")
+        os.mkfifo(f.path / "fifo")
+        for many in (100, 1000):
+            child = subprocess.Popen([CEDUO, "--batch", "-f", "csv", "-n", "10", "-o", f.path / "fifo", *[PAPER] * many],
+                                     env=environment())
+            with open(f.path / "fifo", "rb") as fifo:
+                start = fifo.read(1)  # all is computed, and the rest waits for us
+                peaks.append(int(re.search(r"VmHWM:\s+(\d+)", Path(f"/proc/{child.pid}/status").read_text())[1]))
+                rows = start + fifo.read()
+            expect_equal((child.wait(), len(rows.splitlines())), (0, many + 1))
+    expect("asan" in CEDUO or peaks[1] < peaks[0] + 1000, "KiB of memory", peaks)
+
+
 def test_output_forbidden():
     """-o into a read-only folder or over a read-only file: status 4, the old file stays"""
     with Folder() as f:
