@@ -185,15 +185,25 @@ do-check-all: do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
 
-# Threads are exercised by these.
-do-check-threads: $(T)/physics/test_statistics_of_runs $(PROGRAM)
-	$<
-	CEDUO=$(CURDIR)/$(PROGRAM) tests/tui/test_screens.py
+# Threads are exercised by these: workers of a run and of a pool, of the terminal program, of years and parts.
+do-check-threads: $(addprefix $(T)/physics/test_,statistics_of_runs part years wide) $(PROGRAM)
+	set -e; for t in $(filter %test_statistics_of_runs %test_part %test_years %test_wide,$^); do $$t; done
+	set -e; for t in tests/tui/test_screens.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py; do \
+	    CEDUO=$(CURDIR)/$(PROGRAM) $$t; done
 
-# Memory as valgrind sees it: every scene as a batch, and the terminal program by a script.
+# Memory as valgrind sees it: every scene as a batch, a picture, years, a number that is looked for, parts that are joined,
+# and the terminal program by a script.
+VALGRIND := valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite,possible
 do-check-memory: all
-	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
-	valgrind -q --error-exitcode=9 --leak-check=full $(PROGRAM) --plot profile profiles/scenes/paper-site.yaml >/dev/null
+	$(VALGRIND) $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
+	$(VALGRIND) $(PROGRAM) --plot profile -n 200 profiles/scenes/paper-site.yaml >/dev/null
+	$(VALGRIND) $(PROGRAM) --years 0:3 -f json -n 100 profiles/scenes/rotation.yaml >/dev/null
+	$(VALGRIND) $(PROGRAM) --find forest[0].stand.stools.per_ha=500:5000 --goal adc=30 profiles/scenes/paper-site.yaml >/dev/null
+	set -e; for i in 1 2; do $(VALGRIND) $(PROGRAM) --shard $$i/2 -n 3000 -o $(BUILD)/part-$$i.jsonl profiles/scenes/paper-site.yaml; done
+	$(VALGRIND) $(PROGRAM) --merge $(BUILD)/part-1.jsonl $(BUILD)/part-2.jsonl >/dev/null
+	printf '%s\n' 'key 2 Down Down Enter' 'type 0.5' 'key Enter u Ctrl-R' 'resize 120 40' 'key 1 a 3 4 5 6 ? Esc' 'dump -' \
+	    >$(BUILD)/valgrind.keys
+	$(VALGRIND) $(PROGRAM) --script $(BUILD)/valgrind.keys profiles/scenes/paper-site.yaml >/dev/null
 
 # The workflows once more, with a Slurm of one node for their job arrays; where none can be started it says why.
 do-check-slurm: all
