@@ -74,9 +74,16 @@ static bool read_text(int fd, struct text *into, size_t most)
     }
 }
 
+static bool is_standard(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
 /* Does not wait for somebody to open the other end of a FIFO; waits for what a writer that is there has to say. */
 static int open_to_read(const char *path)
 {
+    if (is_standard(path))
+        return STDIN_FILENO;
     int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat st;
     if (fd >= 0 && fstat(fd, &st) == 0 && S_ISDIR(st.st_mode)) {
@@ -89,10 +96,18 @@ static int open_to_read(const char *path)
     return fd;
 }
 
+/* Keeps the errno of what was done before. */
+static void close_read(const char *path, int fd)
+{
+    int why = errno;
+    if (fd >= 0 && !is_standard(path))
+        close(fd);
+    errno = why;
+}
+
 static bool read_file(struct arena *arena, const char *path, size_t most, struct source *source)
 {
-    bool standard = strcmp(path, "-") == 0;
-    int fd = standard ? STDIN_FILENO : open_to_read(path);
+    int fd = open_to_read(path);
     struct stat st;
     bool sized = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && st.st_size > 0;
     bool good = fd >= 0;
@@ -101,22 +116,15 @@ static bool read_file(struct arena *arena, const char *path, size_t most, struct
         good = false;
     }
     good = good && read_all(fd, arena, sized ? (size_t)st.st_size : 0, most, source);
-    int why = errno;
-    if (fd >= 0 && !standard)
-        close(fd);
-    errno = why;
+    close_read(path, fd);
     return good;
 }
 
 bool ceduo_file_take(const char *path, struct text *text, size_t most)
 {
-    bool standard = strcmp(path, "-") == 0;
-    int fd = standard ? STDIN_FILENO : open_to_read(path);
+    int fd = open_to_read(path);
     bool good = fd >= 0 && read_text(fd, text, most);
-    int why = errno;
-    if (fd >= 0 && !standard)
-        close(fd);
-    errno = why;
+    close_read(path, fd);
     return good;
 }
 
@@ -193,9 +201,8 @@ static bool read_into(struct arena *arena, const char *path, size_t most, struct
 
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems)
 {
-    bool standard = strcmp(path, "-") == 0;
     struct source *source = ceduo_arena_take(arena, sizeof *source);
-    char *name = ceduo_arena_string(arena, standard ? _("standard input") : path);
+    char *name = ceduo_arena_string(arena, is_standard(path) ? _("standard input") : path);
     if (!source || !name) {
         ceduo_problem_memory(problems);
         return NULL;
