@@ -19,6 +19,10 @@ ROOT = Path(__file__).resolve().parents[2]
 PROFILES = ROOT / "profiles"
 CEDUO = str(Path(os.environ.get("CEDUO") or ROOT / "ceduo").resolve())
 
+# Sanitizers need memory of their own, and many times as long.
+SANITIZED = any(mark in Path(CEDUO).read_bytes() for mark in (b"__asan_init", b"__tsan_init")) if Path(CEDUO).exists() else False
+SLOWER = 10 if SANITIZED else 1  # by so much what hangs is waited for
+
 DONE, RUN, USAGE, INPUT, OUTPUT = range(5)  # exit statuses
 
 
@@ -96,9 +100,9 @@ def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, timeout=120, **options):
     start = time.monotonic()
     try:
         done = subprocess.run(command, input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=cwd,
-                              env=environment(**(env or {})), timeout=timeout, check=False, **options)
+                              env=environment(**(env or {})), timeout=timeout * SLOWER, check=False, **options)
     except subprocess.TimeoutExpired as late:
-        raise Failure(f"ceduo {' '.join(map(str, arguments))}", f"not ended after {timeout} s") from late
+        raise Failure(f"ceduo {' '.join(map(str, arguments))}", f"not ended after {timeout * SLOWER} s") from late
     result = Result(arguments, done.returncode, done.stdout, done.stderr, time.monotonic() - start)
     expect(0 <= result.status <= 4, result)
     only_text(result.out_bytes, "stdout")

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, belt, ceduo,
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, USAGE, Failure, Folder, Skip, Suite, belt, ceduo,
                      environment, expect, expect_equal, expect_in, expect_near, good, only_text, result, results,
                      scene, stand, tests_of, wooded_scene)
 
@@ -1427,7 +1427,7 @@ def test_output_large():
                 peaks.append(int(re.search(r"VmHWM:\s+(\d+)", Path(f"/proc/{child.pid}/status").read_text())[1]))
                 rows = start + fifo.read()
             expect_equal((child.wait(), len(rows.splitlines())), (0, many + 1))
-    expect("asan" in CEDUO or peaks[1] < peaks[0] + 1000, "KiB of memory", peaks)
+    expect(SANITIZED or peaks[1] < peaks[0] + 1000, "KiB of memory", peaks)
 
 
 def test_output_forbidden():

@@ -15,14 +15,13 @@ import threading
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, environment,  # noqa: E402
-                     expect, expect_equal, expect_in, only_text, scene)
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, USAGE, Failure, Folder, Skip, Suite,  # noqa: E402
+                     environment, expect, expect_equal, expect_in, only_text, scene)
 from test_input import FILES, SCENE, mutated  # noqa: E402
 
 SECONDS = 10
 MEBIBYTE = 1 << 20
 BEYOND = 64 * MEBIBYTE
-SANITIZED = bool(re.search("asan|tsan", CEDUO))  # they need memory of their own
 
 
 class Ended:
