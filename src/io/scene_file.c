@@ -85,12 +85,20 @@ static void assume(struct maker *m, const char *path, const char *text)
 static void want_only(struct maker *m, const char *shape, const char *const wanted[])
 {
     static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
+    const struct node *said = ceduo_node_get(ceduo_node_get(m->file->root, "rock"), "shape");
+    bool set = said && said->source->is_option; /* nothing of the file can be taken out there */
     for (size_t i = 0; i < 4; i++) {
         bool belongs = false;
         for (size_t k = 0; wanted[k]; k++)
             belongs |= strcmp(wanted[k], sizes[i]) == 0;
-        if (!belongs && given(m, "rock", sizes[i]))
-            complain(m, path_of(m, "rock.%s", sizes[i]), _("does not belong to the shape '%s'; take it out"), shape);
+        if (belongs || !given(m, "rock", sizes[i]))
+            continue;
+        const char *path = path_of(m, "rock.%s", sizes[i]);
+        if (set)
+            complain(m, path, _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), shape,
+                     shape, !wanted[1] ? "axes_m: [1, 1, 1]" : wanted[2] ? "diameter_m: 1" : "diameter_m: 1, height_m: 1");
+        else
+            complain(m, path, _("does not belong to the shape '%s'; take it out"), shape);
     }
 }
 

@@ -349,11 +349,29 @@ static const struct node *with_item(struct document *d, const struct node *root,
     return put(d, root, list, plain ? ceduo_node_inserted(&d->file.arena, holder, index, plain) : NULL, problems);
 }
 
-/* root with PATH=VALUE. */
+/* root without the entry of a mapping. */
+static const struct node *without(struct document *d, const struct node *root, const char *path,
+                                  struct problems *problems)
+{
+    char *parent, *last;
+    const char *within;
+    size_t used;
+    if (!split_path(d, path, &parent, &last))
+        return NULL;
+    const struct node *holder = ceduo_resolve_walk(root, parent, &within, &used);
+    const struct node *less = used == strlen(parent) ? ceduo_node_without(&d->file.arena, holder, last) : NULL;
+    if (less && less != holder)
+        ceduo_node_keep_written(less, holder);
+    return less && parent[0] ? put(d, root, parent, less, problems) : less;
+}
+
+/* root with PATH=VALUE, or without PATH. */
 static const struct node *with_set(struct document *d, const struct node *root, const char *set,
                                    struct problems *problems)
 {
     const char *equals = strchr(set, '=');
+    if (!equals)
+        return without(d, root, set, problems);
     char *path = equals ? ceduo_arena_copy(&d->file.arena, set, (size_t)(equals - set)) : NULL;
     const struct node *value = path ? parse(d, path, equals + 1, problems) : NULL;
     return value ? put(d, root, path, value, problems) : NULL;

@@ -53,7 +53,7 @@ bool ceduo_document_add_option(struct document *document, const char *stand, str
 /* A copy of an option after it. */
 bool ceduo_document_copy_option(struct document *document, size_t index, struct problems *problems);
 
-/* Several changes as one state: PATH=VALUE each. */
+/* Several changes as one state: PATH=VALUE each, or PATH alone: an entry of a mapping that is taken out. */
 bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
                             struct problems *problems);
 

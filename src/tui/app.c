@@ -11,6 +11,7 @@
 #include "io/emit.h"
 #include "io/forms.h"
 #include "io/intl.h"
+#include "model/alternatives.h"
 #include "now.h"
 
 const struct app_view *const ceduo_views[VIEWS] = {&ceduo_view_slope, &ceduo_view_stand, &ceduo_view_rock,
@@ -351,23 +352,31 @@ static struct form *form_of(struct app *app)
     return &app->forms[app->view];
 }
 
+bool ceduo_app_set(struct app *app, const char *path, const char *value)
+{
+    struct problems problems = {0};
+    struct text said = {0};
+    bool good = ceduo_document_set_alone(&app->document, path, value, &said, &problems);
+    good = ceduo_app_edited(app, good, &problems);
+    if (good && said.bytes)
+        ceduo_app_say(app, "%s", said.bytes);
+    ceduo_text_free(&said);
+    return good;
+}
+
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
 {
     struct problems problems = {0};
     char path[FORM_PATH];
     snprintf(path, sizeof path, "%s", cell->path); /* the form is made anew below */
-    bool text = cell->field && cell->field->type == FIELD_TEXT;
+    if (value[0] == '\0') /* nothing: back to the default */
+        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &problems), &problems);
     struct text quoted = {0};
-    bool good;
-    if (value[0] == '\0') { /* nothing: back to the default */
-        good = ceduo_document_delete(&app->document, path, &problems);
-    } else {
-        if (text)
-            ceduo_emit_scalar(&quoted, value, true);
-        good = ceduo_document_set(&app->document, path, text && quoted.bytes ? quoted.bytes : value, &problems);
-    }
+    if (cell->field && cell->field->type == FIELD_TEXT)
+        ceduo_emit_scalar(&quoted, value, true);
+    bool good = ceduo_app_set(app, path, quoted.bytes ? quoted.bytes : value);
     ceduo_text_free(&quoted);
-    return ceduo_app_edited(app, good, &problems);
+    return good;
 }
 
 /* The whole value as it is typed: what is shown may be cut or put in other words. */

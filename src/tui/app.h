@@ -103,6 +103,9 @@ struct ceduo_picture ceduo_app_picture(const struct app *app);
 /* After an edit: good: forms and figures follow; otherwise the reason is shown. Frees the problems. */
 bool ceduo_app_edited(struct app *app, bool good, struct problems *problems);
 
+/* Sets a value (as it stands in a file), and takes out what would then be said twice. */
+bool ceduo_app_set(struct app *app, const char *path, const char *value);
+
 /* The path of the forest of the option shown: "forest" or "options[2].forest". */
 void ceduo_app_forest(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);

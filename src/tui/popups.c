@@ -104,10 +104,9 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
     ceduo_scene_release(&file);
 }
 
-static void chose_preset(struct app *app, struct popup *p, const char *value)
+static void chose_word(struct app *app, struct popup *p, const char *value)
 {
-    struct problems problems = {0};
-    ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value, &problems), &problems);
+    ceduo_app_set(app, p->path, value);
 }
 
 /* The option that is shown with another stand in every belt, as a new option. */
@@ -132,19 +131,13 @@ void ceduo_popup_presets(struct app *app, bool new_option)
         return;
     }
     struct popup *p = ceduo_popup_list(app, new_option ? _("A new option with the stand …") : _("Stand of this belt"),
-                                       new_option ? chose_new_option : chose_preset);
+                                       new_option ? chose_new_option : chose_word);
     if (!p)
         return;
     snprintf(p->path, sizeof p->path, "%s[%zu].stand", forest, app->belt);
     p->preview = preview_stand;
     ceduo_text_put(&p->text, " ");
     add_profiles(p, "stands");
-}
-
-static void chose_word(struct app *app, struct popup *p, const char *value)
-{
-    struct problems problems = {0};
-    ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value, &problems), &problems);
 }
 
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell)

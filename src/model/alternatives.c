@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "alternatives.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/intl.h"
+
+#define CHANGES_MOST 8
+
+/* What is to be changed at once, and how that is said. */
+struct changes {
+    struct document *d;
+    const char *sets[CHANGES_MOST];
+    size_t n;
+    struct text taken, filled;
+    bool failed;
+};
+
+__attribute__((format(printf, 2, 3))) static void add(struct changes *c, const char *format, ...)
+{
+    struct text text = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&text, format, args);
+    va_end(args);
+    const char *kept = text.bytes && !text.failed ? ceduo_arena_string(&c->d->file.arena, text.bytes) : NULL;
+    ceduo_text_free(&text);
+    if (kept && c->n < CHANGES_MOST)
+        c->sets[c->n++] = kept;
+    else
+        c->failed = true;
+}
+
+/* Takes an entry of a mapping out, if it is there. */
+static void take_out(struct changes *c, const char *map, const char *key)
+{
+    if (!ceduo_node_get(ceduo_document_node(c->d, map), key))
+        return;
+    add(c, "%s.%s", map, key);
+    ceduo_text_format(&c->taken, "%s%s", c->taken.length ? ", " : "", key);
+}
+
+/* A number of so many digits as text. */
+static const char *rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
+{
+    snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+    return ceduo_number_shortest(strtod(room, NULL), room);
+}
+
+static void fill_in(struct changes *c, const char *key, const char *value)
+{
+    add(c, "rock.%s=%s", key, value);
+    ceduo_text_format(&c->filled, "%s%s %s", c->filled.length ? ", " : "", key, value);
+}
+
+/* ---- another shape ---- */
+
+/* The shape of the rock that a word names; the present one where it names none. */
+static enum ceduo_shape shape_of(const struct document *d, const char *word)
+{
+    const struct object *rock = ceduo_schema_field(ceduo_schema_scene(), "rock")->object;
+    const struct choices *shapes = ceduo_schema_field(rock, "shape")->choices;
+    for (size_t i = 0; i < shapes->n; i++)
+        if (strcmp(shapes->names[i], word) == 0)
+            return (enum ceduo_shape)i;
+    return d->file.scene.rock.shape;
+}
+
+/* Length, width and height of the rock as it is; its volume is that of a box of these times a number of its shape. */
+static void sides_of(const struct ceduo_rock_def *def, const struct ceduo_rock *rock, double sides[3])
+{
+    bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
+    for (int i = 0; i < 3; i++)
+        sides[i] = !round ? def->axes[i].mean : cylinder ? def->diameter.mean : rock->mean_diameter;
+    if (cylinder)
+        sides[2] = def->height.mean;
+}
+
+static void fill_sizes(struct changes *c, enum ceduo_shape shape, const struct ceduo_rock *rock)
+{
+    static const double full[] = {[CEDUO_SPHERE] = 6, [CEDUO_CYLINDER] = 4, [CEDUO_ELLIPSOID] = 6};
+    const double pi = 3.14159265358979323846;
+    double s[3];
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM], third[CEDUO_NUMBER_ROOM], all[3 * CEDUO_NUMBER_ROOM + 8];
+    sides_of(&c->d->file.scene.rock, rock, s);
+    double box = shape == CEDUO_BLOCK ? rock->volume : rock->volume * full[shape] / pi;
+    double scale = cbrt(box / (s[0] * s[1] * s[2]));
+    if (shape == CEDUO_SPHERE) {
+        fill_in(c, "diameter_m", rounded(cbrt(box), 3, a));
+    } else if (shape == CEDUO_CYLINDER) {
+        fill_in(c, "diameter_m", rounded(scale * sqrt(s[0] * s[1]), 3, a));
+        fill_in(c, "height_m", rounded(scale * s[2], 3, b));
+    } else {
+        snprintf(all, sizeof all, "[%s, %s, %s]", rounded(scale * s[0], 3, a), rounded(scale * s[1], 3, b),
+                 rounded(scale * s[2], 3, third));
+        fill_in(c, "axes_m", all);
+    }
+}
+
+/* Ellipsoid and block have the same sizes: then there is nothing to do. */
+static void change_shape(struct changes *c, enum ceduo_shape shape)
+{
+    static const char *const sizes[] = {"diameter_m", "volume_m3", "height_m", "axes_m"};
+    const struct ceduo_rock_def *def = &c->d->file.scene.rock;
+    bool axes_now = def->shape == CEDUO_ELLIPSOID || def->shape == CEDUO_BLOCK;
+    bool axes_then = shape == CEDUO_ELLIPSOID || shape == CEDUO_BLOCK;
+    struct ceduo_rock rock;
+    char room[CEDUO_NUMBER_ROOM];
+    if (shape == def->shape || (axes_now && axes_then) || ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+        return;
+    bool mass = !isnan(def->mass.mean);
+    for (size_t i = 0; i < 4; i++) {
+        bool stays = (strcmp(sizes[i], "diameter_m") == 0 && !axes_then) ||
+                     (strcmp(sizes[i], "height_m") == 0 && shape == CEDUO_CYLINDER) ||
+                     (strcmp(sizes[i], "axes_m") == 0 && axes_then);
+        if (!stays)
+            take_out(c, "rock", sizes[i]);
+    }
+    fill_sizes(c, shape, &rock);
+    if (shape == CEDUO_SPHERE && mass) { /* where it would be a size */
+        take_out(c, "rock", "mass_kg");
+        fill_in(c, "density_kg_m3", rounded(rock.mass / rock.volume, 4, room));
+    } else if (mass) {
+        take_out(c, "rock", "density_kg_m3");
+    }
+    bool spread = def->diameter.spread > 0 || def->height.spread > 0 || def->volume.spread > 0;
+    for (int i = 0; i < 3; i++)
+        spread |= def->axes[i].spread > 0;
+    if (spread)
+        ceduo_text_put(&c->filled, _(" (means, without spread)"));
+}
+
+/* ---- one of several ---- */
+
+/* Takes the others out where `key` is one of a group. */
+static void keep_one(struct changes *c, const char *map, const char *key, const char *const *group)
+{
+    bool is_one = false;
+    for (size_t i = 0; group[i]; i++)
+        is_one |= strcmp(group[i], key) == 0;
+    for (size_t i = 0; is_one && group[i]; i++)
+        if (strcmp(group[i], key) != 0)
+            take_out(c, map, group[i]);
+}
+
+static void keep_one_of_all(struct changes *c, const char *path)
+{
+    static const char *const sphere[] = {"diameter_m", "volume_m3", "mass_kg", NULL};
+    static const char *const weight[] = {"mass_kg", "density_kg_m3", NULL};
+    static const char *const roughness[] = {"roughness_m", "roughness_rad", NULL};
+    const char *dot = strrchr(path, '.');
+    char map[256];
+    if (!dot || (size_t)(dot - path) >= sizeof map)
+        return;
+    snprintf(map, sizeof map, "%.*s", (int)(dot - path), path);
+    if (strcmp(map, "rock") == 0)
+        keep_one(c, map, dot + 1, c->d->file.scene.rock.shape == CEDUO_SPHERE ? sphere : weight);
+    else if (strncmp(map, "slope.segments[", 15) == 0)
+        keep_one(c, map, dot + 1, roughness);
+}
+
+bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said,
+                              struct problems *problems)
+{
+    struct changes c = {.d = d};
+    if (strcmp(path, "rock.shape") == 0)
+        change_shape(&c, shape_of(d, value));
+    else
+        keep_one_of_all(&c, path);
+    add(&c, "%s=%s", path, value);
+    if (c.failed)
+        ceduo_problem_memory(problems);
+    bool good = !c.failed && ceduo_document_set_all(d, c.sets, c.n, path, problems);
+    if (good && c.filled.length)
+        ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
+    if (good && c.taken.length)
+        ceduo_text_format(said, _("%staken out: %s"), said->length ? "; " : "", c.taken.bytes);
+    ceduo_text_free(&c.taken);
+    ceduo_text_free(&c.filled);
+    return good;
+}

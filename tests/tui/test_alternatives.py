@@ -1,0 +1,164 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The terminal program's forms where one value excludes another: the rock's shape and sizes, mass or density, roughness."""
+import re
+import sys
+from math import pi
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import FAST, Place, check_good  # noqa: E402
+from harness import Suite, ceduo, expect, expect_equal, expect_in, expect_near, tests_of  # noqa: E402
+
+SHAPES = ["sphere", "cylinder", "ellipsoid", "block"]
+
+
+def scene_with(rock):
+    return FAST.replace("{shape: sphere, diameter_m: 0.5}", rock)
+
+
+def edited(rock, keys):
+    """The screens before, after and once undone, what was said, and the rock's line of the saved scene."""
+    with Place() as place:
+        place.write("rock.yaml", scene_with(rock))
+        before, said, after, undone = place.play(f"key 3\nwait idle\ndump\n{keys}\ndump\nwait idle\nkey s\ndump\n"
+                                                 "key g u\nclear\nwait idle\ndump", "rock.yaml")
+        check_good(place.path, "rock.yaml")
+        return before, after, undone, said.note, re.search(r"^rock: (.*)$", place.text("rock.yaml"), re.M).group(1)
+
+
+def said_by(rock, keys):
+    """What is said to the keys, before anything else."""
+    with Place() as place:
+        place.write("rock.yaml", scene_with(rock))
+        return place.play(f"key 3\nwait idle\n{keys}\ndump", "rock.yaml")[0]
+
+
+def choose(shape):
+    return "find rock.shape\nkey Enter g " + " ".join(["Down"] * SHAPES.index(shape)) + " Enter"
+
+
+def mass_of(screen):
+    return float(re.search(r"Rock +\S+ m +(\S+) kg", screen.now).group(1))
+
+
+def test_every_shape():
+    """From each shape to each other: its own sizes filled in, of the same volume and mass, said, and one step to undo."""
+    rocks = {"sphere": "{shape: sphere, diameter_m: 0.8}", "cylinder": "{shape: cylinder, diameter_m: 0.56, height_m: 0.8}",
+             "ellipsoid": "{shape: ellipsoid, axes_m: [0.5, 0.7, 0.9]}", "block": "{shape: block, axes_m: [0.5, 0.7, 0.9]}"}
+    wanted = {"sphere": {"diameter_m"}, "cylinder": {"diameter_m", "height_m"}, "ellipsoid": {"axes_m"}, "block": {"axes_m"}}
+    for old, rock in rocks.items():
+        for new in SHAPES:
+            if new == old:
+                continue
+            before, after, undone, said, line = edited(rock, choose(new))
+            expect_equal(after.row("^shape")[-1], new, f"from {old}")
+            expect_equal(set(re.findall(r"(\w+_\w+):", line)), wanted[new], f"{old} to {new}: sizes in {line}")
+            expect_equal(undone.row("^shape")[-1], old, "after u")
+            expect_equal(undone.now, before.now, f"figures after u, from {new} back to {old}")
+            if {old, new} == {"ellipsoid", "block"}:
+                continue  # the same sizes serve both
+            expect_near(mass_of(after), mass_of(before), 0.02 * mass_of(before), f"{old} to {new}: mass")
+            expect_in("filled in for the same volume: ", said, f"{old} to {new}")
+            for name in wanted[new]:
+                expect_in(name, said, f"{old} to {new}")
+
+
+def test_shape_figures():
+    """The sphere of a cylinder's volume to three digits; a cylinder as wide as high from a sphere."""
+    screen = said_by("{shape: cylinder, diameter_m: 0.56, height_m: 0.80}", choose("sphere"))
+    diameter = (6 / pi * pi / 4 * 0.56**2 * 0.8) ** (1 / 3)
+    expect_equal(screen.note, f"filled in for the same volume: diameter_m {diameter:.3g}; taken out: height_m")
+    screen = said_by("{diameter_m: 0.8}", choose("cylinder"))
+    side = (4 / pi * pi / 6 * 0.8**3) ** (1 / 3)
+    expect_equal(screen.note, f"filled in for the same volume: diameter_m {side:.3g}, height_m {side:.3g}")
+
+
+def test_shape_steps():
+    """+ on the shape does the same."""
+    with Place() as place:
+        screens = place.play("key 3\nfind rock.shape\n" + "key +\ndump\n" * 4)
+    expect_equal([s.row("^shape")[-1] for s in screens], ["cylinder", "ellipsoid", "block", "sphere"], "shapes")
+    expect_near(float(screens[3].row("^diameter")[-1]), 0.5 * (6 / pi) ** (1 / 3), 0.005,
+                "the ellipsoid's axes served the block: the sphere has the block's volume")
+
+
+def test_shape_mass():
+    """A mass stays the rock's mass in another shape."""
+    before, after, _, _, line = edited("{shape: cylinder, diameter_m: 0.5, height_m: 0.5, mass_kg: 300}", choose("sphere"))
+    expect("mass_kg" not in line and "density_kg_m3: 3056" in line, line)
+    expect_near(mass_of(after), mass_of(before), 3, "mass")
+    before, after, _, _, line = edited("{mass_kg: 300, density_kg_m3: 2500}", choose("block"))
+    expect("mass_kg: 300" in line and "density" not in line and "axes_m: [0.493, 0.493, 0.493]" in line, line)
+    screen = said_by("{diameter_m: {mean: 0.8, spread: 0.1}}", choose("cylinder"))
+    expect_in("without spread", screen.note)
+
+
+def test_sphere_sizes():
+    """A sphere's diameter, volume or mass: the one that is typed replaces the others, with a word, in one step."""
+    for rock, name, value in (("{shape: sphere, diameter_m: 0.8}", "volume_m3", "0.5"),
+                              ("{shape: sphere, diameter_m: 0.8}", "mass_kg", "300"),
+                              ("{volume_m3: 0.5}", "diameter_m", "0.7"), ("{mass_kg: 300}", "volume_m3", "0.2")):
+        old = re.search(r"(\w+_\w+):", rock).group(1)
+        keys = f"find rock.{name}\nset {value}"
+        before, after, undone, said, line = edited(rock, keys)
+        expect_equal(said, f"taken out: {old}", "what is said")
+        expect(f"{name}: {value}" in line and old not in line, line)
+        expect(after.now != before.now, "the figures are still those of before", after)
+        expect_equal(undone.now, before.now, "figures after u")
+
+
+def test_sphere_refused():
+    """A size that is refused leaves the other where it is."""
+    with Place() as place:
+        refused, after = place.play("key 3\nfind rock.volume_m3\nset -1\ndump\nkey Esc\nclear\ndump")
+    expect_in("-1 is below 0 m3", refused.note)
+    expect_equal(after.row("^diameter")[-1], "0.5", "diameter")
+    expect("* fast" not in after.title, after.title)
+
+
+def test_mass_or_density():
+    """Of other shapes the mass replaces the density, and the density the mass."""
+    rock = "{shape: cylinder, diameter_m: 0.5, height_m: 0.5, density_kg_m3: 2600}"
+    keys = "find rock.mass_kg\nset 300"
+    _, after, undone, said, line = edited(rock, keys)
+    expect_equal(said, "taken out: density_kg_m3", "what is said")
+    expect("mass_kg: 300" in line and "density" not in line, line)
+    expect_equal(mass_of(after), 300, "kg")
+    expect_equal(undone.row("^density")[-1], "2600", "after u")
+    _, _, _, _, line = edited(rock.replace("density_kg_m3: 2600", "mass_kg: 300"), "find rock.density_kg_m3\nset 2700")
+    expect("density_kg_m3: 2700" in line and "mass" not in line, line)
+
+
+def test_roughness():
+    """A roughness in m replaces one in rad where the slope has both kinds."""
+    with Place() as place:
+        text = FAST.replace("rt: 0.98, roughness_rad: 0,", "rt: 0.98, roughness_m: 0,")
+        place.write("mixed.yaml", text)
+        screen = place.play("find segments[1].roughness_m\nset 0.1\ndump\nkey s", "mixed.yaml")[0]
+        expect_equal(screen.note, "taken out: roughness_rad", "what is said")
+        check_good(place.path, "mixed.yaml")
+        expect("roughness_m: 0.1" in place.text("mixed.yaml") and "roughness_rad" not in place.text("mixed.yaml"),
+               place.text("mixed.yaml"))
+
+
+def test_command_line():
+    """-s of a shape that the rock's sizes do not fit names the way that works, and it works."""
+    done = ceduo("--check", "-s", "rock.shape=sphere", "-s", "rock.diameter_m=1", "paper-site")
+    found = re.search(r"-s '(rock=\{shape: sphere, .*?\})'", done.err)
+    expect(done.status != 0 and found, done)
+    expect_equal(ceduo("--check", "-s", found.group(1), "paper-site").status, 0, "status")
+    with Place() as place:
+        place.write("bad.yaml", scene_with("{shape: sphere, diameter_m: 1, height_m: 2}"))
+        done = ceduo("--check", str(place.path / "bad.yaml"))
+        expect("take it out" in done.err and "-s" not in done.err, done)
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
