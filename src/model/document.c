@@ -588,7 +588,7 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
             free(d->path);
             d->path = copy;
             d->raw = raw;
-                    d->shipped = false;
+            d->shipped = false;
         } else {
             free(copy);
         }
@@ -596,6 +596,10 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
         d->saved = d->at;
         note_disk(d);
         ceduo_document_forget(d);
+        if (d->recovery && !same) { /* what is unsaved from now on is this file's */
+            free(d->recovery);
+            d->recovery = ceduo_recovery_path(d->path);
+        }
     }
     ceduo_text_free(&text);
     errno = why;

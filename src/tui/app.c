@@ -316,7 +316,9 @@ static bool save_to(struct app *app, const char *path)
         return false;
     }
     if (!ceduo_document_save(&app->document, path, &anew)) {
-        ceduo_app_warn(app, "%s: %s", path, strerror(errno));
+        int why = errno;
+        ceduo_app_warn(app, "%s: %s", path, strerror(why));
+        errno = why;
         return false;
     }
     if (anew)
@@ -331,18 +333,26 @@ bool ceduo_app_save_to(struct app *app, const char *path)
 {
     char *copy = strdup(path); /* it may be the document's own, which saving makes anew */
     bool good = copy && save_to(app, copy);
+    int why = errno;
     free(copy);
+    errno = why;
     return good;
+}
+
+void ceduo_app_write(struct app *app)
+{
+    if (!ceduo_app_save_to(app, app->document.path))
+        ceduo_popup_save_as(app, strerror(errno));
 }
 
 void ceduo_app_save(struct app *app)
 {
     if (!app->document.path || app->document.shipped)
-        ceduo_popup_save_as(app);
+        ceduo_popup_save_as(app, NULL);
     else if (ceduo_document_changed_on_disk(&app->document))
         ceduo_popup_changed_on_disk(app);
     else
-        ceduo_app_save_to(app, app->document.path);
+        ceduo_app_write(app);
 }
 
 /* ---- editing fields ---- */
@@ -803,6 +813,7 @@ static void act(struct app *app, enum action action)
     case ACTION_NEW: ceduo_popup_new(app); break;
     case ACTION_OPEN: ceduo_popup_open(app); break;
     case ACTION_SAVE: ceduo_app_save(app); break;
+    case ACTION_SAVE_AS: ceduo_popup_save_as(app, NULL); break;
     case ACTION_EXPORT: ceduo_popup_export(app); break;
     case ACTION_CHARSET:
         app->charset = (enum ceduo_charset)((app->charset + 1) % 3);

@@ -138,7 +138,7 @@ void ceduo_popup_presets(struct app *app, bool new_option);
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);
 void ceduo_popup_new(struct app *app);
-void ceduo_popup_save_as(struct app *app);
+void ceduo_popup_save_as(struct app *app, const char *why); /* why the last attempt failed; NULL: none did */
 void ceduo_popup_export(struct app *app);
 void ceduo_popup_search(struct app *app);
 void ceduo_popup_find(struct app *app);
@@ -157,7 +157,9 @@ void ceduo_popup_close(struct app *app);
 bool ceduo_app_open(struct app *app, const char *path);
 bool ceduo_app_open_text(struct app *app, const char *text);
 void ceduo_app_save(struct app *app);
-bool ceduo_app_save_to(struct app *app, const char *path);
+/* Writes where the scene came from; where that fails another name is asked for. */
+void ceduo_app_write(struct app *app);
+bool ceduo_app_save_to(struct app *app, const char *path); /* false: with errno set, and said */
 
 /* A line that is typed: handles a key; false where the key means nothing to it. */
 bool ceduo_line_key(struct line *line, int key);

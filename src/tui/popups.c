@@ -336,7 +336,9 @@ static bool filled_save(struct app *app, struct popup *p)
     bool exists = there != NULL;
     if (there)
         fclose(there);
-    if (exists && !confirmed && !(app->document.path && strcmp(app->document.path, path) == 0)) {
+    bool own = app->document.path && strcmp(app->document.path, path) == 0 &&
+               !ceduo_document_changed_on_disk(&app->document);
+    if (exists && !confirmed && !own) {
         free(p->kept);
         p->kept = strdup(path);
         ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));
@@ -345,24 +347,27 @@ static bool filled_save(struct app *app, struct popup *p)
     return ceduo_app_save_to(app, path);
 }
 
-void ceduo_popup_save_as(struct app *app)
+void ceduo_popup_save_as(struct app *app, const char *why)
 {
     struct popup *p = ceduo_popup_fields(app, _("Save as"), filled_save);
     if (!p)
         return;
-    if (app->document.shipped)
+    const struct document *d = &app->document;
+    if (why)
+        ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), why);
+    else if (d->shipped)
         ceduo_text_put(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
-    const char *slash = app->document.path ? strrchr(app->document.path, '/') : NULL;
-    ceduo_popup_field(p, _("file"), slash ? slash + 1 : "scene.yaml");
+    const char *slash = d->path && d->shipped ? strrchr(d->path, '/') : NULL;
+    ceduo_popup_field(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml");
 }
 
 static void chose_disk(struct app *app, struct popup *p, const char *value)
 {
     (void)p;
     if (strcmp(value, "write") == 0)
-        ceduo_app_save_to(app, app->document.path);
+        ceduo_app_write(app);
     else if (strcmp(value, "as") == 0)
-        ceduo_popup_save_as(app);
+        ceduo_popup_save_as(app, NULL);
 }
 
 void ceduo_popup_changed_on_disk(struct app *app)

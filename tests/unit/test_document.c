@@ -259,6 +259,32 @@ static void unsaved_work_is_found_again(void **state)
     ceduo_problems_free(&problems);
 }
 
+static void unsaved_work_belongs_to_the_name_saved_under(void **state)
+{
+    (void)state;
+    struct document d;
+    char *file = NULL, other[256];
+    snprintf(other, sizeof other, "%.240s-other", path);
+    pid_t child = fork();
+    if (child == 0) {
+        bool anew;
+        open_scene(&d);
+        set(&d, "rock.diameter_m", "0.2");
+        bool saved = ceduo_document_save(&d, other, &anew);
+        set(&d, "rock.diameter_m", "0.3");
+        _exit(!saved);
+    }
+    int status;
+    assert_true(waitpid(child, &status, 0) == child && status == 0);
+    assert_null(ceduo_document_left_behind(path, &file));
+    char *text = ceduo_document_left_behind(other, &file);
+    assert_non_null(text);
+    unlink(file);
+    unlink(other);
+    free(text);
+    free(file);
+}
+
 static void a_file_changed_on_disk_is_noticed(void **state)
 {
     (void)state;
@@ -282,6 +308,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(undo_and_redo, set_up, tear_down),
         cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Saving in the terminal program: under another name, where it fails, and what is said of comments and copies."""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import FAST, Place, check_good, run_script  # noqa: E402
+from harness import Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
+
+EDIT = "key 2\nkey /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
+# It can be read, but the file beside it that would take its place has too long a name for any folder, root's too.
+STUCK = "n" * 245 + ".yaml"
+
+
+def test_save_as():
+    """S saves under another name, which the scene has from then on; the file of before stays as it was."""
+    with Place() as place:
+        asked, saved, again = place.play(EDIT + "key S\ndump\nkey Ctrl-U\ntype other.yaml\nkey Enter\ndump\n"
+                                         "find stools.per_ha\nset 999\nkey s\ndump")
+        asked.has("Save as", "fast.yaml")
+        expect_equal(saved.note, "saved other.yaml")
+        expect_equal(again.note, "saved other.yaml")
+        expect("* fast" not in again.title, again.title)
+        expect_equal(place.text("fast.yaml"), FAST, "the file of before")
+        expect_equal(place.text("other.yaml"), FAST.replace("per_ha: 3000", "per_ha: 999"), "the other file")
+
+
+def test_save_as_same():
+    """S with the scene's own name saves as s does, but not over a file that has changed since."""
+    with Place() as place:
+        place.play(EDIT + "key S Enter")
+        expect_equal(place.text("fast.yaml"), FAST.replace("per_ha: 3000", "per_ha: 1234"), "the file")
+        asked = place.play(EDIT + "dump fast.yaml\nkey S Enter\ndump")[0]
+        asked.has("Enter once more replaces it")
+        expect(place.text("fast.yaml").startswith(" 1 slope"), "written over at once")
+
+
+def test_folder_kept():
+    """S offers the file with its folder: a name changed at its end stays beside it."""
+    with Place() as place:
+        (place.path / "sub").mkdir()
+        place.write("sub/fast.yaml", FAST)
+        asked = place.play("key S\ndump\nkey End Backspace Backspace Backspace Backspace Backspace\ntype r.yaml\nkey Enter",
+                           "sub/fast.yaml")[0]
+        asked.has("sub/fast.yaml")
+        expect_equal(place.text("sub/fastr.yaml"), FAST, "beside it")
+
+
+def test_failed():
+    """Where a file cannot be written the reason is said and another name asked for; with that one all is well."""
+    with Place() as place:
+        place.write(STUCK, FAST)
+        failed, stayed, saved = place.play(EDIT + "key s\ndump\nkey Esc\ndump\nkey s Ctrl-U\ntype mine.yaml\nkey Enter\ndump",
+                                           STUCK)
+        failed.has("Save as", "File name too long", "another name")
+        expect("* fast" in stayed.title, stayed.title)
+        expect_equal(saved.note, "saved mine.yaml")
+        expect("* fast" not in saved.title, saved.title)
+        expect_equal(place.text(STUCK), FAST, "the file that could not be written")
+        expect_in("per_ha: 1234", place.text("mine.yaml"))
+
+
+def test_failed_quit():
+    """'save and quit' where the file cannot be written quits once it is saved under another name, and not before."""
+    with Place() as place:
+        place.write(STUCK, FAST)
+        failed = place.play(EDIT + "key q Down Enter\ndump\nkey Esc\ndump\nkey S Ctrl-U\ntype a.yaml\nkey Enter\ndump", STUCK)
+        failed[0].has("Save as", "File name too long")
+        expect("* fast" in failed[1].title, failed[1].title)
+        expect_equal(failed[2].note, "saved a.yaml", "Esc took the quitting back")
+        run_script(place.path, EDIT + "key q Down Enter Ctrl-U\ntype b.yaml\nkey Enter\ndump late.txt\n", STUCK)
+        expect_in("per_ha: 1234", place.text("b.yaml"))
+        expect("late.txt" not in place.names(), "still there after it was saved")
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
