@@ -527,6 +527,17 @@ static const struct node *references_from(struct document *d, const struct node 
     return out;
 }
 
+/* Whether the file is laid out as the program does it: then nothing is lost when that is done again. */
+static bool has_own_layout(const struct node *raw)
+{
+    struct text text = {0};
+    ceduo_emit(&text, raw);
+    bool same = !text.failed && text.length == raw->source->length &&
+                memcmp(text.bytes, raw->source->bytes, text.length) == 0;
+    ceduo_text_free(&text);
+    return same;
+}
+
 static bool fill_text(struct document *d, const char *to, struct text *text, bool *laid_out_anew)
 {
     const struct node *root = ceduo_emit_unresolve(&d->file.arena, d->file.root);
@@ -536,7 +547,7 @@ static bool fill_text(struct document *d, const char *to, struct text *text, boo
         return false;
     if (d->raw && ceduo_emit_patched(text, d->raw->source, d->raw, root))
         return true;
-    *laid_out_anew = d->raw != NULL;
+    *laid_out_anew = d->raw && !has_own_layout(d->raw);
     ceduo_emit(text, root);
     return !text->failed;
 }

@@ -74,8 +74,8 @@ bool ceduo_document_undo(struct document *document);
 bool ceduo_document_redo(struct document *document);
 bool ceduo_document_unsaved(const struct document *document);
 
-/* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (a copy
- * of the old file is then kept as PATH.bak). False with errno set. */
+/* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (where
+ * it takes the place of its own old file, a copy of that is then kept as PATH.bak). False with errno set. */
 bool ceduo_document_save(struct document *document, const char *path, bool *laid_out_anew);
 
 /* Whether a path leads to a file of the program's own, which is never written. */

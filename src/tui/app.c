@@ -315,14 +315,20 @@ static bool save_to(struct app *app, const char *path)
         ceduo_app_warn(app, _("%s belongs to the program and is never written over; choose another name"), path);
         return false;
     }
+    char from[256] = ""; /* the file of before, where it is another */
+    const char *old = app->document.path, *slash = old ? strrchr(old, '/') : NULL;
+    if (old && strcmp(old, path) != 0)
+        snprintf(from, sizeof from, "%s", slash ? slash + 1 : old);
     if (!ceduo_document_save(&app->document, path, &anew)) {
         int why = errno;
         ceduo_app_warn(app, "%s: %s", path, strerror(why));
         errno = why;
         return false;
     }
-    if (anew)
-        ceduo_app_say(app, _("saved %s; laid out anew, the old file with its comments is %s.bak"), path, path);
+    if (anew && from[0])
+        ceduo_app_say(app, _("saved %s; laid out anew, without the comments of %s"), path, from);
+    else if (anew)
+        ceduo_app_say(app, _("saved %s; laid out anew, the old file is %s.bak"), path, path);
     else
         ceduo_app_say(app, _("saved %s"), path);
     app->quit |= app->quit_once_saved;

@@ -74,6 +74,20 @@ def test_failed_quit():
         expect("late.txt" not in place.names(), "still there after it was saved")
 
 
+def test_anew():
+    """Only where an old file lies beside the new one is it named; of a scene that was copied it says what is missing."""
+    with Place() as place:
+        saved = place.play("key 1\nfind stand\nkey a\nkey s Ctrl-U\ntype my.yaml\nkey Enter\ndump", "paper-site")[0]
+        expect("# Test site" not in place.text("my.yaml"), "this test's own scene keeps its comments")
+        expect("my.yaml.bak" not in place.names() and ".bak" not in saved.note, saved.note)
+        expect_equal(saved.note, "saved my.yaml; laid out anew, without the comments of paper-site.yaml")
+        check_good(place.path, "my.yaml")
+        saved = place.play("key 1\nfind stand\nkey d\nkey s\ndump\nclear\nkey u s\ndump", "fast.yaml")
+        expect_equal(saved[0].note, "saved fast.yaml; laid out anew, the old file is fast.yaml.bak")
+        expect_equal(saved[1].note, "saved fast.yaml", "what the program laid out itself is no loss")
+        expect_equal(place.text("fast.yaml.bak"), FAST, "the old file, with its comments, still")
+
+
 def main():
     suite = Suite()
     suite.run(tests_of(sys.modules[__name__]))
