@@ -498,9 +498,16 @@ static bool filled_find(struct app *app, struct popup *p)
         return false;
     }
     struct text words = {0};
-    ceduo_seek_say(&seek, &found, &words);
     bool set = true;
-    if (found.found) {
+    if (found.found && found.whole_range) { /* then the value that is there is as good as another */
+        const struct form_cell *cell = ceduo_form_cell(&app->forms[app->view]);
+        ceduo_text_format(&words, _("every value from %s to %s reaches the goal %s; the field stays %s"),
+                          p->fields[FIND_LO].text, p->fields[FIND_HI].text, p->fields[FIND_GOAL].text,
+                          cell && cell->text[0] ? cell->text : _("as it is"));
+    } else {
+        ceduo_seek_say(&seek, &found, &words);
+    }
+    if (found.found && !found.whole_range) {
         char room[CEDUO_NUMBER_ROOM], path[1024];
         snprintf(path, sizeof path, "%s", p->path);
         set = ceduo_document_set(&app->document, path, ceduo_number_shortest(found.value, room), &problems);

@@ -432,6 +432,17 @@ def test_find_nothing():
     expect_equal(screen.row(r"^1 +60")[:2], ["1", "60"])
 
 
+def test_find_all():
+    """f where every value of the range reaches the goal: it says so, and the field stays"""
+    for word, value in (("forest[1]", "0.5"), ("forest[0]", "0.5")):
+        screen, undone = shown(f"key 2\nfind {word}\nfind spacing_m\nkey f Enter Enter Enter\ndump\nkey u\ndump", "paper-site")
+        note = re.sub(r"\s+", " ", screen.note)
+        expect_in("every value from 0.05 to 5 reaches the goal", note)
+        expect_in(f"stays {value}", note)
+        expect_equal(screen.row("^spacing, m")[-1], value, "the field")
+        expect("* Test" not in screen.title and "nothing to undo" in undone.note, "something was changed", screen, undone)
+
+
 def test_find_refused():
     """f: wrong goals and ranges are refused in words, the question stays open, and nothing changes"""
     for goal, lo, hi, words in (("fun", 6, 600, "adc, free-run, energy=KJ or exceed"), ("energy", 6, 600, "energy=50"),
