@@ -69,6 +69,13 @@ const struct ceduo_option_result *ceduo_app_found(const struct app *app)
     return app->result ? &app->result->options[app->option] : NULL;
 }
 
+const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)
+{
+    const struct ceduo_result *r = app->result;
+    const struct ceduo_arrivals *wood = r ? ceduo_result_wooded(r, app->option, r->last_control) : NULL;
+    return wood || !r ? wood : &r->bare.arrivals[r->last_control];
+}
+
 void ceduo_app_forest(const struct app *app, char *path, size_t size)
 {
     if (ceduo_node_get(app->document.file.root, "options"))

@@ -111,6 +111,10 @@ void ceduo_app_forest(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
+/* What arrives at the last control in the column on the right: through the wood of the option shown, by the index on the
+ * bare slope; NULL before the first rocks. */
+const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
+
 /* The cursor on a belt of the form shows that belt. */
 void ceduo_app_follow_belt(struct app *app);
 

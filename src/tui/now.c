@@ -211,6 +211,6 @@ void ceduo_now_draw(struct app *app, struct ceduo_area area)
     if (wood)
         put_ends(&pen, &found->wooded);
     put_index(&pen, &found->controls[c]);
-    put_mark(&pen, wood ? wood : bare);
+    put_mark(&pen, ceduo_app_shown(app));
     put_warnings(&pen);
 }

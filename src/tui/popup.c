@@ -213,6 +213,8 @@ static struct ceduo_area middle(const struct app *app, int width, int height)
 
 static void draw_text(struct app *app, struct popup *p)
 {
+    if (p->preview)
+        p->preview(app, p, "");
     struct ceduo_area r = middle(app, 84, app->height - 2);
     draw_box(app, r, p->title);
     struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, r.height - 2};

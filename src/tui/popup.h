@@ -34,7 +34,8 @@ struct popup {
     char message[256];
     char path[1024];      /* what a choice is for */
     char *kept;           /* a text that goes with it */
-    popup_chosen *chosen, *preview;
+    popup_chosen *chosen;
+    popup_chosen *preview; /* puts `text` anew whenever it is drawn, for the item under the cursor; NULL: it stays */
     popup_filled *filled;
 };
 

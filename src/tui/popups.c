@@ -655,11 +655,28 @@ void ceduo_popup_counts(struct app *app)
 static void put_command(struct app *app, struct text *text)
 {
     struct document *d = &app->document;
-    uint64_t rocks = app->result ? ceduo_result_rocks(app->result) : d->file.scene.simulation.rocks;
+    const struct ceduo_arrivals *shown = ceduo_app_shown(app);
+    uint64_t rocks = shown ? shown->released : d->file.scene.simulation.rocks;
     ceduo_text_format(text, "ceduo --batch -n %llu '", (unsigned long long)rocks);
     for (const char *c = d->path ? d->path : "scene.yaml"; *c; c++)
         ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1); /* as a shell reads it */
     ceduo_text_put(text, "'\n");
+}
+
+/* More rocks may fall while it is read. */
+static void show_command(struct app *app, struct popup *p, const char *value)
+{
+    const struct ceduo_arrivals *shown = ceduo_app_shown(app);
+    (void)value;
+    ceduo_text_free(&p->text);
+    put_command(app, &p->text);
+    if (shown)
+        ceduo_text_format(&p->text, _("\nThe figures on the screen are of %llu rocks%s.\n"),
+                          (unsigned long long)shown->released, app->busy ? _("; more are falling") : "");
+    else
+        ceduo_text_put(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
+    if (ceduo_document_unsaved(&app->document))
+        ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
 static void put_report(struct app *app, struct text *text, enum ceduo_format format)
@@ -688,8 +705,6 @@ static void put_export(struct app *app, const char *what, struct text *text)
         put_report(app, text, CEDUO_CSV);
     } else if (strcmp(what, "json") == 0) {
         put_report(app, text, CEDUO_JSON);
-    } else if (strcmp(what, "command") == 0) {
-        put_command(app, text);
     } else {
         struct popup *over = app->popup;
         app->popup = NULL;
@@ -733,11 +748,8 @@ static void chose_export(struct app *app, struct popup *p, const char *value)
     (void)p;
     if (strcmp(value, "command") == 0) {
         struct popup *q = ceduo_popup_text(app, _("The batch command that gives the same"));
-        if (q) {
-            put_command(app, &q->text);
-            if (ceduo_document_unsaved(&app->document))
-                ceduo_text_put(&q->text, _("\nThere is unsaved work: s saves it first.\n"));
-        }
+        if (q)
+            q->preview = show_command;
         return;
     }
     struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);

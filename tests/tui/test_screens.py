@@ -1618,6 +1618,14 @@ def test_export_command():
         expect_near(control["index"]["residual_kJ"], index_of(screen)[1], 0.06, "left")
 
 
+def test_export_rocks():
+    """w: the command follows the figures on the screen: none yet, as many rocks as they have, still more to come."""
+    none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
+    none.has("ceduo --batch -n 1000 ", "no figures yet", "what the scene says")
+    rocks = int(screen.figure("= .* %"))
+    last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are of {rocks} rocks").lacks("no figures yet")
+
+
 def test_export_unsaved():
     """w: with unsaved work the command says that the file must be saved first."""
     screen = fast("key 2\nfind stools.per_ha\nset 9\nwait idle\nkey w End Enter\ndump")[0]
