@@ -1007,9 +1007,10 @@ static int bar_width(const struct action_row *a)
 static void draw_bar(struct app *app)
 {
     int x = 0;
-    if (app->editing) {
+    if (app->popup || app->editing) {
         ceduo_app_label(app, 0, app->height - 1, CEDUO_ROLE_DIM, "%s",
-                        _("Enter takes the value  Esc leaves it as it was  empty: the default"));
+                        app->popup ? ceduo_popup_bar(app)
+                                   : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
         return;
     }
     int room = app->width + 2;

@@ -154,6 +154,7 @@ void ceduo_popup_changed_on_disk(struct app *app);
 void ceduo_popup_rename(struct app *app);
 
 void ceduo_popup_draw(struct app *app);
+const char *ceduo_popup_bar(const struct app *app); /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 void ceduo_popup_close(struct app *app);
 

@@ -203,6 +203,16 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
     ceduo_app_text(app, head, CEDUO_ROLE_TITLE, title, 0);
 }
 
+/* Says on the edge of a box that what is in it goes on. */
+static void draw_more(struct app *app, struct ceduo_area r, bool above, bool below)
+{
+    const char *words[] = {_(" more above "), _(" more below ")};
+    for (int i = 0; i < 2; i++)
+        if (i == 0 ? above : below)
+            ceduo_app_label(app, r.left + r.width - 2 - (int)ceduo_text_columns(words[i]), i == 0 ? r.top : r.top + r.height - 1,
+                            CEDUO_ROLE_TITLE, "%s", words[i]);
+}
+
 /* A rectangle in the middle, as large as the screen allows. */
 static struct ceduo_area middle(const struct app *app, int width, int height)
 {
@@ -224,6 +234,7 @@ static void draw_text(struct app *app, struct popup *p)
     int most = lines > in.height ? lines - in.height : 0;
     p->top = (int)p->top > most ? (size_t)most : p->top;
     ceduo_app_text(app, in, CEDUO_ROLE_TEXT, text, (int)p->top);
+    draw_more(app, r, p->top > 0, (int)p->top < most);
 }
 
 static void draw_list(struct app *app, struct popup *p)
@@ -243,6 +254,7 @@ static void draw_list(struct app *app, struct popup *p)
         ceduo_form_cut(app->canvas, r.left + 2, r.top + 1 + note_lines + (int)i, r.width - 4,
                        here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[p->top + i].text);
     }
+    draw_more(app, r, p->top > 0, p->top + room < p->items_count);
     struct ceduo_area note = {r.left + 2, r.top + 1, r.width - 4, note_lines};
     if (p->text.bytes)
         ceduo_app_text(app, note, CEDUO_ROLE_DIM, p->text.bytes, 0);
@@ -272,8 +284,14 @@ static void draw_fields(struct app *app, struct popup *p)
     struct ceduo_area foot = {r.left + 2, r.top + r.height - 2, r.width - 4, 1};
     if (p->message[0])
         ceduo_app_text(app, foot, CEDUO_ROLE_WARN, p->message, 0);
-    else
-        ceduo_app_text(app, foot, CEDUO_ROLE_DIM, _("Enter: next, at the last one done.  Esc: never mind"), 0);
+}
+
+const char *ceduo_popup_bar(const struct app *app)
+{
+    static const char *const bars[] = {[POPUP_TEXT] = N_("Up Down PgUp PgDn read on  any other key closes"),
+                                       [POPUP_LIST] = N_("Up Down move  Enter choose  Esc never mind"),
+                                       [POPUP_FIELDS] = N_("Enter next, at the last one done  Up back  Esc never mind")};
+    return _(bars[app->popup->kind]);
 }
 
 void ceduo_popup_draw(struct app *app)

@@ -1296,7 +1296,7 @@ def test_new_typed():
             key Enter
             dump""")
         screens[0].has("New scene", "profile (CSV file or points)", "ground", "rock: diameter, m",
-                       "counted at x, m", "that bears, kJ", "stand on the whole way", "Esc: never mind")
+                       "counted at x, m", "that bears, kJ", "stand on the whole way", "Esc never mind")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0.9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
         screens[3].has("Save as")
@@ -1765,6 +1765,31 @@ def test_new_is_data():
         script = "wait idle\nkey n\n" + "key Enter\n" * field + f"key Ctrl-U\ntype {text}\n" + "key Enter\n" * (7 - field)
         refused = fast(script + "dump")[0]
         expect("New scene" in refused.text or refused.title.endswith(" fast"), f"{text!r} was taken as YAML:", refused)
+
+
+def test_popup_bar():
+    """The bar has the keys of what lies over the view, and those of the view again once it is closed."""
+    for keys, words in (("p", ("Up Down move", "Enter choose", "Esc never mind")), ("q", ("Enter choose", "Esc never mind")),
+                        ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc never mind")),
+                        ("w End Enter", ("any other key closes",))):
+        for width in (60, 80, 200):
+            edit = "find stools.per_ha\nkey +\n" if keys == "q" else ""
+            over, closed = fast(f"resize {width} 24\nkey 2\n{edit}key {keys}\ndump\nkey Esc\ndump")
+            for word in words:
+                expect_in(word, over.bar, f"{keys} at {width} columns")
+            expect("edit" not in over.bar and "undo" not in over.bar, over.bar)
+            expect_in("Enter edit", closed.bar, "closed")
+
+
+def test_more_in_popups():
+    """Help and lists that are longer than their window say on its edge that there is more, below and above."""
+    for keys in ("?", "p"):
+        first, middle, last = fast(f"key 2\nkey {keys}\ndump\nkey PgDn PgDn\ndump\nkey End\ndump")
+        first.has("more below").lacks("more above")
+        middle.has("more below", "more above")
+        last.has("more above").lacks("more below")
+        fast(f"resize 120 100\nkey 2\nkey {keys}\ndump")[0].lacks("more below", "more above")
+    fast("find stand\nkey 3\nfind shape\nkey Enter\ndump")[0].has("sphere").lacks("more below", "more above")
 
 
 def test_popups_small():
