@@ -278,18 +278,30 @@ bool ceduo_document_insert(struct document *d, const char *list, size_t index, c
     return item && insert_node(d, list, index, item, problems);
 }
 
+/* Bytes of a name without the number of a copy, " (2)", and that number: 1 where there is none. A larger one is a year. */
+static size_t name_of_copy(const char *name, unsigned *number)
+{
+    const char *open = strrchr(name, '(');
+    size_t digits = open ? strspn(open + 1, "0123456789") : 0;
+    bool copy = open && open > name + 1 && open[-1] == ' ' && digits > 0 && digits < 4 && strcmp(open + 1 + digits, ")") == 0;
+    *number = copy ? (unsigned)strtoul(open + 1, NULL, 10) : 1;
+    return copy ? (size_t)(open - 1 - name) : strlen(name);
+}
+
 /* A copy gets a name of its own where names must differ. */
 static const struct node *with_new_name(struct document *d, const struct node *list, const struct node *item)
 {
     const char *name = ceduo_node_text(item, "name");
+    unsigned first;
     if (!name)
         return item;
-    for (unsigned i = 1; i < 1000; i++) {
+    size_t n = name_of_copy(name, &first);
+    for (unsigned i = first; i < first + 1000; i++) {
         struct text text = {0};
-        if (i == 1)
+        if (i == first)
             ceduo_text_put(&text, name);
         else
-            ceduo_text_format(&text, "%s (%u)", name, i);
+            ceduo_text_format(&text, "%.*s (%u)", (int)n, name, i);
         bool taken = false;
         for (size_t k = 0; text.bytes && k < list->n; k++) {
             const char *other = ceduo_node_text(list->items[k], "name");

@@ -148,7 +148,8 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     else if (index->exhausted)
         line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * KILO);
     else
-        line(pen, CEDUO_ROLE_DIM, _("index: -%.3g, left %.3g kJ"), index->dissipated * KILO, index->residual * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "",
+             index->dissipated * KILO, index->residual * KILO);
     if (!isnan(index->measured))
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * KILO);
 }

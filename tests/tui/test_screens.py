@@ -939,6 +939,22 @@ def test_options():
     expect_in("the only option stays", screens[7].note)
 
 
+def test_names_of_copies():
+    """y on a copy counts its number up, whatever else stands in the name."""
+    found = option_names(fast("resize 120 40\nkey 5\nwait idle\n" + "key y\n" * 3 + "wait idle\ndump", "options.yaml")[0])
+    expect_equal(found[:4], ["thick", "thick (2)", "thick (3)", "thick (4)"], "copies of copies")
+    with Place() as place:
+        place.write("named.yaml", OPTIONS.replace("name: thick", "name: cut (2031)").replace("name: none left", "name: a (x)"))
+        found = option_names(place.play("resize 120 40\nkey 5\nwait idle\nkey y G y\nwait idle\ndump", "named.yaml")[0])
+    expect_equal(found, ["cut (2031)", "cut (2031) (2)", "thin", "a (x)", "a (x) (2)"], "numbers that are none of copies")
+
+
+def test_index_zero():
+    """Where no stems take anything the index takes 0, not -0."""
+    screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
+    expect(re.search(r"index: 0, left [\d.]+ kJ", screen.now), screen)
+
+
 def test_rename_refused():
     """Two options cannot have one name; the refusal says so and keeps the question."""
     screen = fast("key 5\nkey Enter Ctrl-U\ntype thin\nkey Enter\ndump", "options.yaml")[0]
