@@ -118,7 +118,9 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
 {
     char what[64];
     bool wide = pen->area.width >= 30;
-    if (isinf(index->worst_adc))
+    if (index->length > 0 && index->longest_gap > threshold) /* the reason in the page, too */
+        snprintf(what, sizeof what, wide ? _("gap %.3g m (>%g)") : _("gap %.3g m"), index->longest_gap, threshold);
+    else if (isinf(index->worst_adc))
         snprintf(what, sizeof what, "%s", _("no forest"));
     else
         snprintf(what, sizeof what, wide ? "%.3g m (<%g)" : "%.3g m", index->worst_adc, threshold);

@@ -949,6 +949,25 @@ def test_names_of_copies():
     expect_equal(found, ["cut (2031)", "cut (2031) (2)", "thin", "a (x)", "a (x) (2)"], "numbers that are none of copies")
 
 
+def test_contact_reason():
+    """The light of contact tells what fails: a gap where that is it, otherwise the ADC."""
+    text = FAST.replace("[[0, 80], [60, 30], [100, 0]]", "[[0, 80], [60, 30], [160, 0]]").replace("x_m: 80", "x_m: 150")
+    with Place() as place:
+        for to_m, from_m, width, words in ((45, 82.5, 80, "FAILS gap 37.5 m"), (45, 82.5, 120, "FAILS gap 37.5 m (>30)"),
+                                           (82, 90, 80, "FAILS gap 32 m")):
+            end = 150 if from_m > 80.5 and to_m == 45 else 118
+            place.write("gap.yaml", text.replace("to_m: 45", f"to_m: {to_m}").replace("from_m: 50", f"from_m: {from_m}")
+                        .replace("to_m: 80", f"to_m: {end}").replace("{per_ha: 1000, spacing_m: 0.3}",
+                                                                    "{per_ha: 3000, spacing_m: 0.3}")
+                        .replace("per_ha: 2500, dbh_m: 0.05", "per_ha: 9000, dbh_m: 0.06"))
+            screen = place.play(f"resize {width} 30\nwait idle\ndump", "gap.yaml")[0]
+            expect(re.search(rf"✘ Contact +{re.escape(words)}$", screen.now, re.M), words, screen)
+    screen = fast("key 5 Down\nwait idle\ndump", "options.yaml")[0]
+    expect(re.search(r"✘ Contact +FAILS 143 m$", screen.now, re.M), "the ADC", screen)
+    screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
+    expect(re.search(r"✘ Contact +FAILS no forest$", screen.now, re.M), screen)
+
+
 def test_index_zero():
     """Where no stems take anything the index takes 0, not -0."""
     screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
