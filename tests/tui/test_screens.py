@@ -1720,6 +1720,16 @@ def test_help():
                 expect_in(f"{word} {text}", bar, f"{name} in the bar of view {view} at 80 columns")
 
 
+def test_help_field():
+    """? begins with all that is known of the field under the cursor, where the line above the keys has no room for it."""
+    line, helped = fast("key 2\nfind stools.per_ha\ndump\nkey ?\ndump", "paper-site")
+    expect(line.note.endswith("…"), line.note)
+    wide = fast("resize 300 24\nkey 2\nfind stools.per_ha\ndump", "paper-site")[0]
+    expect_in("Table 1", wide.note, "the source")
+    expect(helped.popup.startswith(re.sub(" +", " ", wide.note) + " Every edit is live"), wide.note, helped)
+    expect(fast("key 4\nkey ?\ndump")[0].popup.startswith("Every edit is live"), "without a field")
+
+
 def test_help_scrolls():
     """The help can be read to its end at 80x24."""
     pages = fast("key ?\ndump\n" + "key PgDn\ndump\n" * 5 + "key g\ndump\nkey q\ndump")
