@@ -255,8 +255,11 @@ bool ceduo_terminal_there(const char **why)
     const char *unused;
     why = why ? why : &unused;
     int error;
-    if (!isatty(STDIN_FILENO) || !isatty(STDOUT_FILENO)) {
-        *why = _("standard input and output are no terminal");
+    bool in = isatty(STDIN_FILENO), out = isatty(STDOUT_FILENO);
+    if (!in || !out) {
+        *why = in    ? _("standard output is no terminal")
+               : out ? _("standard input is no terminal")
+                     : _("standard input and output are no terminal");
         return false;
     }
     const char *name = getenv("TERM");

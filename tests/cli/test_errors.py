@@ -280,11 +280,12 @@ class Elsewhere:
         expect_in(self.name, (ROOT / self.path).read_text(), f"the test of {row!r}")
 
 
-def on_terminal(row, name):
+def on_terminal(row, name, **instead):
     """The terminal program on a terminal of that name."""
     master, slave = os.openpty()
     try:
-        expect_message(row, limited("paper-site", stdin=slave, stdout=slave, env={"TERM": name}), "ceduo: ", USAGE)
+        streams = {"stdin": slave, "stdout": slave, **instead}
+        expect_message(row, limited("paper-site", **streams, env={"TERM": name}), "ceduo: ", USAGE)
     finally:
         os.close(master)
         os.close(slave)
@@ -357,6 +358,8 @@ CASES = {
     "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(
         "diameter_m: 0.5}", "diameter_m: @@{mean: 0.8, spread: 1.2, kind: uniform}}"),
     # Rock
+    "does not belong to the shape 'block'; give the whole rock: -s ...":
+        Words("--batch", "-s", "rock.shape=block", "@", status=INPUT, start="scene.yaml:"),
     "does not belong to the shape 'sphere'; take it out": sc("diameter_m: 0.5}", "diameter_m: 0.5, height_m: @@1}"),
     "'height_m' is missing: the shape 'cylinder' needs it": sc("rock: {shape: sphere", "rock: @@{shape: cylinder"),
     "a sphere is given by one of diameter_m, volume_m3 and mass_kg ...": sc(ROCK, "rock: @@{shape: sphere}"),
@@ -424,6 +427,8 @@ CASES = {
     "'trees': there is none to change": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
     # Usage
     "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
+    "standard input is no terminal; ...": lambda row: on_terminal(row, "xterm", stdin=subprocess.DEVNULL),
+    "standard output is no terminal; ...": lambda row: on_terminal(row, "xterm", stdout=subprocess.DEVNULL),
     "TERM names no terminal that is known; ...": lambda row: on_terminal(row, "no-such-terminal"),
     "this terminal cannot place the cursor; ...": lambda row: on_terminal(row, "dumb"),
     "this terminal cannot be used; ...": impossible,
