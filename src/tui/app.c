@@ -83,6 +83,12 @@ static bool outlook_fits(const struct app *app)
     return app->outlook && app->outlook->controls == s->controls_count;
 }
 
+/* Years have figures for as many controls as there were when they were asked for. */
+static bool years_fit(const struct app *app)
+{
+    return app->years && app->years->scene.controls_count == app->document.file.scene.controls_count;
+}
+
 struct ceduo_picture ceduo_app_picture(const struct app *app)
 {
     return (struct ceduo_picture){.scene = &app->document.file.scene,
@@ -93,7 +99,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL,
                                   .stems = ceduo_steps_stems(&app->steps) > 0 ? app->steps.stems : NULL,
                                   .stems_count = ceduo_steps_stems(&app->steps),
-                                  .years = app->years && app->years_option == app->option ? app->years : NULL,
+                                  .years = years_fit(app) && app->years_option == app->option ? app->years : NULL,
                                   .year = app->year};
 }
 
@@ -123,7 +129,7 @@ static void refresh_result(struct app *app)
         app->result = NULL;
     free(differences);
     free(wooded);
-    if (app->years && app->years->scene.controls_count == controls)
+    if (years_fit(app))
         ceduo_years_assess(app->years, scene, &o->bare->flown);
 }
 
