@@ -703,8 +703,10 @@ def test_table_best():
         expect_in("By contact 'many thin' is best, by energy 'few thick'; neither alone decides", words)
         words = best_sentence(f, treated(few_thick=THICK, many_thin=THIN))
         expect_in("By contact 'many thin' is best, by energy 'few thick'; neither alone decides", words, "in another order")
-        words = best_sentence(f, treated(none=None, many_thin=THIN))
-        expect_in("By contact and by energy 'many thin' is best", words)
+        words = best_sentence(f, treated(none=None, few_thick=THICK))
+        expect_in("By contact and by energy 'few thick' is best", words)
+        words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
+        expect_in("By contact 'many thin' is best, and none is clearly better by energy", words)
         words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK), *through("index"))
         expect("best" not in words, words)
         hardly = {**THICK, "trees": [{"per_ha": 301, "dbh_m": 0.4, "height_m": 18, "volume_m3": 1}]}
@@ -713,6 +715,18 @@ def test_table_best():
         expect(re.search("and by energy|none is clearly better by energy", words), "an energy that chance decided", words)
         words = best_sentence(f, treated(none=None, also_none=None))
         expect("best" not in words, "the best of two that have no forest", words)
+        weak = {**THICK, "trees": [{**THICK["trees"][0], "volume_m3": 0.001}]}  # stems as thick: the same ADC
+        for order in ({"weak": weak, "strong": THICK, "none": None}, {"strong": THICK, "none": None, "weak": weak}):
+            words = best_sentence(f, treated(**order))
+            expect_in("By contact and by energy 'strong' is best", words, "contact does not tell weak from strong")
+        words = best_sentence(f, treated(weak=weak, strong=THICK))
+        expect_in("By energy 'strong' is best; contact does not tell the options apart", words)
+        words = best_sentence(f, treated(weak=weak, strong=THICK, as_strong=THICK))
+        expect_in("By energy 'strong' is best, though not clearly before all others; contact does not tell", words)
+        words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK, as_thick=THICK))
+        expect_in("By contact 'many thin' is best, by energy 'few thick', though not clearly before all others", words)
+        words = best_sentence(f, {**treated(none=None, few_thick=THICK), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
+        expect_in("By contact 'few thick' is best, and none is clearly better by energy", words, "nothing comes with so much")
 
 
 def test_table_best_gap():
