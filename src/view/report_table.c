@@ -184,7 +184,7 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
 /* A mean and its error, with as many digits as have room. */
 static void put_mean(const struct page *p, struct text *text, const struct ceduo_arrivals *a)
 {
-    double mean = a->energy.mean * KILO, half = a->energy.se * CEDUO_Z95 * KILO;
+    double mean = a->energy.mean * KILO, half = ceduo_half_width(a->energy.se, a->reached) * KILO;
     for (int digits = 4; digits > 0 && a->reached > 0; digits--) {
         ceduo_text_free(text);
         ceduo_words_number(text, mean, digits);
@@ -269,7 +269,7 @@ static void put_arrivals_sentences(struct page *p, const char *name, const struc
         ceduo_text_put(&line, _("; mean "));
         ceduo_words_number(&line, a->energy.mean * KILO, 4);
         ceduo_text_format(&line, " %s ", plus_minus(p));
-        ceduo_words_number(&line, a->energy.se * CEDUO_Z95 * KILO, 2);
+        ceduo_words_number(&line, ceduo_half_width(a->energy.se, a->reached) * KILO, 2);
         ceduo_text_put(&line, _(" kJ, 95 % below "));
         ceduo_words_number(&line, a->energy.p95 * KILO, 3);
     }
@@ -651,14 +651,13 @@ static void put_option(struct page *p, size_t i)
 /* ---- side by side ---- */
 
 /* "480 ±10": of 1000. */
-static void put_per_1000(struct page *p, double mean, double se, bool sign, int width)
+static void put_per_1000(struct page *p, double mean, double half, bool sign, int width)
 {
     struct text cell = {0};
     if (isnan(mean))
         ceduo_text_put(&cell, "-");
     else
-        ceduo_text_format(&cell, sign ? "%+.0f %s%.0f" : "%.0f %s%.0f", mean * 1000, plus_minus(p),
-                          ceil(se * CEDUO_Z95 * 1000));
+        ceduo_text_format(&cell, sign ? "%+.0f %s%.0f" : "%.0f %s%.0f", mean * 1000, plus_minus(p), ceil(half * 1000));
     put_padded(p, cell.bytes ? cell.bytes : "", -width);
     ceduo_text_free(&cell);
 }
@@ -667,13 +666,10 @@ static void put_simulated(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
     size_t c = r->last_control;
-    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, c);
-    const struct ceduo_difference *d = &r->options[i].differences[c];
-    bool says = a && !isnan(a->exceed_probability);
-    double share = !a ? NAN : says ? a->exceed_probability : a->reach_probability;
-    struct ceduo_paired diff = says ? d->exceed_probability : d->reach_probability;
-    put_per_1000(p, share, a ? sqrt(share * (1 - share) / (double)a->released) : NAN, false, 10);
-    put_per_1000(p, i == 0 ? NAN : diff.mean, diff.se, true, 11);
+    double half, half_of_difference, difference = ceduo_words_difference(r, i, &half_of_difference);
+    double share = ceduo_words_share(r, i, &half);
+    put_per_1000(p, share, half, false, 10);
+    put_per_1000(p, i == 0 ? NAN : difference, half_of_difference, true, 11);
     ceduo_text_format(p->text, "  %-4s", short_verdict(r->options[i].controls[c].energy));
 }
 

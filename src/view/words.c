@@ -259,6 +259,29 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
 
 /* ---- which is best ---- */
 
+double ceduo_words_share(const struct ceduo_result *result, size_t option, double *half)
+{
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
+    *half = NAN;
+    if (!a)
+        return NAN;
+    double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
+    *half = ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released);
+    return share;
+}
+
+double ceduo_words_difference(const struct ceduo_result *result, size_t option, double *half)
+{
+    const struct ceduo_difference *d = &result->options[option].differences[result->last_control];
+    struct ceduo_paired found = isnan(d->exceed_probability.mean) ? d->reach_probability : d->exceed_probability;
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
+    double room, share = ceduo_words_share(result, option, &room), first = ceduo_words_share(result, 0, &room);
+    *half = !a               ? NAN
+            : share == first ? ceduo_half_width_of_share(share, found.se, a->released)
+                             : CEDUO_Z95 * found.se;
+    return found.mean;
+}
+
 /* The figure of an option by energy, its standard error, and that of its difference to the first option. */
 static double by_energy(const struct ceduo_result *result, size_t option, double *se)
 {

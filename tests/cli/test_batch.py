@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What ceduo --batch prints and how it ends: table, CSV, JSON, options, files, streams, signals."""
 import csv
+import functools
 import io
 import math
 import os
@@ -521,6 +522,26 @@ ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(\d+ \(\d+
                           r"(?:-|([\d.]+) ?±(-|[\d.]+)) +(-|[\d.e]+) +(-|[\d.e]+) +(-|[\d.e]+)$")
 
 
+@functools.cache
+def student(freedom):
+    """The 97.5 % quantile of Student's law: its density, summed by Simpson's rule from 0 on, comes to 0.475 there."""
+    scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
+
+    def density(t):
+        return scale * (1 + t * t / freedom) ** (-(freedom + 1) / 2)
+
+    step, t, total = 1e-3, 0.0, 0.0
+    while total < 0.475:
+        total += (density(t) + 4 * density(t + step / 2) + density(t + step)) * step / 6
+        t += step
+    return t - (total - 0.475) / density(t)
+
+
+def half_width(figure, count):
+    """Of the 95 % interval of a mean."""
+    return figure["se"] * student(count - 1)
+
+
 def expect_arrivals(line, arrivals):
     """A line of the table of arrivals has a blank between any two cells, and what it says of a mean and its error is true."""
     found = ARRIVALS_ROW.match(line)
@@ -530,7 +551,7 @@ def expect_arrivals(line, arrivals):
     energy = arrivals["energy_kJ"]
     expect_equal(mean is None, energy["mean"] is None, line)
     if mean is not None and energy["se"] is not None:
-        wanted = energy["se"] * 1.959963984540054
+        wanted = half_width(energy, arrivals["rocks_reached"])
         expect(half != "-" and float(half) >= 0.94 * wanted, f"an error of {wanted} is said to be less:", line)
         expect(abs(float(mean) - energy["mean"]) <= float(half) + 1e-3 * energy["mean"],
                f"the mean of {energy['mean']} lies beyond its error:", line)
@@ -581,7 +602,7 @@ def test_table_order():
     for line, arrivals in ((table_row(text, "through the wood")[0], control["wooded"]),
                            (table_row(text, "without forest")[0], control["bare"])):
         energy = arrivals["energy_kJ"]
-        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(energy['se'] * 1.959963984540054, 2)}", digits(energy["p95"], 3),
+        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(half_width(energy, arrivals['rocks_reached']), 2)}", digits(energy["p95"], 3),
                      digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
     expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
@@ -727,6 +748,16 @@ def test_table_best():
         expect_in("By contact 'many thin' is best, by energy 'few thick', though not clearly before all others", words)
         words = best_sentence(f, {**treated(none=None, few_thick=THICK), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
         expect_in("By contact 'few thick' is best, and none is clearly better by energy", words, "nothing comes with so much")
+
+
+def test_table_of_none():
+    """Table: of no rock among n with too much energy, and of no difference between such, the error is that of Wilson, never 0"""
+    with Folder() as f:
+        path = f.write("s.yaml", {**treated(few_thick=THICK, none=None), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
+        rows = side_by_side(good("--batch", "-n", 200, path).out, ["few thick", "none"])[1]
+        half = math.ceil(1000 * 1.959963984540054**2 / (200 + 1.959963984540054**2))
+        expect_cells(rows["few thick"], f"0 ±{half}")
+        expect_cells(rows["none"], f"0 ±{half}", f"+0 ±{half}")
 
 
 def test_table_best_gap():
