@@ -5,9 +5,10 @@
  *   2  a file of parts, all sums put right, joined and reported as the program does
  *   3  the bytes of inputs; the scene is read from what they hold
  *   4… the bytes of the runs of one of the pools below, which are adopted and reported
- * Once, before the first input, it makes such inputs itself and sees that each is taken: a change of the format cannot
- * leave it testing nothing. With FUZZ_SEEDS=FOLDER it writes them there, as seeds, and ends. */
+ * Once, before the first input, it makes such inputs itself and sees that each is taken, or refused where it is bad: a
+ * change of the format cannot leave it testing nothing. With FUZZ_SEEDS=FOLDER it writes them there, as seeds, and ends. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -324,6 +325,7 @@ static void check_arrivals(const struct ceduo_flown *flown, uint64_t rocks)
                    within(a->reach_lo, a->reach_probability, a->reach_hi),
                "more rocks than there were");
         expect(a->exceeded <= a->reached, "more rocks exceed than arrive");
+        expect(a->reached == 0 || (isfinite(a->energy.p50) && isfinite(a->speed.p95)), "rocks arrive without energy");
     }
 }
 
@@ -391,14 +393,14 @@ static bool take(const uint8_t *data, size_t n)
     }
 }
 
-static void try_own(size_t mode, const void *bytes, size_t n, const char *folder)
+static void try_one(size_t mode, const void *bytes, size_t n, bool good, const char *folder)
 {
     static unsigned number;
     struct text text = {0};
     ceduo_text_char(&text, (char)('0' + mode));
     ceduo_text_add(&text, bytes, n);
     expect(!text.failed, "out of memory");
-    expect(take((const uint8_t *)text.bytes, text.length), "its own input is refused");
+    expect(take((const uint8_t *)text.bytes, text.length) == good, good ? "its own input is refused" : "taken, but bad");
     if (folder) {
         char path[1024];
         snprintf(path, sizeof path, "%s/%02u", folder, number++);
@@ -406,6 +408,22 @@ static void try_own(size_t mode, const void *bytes, size_t n, const char *folder
         expect(f && fwrite(text.bytes, 1, text.length, f) == text.length && fclose(f) == 0, "a seed cannot be written");
     }
     ceduo_text_free(&text);
+}
+
+static void try_own(size_t mode, const void *bytes, size_t n, const char *folder)
+{
+    try_one(mode, bytes, n, true, folder);
+}
+
+/* Inputs that hold no file, of a scene without a name, and of one that is there on the disk: none is read from there. */
+static void try_without_files(const char *path, const char *folder)
+{
+    size_t n;
+    const struct part_inputs in = {.path = path};
+    unsigned char *bytes = ceduo_part_inputs(&in, &n);
+    expect(bytes != NULL, "out of memory");
+    try_one(INPUTS, bytes, n, false, folder);
+    free(bytes);
 }
 
 /* The line of a shard as the program writes it, but for the seconds: seeds are always the same. */
@@ -455,6 +473,8 @@ static void set_up(void)
     stderr = fopen("/dev/null", "w");
     try_lines(plain, folder);
     try_lines(spread, folder);
+    try_without_files(NULL, folder);
+    try_without_files("tests/fuzz/seeds/scene/small.yaml", folder);
     for (size_t k = 0; k < LENGTH(kinds); k++) {
         if (kinds[k].first > 0)
             before[k] = part_of(&kinds[k], 0, kinds[k].first);
