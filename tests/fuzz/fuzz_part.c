@@ -8,7 +8,6 @@
  * Once, before the first input, it makes such inputs itself and sees that each is taken, or refused where it is bad: a
  * change of the format cannot leave it testing nothing. With FUZZ_SEEDS=FOLDER it writes them there, as seeds, and ends. */
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -325,7 +324,6 @@ static void check_arrivals(const struct ceduo_flown *flown, uint64_t rocks)
                    within(a->reach_lo, a->reach_probability, a->reach_hi),
                "more rocks than there were");
         expect(a->exceeded <= a->reached, "more rocks exceed than arrive");
-        expect(a->reached == 0 || (isfinite(a->energy.p50) && isfinite(a->speed.p95)), "rocks arrive without energy");
     }
 }
 
