@@ -21,9 +21,18 @@ const struct app_view *const ceduo_views[VIEWS] = {&ceduo_view_slope, &ceduo_vie
 __attribute__((format(printf, 3, 0))) static void say(struct app *app, bool bad, const char *format, va_list args)
 {
     struct text text = {0}, safe = {0};
+    va_list again;
+    va_copy(again, args);
     ceduo_text_vformat(&text, format, args);
     ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
-    snprintf(app->message, sizeof app->message, "%s", safe.bytes ? safe.bytes : "");
+    if (text.failed || safe.failed) { /* said even so: of it ASCII is safe */
+        vsnprintf(app->message, sizeof app->message, format, again);
+        for (char *p = app->message; *p; p++)
+            *p = *p >= ' ' && *p <= '~' ? *p : '?';
+    } else {
+        snprintf(app->message, sizeof app->message, "%s", safe.bytes ? safe.bytes : "");
+    }
+    va_end(again);
     app->message_bad = bad;
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
@@ -336,6 +345,8 @@ bool ceduo_app_save_to(struct app *app, const char *path)
 {
     char *copy = strdup(path); /* it may be the document's own, which saving makes anew */
     bool good = copy && save_to(app, copy);
+    if (!copy)
+        ceduo_app_warn(app, "%s: %s", path, strerror(errno));
     free(copy);
     return good;
 }
