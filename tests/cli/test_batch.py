@@ -537,8 +537,8 @@ def student(freedom):
     return t - (total - 0.475) / density(t)
 
 
-def half_width(figure, count):
-    """Of the 95 % interval of a mean."""
+def half_of_mean(figure, count):
+    """Half the width of the 95 % interval of a mean."""
     return figure["se"] * student(count - 1)
 
 
@@ -551,7 +551,7 @@ def expect_arrivals(line, arrivals):
     energy = arrivals["energy_kJ"]
     expect_equal(mean is None, energy["mean"] is None, line)
     if mean is not None and energy["se"] is not None:
-        wanted = half_width(energy, arrivals["rocks_reached"])
+        wanted = half_of_mean(energy, arrivals["rocks_reached"])
         expect(half != "-" and float(half) >= 0.94 * wanted, f"an error of {wanted} is said to be less:", line)
         expect(abs(float(mean) - energy["mean"]) <= float(half) + 1e-3 * energy["mean"],
                f"the mean of {energy['mean']} lies beyond its error:", line)
@@ -602,7 +602,7 @@ def test_table_order():
     for line, arrivals in ((table_row(text, "through the wood")[0], control["wooded"]),
                            (table_row(text, "without forest")[0], control["bare"])):
         energy = arrivals["energy_kJ"]
-        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(half_width(energy, arrivals['rocks_reached']), 2)}", digits(energy["p95"], 3),
+        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(half_of_mean(energy, arrivals['rocks_reached']), 2)}", digits(energy["p95"], 3),
                      digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
     expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
