@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "io/forms.h"
@@ -747,8 +748,6 @@ static void put_comparison_head(struct page *p, const struct ceduo_control *c)
 static void put_comparison(struct page *p)
 {
     const struct ceduo_result *r = p->report->result;
-    if (r->scene->options_count < 2 || r->scene->controls_count == 0)
-        return;
     char room[CEDUO_NUMBER_ROOM];
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     ceduo_text_format(p->text,
@@ -771,6 +770,113 @@ static void put_comparison(struct page *p)
         put_wrapped(p, "  ", 2,
                     _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
                       "says what stems could take, not what a rock loses; no column decides alone."));
+}
+
+/* ---- rotations side by side ---- */
+
+static void put_count(struct page *p, size_t count, int width)
+{
+    struct text cell = {0};
+    ceduo_text_format(&cell, "%zu", count);
+    put_padded(p, cell.bytes ? cell.bytes : "", -width);
+    ceduo_text_free(&cell);
+}
+
+/* What is compared over the years: the mean share of the released with too much energy, or where that is not said that
+ * arrives. */
+static struct ceduo_paired mean_of_years(const struct page *p, const struct ceduo_years_summary *s)
+{
+    const struct ceduo_result *r = p->report->result;
+    return isnan(r->scene->controls[r->last_control].accepted) ? s->reach : s->exceed;
+}
+
+static void put_rotation_row(struct page *p, size_t i, const struct ceduo_years_summary *s)
+{
+    struct text worst = {0};
+    struct ceduo_paired mean = mean_of_years(p, s);
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, p->report->result->scene->options[i].name, 23);
+    put_count(p, s->unprotected_contact, 8);
+    put_count(p, s->unprotected_free_run, 9);
+    if (s->flown > 0) {
+        put_count(p, s->unprotected_energy, 7);
+        put_per_1000(p, mean.mean, mean.se * CEDUO_Z95, false, 13);
+        ceduo_text_format(&worst, "%.0f (%u)", s->worst * 1000, s->worst_year);
+    } else {
+        ceduo_words_number(&worst, s->worst, 3);
+        ceduo_text_format(&worst, " (%u)", s->worst_year);
+    }
+    put_padded(p, worst.bytes ? worst.bytes : "", -14);
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&worst);
+}
+
+static void put_rotations_head(struct page *p, const struct ceduo_control *c, bool flown)
+{
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, _("option"), 23);
+    put_padded(p, _("contact"), -8);
+    put_padded(p, _("free run"), -9);
+    if (flown)
+        put_padded(p, _("energy"), -7);
+    if (flown)
+        put_limit(p, c, _("arrive"), 13);
+    put_padded(p, flown ? _("worst (year)") : _("ADC m (year)"), -14);
+    ceduo_text_char(p->text, '\n');
+}
+
+/* Which option lets the fewest through over the years. The same rocks fly in all of them, so errors go together, and two
+ * standard errors as of independent figures are rather too many. */
+static void say_best_rotation(struct page *p, const struct ceduo_years_summary *sums)
+{
+    const struct ceduo_scene *scene = p->report->result->scene;
+    size_t n = scene->options_count, best = 0, worse = 0;
+    for (size_t i = 1; i < n; i++)
+        if (mean_of_years(p, &sums[i]).mean < mean_of_years(p, &sums[best]).mean)
+            best = i;
+    struct ceduo_paired least = mean_of_years(p, &sums[best]);
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_paired mean = mean_of_years(p, &sums[i]);
+        worse += mean.mean - least.mean > 2 * hypot(mean.se, least.se);
+    }
+    struct text line = {0};
+    if (worse == 0)
+        ceduo_text_put(&line, _("In the mean of these years no option is clearly better by energy."));
+    else
+        ceduo_text_format(&line, worse == n - 1 ? _("In the mean of these years '%s' lets the fewest through.")
+                                                : _("In the mean of these years '%s' lets the fewest through, though not "
+                                                    "clearly before all others."), scene->options[best].name);
+    put_wrapped(p, "  ", 2, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+}
+
+static void put_rotations(struct page *p)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    size_t n = r->scene->options_count;
+    struct ceduo_years_summary *sums = calloc(n, sizeof *sums);
+    p->text->failed |= !sums;
+    if (!sums)
+        return;
+    for (size_t i = 0; i < n; i++)
+        sums[i] = ceduo_years_sum(p->report->years[i], r->last_control);
+    char room[CEDUO_NUMBER_ROOM];
+    struct text head = {0};
+    ceduo_text_format(&head, ngettext("Side by side over %zu year, up to %s m: years in which a test fails",
+                                      "Side by side over %zu years, up to %s m: years in which a test fails", sums[0].years),
+                      sums[0].years, ceduo_number_shortest(c->x_given, room));
+    if (sums[0].flown > 0)
+        ceduo_text_put(&head, _("; of 1000 released, in the mean and in the worst year"));
+    ceduo_text_char(p->text, '\n');
+    put_wrapped(p, "", 2, head.bytes ? head.bytes : "");
+    ceduo_text_free(&head);
+    put_rotations_head(p, c, sums[0].flown > 0);
+    for (size_t i = 0; i < n; i++)
+        put_rotation_row(p, i, &sums[i]);
+    if (sums[0].flown > 0)
+        say_best_rotation(p, sums);
+    free(sums);
 }
 
 /* ---- foot ---- */
@@ -838,7 +944,9 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     put_head(&p);
     for (size_t i = 0; i < report->result->scene->options_count; i++)
         put_option(&p, i);
-    put_comparison(&p);
+    const struct ceduo_scene *scene = report->result->scene;
+    if (scene->options_count > 1 && scene->controls_count > 0)
+        report->years ? put_rotations(&p) : put_comparison(&p);
     put_foot(&p);
 }
 
