@@ -288,6 +288,9 @@ static void put_fates(struct page *p, const struct ceduo_flown *f, const struct 
     ceduo_text_format(&line, _("Of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave the slope"),
                       (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000,
                       (double)e->count[CEDUO_AT_REST] / n * 1000, (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
+    if (e->count[CEDUO_UNFINISHED] > 0)
+        ceduo_text_format(&line, _("; %llu of %llu never come to an end"),
+                          (unsigned long long)e->count[CEDUO_UNFINISHED], (unsigned long long)f->rocks);
     if (a->reached > 0)
         ceduo_text_format(&line, _("; one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(&line, '.');
@@ -311,10 +314,10 @@ static void put_arrivals(struct page *p, size_t option, size_t control)
     }
     if (wooded)
         put_fates(p, &r->options[option].wooded, wooded);
-    if (bare->reached == 0)
+    if (bare->reached == 0 && bare->unfinished == 0)
         ceduo_text_format(p->text, _("    Without forest no rock arrives (of 1000, below %.1f with 95 %%).\n"),
                           bare->reach_hi * 1000);
-    else if (wooded && wooded->reached == 0)
+    else if (wooded && wooded->reached == 0 && wooded->unfinished == 0)
         ceduo_text_format(p->text, _("    Through the wood no rock arrives (of 1000, below %.1f with 95 %%).\n"),
                           wooded->reach_hi * 1000);
 }

@@ -153,13 +153,19 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
     }
 }
 
-/* Where the interval of a share holds the limit of the energy light. */
+/* Whether the interval of a share holds the limit of the energy light, and more rocks can help. */
+static bool is_close(const struct ceduo_arrivals *a)
+{
+    return a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST &&
+           ceduo_energy_light(a) != CEDUO_UNKNOWN;
+}
+
 static void say_close_calls(const struct ceduo_result *result, say_function *say, void *context)
 {
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (!a || !(a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST))
+            if (!a || !is_close(a))
                 continue;
             say_format(say, context,
                        _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
@@ -252,7 +258,9 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
         put_share(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
         ceduo_text_format(text, _(" arrive with more than %g kJ (%.0f are allowed)."), c->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
-        if (a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST)
+        if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
+            ceduo_text_format(text, _(" %llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);
+        else if (is_close(a))
             ceduo_text_put(text, _(" Too close to call with so few rocks."));
     }
 }

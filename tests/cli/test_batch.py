@@ -1838,8 +1838,14 @@ def test_unfinished():
         expect_equal((bare["rocks_reached"], bare["reach_probability"]), (0, 0))
         expect_near(bare["reach_hi"], wilson(3, 3)[1], 1e-12, "in reach_hi as reached")
         expect(any("unfinished" in w for w in run["warnings"]), run["warnings"])
+        expect_equal(option["controls"][0]["lights"]["energy"], "unknown", "rocks that may still arrive")
         done = ceduo("--batch", "-n", 3, path)
         expect(done.status == RUN and "unfinished" in done.out, done)
+        words = " ".join(done.out.split())
+        expect_in("3 of 3 never come to an end", words)
+        expect_in("Energy: unknown.", words)
+        expect_in("3 rocks never came to an end, and may arrive", words)
+        expect("no rock arrives (" not in words and "fly more" not in words and "few rocks" not in words, words)
 
 
 def expect_unreached(control):
