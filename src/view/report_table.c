@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <wchar.h>
 
 #include "io/forms.h"
 #include "io/intl.h"
@@ -24,26 +25,46 @@ static void put_number(struct page *p, double value, int digits)
     ceduo_words_number(p->text, value, digits);
 }
 
+/* One character: its bytes, and the columns that it takes; in a locale that does not know it one. */
+static size_t step(const char *at, size_t *columns)
+{
+    wchar_t wide;
+    mbstate_t state = {0};
+    size_t n = mbrtowc(&wide, at, MB_CUR_MAX, &state);
+    int width = n > 0 && n <= MB_CUR_MAX ? wcwidth(wide) : 1;
+    for (n = 1; ((unsigned char)at[n] & 0xc0) == 0x80;)
+        n++;
+    *columns = width < 0 ? 1 : (size_t)width;
+    return n;
+}
+
+static size_t columns_of(const char *string)
+{
+    size_t columns = 0, one;
+    for (; *string; columns += one)
+        string += step(string, &one);
+    return columns;
+}
+
 /* A string padded to so many columns; cut with … where it is longer. Negative: aligned to the right. */
 static void put_padded(struct page *p, const char *string, int width)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, string);
-    size_t want = (size_t)(width < 0 ? -width : width), have = ceduo_text_columns(safe.bytes ? safe.bytes : "");
     const char *bytes = safe.bytes ? safe.bytes : "";
+    size_t want = (size_t)(width < 0 ? -width : width), have = columns_of(bytes), columns = 0, n = 0, one;
     for (size_t i = have; width < 0 && i < want; i++)
         ceduo_text_char(p->text, ' ');
     if (have <= want) {
         ceduo_text_put(p->text, bytes);
     } else {
-        const char *mark = p->plain ? "~" : "\xe2\x80\xa6";
-        size_t columns = 0, n = 0;
-        while (bytes[n] && (columns < want - 1 || ((unsigned char)bytes[n] & 0xc0) == 0x80))
-            columns += ((unsigned char)bytes[n++] & 0xc0) != 0x80 ? 1 : 0;
+        for (size_t next; (next = step(bytes + n, &one), columns + one < want); n += next)
+            columns += one;
         ceduo_text_add(p->text, bytes, n);
-        ceduo_text_put(p->text, mark);
+        ceduo_text_put(p->text, p->plain ? "~" : "\xe2\x80\xa6");
+        have = columns + 1;
     }
-    for (size_t i = have; width > 0 && i < want; i++)
+    for (; width > 0 && have < want; have++)
         ceduo_text_char(p->text, ' ');
     ceduo_text_free(&safe);
 }
@@ -53,11 +74,11 @@ static void put_cell(struct page *p, double value, int digits, int width)
 {
     struct text cell = {0};
     ceduo_words_number(&cell, value, digits);
-    for (int e = 3; e <= 9 && fabs(value) >= 1e3 && ceduo_text_columns(cell.bytes ? cell.bytes : "") >= (size_t)width; e += 3) {
+    for (int e = 3; e <= 9 && fabs(value) >= 1e3 && columns_of(cell.bytes ? cell.bytes : "") >= (size_t)width; e += 3) {
         ceduo_text_free(&cell);
         ceduo_text_format(&cell, "%.0fe%d", value / pow(10, e), e);
     }
-    while (digits > 1 && ceduo_text_columns(cell.bytes ? cell.bytes : "") >= (size_t)width) {
+    while (digits > 1 && columns_of(cell.bytes ? cell.bytes : "") >= (size_t)width) {
         ceduo_text_free(&cell);
         ceduo_words_number(&cell, value, --digits);
     }
@@ -75,35 +96,40 @@ static const char *dash(const struct page *p)
     return p->plain ? "-" : "\xe2\x80\x93";
 }
 
-/* A paragraph, wrapped, its lines after the first indented by `indent`. */
+static size_t new_line(struct page *p, size_t indent)
+{
+    ceduo_text_char(p->text, '\n');
+    for (size_t i = 0; i < indent; i++)
+        ceduo_text_char(p->text, ' ');
+    return indent;
+}
+
+/* A paragraph, wrapped, its lines after the first indented by `indent`. A word that is longer than a line is broken. */
 static void put_wrapped(struct page *p, const char *first, size_t indent, const char *sentence)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, sentence);
     ceduo_text_put(p->text, first);
-    size_t column = ceduo_text_columns(first);
-    const char *at = safe.bytes ? safe.bytes : "";
+    size_t column = columns_of(first), one;
     bool start = true;
-    while (*at) {
-        size_t n = strcspn(at, " "), width = 0;
-        for (size_t i = 0; i < n; i++)
-            width += ((unsigned char)at[i] & 0xc0) != 0x80;
+    for (const char *at = safe.bytes ? safe.bytes : ""; *at; at += strspn(at, " ")) {
+        const char *end = at + strcspn(at, " ");
+        size_t width = 0;
+        for (const char *c = at; c < end; width += one)
+            c += step(c, &one);
         if (!start && column + 1 + width > p->width) {
-            ceduo_text_char(p->text, '\n');
-            for (column = 0; column < indent; column++)
-                ceduo_text_char(p->text, ' ');
-            start = true;
-        }
-        if (!start) {
+            column = new_line(p, indent);
+        } else if (!start) {
             ceduo_text_char(p->text, ' ');
             column++;
         }
-        ceduo_text_add(p->text, at, n);
-        column += width;
+        for (size_t n; at < end; at += n, column += one) {
+            n = step(at, &one);
+            if (column + one > p->width && column > indent)
+                column = new_line(p, indent);
+            ceduo_text_add(p->text, at, n);
+        }
         start = false;
-        at += n;
-        while (*at == ' ')
-            at++;
     }
     ceduo_text_char(p->text, '\n');
     ceduo_text_free(&safe);
@@ -182,7 +208,7 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
 
 #define MEAN_WIDTH 12 /* columns, one of them blank */
 
-/* A mean and its error, with as many digits as have room. */
+/* A mean and its error, with as many digits as have room; (2.0±0.3)e6 where no other way has. */
 static void put_mean(const struct page *p, struct text *text, const struct ceduo_arrivals *a)
 {
     double mean = a->energy.mean * KILO, half = ceduo_half_width(a->energy.se, a->reached) * KILO;
@@ -197,9 +223,20 @@ static void put_mean(const struct page *p, struct text *text, const struct ceduo
             const char *point = strchr(text->bytes ? text->bytes : "", '.');
             int places = point ? (int)strlen(point + 1) : 0;
             double unit = pow(10, -places);
+            if (strchr(text->bytes ? text->bytes : "", 'e'))
+                break;
             ceduo_text_format(text, "%s%.*f", plus_minus(p), places, ceil(half / unit) * unit);
         }
-        if (ceduo_text_columns(text->bytes ? text->bytes : "") < MEAN_WIDTH)
+        if (columns_of(text->bytes ? text->bytes : "") < MEAN_WIDTH)
+            return;
+    }
+    int e = mean > 0 ? (int)floor(log10(mean)) : 0;
+    for (int places = 1; places >= 0 && a->reached > 0; places--) {
+        double unit = pow(10, e - places);
+        ceduo_text_free(text);
+        ceduo_text_format(text, "(%.*f%s%.*f)e%d", places, mean / pow(10, e), plus_minus(p), places,
+                          ceil(half / unit) * pow(10, -places), e);
+        if (columns_of(text->bytes ? text->bytes : "") < MEAN_WIDTH)
             return;
     }
 }
@@ -237,6 +274,11 @@ static void put_limit(struct page *p, const struct ceduo_control *c, const char 
         ceduo_text_put(&limit, otherwise);
     else
         ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    if (columns_of(limit.bytes ? limit.bytes : "") >= (size_t)width) {
+        double size = fabs(c->accepted);
+        ceduo_text_free(&limit);
+        ceduo_text_format(&limit, size < 1e6 ? "> %.3g kJ" : "> %.3g MJ", c->accepted * (size < 1e6 ? KILO : 1e-6));
+    }
     put_padded(p, limit.bytes ? limit.bytes : "", -width);
     ceduo_text_free(&limit);
 }
@@ -333,7 +375,7 @@ static void put_belt(struct page *p, const struct ceduo_belt *b, const struct ce
     ceduo_text_format(&name, "%s%s", b->name, b->assumed ? "*" : "");
     ceduo_text_put(p->text, "    ");
     ceduo_text_put(p->text, range.bytes ? range.bytes : "");
-    size_t columns = ceduo_text_columns(range.bytes ? range.bytes : "");
+    size_t columns = columns_of(range.bytes ? range.bytes : "");
     if (columns > 9) { /* survey coordinates: a line of their own */
         ceduo_text_put(p->text, "\n    ");
         columns = 0;
@@ -628,6 +670,20 @@ static void put_years(struct page *p, const struct ceduo_years *years)
     put_years_summary(p, years);
 }
 
+/* Those of a belt that do not stand on the page already, from `since` on: belts of one stand share them. */
+static void put_stand_warnings(struct page *p, size_t since, const struct ceduo_belt *belt,
+                               const struct ceduo_stand_result *found)
+{
+    struct text own = {0};
+    struct page to = *p;
+    to.text = &own;
+    ceduo_words_stand_warnings(p->report->result->scene, belt, found, say_warning, &to);
+    p->text->failed |= own.failed;
+    if (own.length > 0 && !(p->text->length > since && strstr(p->text->bytes + since, own.bytes)))
+        ceduo_text_put(p->text, own.bytes);
+    ceduo_text_free(&own);
+}
+
 static void put_option(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
@@ -648,8 +704,9 @@ static void put_option(struct page *p, size_t i)
         put_blocks(p, &p->report->blocks[i * CEDUO_BLOCKS]);
     if (p->report->years && p->width >= WIDTH)
         put_years(p, p->report->years[i]);
+    size_t warnings = p->text->length;
     for (size_t k = 0; k < o->belts_count; k++)
-        ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], say_warning, p);
+        put_stand_warnings(p, warnings, &o->belts[k], &found->stands[k]);
 }
 
 /* ---- side by side ---- */
@@ -753,10 +810,14 @@ static void put_comparison(struct page *p)
     const struct ceduo_result *r = p->report->result;
     char room[CEDUO_NUMBER_ROOM];
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    ceduo_text_format(p->text,
-                      r->wooded ? _("\nSide by side, up to %s m: the same rocks through each wood, of 1000 released\n")
-                                : _("\nSide by side, up to %s m (kJ per 100 m and left: by the rule named above)\n"),
+    struct text head = {0};
+    ceduo_text_format(&head,
+                      r->wooded ? _("Side by side, up to %s m: the same rocks through each wood, of 1000 released")
+                                : _("Side by side, up to %s m (kJ per 100 m and left: by the rule named above)"),
                       ceduo_number_shortest(c->x_given, room));
+    ceduo_text_char(p->text, '\n');
+    put_wrapped(p, "", 2, head.bytes ? head.bytes : "");
+    ceduo_text_free(&head);
     put_comparison_head(p, c);
     for (size_t i = 0; i < r->scene->options_count; i++)
         put_comparison_row(p, i);

@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+import unicodedata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -749,6 +750,35 @@ def test_table_best():
         expect_in("By contact 'many thin' is best, by energy 'few thick', though not clearly before all others", words)
         words = best_sentence(f, {**treated(none=None, few_thick=THICK), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
         expect_in("By contact 'few thick' is best, and none is clearly better by energy", words, "nothing comes with so much")
+
+
+def columns(line):
+    return sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in line)
+
+
+def test_table_widest():
+    """Table: words longer than a line, wide characters and huge numbers keep its columns, 80 of them"""
+    wide, word = "一二三四五六七八九十" * 8, "x" * 300
+    text = good("--batch", "-n", 50, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
+                "-s", "controls[0].accepted_kJ=123456", "-s", "rock={diameter_m: 20}", FOUR).out
+    expect(max(map(columns, text.splitlines())) <= 80, *(line for line in text.splitlines() if columns(line) > 80))
+    flat = "".join(text.split())
+    expect(word in flat and wide in flat, "cut short:", text)
+    rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
+    expect(all(re.search(r" \(\d\.\d±\d\.\d\)e6 +\de6 ", row) for row in rows), "mean energies", *rows)
+    head, *table = text.split("Side by side")[1].splitlines()[2:]
+    names = [name for name in (wide[:9], "large reserves") if not any(name in row for row in table)]
+    expect(not names, "rows of", names, head, *table)
+    expect(len({columns(row) for row in table if re.search(r"(pass|FAIL)$", row)}) == 1, "columns that do not align", *table)
+    expect_in("> 123 MJ", head, "limit")
+
+
+def test_table_warnings_once():
+    """Table: what belts of one stand have in common is warned of once an option"""
+    text = good("--batch", "-n", 10, "staggered").out
+    warnings = re.findall(r"^    ! .*(?:\n      .*)*", text, re.M)
+    options = text.count("Contact: ")
+    expect(0 < len(warnings) <= options, f"{len(warnings)} warnings of {options} options", *warnings)
 
 
 def test_table_of_none():
