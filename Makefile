@@ -132,11 +132,19 @@ REPLAYS := $(FUZZERS:%=replay_%)
 CHANGES_scene := 8000
 CHANGES_csv := 60000
 CHANGES_set := 3000
-CHANGES_keys := 600
-SEEDS_scene := $(wildcard profiles/scenes/*.yaml)
+CHANGES_keys := 2000
+CHANGES_part := 6000
+SEEDS_scene := profiles/scenes/*.yaml
+SEEDS_part := $(T)/fuzz/seeds/part/*
 $(REPLAYS:%=$(T)/fuzz/%): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/replay.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+# Parts hold the version, and numbers that follow from the scene: this build's own harness makes them.
+$(T)/fuzz/seeds/part: $(T)/fuzz/replay_part
+	@rm -rf $@ && mkdir -p $@
+	@FUZZ_SEEDS=$@ $< part 0 /dev/null
+do-replay_part do-fuzz_part: $(T)/fuzz/seeds/part
 
 $(REPLAYS:%=do-%): do-replay_%: $(T)/fuzz/replay_%
 	@printf '#!/bin/sh\nexec $(CURDIR)/$< $* $(CHANGES_$*) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)\n' >$<.sh
@@ -155,7 +163,7 @@ FUZZ_OPTIONS = -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1000 -m
 	-dict=tests/fuzz/words.dict -artifact_prefix=$(T)/fuzz/
 $(FUZZERS:%=do-fuzz_%): do-fuzz_%: $(T)/fuzz/%
 	@mkdir -p $(T)/fuzz/corpus/$*
-	$< $(FUZZ_OPTIONS) $(CURDIR)/$(T)/fuzz/corpus/$* $(addprefix $(CURDIR)/,tests/fuzz/seeds/$* $(if $(SEEDS_$*),profiles/scenes)) \
+	$< $(FUZZ_OPTIONS) $(CURDIR)/$(T)/fuzz/corpus/$* $(addprefix $(CURDIR)/,$(wildcard tests/fuzz/seeds/$*) $(dir $(SEEDS_$*))) \
 	    2>$<.log || { tail -40 $<.log; exit 1; }
 	@grep 'stat::number_of_executed_units\|cov:' $<.log | tail -2
 

@@ -41,8 +41,8 @@ struct ceduo_index {
     enum ceduo_light contact, free_run, energy;
 };
 
-/* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, and where it is not said
- * what is too much. */
+/* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, where it is not said what
+ * is too much, and where it hangs on rocks that never came to an end. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
 /* A belt by itself. */

@@ -28,6 +28,14 @@ void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments 
 double ceduo_moments_sd(const struct ceduo_moments *m);
 double ceduo_moments_se(const struct ceduo_moments *m);
 
+/* Half the width of the 95 % interval of a mean of n values, by Student's law with n - 1 degrees of freedom, from its standard
+ * error in any unit; NaN for n < 2. */
+double ceduo_half_width(double se, uint64_t n);
+
+/* The same of a share of n rocks, by the normal law; of none or all of them what Wilson's interval leaves, as their standard
+ * error is 0. Also of the difference of two such shares that are alike. */
+double ceduo_half_width_of_share(double share, double se, uint64_t n);
+
 /* The 95 % interval of a probability of which `hits` of `n` were seen (Wilson 1927); [0, 1] for n = 0. */
 void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi);
 

@@ -40,7 +40,10 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
 {
     if (!a || isnan(a->exceed_probability))
         return CEDUO_UNKNOWN;
-    return a->exceed_probability <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_FAIL;
+    if (!(a->exceed_probability <= CEDUO_EXCEED_MOST))
+        return CEDUO_FAIL;
+    double unfinished = a->released > 0 ? (double)a->unfinished / (double)a->released : 0;
+    return a->exceed_probability + unfinished <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_UNKNOWN;
 }
 
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)

@@ -85,13 +85,14 @@ static bool read_octave(struct bytes *b, struct histogram *h, size_t o, uint64_t
         b->no_memory = true;
         return false;
     }
-    for (uint64_t i = 0; i < filled; i++) {
+    for (size_t i = 0, least = 0; i < filled; i++) {
         ceduo_bytes_count(b, &both);
         size_t bin = (size_t)(both & UINT32_MAX);
-        if (bin >= BINS || bins[bin] > 0 || both >> 32 > most - h->n)
+        if (bin < least || bin >= BINS || both >> 32 == 0 || both >> 32 > most - h->n)
             return false;
         bins[bin] = (uint32_t)(both >> 32);
         h->n += both >> 32;
+        least = bin + 1;
     }
     return true;
 }

@@ -46,6 +46,20 @@ void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi)
         *hi = fmin(1, (centre + half) / scale);
 }
 
+double ceduo_half_width(double se, uint64_t n)
+{
+    return n < 2 ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
+}
+
+double ceduo_half_width_of_share(double share, double se, uint64_t n)
+{
+    double lo, hi;
+    if (share > 0 && share < 1)
+        return CEDUO_Z95 * se;
+    ceduo_wilson(share > 0 ? n : 0, n, &lo, &hi);
+    return hi - lo;
+}
+
 size_t ceduo_quantile_rank(size_t n, double p)
 {
     double k = ceil(p * (double)n - 1e-9);

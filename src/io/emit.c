@@ -289,13 +289,14 @@ static bool patch(struct patcher *p, const struct node *old, const struct node *
 }
 
 /* Whether a text reads back as the tree. */
-static bool reads_back(const struct text *text, const struct node *root)
+static bool reads_back(const struct text *text, const struct node *root, bool *no_memory)
 {
     struct arena arena = {0};
     struct problems problems = {0};
     struct source source = {.name = "", .bytes = text->bytes, .length = text->length};
     const struct node *again = text->failed ? NULL : ceduo_yaml_read(&arena, &source, &problems);
     bool same = again && ceduo_node_equal(again, root);
+    *no_memory = arena.failed || problems.memory;
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
     return same;
@@ -306,13 +307,14 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
 {
     struct text out = {0};
     struct patcher p = {&out, source, 0};
-    bool good = patch(&p, old, root);
+    bool good = patch(&p, old, root), no_memory = false;
     if (good) {
         ceduo_text_add(&out, source->bytes + p.done, source->length - p.done);
-        good = reads_back(&out, root);
+        good = reads_back(&out, root, &no_memory);
     }
     if (good)
         ceduo_text_add(text, out.bytes, out.length);
+    text->failed |= out.failed || no_memory; /* otherwise it would be laid out anew for want of memory alone */
     ceduo_text_free(&out);
-    return good;
+    return good && !text->failed;
 }

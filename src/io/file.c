@@ -494,10 +494,14 @@ static char *follow_links(const char *path)
             ceduo_text_add(&next, at, (size_t)(slash - at) + 1);
         ceduo_text_put(&next, to);
         free(at);
-        at = next.failed ? NULL : next.bytes;
+        at = next.bytes;
+        if (next.failed) {
+            ceduo_text_free(&next);
+            at = NULL;
+        }
     }
+    errno = at ? ELOOP : ENOMEM;
     free(at);
-    errno = ELOOP;
     return NULL;
 }
 

@@ -557,11 +557,12 @@ static bool fill_text(struct document *d, const char *to, struct text *text, boo
     *laid_out_anew = false;
     if (!root)
         return false;
-    if (d->raw && ceduo_emit_patched(text, d->raw->source, d->raw, root))
-        return true;
-    *laid_out_anew = d->raw && !has_own_layout(d->raw);
-    ceduo_emit(text, root);
-    return !text->failed;
+    (void)ceduo_text_lost(); /* what was shown before does not matter */
+    if (!d->raw || !ceduo_emit_patched(text, d->raw->source, d->raw, root)) {
+        *laid_out_anew = d->raw && !has_own_layout(d->raw);
+        ceduo_emit(text, root);
+    }
+    return !text->failed && !ceduo_text_lost();
 }
 
 void ceduo_document_text(struct document *d, struct text *text)

@@ -22,9 +22,18 @@ const struct app_view *const ceduo_views[VIEWS] = {&ceduo_view_slope, &ceduo_vie
 __attribute__((format(printf, 3, 0))) static void say(struct app *app, bool bad, const char *format, va_list args)
 {
     struct text text = {0}, safe = {0};
+    va_list again;
+    va_copy(again, args);
     ceduo_text_vformat(&text, format, args);
     ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
-    snprintf(app->message, sizeof app->message, "%s", safe.bytes ? safe.bytes : "");
+    if (text.failed || safe.failed) { /* said even so: of it ASCII is safe */
+        vsnprintf(app->message, sizeof app->message, format, again);
+        for (char *p = app->message; *p; p++)
+            *p = *p >= ' ' && *p <= '~' ? *p : '?';
+    } else {
+        snprintf(app->message, sizeof app->message, "%s", safe.bytes ? safe.bytes : "");
+    }
+    va_end(again);
     app->message_bad = bad;
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
@@ -91,6 +100,12 @@ static bool outlook_fits(const struct app *app)
     return app->outlook && app->outlook->controls == s->controls_count;
 }
 
+/* Years have figures for as many controls as there were when they were asked for. */
+static bool years_fit(const struct app *app)
+{
+    return app->years && app->years->scene.controls_count == app->document.file.scene.controls_count;
+}
+
 struct ceduo_picture ceduo_app_picture(const struct app *app)
 {
     return (struct ceduo_picture){.scene = &app->document.file.scene,
@@ -101,7 +116,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .selected = app->steps.trail.n > 0 ? &app->steps.trail : NULL,
                                   .stems = ceduo_steps_stems(&app->steps) > 0 ? app->steps.stems : NULL,
                                   .stems_count = ceduo_steps_stems(&app->steps),
-                                  .years = app->years && app->years_option == app->option ? app->years : NULL,
+                                  .years = years_fit(app) && app->years_option == app->option ? app->years : NULL,
                                   .year = app->year};
 }
 
@@ -131,7 +146,7 @@ static void refresh_result(struct app *app)
         app->result = NULL;
     free(differences);
     free(wooded);
-    if (app->years && app->years->scene.controls_count == controls)
+    if (years_fit(app))
         ceduo_years_assess(app->years, scene, &o->bare->flown);
 }
 
@@ -347,6 +362,8 @@ bool ceduo_app_save_to(struct app *app, const char *path)
     char *copy = strdup(path); /* it may be the document's own, which saving makes anew */
     bool good = copy && save_to(app, copy);
     int why = errno;
+    if (!copy)
+        ceduo_app_warn(app, "%s: %s", path, strerror(why));
     free(copy);
     errno = why;
     return good;

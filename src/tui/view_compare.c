@@ -28,27 +28,24 @@ static bool wooded(const struct app *app)
     return app->result->wooded;
 }
 
-/* Of 1000 with too much energy, or where it is not said what is too much, that arrive. */
 static double share_of(const struct app *app, size_t i)
 {
-    const struct ceduo_arrivals *a = ceduo_result_wooded(app->result, i, app->result->last_control);
-    if (!a)
-        return NAN;
-    return 1000 * (isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability);
+    double half;
+    return 1000 * ceduo_words_share(app->result, i, &half);
 }
 
-static struct ceduo_paired difference_of(const struct app *app, size_t i)
+static double difference_of(const struct app *app, size_t i, double *half)
 {
-    const struct ceduo_result *r = app->result;
-    const struct ceduo_difference *d = &r->options[i].differences[r->last_control];
-    struct ceduo_paired p = isnan(d->exceed_probability.mean) ? d->reach_probability : d->exceed_probability;
-    return (struct ceduo_paired){p.mean * 1000, p.se * 1000};
+    double difference = 1000 * ceduo_words_difference(app->result, i, half);
+    *half *= 1000;
+    return difference;
 }
 
 static double figure(const struct app *app, size_t i, enum column column)
 {
     const struct ceduo_result *r = app->result;
     const struct ceduo_index *s = &r->options[i].controls[r->last_control];
+    double half;
     switch (column) {
     case ADC:
         return s->worst_adc;
@@ -57,7 +54,7 @@ static double figure(const struct app *app, size_t i, enum column column)
     case TAKEN:
         return wooded(app) ? share_of(app, i) : s->length > 0 ? s->dissipated / s->length * 100e-3 : 0;
     default:
-        return wooded(app) ? difference_of(app, i).mean : s->residual * 1e-3;
+        return wooded(app) ? difference_of(app, i, &half) : s->residual * 1e-3;
     }
 }
 
@@ -119,16 +116,17 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
 {
     const struct ceduo_result *r = app->result;
     struct text text = {0};
-    double value = figure(app, i, column);
+    double half, value = figure(app, i, column);
     if (column == FREE_RUN)
         ceduo_text_format(&text, "%.1f %%", value * 100);
     else if (wooded(app) && column == SHARE)
         ceduo_text_format(&text, isnan(value) ? "\xe2\x80\xa6" : "%.0f", value);
     else if (wooded(app) && column == DIFFERENCE && i == 0)
         ceduo_text_put(&text, _("first"));
+    else if (wooded(app) && column == DIFFERENCE && !isnan(difference_of(app, i, &half)))
+        ceduo_text_format(&text, "%+.0f\xc2\xb1%.0f", value, ceil(half));
     else if (wooded(app) && column == DIFFERENCE)
-        ceduo_text_format(&text, isnan(value) ? "\xe2\x80\xa6" : "%+.0f\xc2\xb1%.0f", value,
-                          ceil(difference_of(app, i).se * CEDUO_Z95));
+        ceduo_text_put(&text, "\xe2\x80\xa6");
     else if (column == LEFT && r->options[i].controls[r->last_control].exhausted)
         ceduo_text_put(&text, _("used up"));
     else

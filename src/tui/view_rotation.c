@@ -78,7 +78,8 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         double share = says ? a->exceed_probability : a->reach_probability;
         ceduo_text_format(text, says ? _("; of 1000 %.0f \xc2\xb1%.0f with more than %g kJ")
                                      : _("; of 1000 %.0f \xc2\xb1%.0f arrive"),
-                          share * 1000, ceil(1960 * sqrt(share * (1 - share) / (double)a->released)),
+                          share * 1000,
+                          ceil(1000 * ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released)),
                           control->accepted * 1e-3);
     }
     ceduo_text_put(text, ". ");

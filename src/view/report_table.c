@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+#include <wchar.h>
 
 #include "io/forms.h"
 #include "io/intl.h"
@@ -23,26 +25,46 @@ static void put_number(struct page *p, double value, int digits)
     ceduo_words_number(p->text, value, digits);
 }
 
+/* One character: its bytes, and the columns that it takes; in a locale that does not know it one. */
+static size_t step(const char *at, size_t *columns)
+{
+    wchar_t wide;
+    mbstate_t state = {0};
+    size_t n = mbrtowc(&wide, at, MB_CUR_MAX, &state);
+    int width = n > 0 && n <= MB_CUR_MAX ? wcwidth(wide) : 1;
+    for (n = 1; ((unsigned char)at[n] & 0xc0) == 0x80;)
+        n++;
+    *columns = width < 0 ? 1 : (size_t)width;
+    return n;
+}
+
+static size_t columns_of(const char *string)
+{
+    size_t columns = 0, one;
+    for (; *string; columns += one)
+        string += step(string, &one);
+    return columns;
+}
+
 /* A string padded to so many columns; cut with … where it is longer. Negative: aligned to the right. */
 static void put_padded(struct page *p, const char *string, int width)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, string);
-    size_t want = (size_t)(width < 0 ? -width : width), have = ceduo_text_columns(safe.bytes ? safe.bytes : "");
     const char *bytes = safe.bytes ? safe.bytes : "";
+    size_t want = (size_t)(width < 0 ? -width : width), have = columns_of(bytes), columns = 0, n = 0, one;
     for (size_t i = have; width < 0 && i < want; i++)
         ceduo_text_char(p->text, ' ');
     if (have <= want) {
         ceduo_text_put(p->text, bytes);
     } else {
-        const char *mark = p->plain ? "~" : "\xe2\x80\xa6";
-        size_t columns = 0, n = 0;
-        while (bytes[n] && (columns < want - 1 || ((unsigned char)bytes[n] & 0xc0) == 0x80))
-            columns += ((unsigned char)bytes[n++] & 0xc0) != 0x80 ? 1 : 0;
+        for (size_t next; (next = step(bytes + n, &one), columns + one < want); n += next)
+            columns += one;
         ceduo_text_add(p->text, bytes, n);
-        ceduo_text_put(p->text, mark);
+        ceduo_text_put(p->text, p->plain ? "~" : "\xe2\x80\xa6");
+        have = columns + 1;
     }
-    for (size_t i = have; width > 0 && i < want; i++)
+    for (; width > 0 && have < want; have++)
         ceduo_text_char(p->text, ' ');
     ceduo_text_free(&safe);
 }
@@ -52,11 +74,11 @@ static void put_cell(struct page *p, double value, int digits, int width)
 {
     struct text cell = {0};
     ceduo_words_number(&cell, value, digits);
-    for (int e = 3; e <= 9 && fabs(value) >= 1e3 && ceduo_text_columns(cell.bytes ? cell.bytes : "") >= (size_t)width; e += 3) {
+    for (int e = 3; e <= 9 && fabs(value) >= 1e3 && columns_of(cell.bytes ? cell.bytes : "") >= (size_t)width; e += 3) {
         ceduo_text_free(&cell);
         ceduo_text_format(&cell, "%.0fe%d", value / pow(10, e), e);
     }
-    while (digits > 1 && ceduo_text_columns(cell.bytes ? cell.bytes : "") >= (size_t)width) {
+    while (digits > 1 && columns_of(cell.bytes ? cell.bytes : "") >= (size_t)width) {
         ceduo_text_free(&cell);
         ceduo_words_number(&cell, value, --digits);
     }
@@ -74,35 +96,40 @@ static const char *dash(const struct page *p)
     return p->plain ? "-" : "\xe2\x80\x93";
 }
 
-/* A paragraph, wrapped, its lines after the first indented by `indent`. */
+static size_t new_line(struct page *p, size_t indent)
+{
+    ceduo_text_char(p->text, '\n');
+    for (size_t i = 0; i < indent; i++)
+        ceduo_text_char(p->text, ' ');
+    return indent;
+}
+
+/* A paragraph, wrapped, its lines after the first indented by `indent`. A word that is longer than a line is broken. */
 static void put_wrapped(struct page *p, const char *first, size_t indent, const char *sentence)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, sentence);
     ceduo_text_put(p->text, first);
-    size_t column = ceduo_text_columns(first);
-    const char *at = safe.bytes ? safe.bytes : "";
+    size_t column = columns_of(first), one;
     bool start = true;
-    while (*at) {
-        size_t n = strcspn(at, " "), width = 0;
-        for (size_t i = 0; i < n; i++)
-            width += ((unsigned char)at[i] & 0xc0) != 0x80;
+    for (const char *at = safe.bytes ? safe.bytes : ""; *at; at += strspn(at, " ")) {
+        const char *end = at + strcspn(at, " ");
+        size_t width = 0;
+        for (const char *c = at; c < end; width += one)
+            c += step(c, &one);
         if (!start && column + 1 + width > p->width) {
-            ceduo_text_char(p->text, '\n');
-            for (column = 0; column < indent; column++)
-                ceduo_text_char(p->text, ' ');
-            start = true;
-        }
-        if (!start) {
+            column = new_line(p, indent);
+        } else if (!start) {
             ceduo_text_char(p->text, ' ');
             column++;
         }
-        ceduo_text_add(p->text, at, n);
-        column += width;
+        for (size_t n; at < end; at += n, column += one) {
+            n = step(at, &one);
+            if (column + one > p->width && column > indent)
+                column = new_line(p, indent);
+            ceduo_text_add(p->text, at, n);
+        }
         start = false;
-        at += n;
-        while (*at == ' ')
-            at++;
     }
     ceduo_text_char(p->text, '\n');
     ceduo_text_free(&safe);
@@ -181,10 +208,10 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
 
 #define MEAN_WIDTH 12 /* columns, one of them blank */
 
-/* A mean and its error, with as many digits as have room. */
+/* A mean and its error, with as many digits as have room; (2.0±0.3)e6 where no other way has. */
 static void put_mean(const struct page *p, struct text *text, const struct ceduo_arrivals *a)
 {
-    double mean = a->energy.mean * KILO, half = a->energy.se * CEDUO_Z95 * KILO;
+    double mean = a->energy.mean * KILO, half = ceduo_half_width(a->energy.se, a->reached) * KILO;
     for (int digits = 4; digits > 0 && a->reached > 0; digits--) {
         ceduo_text_free(text);
         ceduo_words_number(text, mean, digits);
@@ -196,9 +223,20 @@ static void put_mean(const struct page *p, struct text *text, const struct ceduo
             const char *point = strchr(text->bytes ? text->bytes : "", '.');
             int places = point ? (int)strlen(point + 1) : 0;
             double unit = pow(10, -places);
+            if (strchr(text->bytes ? text->bytes : "", 'e'))
+                break;
             ceduo_text_format(text, "%s%.*f", plus_minus(p), places, ceil(half / unit) * unit);
         }
-        if (ceduo_text_columns(text->bytes ? text->bytes : "") < MEAN_WIDTH)
+        if (columns_of(text->bytes ? text->bytes : "") < MEAN_WIDTH)
+            return;
+    }
+    int e = mean > 0 ? (int)floor(log10(mean)) : 0;
+    for (int places = 1; places >= 0 && a->reached > 0; places--) {
+        double unit = pow(10, e - places);
+        ceduo_text_free(text);
+        ceduo_text_format(text, "(%.*f%s%.*f)e%d", places, mean / pow(10, e), plus_minus(p), places,
+                          ceil(half / unit) * pow(10, -places), e);
+        if (columns_of(text->bytes ? text->bytes : "") < MEAN_WIDTH)
             return;
     }
 }
@@ -236,6 +274,11 @@ static void put_limit(struct page *p, const struct ceduo_control *c, const char 
         ceduo_text_put(&limit, otherwise);
     else
         ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+    if (columns_of(limit.bytes ? limit.bytes : "") >= (size_t)width) {
+        double size = fabs(c->accepted);
+        ceduo_text_free(&limit);
+        ceduo_text_format(&limit, size < 1e6 ? "> %.3g kJ" : "> %.3g MJ", c->accepted * (size < 1e6 ? KILO : 1e-6));
+    }
     put_padded(p, limit.bytes ? limit.bytes : "", -width);
     ceduo_text_free(&limit);
 }
@@ -269,7 +312,7 @@ static void put_arrivals_sentences(struct page *p, const char *name, const struc
         ceduo_text_put(&line, _("; mean "));
         ceduo_words_number(&line, a->energy.mean * KILO, 4);
         ceduo_text_format(&line, " %s ", plus_minus(p));
-        ceduo_words_number(&line, a->energy.se * CEDUO_Z95 * KILO, 2);
+        ceduo_words_number(&line, ceduo_half_width(a->energy.se, a->reached) * KILO, 2);
         ceduo_text_put(&line, _(" kJ, 95 % below "));
         ceduo_words_number(&line, a->energy.p95 * KILO, 3);
     }
@@ -287,6 +330,9 @@ static void put_fates(struct page *p, const struct ceduo_flown *f, const struct 
     ceduo_text_format(&line, _("Of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave the slope"),
                       (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000,
                       (double)e->count[CEDUO_AT_REST] / n * 1000, (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
+    if (e->count[CEDUO_UNFINISHED] > 0)
+        ceduo_text_format(&line, _("; %llu of %llu never come to an end"),
+                          (unsigned long long)e->count[CEDUO_UNFINISHED], (unsigned long long)f->rocks);
     if (a->reached > 0)
         ceduo_text_format(&line, _("; one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(&line, '.');
@@ -310,10 +356,10 @@ static void put_arrivals(struct page *p, size_t option, size_t control)
     }
     if (wooded)
         put_fates(p, &r->options[option].wooded, wooded);
-    if (bare->reached == 0)
+    if (bare->reached == 0 && bare->unfinished == 0)
         ceduo_text_format(p->text, _("    Without forest no rock arrives (of 1000, below %.1f with 95 %%).\n"),
                           bare->reach_hi * 1000);
-    else if (wooded && wooded->reached == 0)
+    else if (wooded && wooded->reached == 0 && wooded->unfinished == 0)
         ceduo_text_format(p->text, _("    Through the wood no rock arrives (of 1000, below %.1f with 95 %%).\n"),
                           wooded->reach_hi * 1000);
 }
@@ -329,7 +375,7 @@ static void put_belt(struct page *p, const struct ceduo_belt *b, const struct ce
     ceduo_text_format(&name, "%s%s", b->name, b->assumed ? "*" : "");
     ceduo_text_put(p->text, "    ");
     ceduo_text_put(p->text, range.bytes ? range.bytes : "");
-    size_t columns = ceduo_text_columns(range.bytes ? range.bytes : "");
+    size_t columns = columns_of(range.bytes ? range.bytes : "");
     if (columns > 9) { /* survey coordinates: a line of their own */
         ceduo_text_put(p->text, "\n    ");
         columns = 0;
@@ -624,6 +670,20 @@ static void put_years(struct page *p, const struct ceduo_years *years)
     put_years_summary(p, years);
 }
 
+/* Those of a belt that do not stand on the page already, from `since` on: belts of one stand share them. */
+static void put_stand_warnings(struct page *p, size_t since, const struct ceduo_belt *belt,
+                               const struct ceduo_stand_result *found)
+{
+    struct text own = {0};
+    struct page to = *p;
+    to.text = &own;
+    ceduo_words_stand_warnings(p->report->result->scene, belt, found, say_warning, &to);
+    p->text->failed |= own.failed;
+    if (own.length > 0 && !(p->text->length > since && strstr(p->text->bytes + since, own.bytes)))
+        ceduo_text_put(p->text, own.bytes);
+    ceduo_text_free(&own);
+}
+
 static void put_option(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
@@ -644,21 +704,21 @@ static void put_option(struct page *p, size_t i)
         put_blocks(p, &p->report->blocks[i * CEDUO_BLOCKS]);
     if (p->report->years && p->width >= WIDTH)
         put_years(p, p->report->years[i]);
+    size_t warnings = p->text->length;
     for (size_t k = 0; k < o->belts_count; k++)
-        ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], say_warning, p);
+        put_stand_warnings(p, warnings, &o->belts[k], &found->stands[k]);
 }
 
 /* ---- side by side ---- */
 
 /* "480 ±10": of 1000. */
-static void put_per_1000(struct page *p, double mean, double se, bool sign, int width)
+static void put_per_1000(struct page *p, double mean, double half, bool sign, int width)
 {
     struct text cell = {0};
     if (isnan(mean))
         ceduo_text_put(&cell, "-");
     else
-        ceduo_text_format(&cell, sign ? "%+.0f %s%.0f" : "%.0f %s%.0f", mean * 1000, plus_minus(p),
-                          ceil(se * CEDUO_Z95 * 1000));
+        ceduo_text_format(&cell, sign ? "%+.0f %s%.0f" : "%.0f %s%.0f", mean * 1000, plus_minus(p), ceil(half * 1000));
     put_padded(p, cell.bytes ? cell.bytes : "", -width);
     ceduo_text_free(&cell);
 }
@@ -667,13 +727,10 @@ static void put_simulated(struct page *p, size_t i)
 {
     const struct ceduo_result *r = p->report->result;
     size_t c = r->last_control;
-    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, c);
-    const struct ceduo_difference *d = &r->options[i].differences[c];
-    bool says = a && !isnan(a->exceed_probability);
-    double share = !a ? NAN : says ? a->exceed_probability : a->reach_probability;
-    struct ceduo_paired diff = says ? d->exceed_probability : d->reach_probability;
-    put_per_1000(p, share, a ? sqrt(share * (1 - share) / (double)a->released) : NAN, false, 10);
-    put_per_1000(p, i == 0 ? NAN : diff.mean, diff.se, true, 11);
+    double half, half_of_difference, difference = ceduo_words_difference(r, i, &half_of_difference);
+    double share = ceduo_words_share(r, i, &half);
+    put_per_1000(p, share, half, false, 10);
+    put_per_1000(p, i == 0 ? NAN : difference, half_of_difference, true, 11);
     ceduo_text_format(p->text, "  %-4s", short_verdict(r->options[i].controls[c].energy));
 }
 
@@ -751,14 +808,16 @@ static void put_comparison_head(struct page *p, const struct ceduo_control *c)
 static void put_comparison(struct page *p)
 {
     const struct ceduo_result *r = p->report->result;
-    if (r->scene->options_count < 2 || r->scene->controls_count == 0)
-        return;
     char room[CEDUO_NUMBER_ROOM];
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    ceduo_text_format(p->text,
-                      r->wooded ? _("\nSide by side, up to %s m: the same rocks through each wood, of 1000 released\n")
-                                : _("\nSide by side, up to %s m (kJ per 100 m and left: by the rule named above)\n"),
+    struct text head = {0};
+    ceduo_text_format(&head,
+                      r->wooded ? _("Side by side, up to %s m: the same rocks through each wood, of 1000 released")
+                                : _("Side by side, up to %s m (kJ per 100 m and left: by the rule named above)"),
                       ceduo_number_shortest(c->x_given, room));
+    ceduo_text_char(p->text, '\n');
+    put_wrapped(p, "", 2, head.bytes ? head.bytes : "");
+    ceduo_text_free(&head);
     put_comparison_head(p, c);
     for (size_t i = 0; i < r->scene->options_count; i++)
         put_comparison_row(p, i);
@@ -775,6 +834,113 @@ static void put_comparison(struct page *p)
         put_wrapped(p, "  ", 2,
                     _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
                       "says what stems could take, not what a rock loses; no column decides alone."));
+}
+
+/* ---- rotations side by side ---- */
+
+static void put_count(struct page *p, size_t count, int width)
+{
+    struct text cell = {0};
+    ceduo_text_format(&cell, "%zu", count);
+    put_padded(p, cell.bytes ? cell.bytes : "", -width);
+    ceduo_text_free(&cell);
+}
+
+/* What is compared over the years: the mean share of the released with too much energy, or where that is not said that
+ * arrives. */
+static struct ceduo_paired mean_of_years(const struct page *p, const struct ceduo_years_summary *s)
+{
+    const struct ceduo_result *r = p->report->result;
+    return isnan(r->scene->controls[r->last_control].accepted) ? s->reach : s->exceed;
+}
+
+static void put_rotation_row(struct page *p, size_t i, const struct ceduo_years_summary *s)
+{
+    struct text worst = {0};
+    struct ceduo_paired mean = mean_of_years(p, s);
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, p->report->result->scene->options[i].name, 23);
+    put_count(p, s->unprotected_contact, 8);
+    put_count(p, s->unprotected_free_run, 9);
+    if (s->flown > 0) {
+        put_count(p, s->unprotected_energy, 7);
+        put_per_1000(p, mean.mean, mean.se * CEDUO_Z95, false, 13);
+        ceduo_text_format(&worst, "%.0f (%u)", s->worst * 1000, s->worst_year);
+    } else {
+        ceduo_words_number(&worst, s->worst, 3);
+        ceduo_text_format(&worst, " (%u)", s->worst_year);
+    }
+    put_padded(p, worst.bytes ? worst.bytes : "", -14);
+    ceduo_text_char(p->text, '\n');
+    ceduo_text_free(&worst);
+}
+
+static void put_rotations_head(struct page *p, const struct ceduo_control *c, bool flown)
+{
+    ceduo_text_put(p->text, "  ");
+    put_padded(p, _("option"), 23);
+    put_padded(p, _("contact"), -8);
+    put_padded(p, _("free run"), -9);
+    if (flown)
+        put_padded(p, _("energy"), -7);
+    if (flown)
+        put_limit(p, c, _("arrive"), 13);
+    put_padded(p, flown ? _("worst (year)") : _("ADC m (year)"), -14);
+    ceduo_text_char(p->text, '\n');
+}
+
+/* Which option lets the fewest through over the years. The same rocks fly in all of them, so errors go together, and two
+ * standard errors as of independent figures are rather too many. */
+static void say_best_rotation(struct page *p, const struct ceduo_years_summary *sums)
+{
+    const struct ceduo_scene *scene = p->report->result->scene;
+    size_t n = scene->options_count, best = 0, worse = 0;
+    for (size_t i = 1; i < n; i++)
+        if (mean_of_years(p, &sums[i]).mean < mean_of_years(p, &sums[best]).mean)
+            best = i;
+    struct ceduo_paired least = mean_of_years(p, &sums[best]);
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_paired mean = mean_of_years(p, &sums[i]);
+        worse += mean.mean - least.mean > 2 * hypot(mean.se, least.se);
+    }
+    struct text line = {0};
+    if (worse == 0)
+        ceduo_text_put(&line, _("In the mean of these years no option is clearly better by energy."));
+    else
+        ceduo_text_format(&line, worse == n - 1 ? _("In the mean of these years '%s' lets the fewest through.")
+                                                : _("In the mean of these years '%s' lets the fewest through, though not "
+                                                    "clearly before all others."), scene->options[best].name);
+    put_wrapped(p, "  ", 2, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
+}
+
+static void put_rotations(struct page *p)
+{
+    const struct ceduo_result *r = p->report->result;
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    size_t n = r->scene->options_count;
+    struct ceduo_years_summary *sums = calloc(n, sizeof *sums);
+    p->text->failed |= !sums;
+    if (!sums)
+        return;
+    for (size_t i = 0; i < n; i++)
+        sums[i] = ceduo_years_sum(p->report->years[i], r->last_control);
+    char room[CEDUO_NUMBER_ROOM];
+    struct text head = {0};
+    ceduo_text_format(&head, ngettext("Side by side over %zu year, up to %s m: years in which a test fails",
+                                      "Side by side over %zu years, up to %s m: years in which a test fails", sums[0].years),
+                      sums[0].years, ceduo_number_shortest(c->x_given, room));
+    if (sums[0].flown > 0)
+        ceduo_text_put(&head, _("; of 1000 released, in the mean and in the worst year"));
+    ceduo_text_char(p->text, '\n');
+    put_wrapped(p, "", 2, head.bytes ? head.bytes : "");
+    ceduo_text_free(&head);
+    put_rotations_head(p, c, sums[0].flown > 0);
+    for (size_t i = 0; i < n; i++)
+        put_rotation_row(p, i, &sums[i]);
+    if (sums[0].flown > 0)
+        say_best_rotation(p, sums);
+    free(sums);
 }
 
 /* ---- foot ---- */
@@ -842,7 +1008,9 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     put_head(&p);
     for (size_t i = 0; i < report->result->scene->options_count; i++)
         put_option(&p, i);
-    put_comparison(&p);
+    const struct ceduo_scene *scene = report->result->scene;
+    if (scene->options_count > 1 && scene->controls_count > 0)
+        report->years ? put_rotations(&p) : put_comparison(&p);
     put_foot(&p);
 }
 

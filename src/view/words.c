@@ -153,13 +153,19 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
     }
 }
 
-/* Where the interval of a share holds the limit of the energy light. */
+/* Whether the interval of a share holds the limit of the energy light, and more rocks can help. */
+static bool is_close(const struct ceduo_arrivals *a)
+{
+    return a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST &&
+           ceduo_energy_light(a) != CEDUO_UNKNOWN;
+}
+
 static void say_close_calls(const struct ceduo_result *result, say_function *say, void *context)
 {
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
             const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (!a || !(a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST))
+            if (!a || !is_close(a))
                 continue;
             say_format(say, context,
                        _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
@@ -252,12 +258,37 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
         put_share(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
         ceduo_text_format(text, _(" arrive with more than %g kJ (%.0f are allowed)."), c->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
-        if (a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST)
+        if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
+            ceduo_text_format(text, _(" %llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);
+        else if (is_close(a))
             ceduo_text_put(text, _(" Too close to call with so few rocks."));
     }
 }
 
 /* ---- which is best ---- */
+
+double ceduo_words_share(const struct ceduo_result *result, size_t option, double *half)
+{
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
+    *half = NAN;
+    if (!a)
+        return NAN;
+    double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
+    *half = ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released);
+    return share;
+}
+
+double ceduo_words_difference(const struct ceduo_result *result, size_t option, double *half)
+{
+    const struct ceduo_difference *d = &result->options[option].differences[result->last_control];
+    struct ceduo_paired found = isnan(d->exceed_probability.mean) ? d->reach_probability : d->exceed_probability;
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
+    double room, share = ceduo_words_share(result, option, &room), first = ceduo_words_share(result, 0, &room);
+    *half = !a               ? NAN
+            : share == first ? ceduo_half_width_of_share(share, found.se, a->released)
+                             : CEDUO_Z95 * found.se;
+    return found.mean;
+}
 
 /* The figure of an option by energy, its standard error, and that of its difference to the first option. */
 static double by_energy(const struct ceduo_result *result, size_t option, double *se)
@@ -294,13 +325,23 @@ bool ceduo_words_worse(const struct ceduo_result *result, size_t option, size_t 
     return value - other > 2 * hypot(se, than_se);
 }
 
+/* Positive where option i is better by contact than option k, 0 where contact does not tell them apart. */
+static int better_by_contact(const struct ceduo_result *result, size_t i, size_t k)
+{
+    const struct ceduo_index *here = index_at(result, i, result->last_control);
+    const struct ceduo_index *there = index_at(result, k, result->last_control);
+    int passes = here->contact == CEDUO_PASS, passed = there->contact == CEDUO_PASS;
+    return passes != passed ? passes - passed : (here->worst_adc < there->worst_adc) - (here->worst_adc > there->worst_adc);
+}
+
+/* Of options that contact does not tell apart the one that is best by energy. */
 static size_t best_by_contact(const struct ceduo_result *result)
 {
-    size_t best = 0, c = result->last_control;
+    size_t best = 0;
+    double se;
     for (size_t i = 1; i < result->options_count; i++) {
-        const struct ceduo_index *here = index_at(result, i, c), *there = index_at(result, best, c);
-        bool passes = here->contact == CEDUO_PASS, passed = there->contact == CEDUO_PASS;
-        if (passes != passed ? passes : here->worst_adc < there->worst_adc)
+        int better = better_by_contact(result, i, best);
+        if (better > 0 || (better == 0 && by_energy(result, i, &se) < by_energy(result, best, &se)))
             best = i;
     }
     return best;
@@ -308,26 +349,30 @@ static size_t best_by_contact(const struct ceduo_result *result)
 
 void ceduo_words_best(struct text *text, const struct ceduo_result *result)
 {
-    if (result->options_count < 2 || !result->wooded || result->scene->controls_count == 0)
+    size_t n = result->options_count;
+    if (n < 2 || !result->wooded || result->scene->controls_count == 0)
         return;
-    for (size_t i = 0; i < result->options_count; i++)
+    for (size_t i = 0; i < n; i++)
         if (!ceduo_result_wooded(result, i, result->last_control))
             return;
-    size_t contact = best_by_contact(result), energy = ceduo_words_best_by_energy(result);
+    size_t contact = best_by_contact(result), energy = ceduo_words_best_by_energy(result), worse = 0, behind = 0;
     const char *a = result->scene->options[contact].name, *b = result->scene->options[energy].name;
-    if (isinf(index_at(result, contact, result->last_control)->worst_adc))
-        return;
-    bool apart = false;
-    for (size_t i = 0; i < result->options_count; i++)
-        apart |= index_at(result, i, result->last_control)->worst_adc !=
-                     index_at(result, contact, result->last_control)->worst_adc ||
-                 ceduo_words_worse(result, i, energy);
-    if (!apart)
-        return;
-    if (contact == energy)
+    for (size_t i = 0; i < n; i++) {
+        worse += ceduo_words_worse(result, i, energy);
+        behind += better_by_contact(result, contact, i) > 0;
+    }
+    bool clear = worse == n - 1; /* by energy */
+    bool apart = behind > 0 && !isinf(index_at(result, contact, result->last_control)->worst_adc);
+    if (apart && contact == energy && clear)
         ceduo_text_format(text, _("By contact and by energy '%s' is best."), a);
-    else if (ceduo_words_worse(result, contact, energy))
-        ceduo_text_format(text, _("By contact '%s' is best, by energy '%s'; neither alone decides."), a, b);
-    else
+    else if (apart && !ceduo_words_worse(result, contact, energy))
         ceduo_text_format(text, _("By contact '%s' is best, and none is clearly better by energy."), a);
+    else if (apart)
+        ceduo_text_format(text, clear ? _("By contact '%s' is best, by energy '%s'; neither alone decides.")
+                                      : _("By contact '%s' is best, by energy '%s', though not clearly before all others; neither "
+                                          "alone decides."), a, b);
+    else if (worse > 0)
+        ceduo_text_format(text, clear ? _("By energy '%s' is best; contact does not tell the options apart.")
+                                      : _("By energy '%s' is best, though not clearly before all others; contact does not tell "
+                                          "the options apart."), b);
 }

@@ -26,6 +26,11 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 
+/* What is compared at the last control: the share of the released with too much energy, or where that is not said that arrives,
+ * and its difference to the first option's; with half the width of their 95 % intervals. NaN where it was not flown. */
+double ceduo_words_share(const struct ceduo_result *result, size_t option, double *half);
+double ceduo_words_difference(const struct ceduo_result *result, size_t option, double *half);
+
 /* Which option is best by contact and which by energy at the last control, where that can be said; nothing otherwise. */
 void ceduo_words_best(struct text *text, const struct ceduo_result *result);
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What ceduo --batch prints and how it ends: table, CSV, JSON, options, files, streams, signals."""
 import csv
+import functools
 import io
 import math
 import os
@@ -12,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+import unicodedata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -521,6 +523,26 @@ ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(\d+ \(\d+
                           r"(?:-|([\d.]+) ?±(-|[\d.]+)) +(-|[\d.e]+) +(-|[\d.e]+) +(-|[\d.e]+)$")
 
 
+@functools.cache
+def student(freedom):
+    """The 97.5 % quantile of Student's law: its density, summed by Simpson's rule from 0 on, comes to 0.475 there."""
+    scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
+
+    def density(t):
+        return scale * (1 + t * t / freedom) ** (-(freedom + 1) / 2)
+
+    step, t, total = 1e-3, 0.0, 0.0
+    while total < 0.475:
+        total += (density(t) + 4 * density(t + step / 2) + density(t + step)) * step / 6
+        t += step
+    return t - (total - 0.475) / density(t)
+
+
+def half_of_mean(figure, count):
+    """Half the width of the 95 % interval of a mean."""
+    return figure["se"] * student(count - 1)
+
+
 def expect_arrivals(line, arrivals):
     """A line of the table of arrivals has a blank between any two cells, and what it says of a mean and its error is true."""
     found = ARRIVALS_ROW.match(line)
@@ -530,11 +552,12 @@ def expect_arrivals(line, arrivals):
     energy = arrivals["energy_kJ"]
     expect_equal(mean is None, energy["mean"] is None, line)
     if mean is not None and energy["se"] is not None:
-        wanted = energy["se"] * 1.959963984540054
+        wanted = half_of_mean(energy, arrivals["rocks_reached"])
         expect(half != "-" and float(half) >= 0.94 * wanted, f"an error of {wanted} is said to be less:", line)
         expect(abs(float(mean) - energy["mean"]) <= float(half) + 1e-3 * energy["mean"],
                f"the mean of {energy['mean']} lies beyond its error:", line)
-        expect(float(half) <= max(1.1 * wanted, 0.1 * energy["mean"]), f"an error of {wanted} is said to be far more:", line)
+        unit = 10.0 ** -len(half.partition(".")[2])  # it is rounded up
+        expect(float(half) <= max(1.1 * wanted, wanted + 1.001 * unit, 0.1 * energy["mean"]), f"an error of {wanted} is said to be far more:", line)
     for cell, value in ((p95, energy["p95"]), (speed, arrivals["speed_m_s"]["mean"]), (height, arrivals["height_m"]["p95"])):
         expect_equal(cell == "-", value is None, line)
         if value is not None:
@@ -581,7 +604,7 @@ def test_table_order():
     for line, arrivals in ((table_row(text, "through the wood")[0], control["wooded"]),
                            (table_row(text, "without forest")[0], control["bare"])):
         energy = arrivals["energy_kJ"]
-        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(energy['se'] * 1.959963984540054, 2)}", digits(energy["p95"], 3),
+        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(half_of_mean(energy, arrivals['rocks_reached']), 2)}", digits(energy["p95"], 3),
                      digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
     expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
@@ -703,8 +726,10 @@ def test_table_best():
         expect_in("By contact 'many thin' is best, by energy 'few thick'; neither alone decides", words)
         words = best_sentence(f, treated(few_thick=THICK, many_thin=THIN))
         expect_in("By contact 'many thin' is best, by energy 'few thick'; neither alone decides", words, "in another order")
-        words = best_sentence(f, treated(none=None, many_thin=THIN))
-        expect_in("By contact and by energy 'many thin' is best", words)
+        words = best_sentence(f, treated(none=None, few_thick=THICK))
+        expect_in("By contact and by energy 'few thick' is best", words)
+        words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
+        expect_in("By contact 'many thin' is best, and none is clearly better by energy", words)
         words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK), *through("index"))
         expect("best" not in words, words)
         hardly = {**THICK, "trees": [{"per_ha": 301, "dbh_m": 0.4, "height_m": 18, "volume_m3": 1}]}
@@ -713,6 +738,57 @@ def test_table_best():
         expect(re.search("and by energy|none is clearly better by energy", words), "an energy that chance decided", words)
         words = best_sentence(f, treated(none=None, also_none=None))
         expect("best" not in words, "the best of two that have no forest", words)
+        weak = {**THICK, "trees": [{**THICK["trees"][0], "volume_m3": 0.001}]}  # stems as thick: the same ADC
+        for order in ({"weak": weak, "strong": THICK, "none": None}, {"strong": THICK, "none": None, "weak": weak}):
+            words = best_sentence(f, treated(**order))
+            expect_in("By contact and by energy 'strong' is best", words, "contact does not tell weak from strong")
+        words = best_sentence(f, treated(weak=weak, strong=THICK))
+        expect_in("By energy 'strong' is best; contact does not tell the options apart", words)
+        words = best_sentence(f, treated(weak=weak, strong=THICK, as_strong=THICK))
+        expect_in("By energy 'strong' is best, though not clearly before all others; contact does not tell", words)
+        words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK, as_thick=THICK))
+        expect_in("By contact 'many thin' is best, by energy 'few thick', though not clearly before all others", words)
+        words = best_sentence(f, {**treated(none=None, few_thick=THICK), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
+        expect_in("By contact 'few thick' is best, and none is clearly better by energy", words, "nothing comes with so much")
+
+
+def columns(line):
+    return sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in line)
+
+
+def test_table_widest():
+    """Table: words longer than a line, wide characters and huge numbers keep its columns, 80 of them"""
+    wide, word = "一二三四五六七八九十" * 8, "x" * 300
+    text = good("--batch", "-n", 50, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
+                "-s", "controls[0].accepted_kJ=123456", "-s", "rock={diameter_m: 20}", FOUR).out
+    expect(max(map(columns, text.splitlines())) <= 80, *(line for line in text.splitlines() if columns(line) > 80))
+    flat = "".join(text.split())
+    expect(word in flat and wide in flat, "cut short:", text)
+    rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
+    expect(all(re.search(r" \(\d\.\d±\d\.\d\)e6 +\de6 ", row) for row in rows), "mean energies", *rows)
+    head, *table = text.split("Side by side")[1].splitlines()[2:]
+    names = [name for name in (wide[:9], "large reserves") if not any(name in row for row in table)]
+    expect(not names, "rows of", names, head, *table)
+    expect(len({columns(row) for row in table if re.search(r"(pass|FAIL)$", row)}) == 1, "columns that do not align", *table)
+    expect_in("> 123 MJ", head, "limit")
+
+
+def test_table_warnings_once():
+    """Table: what belts of one stand have in common is warned of once an option"""
+    text = good("--batch", "-n", 10, "staggered").out
+    warnings = re.findall(r"^    ! .*(?:\n      .*)*", text, re.M)
+    options = text.count("Contact: ")
+    expect(0 < len(warnings) <= options, f"{len(warnings)} warnings of {options} options", *warnings)
+
+
+def test_table_of_none():
+    """Table: of no rock among n with too much energy, and of no difference between such, the error is that of Wilson, never 0"""
+    with Folder() as f:
+        path = f.write("s.yaml", {**treated(few_thick=THICK, none=None), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
+        rows = side_by_side(good("--batch", "-n", 200, path).out, ["few thick", "none"])[1]
+        half = math.ceil(1000 * 1.959963984540054**2 / (200 + 1.959963984540054**2))
+        expect_cells(rows["few thick"], f"0 ±{half}")
+        expect_cells(rows["none"], f"0 ±{half}", f"+0 ±{half}")
 
 
 def test_table_best_gap():
@@ -1792,8 +1868,14 @@ def test_unfinished():
         expect_equal((bare["rocks_reached"], bare["reach_probability"]), (0, 0))
         expect_near(bare["reach_hi"], wilson(3, 3)[1], 1e-12, "in reach_hi as reached")
         expect(any("unfinished" in w for w in run["warnings"]), run["warnings"])
+        expect_equal(option["controls"][0]["lights"]["energy"], "unknown", "rocks that may still arrive")
         done = ceduo("--batch", "-n", 3, path)
         expect(done.status == RUN and "unfinished" in done.out, done)
+        words = " ".join(done.out.split())
+        expect_in("3 of 3 never come to an end", words)
+        expect_in("Energy: unknown.", words)
+        expect_in("3 rocks never came to an end, and may arrive", words)
+        expect("no rock arrives (" not in words and "fly more" not in words and "few rocks" not in words, words)
 
 
 def expect_unreached(control):

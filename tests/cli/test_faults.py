@@ -12,9 +12,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "tui")]
 from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, USAGE, Folder, Skip, Suite, environment, expect, expect_equal,  # noqa: E402
                      expect_in, good, only_text, tests_of)
+from play import FAST, Screen  # noqa: E402
 from test_input import FILES  # noqa: E402
 
 SANITIZED = b"__asan_init" in Path(CEDUO).read_bytes() or b"__tsan_init" in Path(CEDUO).read_bytes()
@@ -34,14 +35,14 @@ class Place(Folder):
                         Path(__file__).parent / "faults.c", "-ldl"], check=True)
         return self
 
-    def run(self, *words, fault, at=0, on=False):
-        """Runs the program with the fault. Says whether it came to it."""
+    def run(self, *words, fault, at=0, on=False, after=None):
+        """Runs the program with the fault. Says whether it came to it. `after`: only behind the writing of this file."""
         if SANITIZED:
             raise Skip("the sanitizers have their own malloc")
         mark = self.path / "mark"
         mark.unlink(missing_ok=True)
         env = environment(LD_PRELOAD=str(self.preload), FAULT=fault, FAULT_AT=str(at), FAULT_MARK=str(mark),
-                          FAULT_ON="1" if on else None)
+                          FAULT_ON="1" if on else None, FAULT_FROM=after)
         done = subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               env=env, cwd=self.work, timeout=60, check=False)
         only_text(done.stdout, "stdout")
@@ -129,6 +130,61 @@ def test_memory_output():
             expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), told(done, at))
 
 
+# What is shown before the save, and twice after it: where the one lacks a word for want of memory, the other has it.
+SHOWN_SAVE = ("key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\ndump before.txt\nkey s\n"
+              "dump after.txt\ndump again.txt\n")
+SHOWN = ("before.txt", "after.txt", "again.txt")
+
+
+def notes(place):
+    """What the screens after the save answer, and whether their title has the mark of what is not saved."""
+    screens = [Screen((place.work / name).read_text(), 80, 24) for name in SHOWN[1:] if (place.work / name).exists()]
+    return [s.note for s in screens], [" * fast" in s.title for s in screens]
+
+
+def save_without_memory(on):
+    with Place() as place:
+        place.write("play.txt", SHOWN_SAVE)
+        scene, command = place.work / "scene.yaml", ("--script", "../play.txt", "scene.yaml")
+        scene.write_text(FAST)
+        done, _ = place.run(*command, fault="none")
+        step = 4 * EACH if on else EACH  # what comes after the first that fails is much the same
+        new, at, last, seen = scene.read_text(), 1, 0, {}
+        expect_equal((done.returncode, notes(place)), (DONE, (["saved scene.yaml"] * 2, [False] * 2)), told(done, 0))
+        expect_equal(new, FAST.replace("diameter_m: 0.5}   # kept", "diameter_m: 0.75}   # kept"), "the new file")
+        while True:
+            scene.write_text(FAST)
+            for name in SHOWN:
+                (place.work / name).unlink(missing_ok=True)
+            done, reached = place.run(*command, fault="memory", at=at, on=on, after="before.txt")
+            if not reached:
+                break
+            found, (said, unsaved) = scene.read_text(), notes(place)
+            expect(found in (FAST, new), f"at {at}: neither the old file nor the new one", found)
+            seen[found] = seen.get(found, 0) + 1
+            last, at = at, at + (step if found == FAST or EACH == 1 else 4 * step)  # once it is saved it is drawn: fewer
+            left = {p.name for p in place.work.iterdir()} - set(FILES) - set(SHOWN)
+            expect(not left, told(done, last), f"left behind: {left}")
+            expect(done.returncode == DONE or (done.returncode == OUTPUT and b"Cannot allocate memory" in done.stderr),
+                   told(done, last))
+            if done.returncode == DONE:
+                wanted = "saved scene.yaml" if found == new else "scene.yaml: Cannot allocate memory"
+                expect(wanted in said, told(done, last), wanted, said)
+                expect((found != new) in unsaved, told(done, last), "the title's mark", unsaved)
+        print(f"# {last} allocations, {seen.get(FAST, 0)} of them leave the old file")
+        expect(min(seen.get(FAST, 0), seen.get(new, 0)) > 5, f"{seen.values()}: is the library loaded?")
+
+
+def test_memory_save():
+    """Allocations of a save of the terminal program fail once: old file or new one whole, the screen says which"""
+    save_without_memory(False)
+
+
+def test_memory_save_on():
+    """From some allocation of a save on no more memory: old file or new one whole, a status that tells"""
+    save_without_memory(True)
+
+
 # ---- calls that fail, and a sudden death ----
 
 # A change, saved as scene.yaml again: the file that the terminal program must not lose.
@@ -206,6 +262,42 @@ def test_no_threads():
         place.write("play.txt", "key q\n")
         done, reached = place.run("--script", "../play.txt", "scene.yaml", fault="threads")
         expect(reached and done.returncode in (RUN, INPUT) and done.stderr != b"", told(done, 0))
+
+
+# ---- folders that belong to others ----
+
+def test_read_only_folder():
+    """A save, and -o, into a folder where nothing may be written: said, the old file whole, nothing left behind"""
+    with Folder() as f:
+        f.path.chmod(0o755)
+        shutil.copy(CEDUO, f.path / "ceduo")  # that of the tests may lie where others may not go
+        f.write("theirs/scene.yaml", FAST)
+        f.write("play.txt", SHOWN_SAVE.replace("dump before.txt", "").replace("dump again.txt", "")
+                .replace("dump after.txt", "dump -\nkey q\ndump -"))
+        os.chmod(f.path / "theirs", 0o555)
+        other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+
+        def run(*words):
+            try:
+                return subprocess.run([f.path / "ceduo", *map(str, words)], cwd=f.path / "theirs", env=environment(), check=False,
+                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **other)
+            except PermissionError as why:
+                raise Skip(f"another user cannot be taken on: {why}") from why
+
+        for mode in (0o444, 0o666):  # a file that may be written is put in its place by a new one, too
+            os.chmod(f.path / "theirs/scene.yaml", mode)
+            done = run("--script", "../play.txt", "scene.yaml")
+            expect(done.returncode == DONE and done.stderr == b"", told(done, 0))
+            lines = done.stdout.decode().split("\n")
+            saved, quit_asks = (Screen("\n".join(lines[i:i + 24]) + "\n", 80, 24) for i in (0, 24))
+            expect_equal(saved.note, "scene.yaml: Permission denied", f"{saved}")
+            expect(" * fast" in saved.title, saved)
+            quit_asks.has("There is unsaved work")
+            expect_equal((f.path / "theirs/scene.yaml").read_text(), FAST)
+        done = run(*BATCH[:-1], "-o", "out.csv", "scene.yaml")
+        expect(done.returncode == OUTPUT and b"out.csv: Permission denied" in done.stderr, told(done, 0))
+        expect_equal(sorted(p.name for p in (f.path / "theirs").iterdir()), ["scene.yaml"])
+        os.chmod(f.path / "theirs", 0o755)
 
 
 # ---- disks ----

@@ -459,6 +459,39 @@ def test_page_gaps():
         expect(re.search(r"% (pass|FAIL) +[\d.]+ +\d+ \(\d+–\d+\) +[\d.]+ ", line), f"figures run together: {line!r}")
 
 
+def rotations(text, names):
+    """The rows of the last table by option, and the words below it."""
+    table = text.split("Side by side over ")[1].split("\n\n")[0]
+    rows = {name: next(line for line in table.splitlines() if line.startswith(f"  {name}  ")) for name in names}
+    return rows, " ".join(table[table.index(list(rows.values())[-1]):].split())
+
+
+def test_page_rotations():
+    """The page's last table compares the rotations, not a single year, and names the best where the years show it"""
+    names = ["simple coppice", "coppice with standards", "selection coppice", "large reserves"]
+    text = good("--batch", "--years", "0:26", "-n", 300, "rotation").out
+    rows, words = rotations(text, names)
+    options = {o["name"]: o["rotation"] for o in result("--years", "0:26", "-n", 300, "rotation")["options"]}
+    for name, r in options.items():
+        half = math.ceil(r["exceed_probability"]["se"] * 1959.963984540054)
+        expect_equal(rows[name].split()[len(name.split()):],
+                     [str(r["unprotected_contact"]), str(r["unprotected_free_run"]), str(r["unprotected_energy"]),
+                      f"{r['exceed_probability']['mean'] * 1000:.0f}", f"±{half}",
+                      *re.findall(r"\d+ \(\d+\)", rows[name])[-1].split()], name)
+        expect(rows[name].endswith(f" ({r['worst_year']})"), rows[name])
+    least = min(options, key=lambda name: options[name]["exceed_probability"]["mean"])
+    expect_in(f"In the mean of these years '{least}' lets the fewest through, though not clearly before all others", words)
+    expect("By contact" not in text, "a verdict on one year in a page of years")
+    _, words = rotations(good("--batch", "--years", "18:42", "-n", 300, "staggered").out,
+                         ["all in year 1", "in three, top first", "in three, bottom first"])
+    expect_in("In the mean of these years no option is clearly better by energy", words)
+    text = good("--batch", "--years", "0:26", "-n", 1000, "--option", "simple coppice", "--option", "large reserves", "rotation").out
+    expect_in("In the mean of these years 'large reserves' lets the fewest through.", rotations(text, names[::3])[1])
+    rows, words = rotations(good("--batch", "--years", "0:26", "-s", "simulation.contact_model=index", "rotation").out, names)
+    expect(re.search(r" 2 +2 +194 \(1\)$", rows["simple coppice"]), rows)
+    expect("fewest" not in words, words)
+
+
 # ---- usage ----
 
 BAD_YEARS = ["5", "5:1", "a:b", "0:5:0", "0:1000", "0:5000:5", "-1:5", "0.5:3", "0:5.5", "0:5:1.5", "0:5:-1", "0:5:",

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A script of keys for the terminal program, played in a folder of its own. No '/' is passed on: nothing outside of that
  * folder can be written. */
+#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +11,14 @@
 #include "fuzz.h"
 #include "tui/script.h"
 
+/* A rock flies over the control, hits stems or the ground and stays there: flying them takes little of the time. */
 static const char scene[] =
-    "ceduo: scene/1\ntitle: fuzz\nrock: {diameter_m: 0.5}\nrelease: {x_m: 1, height_m: 2}\n"
-    "slope: {vertices_m: [[0, 64], [50, 30], [100, 0]], segments: [{rn: 0.3, rt: 0.8}, {rn: 0.3, rt: 0.8}]}\n"
-    "controls: [{x_m: 75, name: road, accepted_kJ: 50}]\n"
+    "ceduo: scene/1\ntitle: fuzz\nrock: {diameter_m: 0.5}\nrelease: {x_m: 1, height_m: 5, vx_m_s: 4}\n"
+    "slope: {vertices_m: [[0, 64], [50, 30], [100, 0]],\n"
+    "  segments: [{rn: 0.1, rt: 0.2, friction: 3}, {rn: 0.1, rt: 0.2, friction: 3}]}\n"
+    "controls: [{x_m: 3, name: road, accepted_kJ: 50}]\n"
     "options:\n"
-    "  - {name: a, forest: [{from_m: 10, to_m: 40, stand: {stools: {per_ha: 2000, spacing_m: 0.25},\n"
+    "  - {name: a, forest: [{from_m: 2, to_m: 40, stand: {stools: {per_ha: 2000, spacing_m: 0.25},\n"
     "     shoots: [{per_ha: 5000, dbh_m: 0.07, height_m: 6}], trees: [{per_ha: 100, dbh_m: 0.2, height_m: 12}]}}]}\n"
     "  - {name: b}\n"
     "simulation: {rocks: 10, law: lumped}\n";
@@ -27,15 +30,34 @@ static void write_scene(void)
         abort();
 }
 
+static char folder[64];
+
+static int remove_one(const char *path, const struct stat *st, int kind, struct FTW *at)
+{
+    (void)st, (void)kind, (void)at;
+    return remove(path);
+}
+
+static void remove_folder(void)
+{
+    (void)nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+/* Made, in memory where there is such a place: writing to a disk takes most of the time. */
+static bool make_folder(const char *parent)
+{
+    snprintf(folder, sizeof folder, "%s/ceduo-fuzz-XXXXXX", parent);
+    return mkdtemp(folder) && chdir(folder) == 0;
+}
+
 /* The folder, once; what the scripts complain of goes nowhere. */
 static void set_up(void)
 {
     static bool done;
-    static char folder[] = "/tmp/ceduo-fuzz-XXXXXX";
     if (done)
         return;
     done = true;
-    if (!mkdtemp(folder) || chdir(folder) != 0)
+    if ((!make_folder("/dev/shm") && !make_folder("/tmp")) || atexit(remove_folder) != 0)
         abort();
     setenv("HOME", folder, 1);
     setenv("XDG_STATE_HOME", folder, 1);

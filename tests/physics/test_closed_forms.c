@@ -521,6 +521,22 @@ static void intervals_of_wilson(void **state)
     assert_true(hi < .004 && hi > .0038); /* "below 0.4 %" */
 }
 
+/* Student 1908; the quantiles of 97.5 % as any table has them. */
+static void widths_of_few(void **state)
+{
+    (void)state;
+    static const struct {
+        uint64_t n;
+        double t;
+    } rows[] = {{2, 12.706}, {3, 4.303}, {10, 2.262}, {31, 2.042}, {121, 1.980}, {10000000, 1.960}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        assert_true(fabs(ceduo_half_width(2, rows[i].n) - 2 * rows[i].t) <= 1e-3);
+    assert_true(isnan(ceduo_half_width(1, 1)) && isnan(ceduo_half_width(1, 0)));
+    expect_near(ceduo_half_width_of_share(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
+    assert_true(fabs(ceduo_half_width_of_share(0, 0, 20) - .1611) <= .5e-4); /* Newcombe 1998, Table I */
+    assert_true(fabs(ceduo_half_width_of_share(1, 0, 29) - .1170) <= .5e-4);
+}
+
 static void ranks_of_quantiles(void **state)
 {
     (void)state;
@@ -781,6 +797,7 @@ int main(void)
         cmocka_unit_test(a_shift_that_loses_no_bit_changes_no_bit),
         cmocka_unit_test(four_times_the_lengths_and_twice_the_speeds_are_the_same_way),
         cmocka_unit_test(intervals_of_wilson),
+        cmocka_unit_test(widths_of_few),
         cmocka_unit_test(ranks_of_quantiles),
         cmocka_unit_test(intervals_of_quantiles),
         cmocka_unit_test(a_distribution_of_exact_values),

@@ -246,6 +246,40 @@ static void hostile_bytes_do_no_harm(void **state)
     assert_true(refused > 300);
 }
 
+/* Each byte of a part of few rocks changed, in two ways: what is adopted even so is no other part than those bytes. */
+static void nothing_is_read_otherwise_than_written(void **state)
+{
+    (void)state;
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    for (int k = 0; k < 4; k++) {
+        struct ceduo_run_def def = def_of(k < 2 ? CEDUO_EXACT_BYTES : 64, k % 2 == 0);
+        def.rocks_most = 40;
+        struct ceduo_run_def part = def;
+        part.part = true;
+        struct ceduo_run *flown = run_of(part, def.rocks_most);
+        struct saved s, again;
+        unsigned adopted = 0;
+        assert_int_equal(ceduo_run_save(flown, &s.bytes, &s.n), CEDUO_OK);
+        for (size_t i = 0; i < 2 * s.n; i++) {
+            const unsigned char was = s.bytes[i / 2];
+            s.bytes[i / 2] = was ^ (i % 2 == 0 ? 1 : 0xff);
+            struct ceduo_run *run = run_of(def, 0);
+            if (ceduo_run_adopt(run, s.bytes, s.n) == CEDUO_OK) {
+                assert_int_equal(ceduo_run_save(run, &again.bytes, &again.n), CEDUO_OK);
+                assert_int_equal(again.n, s.n);
+                assert_memory_equal(again.bytes, s.bytes, s.n);
+                free(again.bytes);
+                adopted++;
+            }
+            ceduo_run_free(run);
+            s.bytes[i / 2] = was;
+        }
+        assert_true(adopted > 100); /* the figures themselves may be any */
+        free(s.bytes);
+        ceduo_run_free(flown);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +289,7 @@ int main(void)
         cmocka_unit_test(steps_of_a_part_change_nothing),
         cmocka_unit_test(wrong_parts_are_refused),
         cmocka_unit_test(hostile_bytes_do_no_harm),
+        cmocka_unit_test(nothing_is_read_otherwise_than_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
