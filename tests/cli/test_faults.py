@@ -273,7 +273,7 @@ def test_read_only_folder():
         shutil.copy(CEDUO, f.path / "ceduo")  # that of the tests may lie where others may not go
         f.write("theirs/scene.yaml", FAST)
         f.write("play.txt", SHOWN_SAVE.replace("dump before.txt", "").replace("dump again.txt", "")
-                .replace("dump after.txt", "dump -\nkey q\ndump -"))
+                .replace("dump after.txt", "dump -\nkey Esc q\ndump -"))
         os.chmod(f.path / "theirs", 0o555)
         other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
 
@@ -291,6 +291,7 @@ def test_read_only_folder():
             lines = done.stdout.decode().split("\n")
             saved, quit_asks = (Screen("\n".join(lines[i:i + 24]) + "\n", 80, 24) for i in (0, 24))
             expect_equal(saved.note, "scene.yaml: Permission denied", f"{saved}")
+            saved.has("Save as", "Permission denied. Give another name")
             expect(" * fast" in saved.title, saved)
             quit_asks.has("There is unsaved work")
             expect_equal((f.path / "theirs/scene.yaml").read_text(), FAST)
