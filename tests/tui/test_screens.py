@@ -1654,7 +1654,7 @@ def test_export_command():
 
 
 def test_export_rocks():
-    """w: the command follows the figures on the screen: none yet, as many rocks as they have, still more to come."""
+    """w: the command follows the figures on the screen: none yet, then as many rocks as they have."""
     none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
     none.has("ceduo --batch -n 1000 ", "no figures yet", "what the scene says")
     rocks = int(screen.figure("= .* %"))
