@@ -317,6 +317,14 @@ def test_more_controls():
     expect_equal(len(marks(screens[1], "C")), 13, "years")
 
 
+def test_even_marks():
+    """The lights of the years stand at even distances at 80x24, 120x40 and 200x50"""
+    for screen in shown("wait idle\nkey 6\nwait idle\ndump\nresize 120 40\ndump\nresize 200 50\ndump", "reserves.yaml"):
+        for light in "CFE":
+            at = [column for column, _ in marks(screen, light)]
+            expect(len(at) > 10 and len({b - a for a, b in zip(at, at[1:])}) == 1, f"columns of {light}: {at}", screen)
+
+
 def test_search_column():
     """/ with the name of a column puts the cursor on that column's field"""
     screen = shown("key 6\nfind cut_year\ndump")[0]
