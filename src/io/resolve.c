@@ -349,6 +349,7 @@ struct setter {
     const struct source *set;
     size_t length; /* of the path */
     const struct node *value;
+    bool sourced; /* nothing is left to tell a source */
     struct problems *problems;
 };
 
@@ -380,6 +381,52 @@ static const struct node *spread_map(struct setter *s, const struct node *node)
     return map && node ? ceduo_node_with(s->arena, map, "mean", node) : map;
 }
 
+/* A `source` that says of one more value that it is not of it. */
+static const struct node *source_except(struct setter *s, const struct node *source, const struct step *path)
+{
+    const struct node *list = ceduo_node_get(source, "except");
+    if (source->kind != NODE_MAP || (list && list->kind != NODE_LIST))
+        return source; /* checked later */
+    for (size_t i = 0; list && i < list->n; i++)
+        if (list->items[i]->kind == NODE_SCALAR && step_is(path, list->items[i]->text))
+            return source;
+    struct node *empty = ceduo_arena_take(s->arena, sizeof *empty);
+    char *text = ceduo_arena_copy(s->arena, path->p, path->n);
+    const struct node *item = text ? ceduo_node_scalar(s->arena, s->set, text, false) : NULL;
+    if (!empty || !item)
+        return NULL;
+    *empty = (struct node){.kind = NODE_LIST, .flow = true, .source = source->source};
+    list = list ? list : empty;
+    list = ceduo_node_inserted(s->arena, list, list->n, item);
+    return list ? ceduo_node_with(s->arena, source, "except", list) : NULL;
+}
+
+/* A value that was changed is no longer of the source around it: the innermost mapping that has one is told so. From a
+ * list on the path is left out, for items may move. */
+static const struct node *tell_source(struct setter *s, const struct node *map, const struct step *step)
+{
+    const struct node *source = ceduo_node_get(map, "source");
+    if (s->sourced || !source)
+        return map;
+    s->sourced = true;
+    size_t n = 0, most = s->length - (size_t)(step->p - s->set->bytes);
+    while (n < most && step->p[n] != '[')
+        n++;
+    const struct node *told = source_except(s, source, &(struct step){step->p, n, false});
+    return !told || told == source ? told ? map : NULL : ceduo_node_with(s->arena, map, "source", told);
+}
+
+/* Whether no source is of what was changed: it says the same as before, is only moved, is a name, a source or a setting
+ * of the computing. */
+static bool needs_no_source(const struct setter *s, const struct field *f, const char *key, const struct node *old)
+{
+    const struct node plain = {0};
+    struct node before = old ? *old : plain, now = *s->value;
+    before.key = now.key = NULL;
+    return strcmp(key, "source") == 0 || strcmp(key, "simulation") == 0 || (f && f->type <= FIELD_TEXT) ||
+           !now.source || !now.source->is_option || (old && ceduo_node_equal(&before, &now));
+}
+
 static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
                                     const struct step *step, size_t at)
 {
@@ -402,8 +449,10 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
         child = empty_map(s);
     if (!last && !child)
         return fail_at(s, step, _("there is none to change"));
+    s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
-    return child ? ceduo_node_with(s->arena, map, key, child) : NULL;
+    map = child ? tell_source(s, map, step) : NULL;
+    return map ? ceduo_node_with(s->arena, map, key, child) : NULL;
 }
 
 static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
@@ -448,7 +497,7 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
                                      size_t path_length, const struct node *value, struct problems *problems)
 {
-    struct setter s = {arena, set, path_length, value, problems};
+    struct setter s = {.arena = arena, .set = set, .length = path_length, .value = value, .problems = problems};
     size_t before = problems->met;
     const struct node *changed = set_in(&s, NULL, ceduo_schema_scene(), root, 0);
     if (!changed && problems->met == before)

@@ -728,9 +728,13 @@ static bool leads_to(const char *outer, const char *path)
 const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path)
 {
     const struct source_note *best = NULL;
-    for (const struct source_note *note = file->notes; note; note = note->before)
-        if (leads_to(note->path, path) && (!best || strlen(note->path) > strlen(best->path)))
+    for (const struct source_note *note = file->notes; note; note = note->before) {
+        if (!leads_to(note->path, path))
+            continue;
+        size_t n = strlen(note->path), most = best ? strlen(best->path) : 0;
+        if (!best || n > most || (n == most && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
             best = note;
+    }
     return best;
 }
 

@@ -447,7 +447,42 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
     }
 }
 
-/* source: {kind: measured|literature|assumed, text: …} may stand in any mapping. */
+static void add_note(struct binder *b, const char *path, const char *kind, const char *text)
+{
+    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
+    char *own_path = ceduo_arena_string(b->arena, path), *own_text = ceduo_arena_string(b->arena, text);
+    if (!note || !own_path || !own_text) {
+        ceduo_problem_memory(b->problems);
+        return;
+    }
+    *note = (struct source_note){.path = own_path, .kind = kind, .text = own_text, .before = *b->notes};
+    *b->notes = note;
+}
+
+/* The values that a source says it is not of: they get notes of their own, and its text names them. */
+static void except_values(struct binder *b, const struct node *list, struct text *text)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        ceduo_text_format(text, "%s%s", i > 0 ? ", " : _("; changed since: "), list->items[i]->text);
+        size_t before = enter(b, list->items[i]->text);
+        add_note(b, b->path.bytes ? b->path.bytes : "", "changed", _("the source around it is not of this value"));
+        leave(b, before);
+    }
+}
+
+static bool check_except(struct binder *b, const struct node *list)
+{
+    if (list->kind != NODE_LIST) {
+        report(b, list, _("a list of keys is wanted"));
+        return false;
+    }
+    for (size_t i = 0; i < list->n; i++)
+        if (!want_scalar(b, list->items[i], _("a key")))
+            return false;
+    return true;
+}
+
+/* source: {kind: measured|literature|assumed, text: …, except: […]} may stand in any mapping. */
 static void bind_source(struct binder *b, const struct node *node)
 {
     static const char *const kinds[] = {"measured", "literature", "assumed"};
@@ -455,6 +490,7 @@ static void bind_source(struct binder *b, const struct node *node)
     const struct field kind_field = {.choices = &kind_choices};
     size_t before = enter(b, "source");
     const char *text = "";
+    const struct node *except = NULL;
     int kind = -1;
     if (node->kind != NODE_MAP)
         report(b, node, _("a mapping {kind, text} is wanted"));
@@ -465,8 +501,10 @@ static void bind_source(struct binder *b, const struct node *node)
             bind_choice(b, &kind_field, entry, &kind);
         else if (strcmp(entry->key, "text") == 0)
             bind_text(b, entry, &text);
+        else if (strcmp(entry->key, "except") == 0)
+            except = check_except(b, entry) ? entry : NULL;
         else
-            report_key(b, entry, _("unknown key; known here: kind, text"));
+            report_key(b, entry, _("unknown key; known here: kind, text, except"));
         leave(b, outer);
     }
     if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
@@ -474,14 +512,13 @@ static void bind_source(struct binder *b, const struct node *node)
     leave(b, before);
     if (!b->notes || kind < 0)
         return;
-    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
-    char *path = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "");
-    if (!note || !path) {
-        ceduo_problem_memory(b->problems);
-        return;
-    }
-    *note = (struct source_note){.path = path, .kind = kinds[kind], .text = text, .before = *b->notes};
-    *b->notes = note;
+    struct text whole = {0};
+    ceduo_text_put(&whole, text);
+    if (except)
+        except_values(b, except, &whole);
+    add_note(b, b->path.bytes ? b->path.bytes : "", kinds[kind], whole.bytes ? whole.bytes : "");
+    b->problems->memory |= whole.failed;
+    ceduo_text_free(&whole);
 }
 
 static void report_missing(struct binder *b, const struct object *object, const struct node *node)

@@ -887,6 +887,31 @@ def test_table_assumed():
         expect_order(text, r"Rock[^*]*m\*", r"50 kJ\*", r"coppice\*", r"\* Assumed", "guessed by eye")
 
 
+def test_table_changed():
+    """A value changed by -s no longer has the source around it, and what is listed says so; no figure changes by that"""
+    note = {"kind": "assumed", "text": "all a guess"}
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}, {"x_m": 80, "source": note}]))
+        for change, said in (("accepted_kJ=60", "; changed since: accepted_kJ"), ("accepted_kJ=50", ""), ("name=road", ""),
+                             ("source={kind: assumed}", "")):
+            text = " ".join(good("--batch", path, "-s", f"controls[0].{change}").out.split())
+            expect_in(f"all a guess{said} (controls[", text, change)
+        twice = good("--batch", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
+        expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
+        whole = good("--batch", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
+        expect("guess" not in whole, whole)
+        plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
+        expect_equal(result(path, "-s", "controls[0].accepted_kJ=60")["options"], result(plain)["options"], "figures")
+        # the innermost source alone is told; in a list the whole of it; settings have no source
+        path = f.write("s.yaml", scene(source={"kind": "assumed", "text": "outer"}, forest=[
+            {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
+        text = " ".join(good("--batch", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
+                             "forest[0].stand.trees[0].per_ha=9", "--seed", 5, "-s", "controls[0].x_m=70").out.split())
+        for words in ("outer; changed since: controls (the scene)", "belt (forest[0])",
+                      "all a guess; changed since: stools.per_ha, trees (forest[0].stand)"):
+            expect_in(words, text)
+
+
 def test_table_talus():
     """A bare CSV slope takes talus and says that it is assumed"""
     with Folder() as f:

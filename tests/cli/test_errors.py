@@ -352,6 +352,7 @@ CASES = {
     "a pair [x, z] is wanted": sl("[50, 30]", "@@[50]"),
     "a list of three numbers is wanted": sc(ROCK, "rock: {shape: block, axes_m: @@[1, 2]}"),
     "a mapping {kind, text} is wanted": st("source: {kind: measured, text: by hand}", "source: @@by hand"),
+    "a list of keys is wanted": st("text: by hand", "except: @@stools"),
     "'kind' is missing: measured, literature or assumed": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
     "'mean' is missing": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
     "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(

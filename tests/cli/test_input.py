@@ -156,6 +156,8 @@ CASES = [
     ("scene.yaml", "{x_m: 90}", "{x_m: 90, @@qqqqqqqqqqqqqqqqq: 1}", "controls[1].qqqqqqqqqqqqqqqqq: unknown key", "known here: x_m"),
     ("stand.yaml", "text: by hand", "@@texts: by hand", "source.texts: unknown key"),
     ("stand.yaml", "kind: measured", "kind: @@guessed", "source.kind: 'guessed' is unknown"),
+    ("stand.yaml", "text: by hand", "except: @@stools", "source.except: a list of keys is wanted"),
+    ("stand.yaml", "text: by hand", "except: [@@[stools]]", "source.except: a key is wanted here, not a list"),
     ("scene.yaml", "ceduo: scene/1\n", "", "'ceduo' is missing"),
     ("scene.yaml", "ceduo: scene/1", "ceduo: @@scene/2", "'scene/1' is wanted"),
     ("scene.yaml", "ceduo: scene/1", "ceduo: @@stand/1", "'scene/1' is wanted"),
