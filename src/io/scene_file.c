@@ -648,7 +648,7 @@ static const char *scene_path(struct scene_file *file, const char *path)
 }
 
 /* From the text of a scene to the scene. */
-static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets,
+static bool make_scene(struct scene_file *file, const struct source *source, const char *const *sets,
                         size_t sets_count, struct problems *problems)
 {
     file->path = source->name;
@@ -668,6 +668,54 @@ static bool read_source(struct scene_file *file, const struct source *source, co
         return false;
     file->root = root;
     return ceduo_scene_bind(file, problems);
+}
+
+/* Whether the scene is good with the first n changes alone. */
+static bool is_good_with(const struct source *source, const char *const *sets, size_t n, struct problems *problems)
+{
+    struct scene_file trial = {0};
+    struct problems found = {0};
+    bool good = make_scene(&trial, source, sets, n, &found);
+    problems->memory |= found.memory;
+    ceduo_problems_free(&found);
+    ceduo_scene_release(&trial);
+    return good;
+}
+
+/* A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
+ * change is named before that. It is the one after which the scene was never good again. */
+static void name_change(struct arena *arena, const struct source *source, const char *const *sets, size_t n,
+                        struct problems *problems)
+{
+    if (n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
+        return;
+    size_t last = n - 1;
+    while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
+        last--;
+    struct source *set = ceduo_arena_take(arena, sizeof *set);
+    if (!set) {
+        ceduo_problem_memory(problems);
+        return;
+    }
+    *set = (struct source){.name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
+    struct problems head = {0};
+    ceduo_problem(&head, set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
+                  _("the scene is good without this change, but not with it:"));
+    if (problems->text.bytes)
+        ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
+    ceduo_text_free(&problems->text);
+    problems->text = head.text;
+    problems->memory |= head.memory || head.text.failed;
+    problems->usage = true;
+}
+
+static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets,
+                        size_t sets_count, struct problems *problems)
+{
+    if (make_scene(file, source, sets, sets_count, problems))
+        return true;
+    name_change(&file->arena, source, sets, sets_count, problems);
+    return false;
 }
 
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,

@@ -964,6 +964,28 @@ def test_set_through_files():
            speed)
 
 
+def test_set_at_odds():
+    """A change that does not fit the rest of a good scene is named, with status 2; a bad scene stays bad input"""
+    for sets, column, words in ((["forest[0].to_m=100"], 16, "forest[1].from_m: 67.5 lies before the end"),
+                                (["release.x_m=140"], 13, "controls[0].x_m: 135 does not lie beyond the release"),
+                                (["slope.vertices_m=[[0,100],[50,0]]"], 18, "13 segments for 1 stretches"),
+                                (["rock.shape=sphere", "rock.diameter_m=1"], 12, "does not belong to the shape 'sphere'"),
+                                (["simulation.rocks=9", "forest[0].to_m=100", "rock.diameter_m=1"], 16, "lies before the end")):
+        done = ceduo("--check", *(word for s in sets for word in ("-s", s)), PAPER)
+        culprit = next(s for s in sets if "=9" not in s)
+        expect(done.status == USAGE and done.out == "", done)
+        expect(done.err.startswith(f"--set:1:{column}: the scene is good without this change, but not with it:\n  {culprit}\n" +
+                                   " " * (column + 1) + "^\n"), done)
+        expect_in(words, done.err)
+        expect_equal(done.err.count("--set:"), 1, done.err)
+    both = ["-s", "forest[0].to_m=100", "-s", "forest[1].from_m=100"]  # either of them alone would not fit
+    good("--check", *both, PAPER)
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 500}]))
+        done = ceduo("--check", "-s", "rock.diameter_m=1", path)
+        expect(done.status == INPUT and "--set" not in done.err, done)
+
+
 def test_set_spreads():
     """-s makes a number a spread, whole or by its parts"""
     whole = result(PAPER, "-s", "rock.diameter_m={mean: 0.56, spread: 0.1, kind: uniform}")

@@ -423,6 +423,7 @@ CASES = {
     "'0': there is no list here": Set("rock[@@0]=1"),
     "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
     "'trees': there is none to change": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
+    "the scene is good without this change, but not with it:": Set("forest[0].to_m=@@50"),
     # Usage
     "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
     "TERM names no terminal that is known; ...": lambda row: on_terminal(row, "no-such-terminal"),
