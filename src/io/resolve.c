@@ -77,6 +77,19 @@ static const struct node *csv_map(struct arena *arena, const struct node *node)
 
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
+/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
+static const struct node *broken(struct resolver *r, const struct node *node)
+{
+    struct node *copy = r->problems->memory ? NULL : ceduo_arena_take(r->arena, sizeof *copy);
+    if (!copy) {
+        ceduo_problem_memory(r->problems);
+        return NULL;
+    }
+    *copy = *node;
+    copy->broken = true;
+    return copy;
+}
+
 /* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
 static const struct node *merge(struct arena *arena, const struct node *base, const struct node *over)
 {
@@ -100,11 +113,11 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
         return node;
     if (base->kind != NODE_SCALAR) {
         ceduo_node_problem(r->problems, base, "base", _("a path to a file is wanted"));
-        return NULL;
+        return broken(r, node);
     }
     const struct node *below = follow(r, object, base, depth + 1);
     if (!below)
-        return NULL;
+        return broken(r, node);
     if (below->kind != NODE_MAP)
         return below;
     const struct node *merged = merge(r->arena, below, node);
@@ -209,14 +222,17 @@ static const struct node *resolve_items(struct resolver *r, const struct object 
 
 static const struct node *resolve_entry(struct resolver *r, const struct field *f, const struct node *entry)
 {
-    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS)
-        return follow(r, f->object, entry, 0);
+    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
+        size_t before = r->problems->met;
+        const struct node *found = follow(r, f->object, entry, 0);
+        return found || r->problems->met == before ? found : broken(r, entry);
+    }
     if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
         return entry;
     if (strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST) { /* before so many files are looked for */
         ceduo_node_problem(r->problems, entry, f->key, _("%zu are more than the %d that can be computed at once"), entry->n,
                            CEDUO_ITEMS_MOST);
-        return NULL;
+        return broken(r, entry);
     }
     return resolve_items(r, f->object, entry);
 }
@@ -227,19 +243,16 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
         const struct field *f = ceduo_schema_field(object, map->items[i]->key);
         if (!f)
             continue;
-        size_t before = r->problems->met;
         const struct node *entry = resolve_entry(r, f, map->items[i]);
-        if (!entry && r->problems->met == before && !r->problems->memory)
+        if (entry == map->items[i])
+            continue;
+        const struct node *replaced = entry ? ceduo_node_replaced(r->arena, map, i, entry) : NULL;
+        if (!replaced) {
             ceduo_problem_memory(r->problems);
-        if (entry && entry != map->items[i]) {
-            const struct node *replaced = ceduo_node_replaced(r->arena, map, i, entry);
-            if (!replaced) {
-                ceduo_problem_memory(r->problems);
-                return NULL;
-            }
-            ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
-            map = replaced;
+            return NULL;
         }
+        ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
+        map = replaced;
     }
     return map;
 }

@@ -15,6 +15,8 @@ struct binder {
     struct problems *problems;
     struct text path;
     size_t file_start; /* where the path within the present file begins */
+    bool partial;      /* what the present mapping starts from is not known */
+    struct bad_values *bad;
     const struct source_note **notes;
 };
 
@@ -47,6 +49,24 @@ static const char *path_here(const struct binder *b)
     return path[0] == '.' ? path + 1 : path;
 }
 
+/* What stands at the present path is not to be reckoned with. */
+static void note_bad(struct binder *b)
+{
+    struct bad_values *bad = b->bad;
+    if (bad->n < CEDUO_BAD_MOST && !(bad->paths[bad->n] = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "")))
+        ceduo_problem_memory(b->problems);
+    else
+        bad->n++;
+}
+
+static bool is_bad(const struct binder *b)
+{
+    for (size_t i = 0; i < b->bad->n && i < CEDUO_BAD_MOST; i++)
+        if (strcmp(b->bad->paths[i], b->path.bytes ? b->path.bytes : "") == 0)
+            return true;
+    return false;
+}
+
 __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format,
                                                          ...)
 {
@@ -54,6 +74,7 @@ __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const
     va_start(args, format);
     report_v(b->problems, node, false, path_here(b), format, args);
     va_end(args);
+    note_bad(b);
 }
 
 __attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node,
@@ -155,6 +176,11 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
         ceduo_text_free(&list);
     }
     leave(b, before);
+    if (near) { /* what was meant is not known, but it is not missing */
+        before = enter(b, near);
+        note_bad(b);
+        leave(b, before);
+    }
 }
 
 /* ---- values ---- */
@@ -361,9 +387,11 @@ static void bind_numbers(struct binder *b, const struct field *f, const struct n
 {
     if (!want_list(b, node) || !(to->values = take(b, node->n, sizeof(double))))
         return;
+    to->n = node->n;
     for (size_t i = 0; i < node->n; i++) {
         size_t before = enter_item(b, i);
-        to->n += bind_number(b, f, node->items[i], &to->values[to->n]);
+        to->values[i] = NAN;
+        bind_number(b, f, node->items[i], &to->values[i]);
         leave(b, before);
     }
 }
@@ -376,13 +404,15 @@ static void bind_points(struct binder *b, const struct field *f, const struct no
     to->z = take(b, node->n, sizeof(double));
     if (!to->x || !to->z)
         return;
+    to->n = node->n;
     for (size_t i = 0; i < node->n; i++) {
         const struct node *pair = node->items[i];
         size_t before = enter_item(b, i);
+        to->x[i] = to->z[i] = NAN;
         if (pair->kind != NODE_LIST || pair->n != 2)
             report(b, pair, _("a pair [x, z] is wanted"));
-        else if (bind_number(b, f, pair->items[0], &to->x[to->n]) && bind_number(b, f, pair->items[1], &to->z[to->n]))
-            to->n++;
+        else if (bind_number(b, f, pair->items[0], &to->x[i]))
+            bind_number(b, f, pair->items[1], &to->z[i]);
         leave(b, before);
     }
 }
@@ -406,6 +436,10 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
 static void bind_field(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     void *to = (char *)item + f->offset;
+    if (node->broken)
+        note_bad(b);
+    if (node->broken && node->kind != NODE_MAP)
+        return;
     switch (f->type) {
     case FIELD_TAG:
         bind_tag(b, f, node);
@@ -510,7 +544,7 @@ static void bind_source(struct binder *b, const struct node *node)
     if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
         report(b, node, _("'kind' is missing: measured, literature or assumed"));
     leave(b, before);
-    if (!b->notes || kind < 0)
+    if (kind < 0)
         return;
     struct text whole = {0};
     ceduo_text_put(&whole, text);
@@ -521,14 +555,29 @@ static void bind_source(struct binder *b, const struct node *node)
     ceduo_text_free(&whole);
 }
 
+/* Of a mapping that is itself good. */
+__attribute__((format(printf, 3, 4))) static void report_at(struct binder *b, const struct node *node, const char *format,
+                                                            ...)
+{
+    va_list args;
+    va_start(args, format);
+    report_v(b->problems, node, false, path_here(b), format, args);
+    va_end(args);
+}
+
 static void report_missing(struct binder *b, const struct object *object, const struct node *node)
 {
     for (size_t i = 0; i < object->n; i++) {
         const struct field *f = &object->fields[i];
         bool tag = f->type == FIELD_TAG && node->key; /* not needed where the mapping stands in another file */
-        if (f->flags & FIELD_REQUIRED && !tag && !ceduo_node_get(node, f->key))
-            report(b, node, _("'%s' is missing: %s"), f->key,
-                   f->type == FIELD_TAG ? f->value : _(f->meaning));
+        if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key))
+            continue;
+        size_t before = enter(b, f->key);
+        bool told = is_bad(b);
+        note_bad(b);
+        leave(b, before);
+        if (!told)
+            report_at(b, node, _("'%s' is missing: %s"), f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
 }
 
@@ -538,6 +587,8 @@ static void bind_map(struct binder *b, const struct object *object, const struct
         report(b, node, _("a mapping is wanted here, not %s"), kind_name(node));
         return;
     }
+    bool partial = b->partial;
+    b->partial |= node->broken;
     size_t outer = b->file_start;
     if (node->written && node->written->kind == NODE_SCALAR)
         b->file_start = b->path.length; /* a file of its own: paths begin anew */
@@ -558,14 +609,16 @@ static void bind_map(struct binder *b, const struct object *object, const struct
         }
     }
     b->file_start = own;
-    report_missing(b, object, node);
+    if (!b->partial)
+        report_missing(b, object, node);
     b->file_start = outer;
+    b->partial = partial;
 }
 
 void ceduo_schema_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
-                       struct problems *problems, const struct source_note **notes)
+                       struct problems *problems, const struct source_note **notes, struct bad_values *bad)
 {
-    struct binder b = {.arena = arena, .problems = problems, .notes = notes};
+    struct binder b = {.arena = arena, .problems = problems, .notes = notes, .bad = bad};
     bind_map(&b, object, node, item);
     problems->memory |= b.path.failed;
     ceduo_text_free(&b.path);

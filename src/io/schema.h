@@ -95,10 +95,19 @@ struct source_note {
     const struct source_note *before;
 };
 
+#define CEDUO_BAD_MOST 100 /* with more, nobody asks what else does not fit */
+
+/* Paths of values that could not be read, are missing or do not exist. */
+struct bad_values {
+    const char *paths[CEDUO_BAD_MOST];
+    size_t n; /* more than there is room for: too many */
+};
+
 /* Fills `item` (already holding its defaults) from a mapping. What is wrong goes to `problems`, with the path of each
- * value; reading goes on, so that all problems of a file are found. `notes` (may be NULL) collects every source. */
+ * value; reading goes on, so that all problems of a file are found. `notes` collects every source, `bad` what is wrong. A number that is
+ * wrong is NaN where it has no default. */
 void ceduo_schema_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
-                       struct problems *problems, const struct source_note **notes);
+                       struct problems *problems, const struct source_note **notes, struct bad_values *bad);
 
 /* One field's value as a whole, the way ceduo_schema_bind() would; for checking a single edit. */
 bool ceduo_schema_range_text(const struct field *field, char *buffer, size_t size);
