@@ -323,6 +323,8 @@ static enum exit_status read_goal(struct arguments *a, char *value)
         return usage(_("--goal: '%s' is no number"), equals + 1);
     if (equals && !(a->goal_value >= 0))
         return usage(_("--goal: %s is below 0"), equals + 1);
+    if (equals && (a->goal == GOAL_FREE_RUN || a->goal == GOAL_EXCEED) && a->goal_value > 1)
+        return usage(_("--goal: %s is no share; write 0 to 1, as 0.05 for 5 %%"), equals + 1);
     return EXIT_DONE;
 }
 

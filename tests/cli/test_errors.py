@@ -453,6 +453,9 @@ CASES = {
     "--find wants a --goal: adc, free-run, energy=KJ or exceed": Words("--find", "a=1:9", "@"),
     "--goal: 'x' is unknown; one of adc, free-run, energy, exceed": Words("--find", "a=1:9", "--goal", "x", "@"),
     "--goal energy wants the mean energy in kJ: energy=50": Words("--find", "a=1:9", "--goal", "energy", "@"),
+    "--goal: 5 is no share; write 0 to 1, as 0.05 for 5 %": lambda row: (
+        Words("--find", "a=1:9", "--goal", "exceed=5", "@")(row),
+        Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal goes with --find": Words("--batch", "--goal", "adc", "@"),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
     "--find goes with neither --plot, --years nor --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
