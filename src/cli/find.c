@@ -123,7 +123,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
         status = one > status ? one : status;
     }
     ceduo_batch_localise(&out);
-    if ((out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
+    if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
         enum exit_status written = ceduo_batch_write(a, &out);
         status = written > status ? written : status;
     }

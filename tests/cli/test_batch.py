@@ -1711,6 +1711,34 @@ def test_list_profiles():
     expect_equal(result("paper-site.yaml", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
 
 
+def test_output_is_input():
+    """-o leaves every file alone that is read in the same run: scenes, what they refer to, parts, by any name"""
+    with Folder() as f:
+        f.write("line.csv", "distance,elevation\n0,64\n100,0\n")
+        f.write("stand.yaml", stand(ceduo="stand/1"))
+        f.write("s.yaml", scene(slope="line.csv", forest=[{"from_m": 10, "to_m": 60, "stand": "stand.yaml"}]))
+        f.write("bad.yaml", scene(rock=None, slope="line.csv"))
+        f.write("plain.yaml", scene())
+        os.link(f.path / "s.yaml", f.path / "hard.yaml")
+        (f.path / "soft.yaml").symlink_to("s.yaml")
+        (f.path / "part").write_bytes(good("--shard", "1/1", "s.yaml", cwd=f.path).out_bytes)
+        before = {n: (f.path / n).read_bytes() for n in f.names()}
+        with open(f.path / "s.yaml", "rb") as stdin:
+            runs = [("-b", "-o", n, "plain.yaml", "s.yaml") for n in
+                    ("s.yaml", "./s.yaml", "hard.yaml", "soft.yaml", "stand.yaml", "line.csv", "plain.yaml")]
+            runs += [("-b", "-o", "line.csv", "plain.yaml", "bad.yaml"), ("--merge", "-o", "part", "part"),
+                     ("--find", "rock.diameter_m=0.4:0.5", "--goal", "adc", "-o", "stand.yaml", "s.yaml"),
+                     ("--shard", "1/2", "-o", "line.csv", "s.yaml")]
+            for arguments in runs:
+                done = ceduo(*arguments, cwd=f.path)
+                expect(done.status == OUTPUT and done.out == "" and "is read in this run" in done.err, done)
+            done = subprocess.run([CEDUO, "-b", "-o", "s.yaml", "-"], stdin=stdin, stderr=subprocess.PIPE, cwd=f.path,
+                                  env=environment(), check=False)
+            expect(done.returncode == OUTPUT and b"is read in this run" in done.stderr, done)
+        expect_equal({n: (f.path / n).read_bytes() for n in f.names()}, before, "files")
+        good("-b", "-o", "s.yaml", "plain.yaml", cwd=f.path)
+
+
 def test_check_good():
     """--check of the shipped scenes prints nothing, status 0"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):

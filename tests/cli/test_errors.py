@@ -301,6 +301,7 @@ CASES = {
     "cannot read it: Is a directory": Words("--batch", ".", status=INPUT, start=".: "),
     "cannot read it: Permission denied": lambda row: as_nobody(row, "--check", "scene.yaml", forbidden="scene.yaml",
                                                                status=INPUT, start="scene.yaml: "),
+    "cannot read it: nobody writes to this FIFO": Elsewhere("tests/cli/test_input.py", "def test_fifo_first"),
     "larger than 16 MiB": Sparse("s.yaml", 16 * MEBIBYTE),
     "larger than 64 MiB": Sparse("line.csv", 64 * MEBIBYTE),
     "cannot find 'x.yaml' beside this file or among the profiles": sc("slope: slope.yaml", "slope: @@x.yaml"),
@@ -473,6 +474,8 @@ CASES = {
     "4 rocks were still moving after 1000000 contacts ... (in the result)": moving,
     "x, 90 m: whether 50 of 1000 rocks at most arrive with too much energy is too close to call; ... (in the result)":
         Elsewhere("tests/cli/test_batch.py", "def test_table_close_call"),
+    "scene.yaml: it is read in this run; write elsewhere (status 4)": Words(
+        "--batch", "-o", "scene.yaml", "@", status=OUTPUT, start="scene.yaml: "),
     "standard output: No space left on device (status 4)": full,
     "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, PROFILES, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
+from harness import (CEDUO, DONE, INPUT, PROFILES, SLOWER, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
                      expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of)
 
 SCENE = """\
@@ -540,6 +540,23 @@ def test_fifo():
         finally:
             writer.kill()
             writer.wait()
+
+
+def test_fifo_first():
+    """A FIFO is waited for whose writer comes a second later; one that nobody writes to is told of, not taken for empty"""
+    with Folder() as f:
+        fifo = f.path / "fifo.yaml"
+        os.mkfifo(fifo)
+        done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
+        time.sleep(1)
+        expect(done.poll() is None, "it did not wait")
+        with open(fifo, "wb") as out:
+            out.write(flat_scene())
+        expect_equal((done.communicate(timeout=10 * SLOWER)[1], done.returncode), (b"", DONE))
+        for mode in ("--check", "--batch"):
+            done = ceduo(mode, fifo)
+            expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: nobody writes to this FIFO\n"))
+            expect(2 < done.seconds < 10 * SLOWER, done)
 
 
 def test_names_with_escapes():
