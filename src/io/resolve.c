@@ -317,17 +317,21 @@ static bool step_index(const struct step *step, size_t *index)
     return true;
 }
 
-/* The item that a bracket means: by its place, or by its name; a belt by its stand's. */
+/* Whether an item has this name; a belt has its stand's. */
+static bool is_named(const struct node *item, const struct step *step)
+{
+    const char *name = ceduo_node_text(item, "name");
+    return step_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name"));
+}
+
+/* The item that a bracket means: by its place, or the first of its name. */
 static bool find_item(const struct node *list, const struct step *step, size_t *index)
 {
     if (step_index(step, index))
         return *index < list->n;
-    for (*index = 0; *index < list->n; ++*index) {
-        const struct node *item = list->items[*index];
-        const char *name = ceduo_node_text(item, "name");
-        if (step_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name")))
+    for (*index = 0; *index < list->n; ++*index)
+        if (is_named(list->items[*index], step))
             return true;
-    }
     return false;
 }
 
@@ -468,6 +472,21 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     return map ? ceduo_node_with(s->arena, map, key, child) : NULL;
 }
 
+/* Whether several items from the first on have the name that a bracket holds. Says so. */
+static bool is_ambiguous(struct setter *s, const struct node *list, const struct step *step, size_t first)
+{
+    struct text what = {0};
+    size_t place, n = 0;
+    ceduo_text_put(&what, _("this name is given more than once; take a place: "));
+    for (size_t i = first; i < list->n && !step_index(step, &place); i++)
+        if (is_named(list->items[i], step))
+            ceduo_text_format(&what, "%s[%zu]", n++ > 0 ? ", " : "", i);
+    if (n > 1)
+        fail_at(s, step, what.bytes ? what.bytes : "");
+    ceduo_text_free(&what);
+    return n > 1;
+}
+
 static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
                                    const struct step *step, size_t at)
 {
@@ -479,6 +498,8 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
         return NULL;
     if (!find_item(list, step, &i))
         return fail_at(s, step, _("no such item"));
+    if (is_ambiguous(s, list, step, i))
+        return NULL;
     const struct node *item = set_in(s, NULL, object, list->items[i], at);
     return item ? ceduo_node_replaced(s->arena, list, i, item) : NULL;
 }

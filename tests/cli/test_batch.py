@@ -986,6 +986,23 @@ def test_set_at_odds():
         expect(done.status == INPUT and "--set" not in done.err, done)
 
 
+def test_set_by_name_twice():
+    """-s refuses a name that several belts have, and names their places; it takes one that is there once"""
+    with Folder() as f:
+        belts = [{"from_m": x, "to_m": x + 9, "stand": stand(name=n)} for x, n in ((10, "a"), (20, "b"), (30, "a"), (40, "a"))]
+        path = f.write("s.yaml", scene(forest=belts))
+        good("--check", "-s", "forest[b].stand.trees[0].per_ha=1", path)
+        good("--check", "-s", "forest[0].stand.trees[0].per_ha=1", path)
+        bad_set_on(path, "forest[a].stand.trees[0].per_ha=1", "'a': this name is given more than once; take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[a]={}", "take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[c].to_m=1", "'c': no such item")
+
+
+def bad_set_on(path, change, words):
+    done = ceduo("--check", "-s", change, path)
+    expect(done.status == USAGE and words in done.err, done)
+
+
 def test_set_spreads():
     """-s makes a number a spread, whole or by its parts"""
     whole = result(PAPER, "-s", "rock.diameter_m={mean: 0.56, spread: 0.1, kind: uniform}")

@@ -421,6 +421,8 @@ CASES = {
     "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
     "'diameter': unknown key (ceduo --list-parameters)": Set("rock.@@diameter=1"),
     "'3': no such item": Set("controls[@@3].x_m=50"),
+    "'road': this name is given more than once; take a place: [0], [1]": Set(
+        "controls[1].name=road", "controls[@@road].accepted_kJ=1"),
     "'0': there is no list here": Set("rock[@@0]=1"),
     "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
     "'trees': there is none to change": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
