@@ -245,3 +245,20 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     }
     return CEDUO_NUMBER_GOOD;
 }
+
+void ceduo_text_csv(struct text *text, const char *value)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, value);
+    const char *bytes = safe.bytes ? safe.bytes : "";
+    if (!strpbrk(bytes, ",\"")) {
+        ceduo_text_put(text, bytes);
+    } else {
+        ceduo_text_char(text, '"');
+        for (; *bytes; bytes++)
+            ceduo_text_add(text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
+        ceduo_text_char(text, '"');
+    }
+    text->failed |= safe.failed;
+    ceduo_text_free(&safe);
+}
