@@ -447,7 +447,7 @@ static void fill_getopt(struct option *longs, char *shorts)
     *shorts = '\0';
 }
 
-/* What one of --shard and --merge does not go with. */
+/* What one of --shard, --merge and --check does not go with. */
 struct other_option {
     const char *name;
     bool given;
@@ -490,9 +490,42 @@ static enum exit_status check_parts(struct arguments *a)
     return status;
 }
 
+static enum exit_status check_check(const struct arguments *a)
+{
+    const struct other_option others[] = {{"format", a->format_given},
+                                          {"rows", a->rows_given},
+                                          {"rocks", a->rocks > 0},
+                                          {"tolerance", a->tolerance > 0},
+                                          {"output", a->output != NULL},
+                                          {"years", a->years},
+                                          {"find", a->find != NULL},
+                                          {"goal", a->goal_given},
+                                          {"plot", a->plot != CEDUO_PLOT_NONE},
+                                          {"size", a->plot_width > 0},
+                                          {"charset", a->charset_given},
+                                          {"script", a->script != NULL}};
+    return check_others("check", _("it computes nothing"), others, sizeof others / sizeof others[0]);
+}
+
+/* What would otherwise be passed over without a word. */
+static enum exit_status check_unused(const struct arguments *a)
+{
+    if (a->rows_given && a->format != CEDUO_CSV)
+        return usage(_("--rows goes with --format csv"));
+    if (a->charset_given && a->plot == CEDUO_PLOT_NONE && a->mode != MODE_TERMINAL)
+        return usage(_("--charset goes with --plot and the terminal program"));
+    if (a->script && a->mode != MODE_TERMINAL)
+        return usage(_("--script feeds the terminal program; it does not go with --batch"));
+    if (a->years && a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_ROTATION)
+        return usage(_("--years goes with the page, CSV, JSON and --plot rotation"));
+    return EXIT_DONE;
+}
+
 static enum exit_status check_together(struct arguments *a)
 {
     if (a->mode < MODE_HELP && check_parts(a) != EXIT_DONE)
+        return EXIT_USAGE;
+    if (a->mode == MODE_CHECK && check_check(a) != EXIT_DONE)
         return EXIT_USAGE;
     if (a->mode == MODE_MERGE && a->scenes_count == 0)
         return usage(_("--merge wants files with the parts that --shard wrote, '-' for standard input"));
@@ -513,6 +546,8 @@ static enum exit_status check_together(struct arguments *a)
         return usage(_("--plot prints a picture; it has no --format csv or json"));
     if (a->plot_width > 0 && a->plot == CEDUO_PLOT_NONE)
         return usage(_("--size goes with --plot"));
+    if (a->mode < MODE_HELP && check_unused(a) != EXIT_DONE)
+        return EXIT_USAGE;
     bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets_count > 0 || a->options_count > 0 || a->output ||
                       a->format != CEDUO_TABLE || a->stands;
     if (a->mode == MODE_TERMINAL && batch_only)

@@ -496,6 +496,16 @@ CASES = {
     "--merge does not go with --rocks: what is printed was computed with the parts": Words("--merge", "-n", 5, "@"),
     "--merge wants files with the parts that --shard wrote, ...": Words("--merge"),
     "--shard does not go with --format: it writes a part of one run, ...": Words("--shard", "1/2", "-f", "csv", "@"),
+    "--check does not go with --format: it computes nothing": lambda row: [
+        Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
+            ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
+            ("find", ("--find", "a=1:2", "--goal", "adc")), ("tolerance", ("-e", 0.1)), ("years", ("--years", "0:2")),
+            ("script", ("--script", "x")), ("charset", ("--charset", "ascii")), ("rows", ("--rows", "stands")))],
+    "--rows goes with --format csv": lambda row: [
+        Words("--batch", "--rows", "stands", *words, "@")(row) for words in ((), ("-f", "json"))],
+    "--charset goes with --plot and the terminal program": Words("--batch", "--charset", "ascii", "@"),
+    "--script feeds the terminal program; it does not go with --batch": Words("--batch", "--script", "x", "@"),
+    "--years goes with the page, CSV, JSON and --plot rotation": Words("--years", "0:5", "--plot", "profile", "@"),
     "--shard: '0/3' is no part of a whole; write I/N, ...": Words("--shard", "0/3", "@"),
 }
 
