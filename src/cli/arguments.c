@@ -159,7 +159,7 @@ static enum exit_status read_tolerance(struct arguments *a, const char *value)
     if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
         return usage(_("--tolerance: '%s' is no number"), value);
     if (!(number > 0) || !(number < 1))
-        return usage(_("--tolerance: %s lies outside 0 to 1"), value);
+        return usage(_("--tolerance: %s must lie above 0 and below 1"), value);
     a->tolerance = number;
     return EXIT_DONE;
 }
@@ -268,13 +268,15 @@ static enum exit_status read_years(struct arguments *a, const char *value)
         rest = colon ? colon + 1 : NULL;
         if (colon)
             *colon = '\0';
-        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]) && parts[n] >= 0;
+        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]);
         n++;
     }
     good = good && !rest && n >= 2;
     free(copy);
     if (!good)
         return usage(_("--years: '%s' is no stretch of years; write A:B or A:B:STEP, as 0:25"), value);
+    if (parts[0] < 0)
+        return usage(_("--years: %s begins before year 0, the stand as filed"), value);
     if (parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1)
         return usage(_("--years: %s goes backwards, or too far"), value);
     if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
@@ -383,7 +385,7 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
         return read_format(a, value);
     case 'o':
         a->output = value;
-        return EXIT_DONE;
+        return *value ? EXIT_DONE : usage(_("--output: name a file"));
     case 's':
         a->sets[a->sets_count++] = value;
         return EXIT_DONE;

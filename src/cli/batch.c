@@ -201,6 +201,17 @@ static bool is_wanted(const struct arguments *a, const char *name)
     return false;
 }
 
+enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char *name)
+{
+    struct text message = {0};
+    ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: "), name, file->path);
+    for (size_t i = 0; i < file->scene.options_count; i++)
+        ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", file->scene.options[i].name);
+    ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
+    ceduo_text_free(&message);
+    return EXIT_USAGE;
+}
+
 /* Keeps only the options that were asked for, in the scene's order. */
 enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file *file)
 {
@@ -208,13 +219,8 @@ enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file
         bool found = false;
         for (size_t k = 0; k < file->scene.options_count; k++)
             found |= strcmp(file->scene.options[k].name, a->options[i]) == 0;
-        if (!found) {
-            struct text message = {0};
-            ceduo_text_format(&message, _("--option: no option '%s' in %s"), a->options[i], file->path);
-            ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
-            ceduo_text_free(&message);
-            return EXIT_USAGE;
-        }
+        if (!found)
+            return ceduo_batch_no_option(file, a->options[i]);
     }
     const struct node *list = ceduo_node_get(file->root, "options");
     if (a->options_count == 0 || !list)

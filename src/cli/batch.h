@@ -30,6 +30,9 @@ enum exit_status ceduo_batch_read(const struct arguments *arguments, const char 
 /* Keeps only the options that --option names. EXIT_USAGE where there is none of that name. */
 enum exit_status ceduo_batch_choose(const struct arguments *arguments, struct scene_file *file);
 
+/* Says that a scene has no option of this name, and which it has. EXIT_USAGE. */
+enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char *name);
+
 /* The rocks to fly of a scene: -n, or what it says. */
 uint64_t ceduo_batch_rocks(const struct arguments *arguments, const struct scene_file *file);
 

@@ -70,8 +70,9 @@ static void put_page(struct text *out, const struct arguments *a, const struct s
 }
 
 /* The one option to look at. */
-static enum exit_status choose(const struct arguments *a, const struct ceduo_scene *scene, size_t *option)
+static enum exit_status choose(const struct arguments *a, const struct scene_file *file, size_t *option)
 {
+    const struct ceduo_scene *scene = &file->scene;
     if (a->options_count != 1 && scene->options_count > 1) {
         ceduo_batch_complain("ceduo", _("--find: the scene has several options; name one with --option"));
         return EXIT_USAGE;
@@ -81,11 +82,7 @@ static enum exit_status choose(const struct arguments *a, const struct ceduo_sce
             return EXIT_DONE;
     if (a->options_count == 0)
         return EXIT_DONE;
-    struct text message = {0};
-    ceduo_text_format(&message, _("--option: no option '%s'"), a->options[0]);
-    ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
-    ceduo_text_free(&message);
-    return EXIT_USAGE;
+    return ceduo_batch_no_option(file, a->options[0]);
 }
 
 enum exit_status ceduo_batch_find(const struct arguments *a)
@@ -100,7 +97,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
         size_t option = 0;
         enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
         if (one == EXIT_DONE)
-            one = choose(a, &file.scene, &option);
+            one = choose(a, &file, &option);
         if (one == EXIT_DONE) {
             ceduo_interrupt_catch();
             struct seek seek = {.file = &file,

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "ceduo/material.h"
 #include "csv_slope.h"
@@ -711,13 +713,44 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     return root != NULL;
 }
 
-/* The file's own name, or the shipped scene that the name means. */
-static const char *scene_path(struct scene_file *file, const char *path)
+/* A name that is neither a file nor a scene among the profiles: the nearest of these, and where they were looked for. */
+static void complain_no_scene(struct scene_file *file, const char *path, struct problems *problems)
 {
-    if (strcmp(path, "-") == 0)
-        return path;
-    const char *found = ceduo_file_find(&file->arena, path, NULL, "scenes");
-    return found ? found : path;
+    struct text names = {0}, folders = {0};
+    const char *near = NULL;
+    char *plain = ceduo_arena_string(&file->arena, path);
+    size_t length = plain ? strlen(plain) : 0;
+    if (length > 5 && strcmp(plain + length - 5, ".yaml") == 0)
+        plain[length - 5] = '\0';
+    const char *const *all = plain ? ceduo_file_folders(&file->arena) : NULL;
+    for (size_t i = 0; all && all[i]; i++) {
+        size_t n;
+        const char *const *list = ceduo_file_list(&file->arena, all[i], "scenes", &n);
+        const char **words = ceduo_arena_take(&file->arena, (n + 1) * sizeof *words);
+        for (size_t k = 0; words && k < n; k++)
+            words[k] = ceduo_arena_copy(&file->arena, list[k], strlen(list[k]) - 5);
+        near = near || !words || file->arena.failed ? near : ceduo_text_nearest(plain, words, n);
+        ceduo_text_format(&folders, "%s%s/scenes", i > 0 ? ", " : "", all[i]);
+    }
+    if (near)
+        ceduo_text_format(&names, _("; did you mean '%s'?"), near);
+    if (folders.bytes)
+        ceduo_text_format(&names, _(" (looked for here and in %s)"), folders.bytes);
+    problems->memory |= names.failed || folders.failed || file->arena.failed;
+    ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
+                  names.bytes ? names.bytes : "");
+    ceduo_text_free(&names);
+    ceduo_text_free(&folders);
+}
+
+/* The file's own name, or the shipped scene that the name means; NULL where it is neither, which is told. */
+static const char *scene_path(struct scene_file *file, const char *path, struct problems *problems)
+{
+    const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
+    if (found || *path == '\0' || strchr(path, '/') || access(path, F_OK) == 0 || errno != ENOENT)
+        return found ? found : path;
+    complain_no_scene(file, path, problems);
+    return NULL;
 }
 
 /* From the text of a scene to the scene. */
@@ -801,7 +834,8 @@ bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const cha
                          size_t sets_count, struct problems *problems)
 {
     *file = (struct scene_file){.path = path, .arena = {.shelf = shelf}};
-    const struct source *source = ceduo_file_read(&file->arena, scene_path(file, path), YAML_BYTES_MOST, problems);
+    const char *found = scene_path(file, path, problems);
+    const struct source *source = found ? ceduo_file_read(&file->arena, found, YAML_BYTES_MOST, problems) : NULL;
     return source && read_source(file, source, sets, sets_count, problems);
 }
 

@@ -121,50 +121,13 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
     return NULL;
 }
 
-/* Levenshtein's distance between short words. */
-static size_t distance(const char *a, const char *b)
-{
-    size_t row[64], n = strlen(b);
-    if (n >= 64 || strlen(a) >= 64)
-        return 64;
-    for (size_t j = 0; j <= n; j++)
-        row[j] = j;
-    for (size_t i = 1; a[i - 1]; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= n; j++) {
-            size_t change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            size_t add = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            row[j] = change < add ? change : add;
-        }
-    }
-    return row[n];
-}
-
-/* The nearest of some words, NULL where none is near. */
-static const char *nearest(const char *word, const char *const *words, size_t n)
-{
-    const char *best = NULL;
-    size_t least = strlen(word) / 2 + 2;
-    for (size_t i = 0; i < n; i++) {
-        size_t d = distance(word, words[i]);
-        bool longer = strncmp(words[i], word, strlen(word)) == 0; /* dbh for dbh_m */
-        if (d < least || (longer && !best)) {
-            least = d < least ? d : least;
-            best = words[i];
-        }
-    }
-    return best;
-}
-
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
     const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++)
         words[n++] = object->fields[i].key;
-    const char *near = nearest(entry->key, words, n);
+    const char *near = ceduo_text_nearest(entry->key, words, n);
     size_t before = enter(b, entry->key);
     if (near) {
         report_key(b, entry, _("unknown key; did you mean '%s'?"), near);
@@ -272,7 +235,7 @@ static void bind_choice(struct binder *b, const struct field *f, const struct no
     struct text list = {0};
     for (size_t i = 0; i < f->choices->n; i++)
         ceduo_text_format(&list, "%s%s", i ? ", " : "", f->choices->names[i]);
-    const char *near = nearest(node->text, f->choices->names, f->choices->n);
+    const char *near = ceduo_text_nearest(node->text, f->choices->names, f->choices->n);
     if (near && f->choices->n > 1)
         report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, list.bytes ? list.bytes : "");
     else

@@ -51,4 +51,7 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
 /* A field of CSV, in quotes where it needs them. */
 void ceduo_text_csv(struct text *text, const char *value);
 
+/* The nearest of some words, NULL where none is near. */
+const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n);
+
 #endif

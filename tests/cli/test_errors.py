@@ -298,6 +298,8 @@ LINE = "distance,elevation\n0,64\n100,0\n"
 CASES = {
     # Reading a file
     "cannot read it: No such file or directory": Words("--batch", "none.yaml", status=INPUT, start="none.yaml: "),
+    "cannot read it: No such file or directory; did you mean 'paper-site'? ...": lambda row: [
+        Words("--batch", name, status=INPUT, start=f"{name}: ")(row) for name in ("paper-sit", "papersite.yaml")],
     "cannot read it: Is a directory": Words("--batch", ".", status=INPUT, start=".: "),
     "cannot read it: Permission denied": lambda row: as_nobody(row, "--check", "scene.yaml", forbidden="scene.yaml",
                                                                status=INPUT, start="scene.yaml: "),
@@ -417,6 +419,7 @@ CASES = {
         "stools: {per_ha: @@7000, spacing_m: 0.25}\nshoots:\n  - per_ha: 6000"),
     "'bare', but there are stems; name the system or take them out": st("system: simple-coppice", "system: @@bare"),
     # Changes by --set
+    "holds no value, nothing follows the =": Set("release.height_m=@@"),
     "PATH=VALUE is wanted": Set("@@rock.diameter_m"),
     "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
     "'diameter': unknown key (ceduo --list-parameters)": Set("rock.@@diameter=1"),
@@ -445,7 +448,10 @@ CASES = {
     "--charset: 'x' is unknown; one of braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is no whole number": Words("--batch", "-n", "1.5", "@"),
     "--rocks: 0 lies outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
-    "--tolerance: 1 lies outside 0 to 1": Words("--batch", "-e", "1", "@"),
+    "--tolerance: 1 must lie above 0 and below 1": lambda row: (
+        Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 must", "0 must"))),
+    "--output: name a file": Words("--batch", "-o", "", "@"),
+    "--years: -5:-1 begins before year 0, the stand as filed": Words("--years=-5:-1", "@"),
     "--size: '80' is no size; write columns x lines, as 80x24": Words("--plot", "adc", "--size", "80", "@"),
     "--size: 10x5 lies outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
     "--years: '5' is no stretch of years; write A:B or A:B:STEP, as 0:25": Words("--years", "5", "@"),
@@ -464,7 +470,9 @@ CASES = {
     "--find goes with neither --plot, --years nor --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
     "--size goes with --plot": Words("--batch", "--size", "80x24", "@"),
     "--plot prints a picture; it has no --format csv or json": Words("--plot", "adc", "-f", "csv", "@"),
-    "--option: no option 'x' in mine.yaml": lambda row: Words("--batch", "--option", "x", "@")(row.replace("mine", "scene")),
+    "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
+        Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
+            ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
     # Scripts
     "key, type, resize, wait idle, dump or roles is wanted: x": Script("# first\nx\n", 2),
     "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),
