@@ -159,7 +159,7 @@ static enum exit_status read_tolerance(struct arguments *a, const char *value)
     if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
         return usage(_("--tolerance: '%s' is no number"), value);
     if (!(number > 0) || !(number < 1))
-        return usage(_("--tolerance: %s lies outside 0 to 1"), value);
+        return usage(_("--tolerance: %s must lie above 0 and below 1"), value);
     a->tolerance = number;
     return EXIT_DONE;
 }
@@ -268,13 +268,15 @@ static enum exit_status read_years(struct arguments *a, const char *value)
         rest = colon ? colon + 1 : NULL;
         if (colon)
             *colon = '\0';
-        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]) && parts[n] >= 0;
+        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]);
         n++;
     }
     good = good && !rest && n >= 2;
     free(copy);
     if (!good)
         return usage(_("--years: '%s' is no stretch of years; write A:B or A:B:STEP, as 0:25"), value);
+    if (parts[0] < 0)
+        return usage(_("--years: %s begins before year 0, the stand as filed"), value);
     if (parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1)
         return usage(_("--years: %s goes backwards, or too far"), value);
     if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
@@ -323,6 +325,8 @@ static enum exit_status read_goal(struct arguments *a, char *value)
         return usage(_("--goal: '%s' is no number"), equals + 1);
     if (equals && !(a->goal_value >= 0))
         return usage(_("--goal: %s is below 0"), equals + 1);
+    if (equals && (a->goal == GOAL_FREE_RUN || a->goal == GOAL_EXCEED) && a->goal_value > 1)
+        return usage(_("--goal: %s is no share; write 0 to 1, as 0.05 for 5 %%"), equals + 1);
     return EXIT_DONE;
 }
 
@@ -381,7 +385,7 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
         return read_format(a, value);
     case 'o':
         a->output = value;
-        return EXIT_DONE;
+        return *value ? EXIT_DONE : usage(_("--output: name a file"));
     case 's':
         a->sets[a->sets_count++] = value;
         return EXIT_DONE;
@@ -445,7 +449,7 @@ static void fill_getopt(struct option *longs, char *shorts)
     *shorts = '\0';
 }
 
-/* What one of --shard and --merge does not go with. */
+/* What one of --shard, --merge and --check does not go with. */
 struct other_option {
     const char *name;
     bool given;
@@ -488,9 +492,42 @@ static enum exit_status check_parts(struct arguments *a)
     return status;
 }
 
+static enum exit_status check_check(const struct arguments *a)
+{
+    const struct other_option others[] = {{"format", a->format_given},
+                                          {"rows", a->rows_given},
+                                          {"rocks", a->rocks > 0},
+                                          {"tolerance", a->tolerance > 0},
+                                          {"output", a->output != NULL},
+                                          {"years", a->years},
+                                          {"find", a->find != NULL},
+                                          {"goal", a->goal_given},
+                                          {"plot", a->plot != CEDUO_PLOT_NONE},
+                                          {"size", a->plot_width > 0},
+                                          {"charset", a->charset_given},
+                                          {"script", a->script != NULL}};
+    return check_others("check", _("it computes nothing"), others, sizeof others / sizeof others[0]);
+}
+
+/* What would otherwise be passed over without a word. */
+static enum exit_status check_unused(const struct arguments *a)
+{
+    if (a->rows_given && a->format != CEDUO_CSV)
+        return usage(_("--rows goes with --format csv"));
+    if (a->charset_given && a->plot == CEDUO_PLOT_NONE && a->mode != MODE_TERMINAL)
+        return usage(_("--charset goes with --plot and the terminal program"));
+    if (a->script && a->mode != MODE_TERMINAL)
+        return usage(_("--script feeds the terminal program; it does not go with --batch"));
+    if (a->years && a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_ROTATION)
+        return usage(_("--years goes with the page, CSV, JSON and --plot rotation"));
+    return EXIT_DONE;
+}
+
 static enum exit_status check_together(struct arguments *a)
 {
     if (a->mode < MODE_HELP && check_parts(a) != EXIT_DONE)
+        return EXIT_USAGE;
+    if (a->mode == MODE_CHECK && check_check(a) != EXIT_DONE)
         return EXIT_USAGE;
     if (a->mode == MODE_MERGE && a->scenes_count == 0)
         return usage(_("--merge wants files with the parts that --shard wrote, '-' for standard input"));
@@ -511,6 +548,8 @@ static enum exit_status check_together(struct arguments *a)
         return usage(_("--plot prints a picture; it has no --format csv or json"));
     if (a->plot_width > 0 && a->plot == CEDUO_PLOT_NONE)
         return usage(_("--size goes with --plot"));
+    if (a->mode < MODE_HELP && check_unused(a) != EXIT_DONE)
+        return EXIT_USAGE;
     bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets_count > 0 || a->options_count > 0 || a->output ||
                       a->format != CEDUO_TABLE || a->stands;
     if (a->mode == MODE_TERMINAL && batch_only)

@@ -124,12 +124,29 @@ enum exit_status ceduo_batch_write(const struct arguments *a, const struct text 
     return write_after(-1, a, text);
 }
 
+/* Whether --output is this file, by whatever name. Says so. */
+static bool is_output(const struct arguments *a, const char *path)
+{
+    if (!a->output || !path || !ceduo_file_same(a->output, path))
+        return false;
+    ceduo_batch_complain(a->output, _("it is read in this run; write elsewhere"));
+    return true;
+}
+
 bool ceduo_batch_can_write(const struct arguments *a)
 {
-    if (!a->output || ceduo_file_can_write(a->output))
-        return true;
-    ceduo_batch_complain(a->output, strerror(errno));
-    return false;
+    struct arena arena = {0};
+    bool good = !a->output || ceduo_file_can_write(a->output);
+    if (!good)
+        ceduo_batch_complain(a->output, strerror(errno));
+    for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
+        const char *path = a->scenes[i];
+        if (a->mode != MODE_MERGE && strcmp(path, "-") != 0)
+            path = ceduo_file_find(&arena, path, NULL, "scenes");
+        good = !is_output(a, path);
+    }
+    ceduo_arena_free(&arena);
+    return good;
 }
 
 /* Results that wait for the last scene go into a nameless file once they are large, so that thousands of scenes need no
@@ -184,6 +201,17 @@ static bool is_wanted(const struct arguments *a, const char *name)
     return false;
 }
 
+enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char *name)
+{
+    struct text message = {0};
+    ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: "), name, file->path);
+    for (size_t i = 0; i < file->scene.options_count; i++)
+        ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", file->scene.options[i].name);
+    ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
+    ceduo_text_free(&message);
+    return EXIT_USAGE;
+}
+
 /* Keeps only the options that were asked for, in the scene's order. */
 enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file *file)
 {
@@ -191,13 +219,8 @@ enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file
         bool found = false;
         for (size_t k = 0; k < file->scene.options_count; k++)
             found |= strcmp(file->scene.options[k].name, a->options[i]) == 0;
-        if (!found) {
-            struct text message = {0};
-            ceduo_text_format(&message, _("--option: no option '%s' in %s"), a->options[i], file->path);
-            ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
-            ceduo_text_free(&message);
-            return EXIT_USAGE;
-        }
+        if (!found)
+            return ceduo_batch_no_option(file, a->options[i]);
     }
     const struct node *list = ceduo_node_get(file->root, "options");
     if (a->options_count == 0 || !list)
@@ -217,11 +240,18 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
                                   struct scene_file *file)
 {
     struct problems problems = {0};
-    bool good = ceduo_scene_read_by(file, shelf, path, a->sets, a->sets_count, &problems);
+    struct shelf own = {0}; /* what is read from the disk, for -o */
+    bool good = ceduo_scene_read_by(file, shelf ? shelf : &own, path, a->sets, a->sets_count, &problems);
     ceduo_problems_close(&problems);
     ceduo_batch_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
     ceduo_problems_free(&problems);
+    const struct shelf *read = shelf ? shelf : &own;
+    for (const struct shelf_file *f = read->closed ? NULL : read->files; f && status != EXIT_OUTPUT; f = f->before)
+        if (is_output(a, f->path))
+            status = EXIT_OUTPUT;
+    if (!shelf)
+        file->arena.shelf = NULL;
     return status;
 }
 
@@ -495,6 +525,10 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         struct text one = {0};
         enum exit_status result = batch_scene(a, i, &one);
         status = worse(status, result);
+        if (result == EXIT_OUTPUT) { /* nothing is written over what was read */
+            ceduo_text_free(&one);
+            break;
+        }
         bool interrupted = atomic_load(ceduo_interrupt_flag());
         if (result <= EXIT_RUN && one.bytes && !interrupted) {
             if (first && a->format == CEDUO_CSV)
@@ -517,7 +551,7 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         }
         ceduo_interrupt_release();
     }
-    if (a->output && (!first || out.failed))
+    if (a->output && status != EXIT_OUTPUT && (!first || out.failed))
         status = worse(status, write_after(spool ? fileno(spool) : -1, a, &out));
     if (spool)
         fclose(spool);

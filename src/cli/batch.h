@@ -15,19 +15,23 @@ enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
 
-/* Whether it can be written to where --output says, as far as that can be told; says why not. */
+/* Whether it can be written to where --output says, as far as that can be told, and that is none of the files given;
+ * says why not. */
 bool ceduo_batch_can_write(const struct arguments *arguments);
 
 /* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
 enum exit_status ceduo_batch_write(const struct arguments *arguments, const struct text *text);
 
-/* Reads a scene with the changes of the command line; what is wrong with it goes to standard error. `shelf`: see
- * io/file.h; may be NULL. */
+/* Reads a scene with the changes of the command line; what is wrong with it goes to standard error. EXIT_OUTPUT where
+ * --output is one of the files that it was read from. `shelf`: see io/file.h; may be NULL. */
 enum exit_status ceduo_batch_read(const struct arguments *arguments, const char *path, struct shelf *shelf,
                                   struct scene_file *file);
 
 /* Keeps only the options that --option names. EXIT_USAGE where there is none of that name. */
 enum exit_status ceduo_batch_choose(const struct arguments *arguments, struct scene_file *file);
+
+/* Says that a scene has no option of this name, and which it has. EXIT_USAGE. */
+enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char *name);
 
 /* The rocks to fly of a scene: -n, or what it says. */
 uint64_t ceduo_batch_rocks(const struct arguments *arguments, const struct scene_file *file);

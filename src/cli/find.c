@@ -48,20 +48,31 @@ static void put_json(struct text *out, const struct arguments *a, const struct s
 static void put_csv(struct text *out, const struct arguments *a, const struct seek *s, const struct ceduo_found *f)
 {
     char room[CEDUO_NUMBER_ROOM];
-    struct text name = {0};
-    ceduo_text_safe(&name, s->file->scene.options[s->option].name);
-    ceduo_text_format(out, "\"%s\",\"%s\",%s,", s->path, name.bytes ? name.bytes : "", ceduo_goal_names[a->goal]);
+    const char *const texts[] = {s->file->path, s->path, s->file->scene.options[s->option].name, ceduo_goal_names[a->goal]};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        ceduo_text_csv(out, texts[i]);
+        ceduo_text_char(out, ',');
+    }
     const double numbers[] = {s->target, s->lo, s->hi, f->value, f->goal_at_value, f->nearest, f->goal_at_nearest};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         ceduo_text_format(out, "%s,", isfinite(numbers[i]) ? ceduo_number_shortest(numbers[i], room) : "");
-    ceduo_text_format(out, "%s,%s,%s,%u\n", f->found ? "true" : "false", f->found ? side_of(f) : "",
-                      f->monotone ? "true" : "false", f->evaluations);
-    ceduo_text_free(&name);
+    ceduo_text_format(out, "%s,%s,%s,%u,%llu\n", f->found ? "true" : "false", f->found ? side_of(f) : "",
+                      f->monotone ? "true" : "false", f->evaluations, (unsigned long long)s->rocks);
+}
+
+static void put_page(struct text *out, const struct arguments *a, const struct seek *s, const struct ceduo_found *f)
+{
+    if (a->scenes_count > 1) {
+        ceduo_text_safe(out, s->file->path);
+        ceduo_text_put(out, ":\n");
+    }
+    ceduo_seek_say(s, f, out);
 }
 
 /* The one option to look at. */
-static enum exit_status choose(const struct arguments *a, const struct ceduo_scene *scene, size_t *option)
+static enum exit_status choose(const struct arguments *a, const struct scene_file *file, size_t *option)
 {
+    const struct ceduo_scene *scene = &file->scene;
     if (a->options_count != 1 && scene->options_count > 1) {
         ceduo_batch_complain("ceduo", _("--find: the scene has several options; name one with --option"));
         return EXIT_USAGE;
@@ -71,11 +82,7 @@ static enum exit_status choose(const struct arguments *a, const struct ceduo_sce
             return EXIT_DONE;
     if (a->options_count == 0)
         return EXIT_DONE;
-    struct text message = {0};
-    ceduo_text_format(&message, _("--option: no option '%s'"), a->options[0]);
-    ceduo_batch_complain("ceduo", message.bytes ? message.bytes : "");
-    ceduo_text_free(&message);
-    return EXIT_USAGE;
+    return ceduo_batch_no_option(file, a->options[0]);
 }
 
 enum exit_status ceduo_batch_find(const struct arguments *a)
@@ -83,14 +90,14 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
     struct text out = {0};
     enum exit_status status = EXIT_DONE;
     if (a->format == CEDUO_CSV)
-        ceduo_text_put(&out, "path,option,goal,target,lo,hi,value,goal_at_value,nearest,goal_at_nearest,found,side,"
-                             "monotone,evaluations\n");
+        ceduo_text_put(&out, "scene,path,option,goal,target,lo,hi,value,goal_at_value,nearest,goal_at_nearest,found,side,"
+                             "monotone,evaluations,rocks\n");
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
         size_t option = 0;
         enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
         if (one == EXIT_DONE)
-            one = choose(a, &file.scene, &option);
+            one = choose(a, &file, &option);
         if (one == EXIT_DONE) {
             ceduo_interrupt_catch();
             struct seek seek = {.file = &file,
@@ -108,6 +115,8 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
             enum ceduo_status done = ceduo_seek(&seek, &found, &problems);
             ceduo_problems_close(&problems);
             ceduo_batch_say(&problems.text);
+            if (done == CEDUO_OK && found.found) /* the nearest is of those that do not reach it */
+                found.nearest = found.goal_at_nearest = NAN;
             if (done != CEDUO_OK)
                 one = problems.count > 0 ? EXIT_USAGE : EXIT_RUN;
             else if (a->format == CEDUO_JSON)
@@ -115,7 +124,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
             else if (a->format == CEDUO_CSV)
                 put_csv(&out, a, &seek, &found);
             else
-                ceduo_seek_say(&seek, &found, &out);
+                put_page(&out, a, &seek, &found);
             ceduo_problems_free(&problems);
             ceduo_interrupt_release();
         }
@@ -123,7 +132,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
         status = one > status ? one : status;
     }
     ceduo_batch_localise(&out);
-    if ((out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
+    if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
         enum exit_status written = ceduo_batch_write(a, &out);
         status = written > status ? written : status;
     }

@@ -94,7 +94,7 @@ static void read_file(struct parts *all, const char *file)
 {
     struct text *text = &all->texts[all->files++];
     if (!ceduo_file_take(file, text, PART_BYTES_MOST)) {
-        complain(all, file, 0, _("cannot read it: %s"), strerror(errno));
+        complain(all, file, 0, _("cannot read it: %s"), ceduo_file_why(errno));
         return;
     }
     if (text->length == 0)

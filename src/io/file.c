@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
+#include <poll.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,6 +18,35 @@
 /* ---- reading ---- */
 
 #define ROOM_FIRST ((size_t)64 * 1024)
+#define FIFO_WAIT  3000 /* ms */
+
+/* As read(), but what writes to a FIFO may begin later: a reader that came first waits for it, though not for ever.
+ * ETIME: nobody came. `first`: nothing was read yet. */
+static ssize_t read_part(int fd, char *to, size_t room, bool first)
+{
+    struct pollfd poll_fd = {.fd = fd, .events = POLLIN};
+    struct stat st;
+    for (bool waited = false, came = false;;) {
+        ssize_t n = read(fd, to, room);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0 && errno == EAGAIN) { /* it is there, and has nothing to say yet */
+            came = true;
+            poll(&poll_fd, 1, -1);
+            continue;
+        }
+        if (n != 0 || came || !first || fstat(fd, &st) != 0 || !S_ISFIFO(st.st_mode))
+            return n;
+        if (waited) {
+            errno = ETIME;
+            return -1;
+        }
+        int ready = poll(&poll_fd, 1, FIFO_WAIT);
+        if (ready > 0 && !(poll_fd.revents & POLLIN)) /* it came and went */
+            return 0;
+        waited = ready == 0;
+    }
+}
 
 /* What a file holds, straight into the arena: a large one is in memory once. `size` is what the file says of itself; a
  * device or pipe says nothing. */
@@ -25,9 +55,7 @@ static bool read_all(int fd, struct arena *arena, size_t size, size_t most, stru
     size_t room = size > 0 ? size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
     char *bytes = ceduo_arena_take(arena, room + 1);
     while (bytes) {
-        ssize_t got = read(fd, bytes + n, room - n);
-        if (got < 0 && errno == EINTR)
-            continue;
+        ssize_t got = read_part(fd, bytes + n, room - n, n == 0);
         if (got < 0)
             return false;
         n += (size_t)got;
@@ -55,9 +83,7 @@ static bool read_text(int fd, struct text *into, size_t most)
 {
     char part[65536];
     for (;;) {
-        ssize_t n = read(fd, part, sizeof part);
-        if (n < 0 && errno == EINTR)
-            continue;
+        ssize_t n = read_part(fd, part, sizeof part, into->length == 0);
         if (n < 0)
             return false;
         if (n == 0)
@@ -79,21 +105,26 @@ static bool is_standard(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-/* Does not wait for somebody to open the other end of a FIFO; waits for what a writer that is there has to say. */
+/* Does not wait for somebody to open the other end of a FIFO: read_part() does, but not for ever. */
 static int open_to_read(const char *path)
 {
     if (is_standard(path))
         return STDIN_FILENO;
     int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    struct stat st;
+    struct stat st = {0};
     if (fd >= 0 && fstat(fd, &st) == 0 && S_ISDIR(st.st_mode)) {
         close(fd);
         errno = EISDIR;
         return -1;
     }
-    if (fd >= 0)
+    if (fd >= 0 && !S_ISFIFO(st.st_mode))
         fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
     return fd;
+}
+
+const char *ceduo_file_why(int why)
+{
+    return why == ETIME ? _("nobody writes to this FIFO") : strerror(why);
 }
 
 /* Keeps the errno of what was done before. */
@@ -216,7 +247,7 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     else if (why == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
     else
-        ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"), strerror(why));
+        ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"), ceduo_file_why(why));
     return NULL;
 }
 
@@ -536,6 +567,13 @@ bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n)
 {
     return write_file(path, &(struct content){before, bytes, n}, true);
+}
+
+bool ceduo_file_same(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && (is_standard(b) ? fstat(STDIN_FILENO, &y) : stat(b, &y)) == 0 &&
+           S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
 bool ceduo_file_can_write(const char *path)

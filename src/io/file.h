@@ -47,6 +47,9 @@ bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name
 bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length);
 
 /* Reads a file ("-": standard input) of at most `most` bytes into a text. False with errno set. */
+/* What an errno of reading means. */
+const char *ceduo_file_why(int why);
+
 bool ceduo_file_take(const char *path, struct text *text, size_t most);
 
 /* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else straight.
@@ -58,6 +61,9 @@ bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n);
 
 /* The same as ceduo_file_write(), but first what the open file `before` holds (-1: nothing). */
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n);
+
+/* Whether two paths lead to one regular file; `b` may be "-", standard input. */
+bool ceduo_file_same(const char *a, const char *b);
 
 /* Whether ceduo_file_write() could begin, as far as that can be told without writing. False with errno set. */
 bool ceduo_file_can_write(const char *path);

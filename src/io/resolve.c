@@ -77,6 +77,19 @@ static const struct node *csv_map(struct arena *arena, const struct node *node)
 
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
+/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
+static const struct node *broken(struct resolver *r, const struct node *node)
+{
+    struct node *copy = r->problems->memory ? NULL : ceduo_arena_take(r->arena, sizeof *copy);
+    if (!copy) {
+        ceduo_problem_memory(r->problems);
+        return NULL;
+    }
+    *copy = *node;
+    copy->broken = true;
+    return copy;
+}
+
 /* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
 static const struct node *merge(struct arena *arena, const struct node *base, const struct node *over)
 {
@@ -100,11 +113,11 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
         return node;
     if (base->kind != NODE_SCALAR) {
         ceduo_node_problem(r->problems, base, "base", _("a path to a file is wanted"));
-        return NULL;
+        return broken(r, node);
     }
     const struct node *below = follow(r, object, base, depth + 1);
     if (!below)
-        return NULL;
+        return broken(r, node);
     if (below->kind != NODE_MAP)
         return below;
     const struct node *merged = merge(r->arena, below, node);
@@ -209,14 +222,17 @@ static const struct node *resolve_items(struct resolver *r, const struct object 
 
 static const struct node *resolve_entry(struct resolver *r, const struct field *f, const struct node *entry)
 {
-    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS)
-        return follow(r, f->object, entry, 0);
+    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
+        size_t before = r->problems->met;
+        const struct node *found = follow(r, f->object, entry, 0);
+        return found || r->problems->met == before ? found : broken(r, entry);
+    }
     if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
         return entry;
     if (strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST) { /* before so many files are looked for */
         ceduo_node_problem(r->problems, entry, f->key, _("%zu are more than the %d that can be computed at once"), entry->n,
                            CEDUO_ITEMS_MOST);
-        return NULL;
+        return broken(r, entry);
     }
     return resolve_items(r, f->object, entry);
 }
@@ -227,19 +243,16 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
         const struct field *f = ceduo_schema_field(object, map->items[i]->key);
         if (!f)
             continue;
-        size_t before = r->problems->met;
         const struct node *entry = resolve_entry(r, f, map->items[i]);
-        if (!entry && r->problems->met == before && !r->problems->memory)
+        if (entry == map->items[i])
+            continue;
+        const struct node *replaced = entry ? ceduo_node_replaced(r->arena, map, i, entry) : NULL;
+        if (!replaced) {
             ceduo_problem_memory(r->problems);
-        if (entry && entry != map->items[i]) {
-            const struct node *replaced = ceduo_node_replaced(r->arena, map, i, entry);
-            if (!replaced) {
-                ceduo_problem_memory(r->problems);
-                return NULL;
-            }
-            ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
-            map = replaced;
+            return NULL;
         }
+        ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
+        map = replaced;
     }
     return map;
 }
@@ -304,17 +317,21 @@ static bool step_index(const struct step *step, size_t *index)
     return true;
 }
 
-/* The item that a bracket means: by its place, or by its name; a belt by its stand's. */
+/* Whether an item has this name; a belt has its stand's. */
+static bool is_named(const struct node *item, const struct step *step)
+{
+    const char *name = ceduo_node_text(item, "name");
+    return step_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name"));
+}
+
+/* The item that a bracket means: by its place, or the first of its name. */
 static bool find_item(const struct node *list, const struct step *step, size_t *index)
 {
     if (step_index(step, index))
         return *index < list->n;
-    for (*index = 0; *index < list->n; ++*index) {
-        const struct node *item = list->items[*index];
-        const char *name = ceduo_node_text(item, "name");
-        if (step_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name")))
+    for (*index = 0; *index < list->n; ++*index)
+        if (is_named(list->items[*index], step))
             return true;
-    }
     return false;
 }
 
@@ -349,6 +366,7 @@ struct setter {
     const struct source *set;
     size_t length; /* of the path */
     const struct node *value;
+    bool sourced; /* nothing is left to tell a source */
     struct problems *problems;
 };
 
@@ -380,6 +398,52 @@ static const struct node *spread_map(struct setter *s, const struct node *node)
     return map && node ? ceduo_node_with(s->arena, map, "mean", node) : map;
 }
 
+/* A `source` that says of one more value that it is not of it. */
+static const struct node *source_except(struct setter *s, const struct node *source, const struct step *path)
+{
+    const struct node *list = ceduo_node_get(source, "except");
+    if (source->kind != NODE_MAP || (list && list->kind != NODE_LIST))
+        return source; /* checked later */
+    for (size_t i = 0; list && i < list->n; i++)
+        if (list->items[i]->kind == NODE_SCALAR && step_is(path, list->items[i]->text))
+            return source;
+    struct node *empty = ceduo_arena_take(s->arena, sizeof *empty);
+    char *text = ceduo_arena_copy(s->arena, path->p, path->n);
+    const struct node *item = text ? ceduo_node_scalar(s->arena, s->set, text, false) : NULL;
+    if (!empty || !item)
+        return NULL;
+    *empty = (struct node){.kind = NODE_LIST, .flow = true, .source = source->source};
+    list = list ? list : empty;
+    list = ceduo_node_inserted(s->arena, list, list->n, item);
+    return list ? ceduo_node_with(s->arena, source, "except", list) : NULL;
+}
+
+/* A value that was changed is no longer of the source around it: the innermost mapping that has one is told so. From a
+ * list on the path is left out, for items may move. */
+static const struct node *tell_source(struct setter *s, const struct node *map, const struct step *step)
+{
+    const struct node *source = ceduo_node_get(map, "source");
+    if (s->sourced || !source)
+        return map;
+    s->sourced = true;
+    size_t n = 0, most = s->length - (size_t)(step->p - s->set->bytes);
+    while (n < most && step->p[n] != '[')
+        n++;
+    const struct node *told = source_except(s, source, &(struct step){step->p, n, false});
+    return !told || told == source ? told ? map : NULL : ceduo_node_with(s->arena, map, "source", told);
+}
+
+/* Whether no source is of what was changed: it says the same as before, is only moved, is a name, a source or a setting
+ * of the computing. */
+static bool needs_no_source(const struct setter *s, const struct field *f, const char *key, const struct node *old)
+{
+    const struct node plain = {0};
+    struct node before = old ? *old : plain, now = *s->value;
+    before.key = now.key = NULL;
+    return strcmp(key, "source") == 0 || strcmp(key, "simulation") == 0 || (f && f->type <= FIELD_TEXT) ||
+           !now.source || !now.source->is_option || (old && ceduo_node_equal(&before, &now));
+}
+
 static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
                                     const struct step *step, size_t at)
 {
@@ -402,8 +466,25 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
         child = empty_map(s);
     if (!last && !child)
         return fail_at(s, step, _("there is none to change"));
+    s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
-    return child ? ceduo_node_with(s->arena, map, key, child) : NULL;
+    map = child ? tell_source(s, map, step) : NULL;
+    return map ? ceduo_node_with(s->arena, map, key, child) : NULL;
+}
+
+/* Whether several items from the first on have the name that a bracket holds. Says so. */
+static bool is_ambiguous(struct setter *s, const struct node *list, const struct step *step, size_t first)
+{
+    struct text what = {0};
+    size_t place, n = 0;
+    ceduo_text_put(&what, _("this name is given more than once; take a place: "));
+    for (size_t i = first; i < list->n && !step_index(step, &place); i++)
+        if (is_named(list->items[i], step))
+            ceduo_text_format(&what, "%s[%zu]", n++ > 0 ? ", " : "", i);
+    if (n > 1)
+        fail_at(s, step, what.bytes ? what.bytes : "");
+    ceduo_text_free(&what);
+    return n > 1;
 }
 
 static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
@@ -417,6 +498,8 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
         return NULL;
     if (!find_item(list, step, &i))
         return fail_at(s, step, _("no such item"));
+    if (is_ambiguous(s, list, step, i))
+        return NULL;
     const struct node *item = set_in(s, NULL, object, list->items[i], at);
     return item ? ceduo_node_replaced(s->arena, list, i, item) : NULL;
 }
@@ -448,7 +531,7 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
                                      size_t path_length, const struct node *value, struct problems *problems)
 {
-    struct setter s = {arena, set, path_length, value, problems};
+    struct setter s = {.arena = arena, .set = set, .length = path_length, .value = value, .problems = problems};
     size_t before = problems->met;
     const struct node *changed = set_in(&s, NULL, ceduo_schema_scene(), root, 0);
     if (!changed && problems->met == before)

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scene_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "ceduo/material.h"
 #include "csv_slope.h"
@@ -17,6 +19,8 @@ struct maker {
     struct scene_file *file;
     struct scene_form form;
     struct problems *problems;
+    struct bad_values bad;
+    bool profile; /* scene.slope has its vertices */
     double origin;
 };
 
@@ -57,9 +61,43 @@ __attribute__((format(printf, 2, 3))) static const char *path_of(struct maker *m
     return path ? path : "";
 }
 
-static bool given(const struct maker *m, const char *group, const char *key)
+/* Whether `outer` is `path` or leads to it. */
+static bool leads_to(const char *outer, const char *path)
 {
-    return ceduo_node_get(ceduo_node_get(m->file->root, group), key) != NULL;
+    size_t n = strlen(outer);
+    return n == 0 || (strncmp(path, outer, n) == 0 && (path[n] == '\0' || path[n] == '.' || path[n] == '['));
+}
+
+/* Whether nothing is wrong with a value or what it stands in; what is wrong within it does not count. */
+__attribute__((format(printf, 2, 3))) static bool known(struct maker *m, const char *format, ...)
+{
+    struct text path = {0};
+    va_list args;
+    va_start(args, format);
+    if (m->bad.n > 0)
+        ceduo_text_vformat(&path, format, args);
+    va_end(args);
+    bool good = !path.failed;
+    for (size_t i = 0; good && i < m->bad.n; i++)
+        good = !leads_to(m->bad.paths[i], path.bytes);
+    m->problems->memory |= path.failed;
+    ceduo_text_free(&path);
+    return good;
+}
+
+/* The same, and nothing within it. */
+static bool sound(struct maker *m, const char *path)
+{
+    for (size_t i = 0; i < m->bad.n; i++)
+        if (leads_to(path, m->bad.paths[i]))
+            return false;
+    return known(m, "%s", path);
+}
+
+/* Whether something stands there, though it may be wrong. */
+static bool given(struct maker *m, const char *group, const char *key)
+{
+    return ceduo_node_get(ceduo_node_get(m->file->root, group), key) || !known(m, "%s.%s", group, key);
 }
 
 static const char *shown(double value, char room[CEDUO_NUMBER_ROOM])
@@ -91,7 +129,7 @@ static void want_only(struct maker *m, const char *shape, const char *const want
         bool belongs = false;
         for (size_t k = 0; wanted[k]; k++)
             belongs |= strcmp(wanted[k], sizes[i]) == 0;
-        if (belongs || !given(m, "rock", sizes[i]))
+        if (belongs || !ceduo_node_get(ceduo_node_get(m->file->root, "rock"), sizes[i]))
             continue;
         const char *path = path_of(m, "rock.%s", sizes[i]);
         if (set)
@@ -114,9 +152,12 @@ static void check_sphere(struct maker *m)
 static void check_rock(struct maker *m)
 {
     static const char *const cylinder[] = {"diameter_m", "height_m", NULL}, *const axes[] = {"axes_m", NULL};
+    size_t before = m->problems->met;
     enum ceduo_shape shape = (enum ceduo_shape)m->form.rock.shape;
     const char *name = ceduo_shape_names[shape];
     const char *const *wanted = shape == CEDUO_CYLINDER ? cylinder : axes;
+    if (!known(m, "rock.shape"))
+        return;
     if (shape == CEDUO_SPHERE) {
         check_sphere(m);
     } else {
@@ -124,7 +165,8 @@ static void check_rock(struct maker *m)
         for (size_t i = 0; wanted[i]; i++)
             if (!given(m, "rock", wanted[i]))
                 complain(m, "rock", _("'%s' is missing: the shape '%s' needs it"), wanted[i], name);
-        if (given(m, "rock", "mass_kg") && given(m, "rock", "density_kg_m3"))
+        const struct node *rock = ceduo_node_get(m->file->root, "rock");
+        if (ceduo_node_get(rock, "mass_kg") && ceduo_node_get(rock, "density_kg_m3"))
             complain(m, "rock.density_kg_m3", _("mass_kg says it already; keep one of the two"));
     }
     const struct rock_form *f = &m->form.rock;
@@ -139,7 +181,7 @@ static void check_rock(struct maker *m)
     if (!given(m, "rock", "density_kg_m3") && !by_mass)
         assume(m, "rock.density_kg_m3", _("density of limestone, 2600 kg/m3"));
     struct ceduo_rock rock;
-    if (m->problems->count == 0 && ceduo_rock_of_means(&m->file->scene.rock, &rock) != CEDUO_OK)
+    if (before == m->problems->met && sound(m, "rock") && ceduo_rock_of_means(&m->file->scene.rock, &rock) != CEDUO_OK)
         complain(m, "rock", _("too small or too large a rock to compute with"));
 }
 
@@ -147,15 +189,17 @@ static void check_rock(struct maker *m)
 
 static bool read_vertices(struct maker *m, struct points *p)
 {
-    bool csv = m->form.slope.csv != NULL, list = given(m, "slope", "vertices_m");
+    bool csv = given(m, "slope", "csv"), list = given(m, "slope", "vertices_m");
     if (csv == list) {
         complain(m, "slope", csv ? _("vertices_m and csv together; keep one") : _("'vertices_m' is missing: the profile"));
         return false;
     }
     if (!csv) {
         *p = m->form.slope.vertices;
-        return true;
+        return known(m, "slope.vertices_m");
     }
+    if (!known(m, "slope.csv"))
+        return false;
     const struct node *node = ceduo_node_get(ceduo_node_get(m->file->root, "slope"), "csv");
     const char *path = ceduo_file_find(&m->file->arena, m->form.slope.csv, node->source->name, "slopes");
     if (!path) {
@@ -174,13 +218,13 @@ static bool check_vertices(struct maker *m, const struct points *p)
     }
     bool rising = true;
     for (size_t i = 1; i < p->n; i++)
-        if (!(p->x[i] > p->x[i - 1])) {
+        if (p->x[i] <= p->x[i - 1]) {
             complain(m, path_of(m, "slope.vertices_m[%zu]", i),
                      _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
                      shown(p->x[i], a), shown(p->x[i - 1], b));
             rising = false;
         }
-    return rising;
+    return rising && (m->form.slope.csv || sound(m, "slope.vertices_m"));
 }
 
 /* Vertices relative to the first. What is so close that this makes it one is refused. */
@@ -199,22 +243,17 @@ static bool make_vertices(struct maker *m, const struct points *p, size_t extra)
         s->z[i] = p->z[i] - s->origin_z;
     }
     m->origin = m->file->origin_x = s->origin_x;
+    m->profile = true;
     return true;
 }
 
-static bool make_segments(struct maker *m)
+/* `n`: stretches of the profile; 0: not known */
+static void check_segments(struct maker *m, size_t n)
 {
-    struct ceduo_slope *s = &m->file->scene.slope;
     const struct list *given_segments = &m->form.slope.segments;
-    size_t n = s->vertices - 1;
-    if (given_segments->n != 1 && given_segments->n != n) {
+    if (n > 0 && given_segments->n != 1 && given_segments->n != n)
         complain(m, "slope.segments", _("%zu segments for %zu stretches between vertices; give one for each, or one for all"),
                  given_segments->n, n);
-        return false;
-    }
-    s->segments = take(m, n, sizeof *s->segments);
-    if (!s->segments)
-        return false;
     for (size_t i = 0; i < given_segments->n; i++) {
         struct ceduo_segment *g = (struct ceduo_segment *)given_segments->items + i;
         if (!isnan(g->roughness_m) && !isnan(g->roughness_rad))
@@ -222,6 +261,16 @@ static bool make_segments(struct maker *m)
         if (isnan(g->roughness_m) && isnan(g->roughness_rad))
             g->roughness_rad = 0;
     }
+}
+
+static void make_segments(struct maker *m)
+{
+    struct ceduo_slope *s = &m->file->scene.slope;
+    const struct list *given_segments = &m->form.slope.segments;
+    size_t n = s->vertices - 1;
+    s->segments = take(m, n, sizeof *s->segments);
+    if (!s->segments)
+        return;
     const struct node *nodes = ceduo_node_get(ceduo_node_get(m->file->root, "slope"), "segments");
     for (size_t i = 0; i < nodes->n; i++)
         if (!ceduo_node_get(nodes->items[i], "friction")) {
@@ -230,7 +279,6 @@ static bool make_segments(struct maker *m)
         }
     for (size_t i = 0; i < n; i++)
         s->segments[i] = ((struct ceduo_segment *)given_segments->items)[given_segments->n == 1 ? 0 : i];
-    return true;
 }
 
 static struct ceduo_segment segment_of(int material)
@@ -244,28 +292,28 @@ static struct ceduo_segment segment_of(int material)
                                   .friction = CEDUO_FRICTION_DEFAULT};
 }
 
-static bool check_materials(struct maker *m, const struct points *p)
+/* `p`: the profile, as far as it is known */
+static void check_materials(struct maker *m, const struct points *p)
 {
     const struct material_form *rows = m->form.slope.materials.items;
-    size_t n = m->form.slope.materials.n, before = m->problems->count;
+    size_t n = m->form.slope.materials.n, before = m->problems->met;
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     if (n == 0) {
         complain(m, "slope.materials", _("the list is empty"));
-        return false;
+        return;
     }
     for (size_t i = 0; i < n; i++) {
-        double wanted = i == 0 ? p->x[0] : rows[i - 1].to;
-        if (!(rows[i].to > rows[i].from))
+        double wanted = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
+        if (rows[i].to <= rows[i].from)
             complain(m, path_of(m, "slope.materials[%zu].to_m", i), _("%s does not lie beyond from_m, %s"),
                      shown(rows[i].to, a), shown(rows[i].from, b));
-        else if (i == 0 ? rows[i].from > wanted : rows[i].from != wanted)
+        else if (i == 0 ? rows[i].from > wanted : rows[i].from < wanted || rows[i].from > wanted)
             complain(m, path_of(m, "slope.materials[%zu].from_m", i),
                      _("%s leaves a gap or overlaps; it must begin at %s"), shown(rows[i].from, a), shown(wanted, b));
     }
-    if (m->problems->count == before && rows[n - 1].to < p->x[p->n - 1])
+    if (m->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
         complain(m, path_of(m, "slope.materials[%zu].to_m", n - 1), _("%s ends before the profile, at %s"),
                  shown(rows[n - 1].to, a), shown(p->x[p->n - 1], b));
-    return m->problems->count == before;
 }
 
 /* A vertex where the ground changes within a segment; on the line, so that it changes nothing else. */
@@ -282,7 +330,7 @@ static void split_at(struct ceduo_slope *s, double x)
     s->vertices++;
 }
 
-static bool make_materials(struct maker *m)
+static void make_materials(struct maker *m)
 {
     struct ceduo_slope *s = &m->file->scene.slope;
     const struct material_form *rows = m->form.slope.materials.items;
@@ -292,17 +340,16 @@ static bool make_materials(struct maker *m)
             split_at(s, rows[i].from - m->origin);
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
     if (!s->segments)
-        return false;
+        return;
     assume(m, "slope.materials", _("roughness and friction of the library's grounds, and all of its rows -v4"));
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
         while (row + 1 < n && s->x[j] >= rows[row + 1].from - m->origin)
             row++;
         s->segments[j] = segment_of(rows[row].material);
     }
-    return true;
 }
 
-static bool make_talus(struct maker *m)
+static void make_talus(struct maker *m)
 {
     struct ceduo_slope *s = &m->file->scene.slope;
     m->file->ground_assumed = true;
@@ -310,7 +357,6 @@ static bool make_talus(struct maker *m)
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
     for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
         s->segments[j] = segment_of(2);
-    return s->segments != NULL;
 }
 
 /* The slope as it was made before, where its part of the document is the same one: an edit elsewhere costs nothing,
@@ -322,6 +368,7 @@ static bool reuse_slope(struct maker *m, const struct scene_file *before)
         return false;
     m->file->scene.slope = before->scene.slope;
     m->origin = before->origin_x;
+    m->profile = true;
     m->file->ground_assumed = before->ground_assumed;
     for (const struct source_note *n = before->notes; n; n = n->before)
         if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made)
@@ -329,29 +376,42 @@ static bool reuse_slope(struct maker *m, const struct scene_file *before)
     return true;
 }
 
-static bool make_slope(struct maker *m)
+/* The ground, as far as the files say it. False where it cannot be made. */
+static bool check_ground(struct maker *m, const struct points *p, bool segments, bool materials)
+{
+    size_t before = m->problems->met;
+    if (segments && materials)
+        complain(m, "slope.materials", _("segments say the ground already; keep one of the two"));
+    if (!segments && !materials && !given(m, "slope", "csv"))
+        complain(m, "slope", _("'segments' or 'materials' is missing: the ground"));
+    if (segments && known(m, "slope.segments"))
+        check_segments(m, p->n > 0 ? p->n - 1 : 0);
+    if (materials && !segments && known(m, "slope.materials"))
+        check_materials(m, p);
+    return m->profile && m->problems->met == before && sound(m, "slope");
+}
+
+static void make_slope(struct maker *m)
 {
     struct points p = {0};
-    if (!read_vertices(m, &p) || !check_vertices(m, &p))
-        return false;
+    if (!known(m, "slope"))
+        return;
+    size_t before = m->problems->met;
+    bool profile = read_vertices(m, &p) && check_vertices(m, &p);
     m->file->scene.slope.facets = (enum ceduo_facets)m->form.slope.facets;
     bool segments = given(m, "slope", "segments"), materials = given(m, "slope", "materials");
-    if (!make_vertices(m, &p, m->form.slope.materials.n))
-        return false;
-    if (segments && materials) {
-        complain(m, "slope.materials", _("segments say the ground already; keep one of the two"));
-        return false;
-    }
-    if (!segments && !materials && !m->form.slope.csv) {
-        complain(m, "slope", _("'segments' or 'materials' is missing: the ground"));
-        return false;
-    }
-    bool good = segments ? make_segments(m) : materials ? check_materials(m, &p) && make_materials(m) : make_talus(m);
-    if (good && m->problems->count == 0 && ceduo_slope_check(&m->file->scene.slope) != CEDUO_OK) {
+    if (profile && !make_vertices(m, &p, m->form.slope.materials.n))
+        return;
+    if (!check_ground(m, &p, segments, materials))
+        return;
+    if (segments)
+        make_segments(m);
+    else if (materials)
+        make_materials(m);
+    else
+        make_talus(m);
+    if (m->problems->met == before && !m->problems->memory && ceduo_slope_check(&m->file->scene.slope) != CEDUO_OK)
         complain(m, "slope", _("two vertices lie too close together for their distance from the first"));
-        return false;
-    }
-    return good;
 }
 
 /* ---- release and controls ---- */
@@ -363,6 +423,8 @@ static void make_release(struct maker *m)
     scene->release = m->form.release;
     bool own_x = !isnan(scene->release.x.mean);
     scene->release.x.mean = own_x ? scene->release.x.mean - m->origin : 0;
+    if (!m->profile || !sound(m, "release.x_m"))
+        return;
     double end = scene->slope.x[scene->slope.vertices - 1];
     double first = ceduo_number_lowest(scene->release.x), last = ceduo_number_highest(scene->release.x);
     if (!(first >= 0) || !(last < end))
@@ -374,13 +436,15 @@ static bool check_control(struct maker *m, const char *path, const struct ceduo_
 {
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     const struct ceduo_scene *scene = &m->file->scene;
-    double end = scene->slope.x[scene->slope.vertices - 1], last = ceduo_number_highest(scene->release.x);
-    if (!(c->x <= end)) {
+    double end = m->profile ? scene->slope.x[scene->slope.vertices - 1] : INFINITY;
+    bool starts = m->profile && sound(m, "release.x_m");
+    double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
+    if (c->x > end) {
         complain(m, path, _("%s lies beyond the slope, which ends at %s m"), shown(c->x_given, a),
                  shown(end + m->origin, b));
         return false;
     }
-    if (!(c->x > last)) {
+    if (c->x <= last) {
         complain(m, path, _("%s does not lie beyond the release, %s m"), shown(c->x_given, a),
                  shown(last + m->origin, b));
         return false;
@@ -410,6 +474,8 @@ static void make_controls(struct maker *m)
         complain(m, "controls_m", _("controls say it already; keep one of the two"));
         return;
     }
+    if (!known(m, "controls") || !known(m, "controls_m"))
+        return;
     if (n == 0) {
         complain(m, "", _("'controls' is missing: at least one place where the rocks that pass are counted"));
         return;
@@ -461,9 +527,16 @@ static void make_stand(struct maker *m, const char *path, const struct stand_for
                                               .cohorts = (unsigned)f->cohorts,
                                               .stay_count = f->stay.n,
                                               .stay_per_ha = f->stay.values}};
-    if (f->growth.shoots_young < f->growth.shoots_old)
+    if (!known(m, "%s", path)) /* what it starts from is not there */
+        return;
+    if (f->growth.shoots_young < f->growth.shoots_old && known(m, "%s.growth.shoots_young", path) &&
+        known(m, "%s.growth.shoots_old", path))
         complain(m, path_of(m, "%s.growth.shoots_young", path), _("%s is below shoots_old, %s: shoots only become fewer"),
                  shown(f->growth.shoots_young, a), shown(f->growth.shoots_old, b));
+    if (f->system == CEDUO_BARE && (f->shoots.n > 0 || f->trees.n > 0))
+        complain(m, path_of(m, "%s.system", path), _("'bare', but there are stems; name the system or take them out"));
+    if (!known(m, "%s.stools.per_ha", path) || !known(m, "%s.shoots", path))
+        return;
     if (f->stools_per_ha > 0 && ceduo_stand_shoots(stand) / f->stools_per_ha > SHOOTS_MOST)
         complain(m, path_of(m, "%s.shoots", path), _("%s shoots on each stool are more than the %d that can be drawn"),
                  shown(ceduo_stand_shoots(stand) / f->stools_per_ha, a), SHOOTS_MOST);
@@ -474,25 +547,25 @@ static void make_stand(struct maker *m, const char *path, const struct stand_for
     else if (f->shoots.n > 0 && ceduo_stand_shoots(stand) < f->stools_per_ha)
         complain(m, path_of(m, "%s.stools.per_ha", path), _("%s shoots on %s stools: a stool has one shoot at least"),
                  shown(ceduo_stand_shoots(stand), a), shown(f->stools_per_ha, b));
-    if (f->system == CEDUO_BARE && (f->shoots.n > 0 || f->trees.n > 0))
-        complain(m, path_of(m, "%s.system", path), _("'bare', but there are stems; name the system or take them out"));
 }
 
 static void check_belt(struct maker *m, const char *path, const struct belt_form *f, const struct belt_form *before)
 {
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     const struct ceduo_slope *s = &m->file->scene.slope;
-    double end = s->x[s->vertices - 1] + m->origin;
-    if (!(f->to > f->from))
+    double begin = m->profile ? m->origin : -INFINITY, end = m->profile ? s->x[s->vertices - 1] + m->origin : INFINITY;
+    if (f->to <= f->from) {
         complain(m, path_of(m, "%s.to_m", path), _("%s does not lie beyond from_m, %s"), shown(f->to, a),
                  shown(f->from, b));
-    else if (before && f->from < before->to)
+        return;
+    }
+    if (before && f->from < before->to)
         complain(m, path_of(m, "%s.from_m", path), _("%s lies before the end of the belt before it, %s; belts must not overlap"),
                  shown(f->from, a), shown(before->to, b));
-    else if (f->from < m->origin)
+    else if (f->from < begin)
         complain(m, path_of(m, "%s.from_m", path), _("%s lies before the slope, which begins at %s m"), shown(f->from, a),
-                 shown(m->origin, b));
-    else if (f->to > end)
+                 shown(begin, b));
+    if (f->to > end)
         complain(m, path_of(m, "%s.to_m", path), _("%s lies beyond the slope, which ends at %s m"), shown(f->to, a),
                  shown(end, b));
 }
@@ -538,6 +611,8 @@ static void make_options(struct maker *m)
         complain(m, "forest", _("options say it already; keep one of the two"));
         return;
     }
+    if (!known(m, "options"))
+        return;
     if (many && m->form.options.n == 0) {
         complain(m, "options", _("the list is empty"));
         return;
@@ -551,7 +626,7 @@ static void make_options(struct maker *m)
         scene->options_count = i + 1;
         option->name = (char *)(uintptr_t)(f ? f->name : "current");
         for (size_t k = 0; f && f->name && k < i; k++)
-            if (strcmp(scene->options[k].name, f->name) == 0)
+            if (scene->options[k].name && strcmp(scene->options[k].name, f->name) == 0)
                 complain(m, path_of(m, "options[%zu].name", i), _("'%s' is given twice; names must differ"), f->name);
         make_belts(m, f ? path_of(m, "options[%zu].forest", i) : "forest", f ? &f->forest : &m->form.forest, option);
     }
@@ -591,19 +666,19 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->scene = (struct ceduo_scene){0};
     file->slope_node = NULL;
     ceduo_scene_form_init(&m.form);
-    ceduo_schema_bind(&file->arena, ceduo_schema_scene(), file->root, &m.form, problems, &file->notes);
-    if (problems->count > before || problems->memory)
+    ceduo_schema_bind(&file->arena, ceduo_schema_scene(), file->root, &m.form, problems, &file->notes, &m.bad);
+    if (m.bad.n > CEDUO_BAD_MOST || problems->memory)
         return false;
     file->scene.title = (char *)(uintptr_t)title_of(file, m.form.title);
     file->scene.rocks_per_year = m.form.rocks_per_year;
     file->scene.reserves_minimum = m.form.reserves_minimum;
     make_simulation(&m);
     check_rock(&m);
-    if (reuse_slope(&m, &last) || make_slope(&m)) {
-        make_release(&m);
-        make_controls(&m);
-        make_options(&m);
-    }
+    if (!reuse_slope(&m, &last))
+        make_slope(&m);
+    make_release(&m);
+    make_controls(&m);
+    make_options(&m);
     bool good = problems->count == before && !problems->memory;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
     return good;
@@ -646,19 +721,51 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     return root != NULL;
 }
 
-/* The file's own name, or the shipped scene that the name means. */
-static const char *scene_path(struct scene_file *file, const char *path)
+/* A name that is neither a file nor a scene among the profiles: the nearest of these, and where they were looked for. */
+static void complain_no_scene(struct scene_file *file, const char *path, struct problems *problems)
 {
-    if (strcmp(path, "-") == 0)
-        return path;
-    const char *found = ceduo_file_find(&file->arena, path, NULL, "scenes");
-    return found ? found : path;
+    struct text names = {0}, folders = {0};
+    const char *near = NULL;
+    char *plain = ceduo_arena_string(&file->arena, path);
+    size_t length = plain ? strlen(plain) : 0;
+    if (length > 5 && strcmp(plain + length - 5, ".yaml") == 0)
+        plain[length - 5] = '\0';
+    const char *const *all = plain ? ceduo_file_folders(&file->arena) : NULL;
+    for (size_t i = 0; all && all[i]; i++) {
+        size_t n;
+        const char *const *list = ceduo_file_list(&file->arena, all[i], "scenes", &n);
+        const char **words = ceduo_arena_take(&file->arena, (n + 1) * sizeof *words);
+        for (size_t k = 0; words && k < n; k++)
+            words[k] = ceduo_arena_copy(&file->arena, list[k], strlen(list[k]) - 5);
+        near = near || !words || file->arena.failed ? near : ceduo_text_nearest(plain, words, n);
+        ceduo_text_format(&folders, "%s%s/scenes", i > 0 ? ", " : "", all[i]);
+    }
+    if (near)
+        ceduo_text_format(&names, _("; did you mean '%s'?"), near);
+    if (folders.bytes)
+        ceduo_text_format(&names, _(" (looked for here and in %s)"), folders.bytes);
+    problems->memory |= names.failed || folders.failed || file->arena.failed;
+    ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
+                  names.bytes ? names.bytes : "");
+    ceduo_text_free(&names);
+    ceduo_text_free(&folders);
+}
+
+/* The file's own name, or the shipped scene that the name means; NULL where it is neither, which is told. */
+static const char *scene_path(struct scene_file *file, const char *path, struct problems *problems)
+{
+    const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
+    if (found || *path == '\0' || strchr(path, '/') || access(path, F_OK) == 0 || errno != ENOENT)
+        return found ? found : path;
+    complain_no_scene(file, path, problems);
+    return NULL;
 }
 
 /* From the text of a scene to the scene. */
-static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets,
+static bool make_scene(struct scene_file *file, const struct source *source, const char *const *sets,
                         size_t sets_count, struct problems *problems)
 {
+    size_t before = problems->count;
     file->path = source->name;
     file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
     if (!file->root)
@@ -670,12 +777,59 @@ static bool read_source(struct scene_file *file, const struct source *source, co
     for (size_t i = 0; i < sets_count; i++)
         if (!ceduo_scene_set(file, "--set", sets[i], problems))
             return false;
-    size_t before = problems->count;
     const struct node *root = ceduo_resolve_scene(&file->arena, file->root, problems);
-    if (!root || problems->count > before)
+    if (!root)
         return false;
     file->root = root;
-    return ceduo_scene_bind(file, problems);
+    return ceduo_scene_bind(file, problems) && problems->count == before;
+}
+
+/* Whether the scene is good with the first n changes alone. */
+static bool is_good_with(const struct source *source, const char *const *sets, size_t n, struct problems *problems)
+{
+    struct scene_file trial = {0};
+    struct problems found = {0};
+    bool good = make_scene(&trial, source, sets, n, &found);
+    problems->memory |= found.memory;
+    ceduo_problems_free(&found);
+    ceduo_scene_release(&trial);
+    return good;
+}
+
+/* A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
+ * change is named before that. It is the one after which the scene was never good again. */
+static void name_change(struct arena *arena, const struct source *source, const char *const *sets, size_t n,
+                        struct problems *problems)
+{
+    if (n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
+        return;
+    size_t last = n - 1;
+    while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
+        last--;
+    struct source *set = ceduo_arena_take(arena, sizeof *set);
+    if (!set) {
+        ceduo_problem_memory(problems);
+        return;
+    }
+    *set = (struct source){.name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
+    struct problems head = {0};
+    ceduo_problem(&head, set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
+                  _("the scene is good without this change, but not with it:"));
+    if (problems->text.bytes)
+        ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
+    ceduo_text_free(&problems->text);
+    problems->text = head.text;
+    problems->memory |= head.memory || head.text.failed;
+    problems->usage = true;
+}
+
+static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets,
+                        size_t sets_count, struct problems *problems)
+{
+    if (make_scene(file, source, sets, sets_count, problems))
+        return true;
+    name_change(&file->arena, source, sets, sets_count, problems);
+    return false;
 }
 
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
@@ -688,7 +842,8 @@ bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const cha
                          size_t sets_count, struct problems *problems)
 {
     *file = (struct scene_file){.path = path, .arena = {.shelf = shelf}};
-    const struct source *source = ceduo_file_read(&file->arena, scene_path(file, path), YAML_BYTES_MOST, problems);
+    const char *found = scene_path(file, path, problems);
+    const struct source *source = found ? ceduo_file_read(&file->arena, found, YAML_BYTES_MOST, problems) : NULL;
     return source && read_source(file, source, sets, sets_count, problems);
 }
 
@@ -726,19 +881,16 @@ bool ceduo_scene_assumes(const struct scene_file *file, const char *path)
     return false;
 }
 
-/* Whether `outer` is `path` or leads to it. */
-static bool leads_to(const char *outer, const char *path)
-{
-    size_t n = strlen(outer);
-    return n == 0 || (strncmp(path, outer, n) == 0 && (path[n] == '\0' || path[n] == '.' || path[n] == '['));
-}
-
 const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path)
 {
     const struct source_note *best = NULL;
-    for (const struct source_note *note = file->notes; note; note = note->before)
-        if (leads_to(note->path, path) && (!best || strlen(note->path) > strlen(best->path)))
+    for (const struct source_note *note = file->notes; note; note = note->before) {
+        if (!leads_to(note->path, path))
+            continue;
+        size_t n = strlen(note->path), most = best ? strlen(best->path) : 0;
+        if (!best || n > most || (n == most && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
             best = note;
+    }
     return best;
 }
 

@@ -15,6 +15,8 @@ struct binder {
     struct problems *problems;
     struct text path;
     size_t file_start; /* where the path within the present file begins */
+    bool partial;      /* what the present mapping starts from is not known */
+    struct bad_values *bad;
     const struct source_note **notes;
 };
 
@@ -47,6 +49,24 @@ static const char *path_here(const struct binder *b)
     return path[0] == '.' ? path + 1 : path;
 }
 
+/* What stands at the present path is not to be reckoned with. */
+static void note_bad(struct binder *b)
+{
+    struct bad_values *bad = b->bad;
+    if (bad->n < CEDUO_BAD_MOST && !(bad->paths[bad->n] = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "")))
+        ceduo_problem_memory(b->problems);
+    else
+        bad->n++;
+}
+
+static bool is_bad(const struct binder *b)
+{
+    for (size_t i = 0; i < b->bad->n && i < CEDUO_BAD_MOST; i++)
+        if (strcmp(b->bad->paths[i], b->path.bytes ? b->path.bytes : "") == 0)
+            return true;
+    return false;
+}
+
 __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format,
                                                          ...)
 {
@@ -54,6 +74,7 @@ __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const
     va_start(args, format);
     report_v(b->problems, node, false, path_here(b), format, args);
     va_end(args);
+    note_bad(b);
 }
 
 __attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node,
@@ -100,50 +121,13 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
     return NULL;
 }
 
-/* Levenshtein's distance between short words. */
-static size_t distance(const char *a, const char *b)
-{
-    size_t row[64], n = strlen(b);
-    if (n >= 64 || strlen(a) >= 64)
-        return 64;
-    for (size_t j = 0; j <= n; j++)
-        row[j] = j;
-    for (size_t i = 1; a[i - 1]; i++) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= n; j++) {
-            size_t change = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            size_t add = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-            row[j] = change < add ? change : add;
-        }
-    }
-    return row[n];
-}
-
-/* The nearest of some words, NULL where none is near. */
-static const char *nearest(const char *word, const char *const *words, size_t n)
-{
-    const char *best = NULL;
-    size_t least = strlen(word) / 2 + 2;
-    for (size_t i = 0; i < n; i++) {
-        size_t d = distance(word, words[i]);
-        bool longer = strncmp(words[i], word, strlen(word)) == 0; /* dbh for dbh_m */
-        if (d < least || (longer && !best)) {
-            least = d < least ? d : least;
-            best = words[i];
-        }
-    }
-    return best;
-}
-
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
     const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++)
         words[n++] = object->fields[i].key;
-    const char *near = nearest(entry->key, words, n);
+    const char *near = ceduo_text_nearest(entry->key, words, n);
     size_t before = enter(b, entry->key);
     if (near) {
         report_key(b, entry, _("unknown key; did you mean '%s'?"), near);
@@ -155,6 +139,11 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
         ceduo_text_free(&list);
     }
     leave(b, before);
+    if (near) { /* what was meant is not known, but it is not missing */
+        before = enter(b, near);
+        note_bad(b);
+        leave(b, before);
+    }
 }
 
 /* ---- values ---- */
@@ -246,7 +235,7 @@ static void bind_choice(struct binder *b, const struct field *f, const struct no
     struct text list = {0};
     for (size_t i = 0; i < f->choices->n; i++)
         ceduo_text_format(&list, "%s%s", i ? ", " : "", f->choices->names[i]);
-    const char *near = nearest(node->text, f->choices->names, f->choices->n);
+    const char *near = ceduo_text_nearest(node->text, f->choices->names, f->choices->n);
     if (near && f->choices->n > 1)
         report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, list.bytes ? list.bytes : "");
     else
@@ -361,9 +350,11 @@ static void bind_numbers(struct binder *b, const struct field *f, const struct n
 {
     if (!want_list(b, node) || !(to->values = take(b, node->n, sizeof(double))))
         return;
+    to->n = node->n;
     for (size_t i = 0; i < node->n; i++) {
         size_t before = enter_item(b, i);
-        to->n += bind_number(b, f, node->items[i], &to->values[to->n]);
+        to->values[i] = NAN;
+        bind_number(b, f, node->items[i], &to->values[i]);
         leave(b, before);
     }
 }
@@ -376,13 +367,15 @@ static void bind_points(struct binder *b, const struct field *f, const struct no
     to->z = take(b, node->n, sizeof(double));
     if (!to->x || !to->z)
         return;
+    to->n = node->n;
     for (size_t i = 0; i < node->n; i++) {
         const struct node *pair = node->items[i];
         size_t before = enter_item(b, i);
+        to->x[i] = to->z[i] = NAN;
         if (pair->kind != NODE_LIST || pair->n != 2)
             report(b, pair, _("a pair [x, z] is wanted"));
-        else if (bind_number(b, f, pair->items[0], &to->x[to->n]) && bind_number(b, f, pair->items[1], &to->z[to->n]))
-            to->n++;
+        else if (bind_number(b, f, pair->items[0], &to->x[i]))
+            bind_number(b, f, pair->items[1], &to->z[i]);
         leave(b, before);
     }
 }
@@ -406,6 +399,10 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
 static void bind_field(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     void *to = (char *)item + f->offset;
+    if (node->broken)
+        note_bad(b);
+    if (node->broken && node->kind != NODE_MAP)
+        return;
     switch (f->type) {
     case FIELD_TAG:
         bind_tag(b, f, node);
@@ -447,7 +444,42 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
     }
 }
 
-/* source: {kind: measured|literature|assumed, text: …} may stand in any mapping. */
+static void add_note(struct binder *b, const char *path, const char *kind, const char *text)
+{
+    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
+    char *own_path = ceduo_arena_string(b->arena, path), *own_text = ceduo_arena_string(b->arena, text);
+    if (!note || !own_path || !own_text) {
+        ceduo_problem_memory(b->problems);
+        return;
+    }
+    *note = (struct source_note){.path = own_path, .kind = kind, .text = own_text, .before = *b->notes};
+    *b->notes = note;
+}
+
+/* The values that a source says it is not of: they get notes of their own, and its text names them. */
+static void except_values(struct binder *b, const struct node *list, struct text *text)
+{
+    for (size_t i = 0; i < list->n; i++) {
+        ceduo_text_format(text, "%s%s", i > 0 ? ", " : _("; changed since: "), list->items[i]->text);
+        size_t before = enter(b, list->items[i]->text);
+        add_note(b, b->path.bytes ? b->path.bytes : "", "changed", _("the source around it is not of this value"));
+        leave(b, before);
+    }
+}
+
+static bool check_except(struct binder *b, const struct node *list)
+{
+    if (list->kind != NODE_LIST) {
+        report(b, list, _("a list of keys is wanted"));
+        return false;
+    }
+    for (size_t i = 0; i < list->n; i++)
+        if (!want_scalar(b, list->items[i], _("a key")))
+            return false;
+    return true;
+}
+
+/* source: {kind: measured|literature|assumed, text: …, except: […]} may stand in any mapping. */
 static void bind_source(struct binder *b, const struct node *node)
 {
     static const char *const kinds[] = {"measured", "literature", "assumed"};
@@ -455,6 +487,7 @@ static void bind_source(struct binder *b, const struct node *node)
     const struct field kind_field = {.choices = &kind_choices};
     size_t before = enter(b, "source");
     const char *text = "";
+    const struct node *except = NULL;
     int kind = -1;
     if (node->kind != NODE_MAP)
         report(b, node, _("a mapping {kind, text} is wanted"));
@@ -465,23 +498,34 @@ static void bind_source(struct binder *b, const struct node *node)
             bind_choice(b, &kind_field, entry, &kind);
         else if (strcmp(entry->key, "text") == 0)
             bind_text(b, entry, &text);
+        else if (strcmp(entry->key, "except") == 0)
+            except = check_except(b, entry) ? entry : NULL;
         else
-            report_key(b, entry, _("unknown key; known here: kind, text"));
+            report_key(b, entry, _("unknown key; known here: kind, text, except"));
         leave(b, outer);
     }
     if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
         report(b, node, _("'kind' is missing: measured, literature or assumed"));
     leave(b, before);
-    if (!b->notes || kind < 0)
+    if (kind < 0)
         return;
-    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
-    char *path = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "");
-    if (!note || !path) {
-        ceduo_problem_memory(b->problems);
-        return;
-    }
-    *note = (struct source_note){.path = path, .kind = kinds[kind], .text = text, .before = *b->notes};
-    *b->notes = note;
+    struct text whole = {0};
+    ceduo_text_put(&whole, text);
+    if (except)
+        except_values(b, except, &whole);
+    add_note(b, b->path.bytes ? b->path.bytes : "", kinds[kind], whole.bytes ? whole.bytes : "");
+    b->problems->memory |= whole.failed;
+    ceduo_text_free(&whole);
+}
+
+/* Of a mapping that is itself good. */
+__attribute__((format(printf, 3, 4))) static void report_at(struct binder *b, const struct node *node, const char *format,
+                                                            ...)
+{
+    va_list args;
+    va_start(args, format);
+    report_v(b->problems, node, false, path_here(b), format, args);
+    va_end(args);
 }
 
 static void report_missing(struct binder *b, const struct object *object, const struct node *node)
@@ -489,9 +533,14 @@ static void report_missing(struct binder *b, const struct object *object, const 
     for (size_t i = 0; i < object->n; i++) {
         const struct field *f = &object->fields[i];
         bool tag = f->type == FIELD_TAG && node->key; /* not needed where the mapping stands in another file */
-        if (f->flags & FIELD_REQUIRED && !tag && !ceduo_node_get(node, f->key))
-            report(b, node, _("'%s' is missing: %s"), f->key,
-                   f->type == FIELD_TAG ? f->value : _(f->meaning));
+        if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key))
+            continue;
+        size_t before = enter(b, f->key);
+        bool told = is_bad(b);
+        note_bad(b);
+        leave(b, before);
+        if (!told)
+            report_at(b, node, _("'%s' is missing: %s"), f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
 }
 
@@ -501,6 +550,8 @@ static void bind_map(struct binder *b, const struct object *object, const struct
         report(b, node, _("a mapping is wanted here, not %s"), kind_name(node));
         return;
     }
+    bool partial = b->partial;
+    b->partial |= node->broken;
     size_t outer = b->file_start;
     if (node->written && node->written->kind == NODE_SCALAR)
         b->file_start = b->path.length; /* a file of its own: paths begin anew */
@@ -521,14 +572,16 @@ static void bind_map(struct binder *b, const struct object *object, const struct
         }
     }
     b->file_start = own;
-    report_missing(b, object, node);
+    if (!b->partial)
+        report_missing(b, object, node);
     b->file_start = outer;
+    b->partial = partial;
 }
 
 void ceduo_schema_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
-                       struct problems *problems, const struct source_note **notes)
+                       struct problems *problems, const struct source_note **notes, struct bad_values *bad)
 {
-    struct binder b = {.arena = arena, .problems = problems, .notes = notes};
+    struct binder b = {.arena = arena, .problems = problems, .notes = notes, .bad = bad};
     bind_map(&b, object, node, item);
     problems->memory |= b.path.failed;
     ceduo_text_free(&b.path);

@@ -88,17 +88,26 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
 
 /* A note of where a value comes from. */
 struct source_note {
-    const char *path; /* of the mapping that it stands in */
-    const char *kind; /* measured, literature, assumed */
+    const char *path; /* of the mapping that it stands in, or of a value in it that it is not of */
+    const char *kind; /* measured, literature, assumed; changed: of a value that the source around it is not of */
     const char *text;
     bool made; /* by the program, not in the files */
     const struct source_note *before;
 };
 
+#define CEDUO_BAD_MOST 100 /* with more, nobody asks what else does not fit */
+
+/* Paths of values that could not be read, are missing or do not exist. */
+struct bad_values {
+    const char *paths[CEDUO_BAD_MOST];
+    size_t n; /* more than there is room for: too many */
+};
+
 /* Fills `item` (already holding its defaults) from a mapping. What is wrong goes to `problems`, with the path of each
- * value; reading goes on, so that all problems of a file are found. `notes` (may be NULL) collects every source. */
+ * value; reading goes on, so that all problems of a file are found. `notes` collects every source, `bad` what is wrong. A number that is
+ * wrong is NaN where it has no default. */
 void ceduo_schema_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
-                       struct problems *problems, const struct source_note **notes);
+                       struct problems *problems, const struct source_note **notes, struct bad_values *bad);
 
 /* One field's value as a whole, the way ceduo_schema_bind() would; for checking a single edit. */
 bool ceduo_schema_range_text(const struct field *field, char *buffer, size_t size);

@@ -245,3 +245,56 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     }
     return CEDUO_NUMBER_GOOD;
 }
+
+void ceduo_text_csv(struct text *text, const char *value)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, value);
+    const char *bytes = safe.bytes ? safe.bytes : "";
+    if (!strpbrk(bytes, ",\"")) {
+        ceduo_text_put(text, bytes);
+    } else {
+        ceduo_text_char(text, '"');
+        for (; *bytes; bytes++)
+            ceduo_text_add(text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
+        ceduo_text_char(text, '"');
+    }
+    text->failed |= safe.failed;
+    ceduo_text_free(&safe);
+}
+
+/* Levenshtein's distance between short words. */
+static size_t distance(const char *a, const char *b)
+{
+    size_t row[64], n = strlen(b);
+    if (n >= 64 || strlen(a) >= 64)
+        return 64;
+    for (size_t j = 0; j <= n; j++)
+        row[j] = j;
+    for (size_t i = 1; a[i - 1]; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= n; j++) {
+            size_t change = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = row[j];
+            size_t add = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
+            row[j] = change < add ? change : add;
+        }
+    }
+    return row[n];
+}
+
+const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n)
+{
+    const char *best = NULL;
+    size_t least = strlen(word) / 2 + 2;
+    for (size_t i = 0; i < n; i++) {
+        size_t d = distance(word, words[i]);
+        bool longer = strncmp(words[i], word, strlen(word)) == 0; /* dbh for dbh_m */
+        if (d < least || (longer && !best)) {
+            least = d < least ? d : least;
+            best = words[i];
+        }
+    }
+    return best;
+}

@@ -48,4 +48,10 @@ enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
 /* Reads a whole number from lo to hi, exactly: CEDUO_NUMBER_TOO_LARGE where it lies outside. */
 enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value);
 
+/* A field of CSV, in quotes where it needs them. */
+void ceduo_text_csv(struct text *text, const char *value);
+
+/* The nearest of some words, NULL where none is near. */
+const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n);
+
 #endif

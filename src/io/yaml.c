@@ -363,7 +363,9 @@ static struct node *read_document(struct reader *r)
         else if (type != YAML_STREAM_START_EVENT && type != YAML_DOCUMENT_START_EVENT &&
                  type != YAML_DOCUMENT_END_EVENT && type != YAML_STREAM_END_EVENT)
             root = read_value(r, &event, 0);
-        if (type == YAML_STREAM_END_EVENT && !root)
+        if (type == YAML_STREAM_END_EVENT && !root && r->skip > 0 && r->source->is_option)
+            ceduo_problem(r->problems, r->source, 1, r->skip_column + 1, _("holds no value, nothing follows the ="));
+        else if (type == YAML_STREAM_END_EVENT && !root)
             ceduo_problem(r->problems, r->source, 0, 0, _("holds no value"));
         yaml_event_delete(&event);
         if (type == YAML_STREAM_END_EVENT)

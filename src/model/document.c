@@ -500,13 +500,6 @@ bool ceduo_document_unsaved(const struct document *d)
 
 /* ---- saving ---- */
 
-/* Whether two names lead to one file. */
-static bool same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    return a && b && stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
 /* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
  * there, otherwise whole. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
@@ -515,7 +508,8 @@ static const struct node *reference_from(struct document *d, const struct node *
     const char *from = node->source && node->source->is_option ? node->source->beside : d->path;
     const char *now = ceduo_file_find(arena, node->text, from, folder);
     now = now ? now : ceduo_file_find(arena, node->text, NULL, folder);
-    if (!now || same_file(now, ceduo_file_find(arena, node->text, to, folder)))
+    const char *then = now ? ceduo_file_find(arena, node->text, to, folder) : NULL;
+    if (!now || (then && ceduo_file_same(now, then)))
         return node;
     char *whole = realpath(now, NULL);
     const struct node *scalar = whole ? ceduo_node_scalar(arena, node->source, whole, false) : NULL;

@@ -50,21 +50,8 @@ static void flag(struct row *row, const char *name, bool value)
 static void string(struct row *row, const char *name, const char *value)
 {
     begin(row, name);
-    if (row->header || !value)
-        return;
-    struct text safe = {0};
-    ceduo_text_safe(&safe, value);
-    const char *bytes = safe.bytes ? safe.bytes : "";
-    if (!strpbrk(bytes, ",\"")) {
-        ceduo_text_put(row->text, bytes);
-    } else {
-        ceduo_text_char(row->text, '"');
-        for (; *bytes; bytes++)
-            ceduo_text_add(row->text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
-        ceduo_text_char(row->text, '"');
-    }
-    row->text->failed |= safe.failed;
-    ceduo_text_free(&safe);
+    if (!row->header && value)
+        ceduo_text_csv(row->text, value);
 }
 
 static void distribution(struct row *row, const char *group, const struct ceduo_distribution *d, double scale)

@@ -963,6 +963,31 @@ def test_table_assumed():
         expect_order(text, r"Rock[^*]*m\*", r"50 kJ\*", r"coppice\*", r"\* Assumed", "guessed by eye")
 
 
+def test_table_changed():
+    """A value changed by -s no longer has the source around it, and what is listed says so; no figure changes by that"""
+    note = {"kind": "assumed", "text": "all a guess"}
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}, {"x_m": 80, "source": note}]))
+        for change, said in (("accepted_kJ=60", "; changed since: accepted_kJ"), ("accepted_kJ=50", ""), ("name=road", ""),
+                             ("source={kind: assumed}", "")):
+            text = " ".join(good("--batch", path, "-s", f"controls[0].{change}").out.split())
+            expect_in(f"all a guess{said} (controls[", text, change)
+        twice = good("--batch", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
+        expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
+        whole = good("--batch", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
+        expect("guess" not in whole, whole)
+        plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
+        expect_equal(result(path, "-s", "controls[0].accepted_kJ=60")["options"], result(plain)["options"], "figures")
+        # the innermost source alone is told; in a list the whole of it; settings have no source
+        path = f.write("s.yaml", scene(source={"kind": "assumed", "text": "outer"}, forest=[
+            {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
+        text = " ".join(good("--batch", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
+                             "forest[0].stand.trees[0].per_ha=9", "--seed", 5, "-s", "controls[0].x_m=70").out.split())
+        for words in ("outer; changed since: controls (the scene)", "belt (forest[0])",
+                      "all a guess; changed since: stools.per_ha, trees (forest[0].stand)"):
+            expect_in(words, text)
+
+
 def test_table_talus():
     """A bare CSV slope takes talus and says that it is assumed"""
     with Folder() as f:
@@ -1013,6 +1038,45 @@ def test_set_through_files():
              for rn in (0.31, 0.9)]
     expect(speed[0] != speed[1] and speed[0] == result(PAPER)["options"][0]["controls"][0]["bare"]["speed_m_s"]["mean"],
            speed)
+
+
+def test_set_at_odds():
+    """A change that does not fit the rest of a good scene is named, with status 2; a bad scene stays bad input"""
+    for sets, column, words in ((["forest[0].to_m=100"], 16, "forest[1].from_m: 67.5 lies before the end"),
+                                (["release.x_m=140"], 13, "controls[0].x_m: 135 does not lie beyond the release"),
+                                (["slope.vertices_m=[[0,100],[50,0]]"], 18, "13 segments for 1 stretches"),
+                                (["rock.shape=sphere", "rock.diameter_m=1"], 12, "does not belong to the shape 'sphere'"),
+                                (["simulation.rocks=9", "forest[0].to_m=100", "rock.diameter_m=1"], 16, "lies before the end")):
+        done = ceduo("--check", *(word for s in sets for word in ("-s", s)), PAPER)
+        culprit = next(s for s in sets if "=9" not in s)
+        expect(done.status == USAGE and done.out == "", done)
+        expect(done.err.startswith(f"--set:1:{column}: the scene is good without this change, but not with it:\n  {culprit}\n" +
+                                   " " * (column + 1) + "^\n"), done)
+        expect_in(words, done.err)
+        expect_equal(done.err.count("--set:"), 1, done.err)
+    both = ["-s", "forest[0].to_m=100", "-s", "forest[1].from_m=100"]  # either of them alone would not fit
+    good("--check", *both, PAPER)
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 500}]))
+        done = ceduo("--check", "-s", "rock.diameter_m=1", path)
+        expect(done.status == INPUT and "--set" not in done.err, done)
+
+
+def test_set_by_name_twice():
+    """-s refuses a name that several belts have, and names their places; it takes one that is there once"""
+    with Folder() as f:
+        belts = [{"from_m": x, "to_m": x + 9, "stand": stand(name=n)} for x, n in ((10, "a"), (20, "b"), (30, "a"), (40, "a"))]
+        path = f.write("s.yaml", scene(forest=belts))
+        good("--check", "-s", "forest[b].stand.trees[0].per_ha=1", path)
+        good("--check", "-s", "forest[0].stand.trees[0].per_ha=1", path)
+        bad_set_on(path, "forest[a].stand.trees[0].per_ha=1", "'a': this name is given more than once; take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[a]={}", "take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[c].to_m=1", "'c': no such item")
+
+
+def bad_set_on(path, change, words):
+    done = ceduo("--check", "-s", change, path)
+    expect(done.status == USAGE and words in done.err, done)
 
 
 def test_set_spreads():
@@ -1738,6 +1802,34 @@ def test_list_profiles():
         expect_equal(result("mine", "-n", 1, env=env, cwd="/")["title"], "my \x07 own")
     expect_equal(result("paper-site", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
     expect_equal(result("paper-site.yaml", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
+
+
+def test_output_is_input():
+    """-o leaves every file alone that is read in the same run: scenes, what they refer to, parts, by any name"""
+    with Folder() as f:
+        f.write("line.csv", "distance,elevation\n0,64\n100,0\n")
+        f.write("stand.yaml", stand(ceduo="stand/1"))
+        f.write("s.yaml", scene(slope="line.csv", forest=[{"from_m": 10, "to_m": 60, "stand": "stand.yaml"}]))
+        f.write("bad.yaml", scene(rock=None, slope="line.csv"))
+        f.write("plain.yaml", scene())
+        os.link(f.path / "s.yaml", f.path / "hard.yaml")
+        (f.path / "soft.yaml").symlink_to("s.yaml")
+        (f.path / "part").write_bytes(good("--shard", "1/1", "s.yaml", cwd=f.path).out_bytes)
+        before = {n: (f.path / n).read_bytes() for n in f.names()}
+        with open(f.path / "s.yaml", "rb") as stdin:
+            runs = [("-b", "-o", n, "plain.yaml", "s.yaml") for n in
+                    ("s.yaml", "./s.yaml", "hard.yaml", "soft.yaml", "stand.yaml", "line.csv", "plain.yaml")]
+            runs += [("-b", "-o", "line.csv", "plain.yaml", "bad.yaml"), ("--merge", "-o", "part", "part"),
+                     ("--find", "rock.diameter_m=0.4:0.5", "--goal", "adc", "-o", "stand.yaml", "s.yaml"),
+                     ("--shard", "1/2", "-o", "line.csv", "s.yaml")]
+            for arguments in runs:
+                done = ceduo(*arguments, cwd=f.path)
+                expect(done.status == OUTPUT and done.out == "" and "is read in this run" in done.err, done)
+            done = subprocess.run([CEDUO, "-b", "-o", "s.yaml", "-"], stdin=stdin, stderr=subprocess.PIPE, cwd=f.path,
+                                  env=environment(), check=False)
+            expect(done.returncode == OUTPUT and b"is read in this run" in done.stderr, done)
+        expect_equal({n: (f.path / n).read_bytes() for n in f.names()}, before, "files")
+        good("-b", "-o", "s.yaml", "plain.yaml", cwd=f.path)
 
 
 def test_check_good():

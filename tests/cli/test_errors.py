@@ -299,9 +299,12 @@ LINE = "distance,elevation\n0,64\n100,0\n"
 CASES = {
     # Reading a file
     "cannot read it: No such file or directory": Words("--batch", "none.yaml", status=INPUT, start="none.yaml: "),
+    "cannot read it: No such file or directory; did you mean 'paper-site'? ...": lambda row: [
+        Words("--batch", name, status=INPUT, start=f"{name}: ")(row) for name in ("paper-sit", "papersite.yaml")],
     "cannot read it: Is a directory": Words("--batch", ".", status=INPUT, start=".: "),
     "cannot read it: Permission denied": lambda row: as_nobody(row, "--check", "scene.yaml", forbidden="scene.yaml",
                                                                status=INPUT, start="scene.yaml: "),
+    "cannot read it: nobody writes to this FIFO": Elsewhere("tests/cli/test_input.py", "def test_fifo_first"),
     "larger than 16 MiB": Sparse("s.yaml", 16 * MEBIBYTE),
     "larger than 64 MiB": Sparse("line.csv", 64 * MEBIBYTE),
     "cannot find 'x.yaml' beside this file or among the profiles": sc("slope: slope.yaml", "slope: @@x.yaml"),
@@ -353,6 +356,7 @@ CASES = {
     "a pair [x, z] is wanted": sl("[50, 30]", "@@[50]"),
     "a list of three numbers is wanted": sc(ROCK, "rock: {shape: block, axes_m: @@[1, 2]}"),
     "a mapping {kind, text} is wanted": st("source: {kind: measured, text: by hand}", "source: @@by hand"),
+    "a list of keys is wanted": st("text: by hand", "except: @@stools"),
     "'kind' is missing: measured, literature or assumed": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
     "'mean' is missing": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
     "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(
@@ -418,13 +422,17 @@ CASES = {
         "stools: {per_ha: @@7000, spacing_m: 0.25}\nshoots:\n  - per_ha: 6000"),
     "'bare', but there are stems; name the system or take them out": st("system: simple-coppice", "system: @@bare"),
     # Changes by --set
+    "holds no value, nothing follows the =": Set("release.height_m=@@"),
     "PATH=VALUE is wanted": Set("@@rock.diameter_m"),
     "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
     "'diameter': unknown key (ceduo --list-parameters)": Set("rock.@@diameter=1"),
     "'3': no such item": Set("controls[@@3].x_m=50"),
+    "'road': this name is given more than once; take a place: [0], [1]": Set(
+        "controls[1].name=road", "controls[@@road].accepted_kJ=1"),
     "'0': there is no list here": Set("rock[@@0]=1"),
     "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
     "'trees': there is none to change": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
+    "the scene is good without this change, but not with it:": Set("forest[0].to_m=@@50"),
     # Usage
     "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
     "standard input is no terminal; ...": lambda row: on_terminal(row, "xterm", stdin=subprocess.DEVNULL),
@@ -445,7 +453,10 @@ CASES = {
     "--charset: 'x' is unknown; one of braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is no whole number": Words("--batch", "-n", "1.5", "@"),
     "--rocks: 0 lies outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
-    "--tolerance: 1 lies outside 0 to 1": Words("--batch", "-e", "1", "@"),
+    "--tolerance: 1 must lie above 0 and below 1": lambda row: (
+        Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 must", "0 must"))),
+    "--output: name a file": Words("--batch", "-o", "", "@"),
+    "--years: -5:-1 begins before year 0, the stand as filed": Words("--years=-5:-1", "@"),
     "--size: '80' is no size; write columns x lines, as 80x24": Words("--plot", "adc", "--size", "80", "@"),
     "--size: 10x5 lies outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
     "--years: '5' is no stretch of years; write A:B or A:B:STEP, as 0:25": Words("--years", "5", "@"),
@@ -456,12 +467,17 @@ CASES = {
     "--find wants a --goal: adc, free-run, energy=KJ or exceed": Words("--find", "a=1:9", "@"),
     "--goal: 'x' is unknown; one of adc, free-run, energy, exceed": Words("--find", "a=1:9", "--goal", "x", "@"),
     "--goal energy wants the mean energy in kJ: energy=50": Words("--find", "a=1:9", "--goal", "energy", "@"),
+    "--goal: 5 is no share; write 0 to 1, as 0.05 for 5 %": lambda row: (
+        Words("--find", "a=1:9", "--goal", "exceed=5", "@")(row),
+        Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal goes with --find": Words("--batch", "--goal", "adc", "@"),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
     "--find goes with neither --plot, --years nor --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
     "--size goes with --plot": Words("--batch", "--size", "80x24", "@"),
     "--plot prints a picture; it has no --format csv or json": Words("--plot", "adc", "-f", "csv", "@"),
-    "--option: no option 'x' in mine.yaml": lambda row: Words("--batch", "--option", "x", "@")(row.replace("mine", "scene")),
+    "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
+        Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
+            ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
     # Scripts
     "key, type, resize, wait idle, dump or roles is wanted: x": Script("# first\nx\n", 2),
     "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),
@@ -473,6 +489,8 @@ CASES = {
     "4 rocks were still moving after 1000000 contacts ... (in the result)": moving,
     "x, 90 m: whether 50 of 1000 rocks at most arrive with too much energy is too close to call; ... (in the result)":
         Elsewhere("tests/cli/test_batch.py", "def test_table_close_call"),
+    "scene.yaml: it is read in this run; write elsewhere (status 4)": Words(
+        "--batch", "-o", "scene.yaml", "@", status=OUTPUT, start="scene.yaml: "),
     "standard output: No space left on device (status 4)": full,
     "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
@@ -491,6 +509,16 @@ CASES = {
     "--merge does not go with --rocks: what is printed was computed with the parts": Words("--merge", "-n", 5, "@"),
     "--merge wants files with the parts that --shard wrote, ...": Words("--merge"),
     "--shard does not go with --format: it writes a part of one run, ...": Words("--shard", "1/2", "-f", "csv", "@"),
+    "--check does not go with --format: it computes nothing": lambda row: [
+        Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
+            ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
+            ("find", ("--find", "a=1:2", "--goal", "adc")), ("tolerance", ("-e", 0.1)), ("years", ("--years", "0:2")),
+            ("script", ("--script", "x")), ("charset", ("--charset", "ascii")), ("rows", ("--rows", "stands")))],
+    "--rows goes with --format csv": lambda row: [
+        Words("--batch", "--rows", "stands", *words, "@")(row) for words in ((), ("-f", "json"))],
+    "--charset goes with --plot and the terminal program": Words("--batch", "--charset", "ascii", "@"),
+    "--script feeds the terminal program; it does not go with --batch": Words("--batch", "--script", "x", "@"),
+    "--years goes with the page, CSV, JSON and --plot rotation": Words("--years", "0:5", "--plot", "profile", "@"),
     "--shard: '0/3' is no part of a whole; write I/N, ...": Words("--shard", "0/3", "@"),
 }
 

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, PROFILES, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
+from harness import (CEDUO, DONE, INPUT, PROFILES, SLOWER, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
                      expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of)
 
 SCENE = """\
@@ -156,6 +156,8 @@ CASES = [
     ("scene.yaml", "{x_m: 90}", "{x_m: 90, @@qqqqqqqqqqqqqqqqq: 1}", "controls[1].qqqqqqqqqqqqqqqqq: unknown key", "known here: x_m"),
     ("stand.yaml", "text: by hand", "@@texts: by hand", "source.texts: unknown key"),
     ("stand.yaml", "kind: measured", "kind: @@guessed", "source.kind: 'guessed' is unknown"),
+    ("stand.yaml", "text: by hand", "except: @@stools", "source.except: a list of keys is wanted"),
+    ("stand.yaml", "text: by hand", "except: [@@[stools]]", "source.except: a key is wanted here, not a list"),
     ("scene.yaml", "ceduo: scene/1\n", "", "'ceduo' is missing"),
     ("scene.yaml", "ceduo: scene/1", "ceduo: @@scene/2", "'scene/1' is wanted"),
     ("scene.yaml", "ceduo: scene/1", "ceduo: @@stand/1", "'scene/1' is wanted"),
@@ -540,6 +542,23 @@ def test_fifo():
             writer.wait()
 
 
+def test_fifo_first():
+    """A FIFO is waited for whose writer comes a second later; one that nobody writes to is told of, not taken for empty"""
+    with Folder() as f:
+        fifo = f.path / "fifo.yaml"
+        os.mkfifo(fifo)
+        done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
+        time.sleep(1)
+        expect(done.poll() is None, "it did not wait")
+        with open(fifo, "wb") as out:
+            out.write(flat_scene())
+        expect_equal((done.communicate(timeout=10 * SLOWER)[1], done.returncode), (b"", DONE))
+        for mode in ("--check", "--batch"):
+            done = ceduo(mode, fifo)
+            expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: nobody writes to this FIFO\n"))
+            expect(2 < done.seconds < 10 * SLOWER, done)
+
+
 def test_names_with_escapes():
     """Control characters in names and titles never come out raw: table, CSV, JSON, messages, file names"""
     nasty = "\\e[31mred\\a\\u009b2J\\u202eevil\\n\\t\\r"
@@ -603,7 +622,76 @@ def test_all_at_once():
             "vx_m_s: 1", "vx_m_s: fast")
         f.write("s.yaml", data)
         problems = expect_places(check(f, "s.yaml").err, {"s.yaml": data})
-        expect_equal([p[1] for p in problems], [3, 4, 8, 8], str(problems))
+        expect_equal([p[1] for p in problems], [3, 4, 8], str(problems))  # that x_m is missing follows from 'x'
+
+
+def told(text, *wanted, more=None):
+    """The problems of a scene: one for each of `wanted`, which stands in it, and none besides."""
+    with Folder() as f:
+        for name, content in {"s.yaml": text, "slope.yaml": SLOPE, "stand.yaml": STAND, **(more or {})}.items():
+            f.write(name, content)
+        done = check(f, "s.yaml")
+        problems = [p[3] for p in expect_places(done.err, {"s.yaml": text, "slope.yaml": SLOPE, "stand.yaml": STAND, **(more or {})})]
+        for words in wanted:
+            expect_equal(sum(words in p for p in problems), 1, f"{words!r} in {problems}")
+        expect_equal(len(problems), len(wanted), str(problems))
+
+
+GROUND = "slope: {vertices_m: [[0, 64], [50, 30], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+HEAD = "ceduo: scene/1\nrock: {diameter_m: 0.5}\n" + GROUND
+
+
+def test_all_without_reference():
+    """A reference that leads nowhere is one problem; all the rest is still looked at"""
+    told("ceduo: scene/1\nrock: {diameter_m: -1}\n" + GROUND + "controls: [{x_m: 900}, {x_m: a}]\nforest:\n"
+         "  - {from_m: 10, to_m: 40, stand: nowhere}\n  - {from_m: 30, to_m: 70, stand: {base: nothing, shoots: [{per_ha: -7}]}}\n",
+         "cannot find 'nowhere'", "cannot find 'nothing'",
+         "rock.diameter_m: -1", "controls[0].x_m: 900 lies beyond", "controls[1].x_m: 'a'",
+         "forest[1].from_m: 30 lies before the end", "shoots[0].per_ha: -7")
+    told("ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: nowhere\ncontrols: [{x_m: 5}, {x_m: 5}]\n"
+         "forest: [{from_m: 40, to_m: 10, stand: stand.yaml}]\n",
+         "cannot find 'nowhere'", "controls[1].x_m: 5 is given twice", "forest[0].to_m: 10 does not lie beyond from_m")
+    told(HEAD + "controls_m: [75]\nforest: [{from_m: 10, to_m: 40, stand: bad.yaml}, {from_m: 40, to_m: 30, stand: bad.yaml}]\n",
+         "malformed YAML", "forest[1].to_m: 30 does not lie beyond", more={"bad.yaml": "name: [\n"})
+
+
+def test_all_with_values():
+    """What does not fit together is told along with wrong and missing values, as far as its own values are good"""
+    told("ceduo: scene/1\n", "'rock' is missing", "'slope' is missing", "'controls' is missing")
+    told("ceduo: scene/1\nrock: {shape: cube, height_m: 1}\nrelease: {x_m: b, height_m: -1}\n"
+         "slope: {vertices_m: [[0, 64], [50], [40, 20], [30, 0]], segments: [{rn: 2, rt: 0.8}, {rn: 0.3}], "
+         "materials: [{from_m: 0, to_m: 0, material: cliff}]}\n"
+         "controls: [{x_m: 9}, {x_m: 9, accepted_kJ: -1}]\n"
+         "forest: [{from_m: 10, to_m: x, stand: {stools: {per_ha: 9}, shoots: [{per_ha: 5, dbh_m: 1, height_m: 1}]}}, "
+         "{from_m: 9, to_m: 8, stand: {shoots: [{per_ha: 5, dbh_m: 0, height_m: 1}]}}]\n",
+         "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: a pair",
+         "slope.vertices_m[3]: x 30 does not lie beyond 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
+         "segments say the ground already", "controls[1].x_m: 9 is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
+         "'spacing_m' is missing", "5 shoots on 9 stools", "forest[1].to_m: 8 does not lie", "shoots without stools",
+         "dbh_m: 0 is not above")
+    told(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
+         "forest: [{from_m: -5, to_m: 200, stand: stand.yaml}]\n",
+         "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 does not lie beyond the release",
+         "controls_m[2]: 200 lies beyond", "controls_m[3]: 75 does not lie beyond the release", "forest[0].from_m: -5 lies before",
+         "forest[0].to_m: 200 lies beyond the slope")
+    told("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
+         "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",
+         "one of diameter_m, volume_m3 and mass_kg", "'sand' is unknown", "materials[1].from_m: 5 leaves a gap",
+         "options[1]: 'name' is missing", "options[1].forest: a list is wanted", "options[2].name: 'a' is given twice",
+         "'controls' is missing")
+
+
+def test_all_but_what_follows():
+    """What only follows from another problem is not told"""
+    told("ceduo: scene/1\nrock: {diametre_m: 0.5}\nslope: {vertices_m: 5, materials: 6}\ncontrol: [{x_m: 900}]\n"
+         "forest: [{from_m: 10, to_m: 400, stand: {stools: 7, shoots: [{per_ha: 9, dbh_m: 1, height_m: 1}]}}]\n",
+         "rock.diametre_m: unknown key", "slope.vertices_m: a list", "slope.materials: a list", "control: unknown key",
+         "stools: a mapping is wanted")
+    told(HEAD + "controls: 75\noptions: {}\n", "controls: a list", "options: a list")
+    told(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: a text",
+         "vertices_m and csv together")
+    told(HEAD.replace("diameter_m: 0.5", "shape: 5, height_m: 9") + "release: 7\ncontrols_m: [50]\nforest: [9, {from_m: 8}]\n",
+         "rock.shape: '5'", "release: a mapping", "forest[0]: a mapping", "'to_m' is missing", "'stand' is missing")
 
 
 # ---- files together ----

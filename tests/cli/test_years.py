@@ -733,6 +733,7 @@ def one_goal(found, goal, target, ends, seen):
         expect_equal((found["value"], found["side"], found["goal_at_value"]), (None, None, None))
         expect_equal(found["goal_at_nearest"], min(seen), f"nearest: {found}")
         return False
+    expect_equal((found["nearest"], found["goal_at_nearest"]), (None, None), "nearest, though one is found")
     expect_equal(found["goal_at_value"], seen[2], f"goal at the value: {found}")
     expect(ok[2], "the value does not pass", found, seen)
     if ok[0] and ok[1]:
@@ -828,8 +829,13 @@ def test_find_formats():
         rows = list(csv.DictReader(io.StringIO(good(*arguments, "-f", "csv").out)))
         for row, one in zip(rows, found):
             expect(all(same_cell(row[k], one[k]) for k in row), row, one)
-        expect_equal(len(rows), 2)
+        expect_equal([(r["scene"], r["rocks"]) for r in rows], [(str(a), "1000"), (str(b), "1000")])
+        comma = f.write('c,"d.yaml', reserves())
+        row = list(csv.DictReader(io.StringIO(good(*arguments[:4], comma, "-f", "csv").out)))[0]
+        expect_equal((row["scene"], row["path"]), (str(comma), RESERVES), "quotes")
         text = good(*arguments).out
+        expect_equal(re.findall(r"^(\S+):$", text, re.M), [str(a), str(b)], "scenes named")
+        expect(str(a) not in good(*arguments[:-1]).out, "one scene needs no name")
         expect_equal(re.findall(r"^forest\S+ = (\d+)$", text, re.M), ["379", "334"])
         expect("ADC 29.98 m (below 30 m is wanted)" in text, text)
         good(*arguments, "-f", "json", "-o", f.path / "out.json")

@@ -231,6 +231,34 @@ static void options_belts_and_segments(void **state)
     ceduo_problems_free(&problems);
 }
 
+static void a_changed_value_has_no_source(void **state)
+{
+    (void)state;
+    struct document d;
+    bool anew;
+    write_file("scene.yaml", "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\n"
+                             "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+                             "controls:\n  - x_m: 90\n    accepted_kJ: 50 # a wall\n"
+                             "    source: {kind: assumed, text: a guess}\n");
+    open_scene(&d);
+    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
+    set(&d, "controls[0].accepted_kJ", "60");
+    assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
+    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
+    assert_true(ceduo_document_undo(&d));
+    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
+    assert_true(ceduo_document_redo(&d));
+    assert_true(ceduo_document_save(&d, path, &anew));
+    assert_false(anew);
+    assert_non_null(strstr(read_file("scene.yaml"), "    accepted_kJ: 60 # a wall\n"
+                                                    "    source: {kind: assumed, text: a guess, except: [accepted_kJ]}\n"));
+    ceduo_document_close(&d);
+    open_scene(&d); /* the file says so, too */
+    assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
+    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
+    ceduo_document_close(&d);
+}
+
 static void unsaved_work_is_found_again(void **state)
 {
     (void)state;
@@ -307,6 +335,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, tear_down),
         cmocka_unit_test_setup_teardown(undo_and_redo, set_up, tear_down),
         cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, tear_down),
