@@ -363,7 +363,7 @@ CASES = {
         "diameter_m: 0.5}", "diameter_m: @@{mean: 0.8, spread: 1.2, kind: uniform}}"),
     # Rock
     "does not belong to the shape 'block'; give the whole rock: -s ...":
-        Words("--batch", "-s", "rock.shape=block", "@", status=INPUT, start="scene.yaml:"),
+        Words("--batch", "-s", "rock.shape=block", "@", start="scene.yaml:"),
     "does not belong to the shape 'sphere'; take it out": sc("diameter_m: 0.5}", "diameter_m: 0.5, height_m: @@1}"),
     "'height_m' is missing: the shape 'cylinder' needs it": sc("rock: {shape: sphere", "rock: @@{shape: cylinder"),
     "a sphere is given by one of diameter_m, volume_m3 and mass_kg ...": sc(ROCK, "rock: @@{shape: sphere}"),
