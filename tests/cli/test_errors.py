@@ -15,11 +15,11 @@ import threading
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, USAGE, Failure, Folder, Skip, Suite, environment,  # noqa: E402
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SLOW, USAGE, Failure, Folder, Skip, Suite, environment,  # noqa: E402
                      expect, expect_equal, expect_in, only_text, scene)
 from test_input import FILES, SCENE, mutated  # noqa: E402
 
-SECONDS = 10
+SECONDS = 10 * SLOW
 MEBIBYTE = 1 << 20
 BEYOND = 64 * MEBIBYTE
 SANITIZED = bool(re.search("asan|tsan", CEDUO))  # they need memory of their own
@@ -42,7 +42,7 @@ def limited(*arguments, program=CEDUO, stdin=subprocess.DEVNULL, stdout=None, en
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         p = subprocess.Popen([program, *map(str, arguments)], stdin=stdin, stdout=stdout or out, stderr=err, preexec_fn=limit,
                              env=environment(**(env or {})), **options)
-        watch = threading.Timer(120, p.kill)
+        watch = threading.Timer(SLOW * 120, p.kill)
         watch.start()
         _, status, usage = os.wait4(p.pid, 0)
         watch.cancel()
