@@ -118,6 +118,9 @@ $(UNIT): $(T)/%: $(BUILD)/tests/%.o $(SUPPORT) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ -lcmocka $(LIBS)
 
+WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create
+$(T)/unit/test_memory: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
+
 $(UNIT:=.tap): %.tap: %
 	@tests/run $@ $<
 
