@@ -119,7 +119,8 @@ $(UNIT): $(T)/%: $(BUILD)/tests/%.o $(SUPPORT) $(PARTS) $(LIBRARY)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ -lcmocka $(LIBS)
 
 WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create
-$(T)/unit/test_memory: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
+$(T)/unit/test_memory_files: WRAPPED += ceduo_arena_take ceduo_arena_copy ceduo_arena_string
+$(T)/unit/test_memory $(T)/unit/test_memory_files: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(UNIT:=.tap): %.tap: %
 	@tests/run $@ $<

@@ -314,5 +314,5 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
     if (good)
         ceduo_text_add(text, out.bytes, out.length);
     ceduo_text_free(&out);
-    return good;
+    return good && !text->failed;
 }

@@ -400,8 +400,10 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
         child = spread_map(s, child);
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = empty_map(s);
-    if (!last && !child)
+    else if (!last && !child)
         return fail_at(s, step, _("there is none to change"));
+    if (!last && !child)
+        return NULL; /* no memory for it */
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
     return child ? ceduo_node_with(s->arena, map, key, child) : NULL;
 }
