@@ -9,7 +9,7 @@ import unicodedata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from harness import CEDUO, DONE, ROOT, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
+from harness import CEDUO, DONE, ROOT, SLOW, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
 
 VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
@@ -194,9 +194,9 @@ def run_script(folder, script, *arguments, timeout=60, name="play.txt"):
     start = time.monotonic()
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              cwd=folder, env=home(folder), timeout=timeout, check=False, start_new_session=True)
+                              cwd=folder, env=home(folder), timeout=SLOW * timeout, check=False, start_new_session=True)
     except subprocess.TimeoutExpired as late:
-        raise Failure(f"not ended after {timeout} s", script) from late
+        raise Failure(f"not ended after {SLOW * timeout} s", script) from late
     result = Result(command[1:], done.returncode, done.stdout, done.stderr, time.monotonic() - start)
     expect(0 <= result.status <= 4, "the program crashed on", script, result)
     only_text(result.out_bytes, "stdout")

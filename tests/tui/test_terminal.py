@@ -16,9 +16,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good, home  # noqa: E402
-from harness import CEDUO, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
+from harness import CEDUO, SLOW, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
 
-PATIENCE = 20  # seconds until something that must come counts as missing; none of it is ever waited for in full
+PATIENCE = 20 * SLOW  # seconds until something that must come counts as missing; none of it is ever waited for in full
 ASAN = b"__asan_init" in Path(CEDUO).read_bytes()
 
 

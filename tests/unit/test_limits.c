@@ -260,6 +260,206 @@ static void belts_beside_the_way(void **state)
     assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);
 }
 
+/* ---- keys ---- */
+
+static uint64_t key_of(void)
+{
+    return ceduo_option_key(&site.scene.simulation, &site.option);
+}
+
+/* Whether a number matters to the rocks: it is changed, and put back. */
+static bool matters(double *number, double value)
+{
+    uint64_t before = key_of();
+    double was = *number;
+    *number = value;
+    bool other = key_of() != before;
+    *number = was;
+    assert_true(key_of() == before);
+    return other;
+}
+
+static void keys_tell_what_rocks_meet(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    struct ceduo_stems *shoots = &stand->shoots[0];
+    assert_true(matters(&shoots->dbh, .123) && matters(&shoots->per_ha, 1234) && matters(&shoots->dbh_sd, .01));
+    assert_true(matters(&stand->spacing, .123) && matters(&site.belts[0].to, 50));
+    assert_true(matters(&shoots->volume, 1.5) && matters(&stand->u, 12345));
+    assert_false(matters(&stand->fracture_ratio, 9) || matters(&shoots->age, 50));
+    stand->energy = CEDUO_DORREN;
+    assert_true(matters(&stand->fracture_ratio, 9));
+    assert_false(matters(&shoots->volume, 1.5) || matters(&stand->u, 12345));
+    stand->energy = CEDUO_BRAUNER;
+    size_t trees = stand->trees_count;
+    stand->trees_count = 0; /* half the volume and twice the work take the same */
+    stand->u = 1000;
+    shoots->volume = 2;
+    uint64_t key = key_of();
+    stand->u = 2000;
+    shoots->volume = 1;
+    assert_true(key_of() == key);
+    stand->trees_count = trees;
+    /* where diameters differ, a volume that is given goes with them, and one that is not is the species' */
+    shoots->dbh_sd = .01;
+    assert_true(matters(&shoots->volume, NAN));
+    int species = stand->species;
+    key = key_of();
+    stand->species = species == 0 ? 1 : 0;
+    assert_true(key_of() != key);
+    stand->species = species;
+    site.scene.simulation.contact_model = CEDUO_POISSON;
+    key = key_of();
+    site.scene.simulation.rule = CEDUO_CROFTON;
+    assert_true(key_of() != key);
+    site.scene.simulation.contact_model = CEDUO_INDEX;
+    assert_true(key_of() == 0);
+    site.scene.simulation.contact_model = CEDUO_STEMS;
+    for (size_t i = 0; i < 2; i++)
+        site.belts[i].stand.shoots_count = site.belts[i].stand.trees_count = 0;
+    assert_true(key_of() == 0); /* bare: as without forest */
+    site.belts[1].stand.shoots_count = 1;
+    key = key_of();
+    site.belts[0].to -= 1;
+    assert_true(key != 0 && key_of() == key);
+}
+
+/* ---- runs ---- */
+
+static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
+    return run;
+}
+
+static void runs_that_take_no_part(void **state)
+{
+    (void)state;
+    static const double cells[] = {10};
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 1500;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene), part = def, other;
+    part.part = true;
+    struct ceduo_run *from = run_of(&part, 1024), *to;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_run_save(from, &bytes, &n), CEDUO_OK);
+    to = run_of(&def, 0);
+    assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_OK);
+    ceduo_run_free(to);
+    for (int i = 0; i < 3; i++) {
+        other = i == 0 ? part : def;
+        other.cells = i == 1 ? 1 : 0;
+        other.cell_x = cells;
+        to = run_of(&other, i == 2 ? 10 : 0);
+        assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_BAD_PART); /* a part; with cells; within a block */
+        ceduo_run_free(to);
+    }
+    free(bytes);
+    ceduo_run_free(from);
+}
+
+static void little_is_asked_of_a_run(void **state)
+{
+    (void)state;
+    static const double cells[] = {20, 152};
+    double energies[8];
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 300;
+    site.scene.slope.segments[0].friction = 9; /* holds all that are released without speed */
+    site.scene.release = (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0),
+                                                ceduo_number(0)};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.threads = 0; /* as one */
+    def.cells = 2;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 300);
+    for (size_t i = 0; i < 2; i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        assert_int_equal(e.passed, 0);
+        assert_true(isnan(e.mean_energy) && isnan(e.speed.p5) && isnan(e.energy.max));
+    }
+    assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK); /* as long as it was made for */
+    assert_int_equal(ceduo_run_rocks(run), 300);
+    ceduo_run_free(run);
+
+    paper_site_init(&site);
+    def = ceduo_run_def_default(&site.scene);
+    def.rocks_most = 300;
+    run = run_of(&def, 0);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
+    ceduo_run_free(run);
+    def.exact_bytes = 100;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    ceduo_run_free(run);
+    site.scene.controls_count = 0; /* nobody asks what arrives; where they stop is told all the same */
+    def.exact_bytes = 100;
+    struct ceduo_ends binned, exact;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &binned), CEDUO_OK);
+    ceduo_run_free(run);
+    def.exact_bytes = CEDUO_EXACT_BYTES;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &exact), CEDUO_OK);
+    ceduo_run_free(run);
+    assert_memory_equal(binned.count, exact.count, sizeof exact.count);
+    assert_true(exact.stop_x.n > 0);
+    expect_near(binned.stop_p50, exact.stop_p50, 3.1e-5);
+
+    struct ceduo_pool *pool;
+    site.scene.slope.vertices = 1;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_BAD_SLOPE);
+    assert_null(run);
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_BAD_SLOPE);
+    assert_null(pool);
+}
+
+/* Forests that the scene has no more: the runs asked for last stay, so many of them. */
+static void a_pool_forgets_what_is_old(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 10;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    enum { MORE = CEDUO_POOL_SPARE + 5 };
+    double to = site.belts[1].to;
+    for (int i = 1; i <= MORE; i++) {
+        site.belts[1].to = to - i;
+        assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
+    }
+    site.belts[1].to = to - 1; /* the first is asked for once more */
+    assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
+    assert_int_equal(ceduo_pool_work(pool).reused, 1);
+    site.belts[1].to = to;
+    ceduo_pool_turn(pool, &site.scene);
+    assert_int_equal(ceduo_pool_work(pool).runs, 2 + CEDUO_POOL_SPARE);
+    assert_non_null(ceduo_pool_find(pool, NULL));
+    assert_non_null(ceduo_pool_find(pool, &site.option));
+    for (int i = 1; i <= MORE; i++) {
+        site.belts[1].to = to - i;
+        assert_int_equal(ceduo_pool_find(pool, &site.option) != NULL, i == 1 || i > MORE - CEDUO_POOL_SPARE + 1);
+    }
+    site.belts[1].to = to;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_pool_save(pool, &bytes, &n), CEDUO_OK);
+    assert_int_equal(ceduo_pool_adopt(pool, bytes, 8), CEDUO_BAD_PART);
+    free(bytes);
+    ceduo_pool_free(pool);
+}
+
 /* ---- looking for a value that is given up ---- */
 
 static atomic_bool cancel;
@@ -316,6 +516,10 @@ int main(void)
         cmocka_unit_test(distributions_of_few_values),
         cmocka_unit_test(values_beyond_every_bin),
         cmocka_unit_test(belts_beside_the_way),
+        cmocka_unit_test(keys_tell_what_rocks_meet),
+        cmocka_unit_test(runs_that_take_no_part),
+        cmocka_unit_test(little_is_asked_of_a_run),
+        cmocka_unit_test(a_pool_forgets_what_is_old),
         cmocka_unit_test(a_search_ends_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
