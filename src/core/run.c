@@ -946,7 +946,7 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
 {
     size_t n = 0;
-    if (!run->exact || !run->samples)
+    if (!run->samples)
         return 0;
     bool from_speed = run->kept != QUANTITIES;
     const double *column = samples_of(run, control, from_speed ? SPEED : ENERGY);
@@ -1164,7 +1164,7 @@ static enum ceduo_status adopt(struct ceduo_run *run, struct bytes *b, struct bl
 enum ceduo_status ceduo_run_adopt(struct ceduo_run *run, const unsigned char *bytes, size_t n)
 {
     bool fits = fits_exact(run, run->def.rocks_most);
-    if (run->def.part || run->def.cells > 0 || run->rocks % CEDUO_BLOCK_ROCKS != 0)
+    if (run->def.part || run->def.cells > 0)
         return CEDUO_BAD_PART;
     if (run->exact && !(fits ? grow_samples(run, run->def.rocks_most) : bin_samples(run)))
         return CEDUO_NO_MEMORY;
