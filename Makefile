@@ -184,14 +184,15 @@ do-lint:
 	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
 	    "-DCEDUO_DATADIR=\"\"" 2>/dev/null' tidy
 
-# All tests on a build that counts branches; then what was not taken, against tests/coverage.txt.
+# All tests on a build that counts branches; then what was not taken, against tests/coverage.txt. Whether they pass is for
+# make check to say: so slow a build misses some that go by the clock.
 do-coverage:
 	@+$(MAKE) --no-print-directory VARIANT=cov all
 	@find build/cov -name '*.gcda' -delete
 	@rm -rf $(TAPS:$(T)/%=build/cov/tests/%)
 	@+TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(TAPS:$(T)/%=build/cov/tests/%) do-replay
-	@tests/coverage.py build/cov; explained=$$?; \
-	tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap) && exit $$explained
+	@-tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
+	@tests/coverage.py build/cov
 
 DEBIAN_ALL := clang valgrind
 DEBIAN_BENCH := python3-numpy gnuplot-nox
