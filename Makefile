@@ -8,6 +8,7 @@
 #   make dist       the sources, in one archive   VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make lint       cppcheck and clang-tidy
 #   make fuzz       libFuzzer, FUZZ_SECONDS=600 for each reader
+#   make coverage   branches of src/core and src/io that no test takes, each with its reason: slow
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -28,7 +29,8 @@ OPTIMISE_release := -O2
 OPTIMISE_debug := -O0 -g
 OPTIMISE_asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPTIMISE_tsan := -O1 -g -fsanitize=thread
-OPTIMISE_cov := -O0 -g --coverage
+# What is inlined by force would be counted once for each place that calls it.
+OPTIMISE_cov := -O0 -g --coverage -Dalways_inline=unused
 OPTIMISE_fuzz := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: a fused multiply-add would give other bits on other machines.
@@ -86,7 +88,7 @@ deps:
 
 # With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
 # asked for, and do their work in a make of their own.
-GOALS := run check check-all bench stress fuzz lint
+GOALS := run check check-all bench stress fuzz lint coverage
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -115,6 +117,10 @@ do-check: all
 $(UNIT): $(T)/%: $(BUILD)/tests/%.o $(SUPPORT) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ -lcmocka $(LIBS)
+
+WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create
+$(T)/unit/test_memory_files: WRAPPED += ceduo_arena_take ceduo_arena_copy ceduo_arena_string
+$(T)/unit/test_memory $(T)/unit/test_memory_files: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(UNIT:=.tap): %.tap: %
 	@tests/run $@ $<
@@ -185,6 +191,17 @@ do-lint:
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
 	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
 	    "-DCEDUO_DATADIR=\"\"" 2>/dev/null' tidy
+
+# All tests on a build that counts branches; then what was not taken, against tests/coverage.txt. Whether they pass is for
+# make check to say: so slow a build misses some that go by the clock.
+do-coverage:
+	@+$(MAKE) --no-print-directory VARIANT=cov all
+	@find build/cov -name '*.gcda' -delete
+	@rm -rf $(TAPS:$(T)/%=build/cov/tests/%)
+	@+TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(TAPS:$(T)/%=build/cov/tests/%) do-replay
+	@-tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
+	@tests/coverage.py build/cov
+
 DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
 DEBIAN_BENCH := python3-numpy gnuplot-nox
 do-check-all: do-check

@@ -7,7 +7,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Mean dbh over some kinds of stem; 0 where there are none. */
+/* Mean dbh over some kinds of stem, of which there are some. */
 static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struct ceduo_stems *more, size_t m)
 {
     double count = 0, sum = 0;
@@ -16,7 +16,7 @@ static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struc
         count += s->per_ha;
         sum += s->per_ha * s->dbh;
     }
-    return count > 0 ? sum / count : 0;
+    return sum / count;
 }
 
 static double mean_shoot_dbh(const struct ceduo_stand *stand)

@@ -44,20 +44,21 @@ bool ceduo_histogram_add(struct histogram *h, double value)
     return true;
 }
 
-bool ceduo_histogram_merge(struct histogram *into, const struct histogram *from)
+bool ceduo_histogram_reserve(struct histogram *into, const struct histogram *from)
 {
-    for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++) {
-        if (!from->octave[o])
-            continue;
-        uint32_t *bins = octave_of(into, o);
-        if (!bins)
+    for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)
+        if (from->octave[o] && !octave_of(into, o))
             return false;
-        for (size_t i = 0; i < BINS; i++)
-            bins[i] += from->octave[o][i];
-    }
+    return true;
+}
+
+void ceduo_histogram_merge(struct histogram *into, const struct histogram *from)
+{
+    for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)
+        for (size_t i = 0; from->octave[o] && i < BINS; i++)
+            into->octave[o][i] += from->octave[o][i];
     into->n += from->n;
     into->zeros += from->zeros;
-    return true;
 }
 
 /* An octave (NULL: empty) as the counts that are not 0, each with its bin. */

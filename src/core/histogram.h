@@ -20,7 +20,10 @@ struct histogram {
 
 /* False without memory; the value is then not counted. */
 bool ceduo_histogram_add(struct histogram *h, double value);
-bool ceduo_histogram_merge(struct histogram *into, const struct histogram *from);
+
+/* Room for all that another has; false without memory. Then that can be added, which does not fail. */
+bool ceduo_histogram_reserve(struct histogram *into, const struct histogram *from);
+void ceduo_histogram_merge(struct histogram *into, const struct histogram *from);
 
 /* Writes it or reads it into an empty one. False without memory (b->no_memory), or where what is read is none of at most
  * `most` values. */

@@ -84,8 +84,7 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, struct sizes *s
     rock->mass = isnan(s->mass) ? rock->volume * s->density : s->mass;
     rock->radius = rock->mean_diameter / 2;
     rock->moment = rock->k * rock->mass * rock->radius * rock->radius;
-    bool good = rock->mass > 0 && isfinite(rock->mass) && rock->radius > 0 && isfinite(rock->radius) &&
-                rock->moment > 0 && isfinite(rock->moment);
+    bool good = rock->moment > 0 && isfinite(rock->moment); /* mass and radius are, too, then */
     return good ? CEDUO_OK : CEDUO_BAD_ROCK;
 }
 

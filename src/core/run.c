@@ -403,18 +403,27 @@ static void worker_release(struct worker *w)
     free(w->arrivals);
 }
 
-static bool worker_merge(struct worker *w)
+/* Room for what a worker brings. */
+static bool worker_reserve(const struct worker *w)
 {
     struct ceduo_run *run = w->run;
     size_t bins = run->controls * (size_t)run->kept + 1;
     for (size_t i = 0; w->bins && i < bins; i++)
-        if (!ceduo_histogram_merge(&run->bins[i], &w->bins[i]))
+        if (!ceduo_histogram_reserve(&run->bins[i], &w->bins[i]))
             return false;
+    return true;
+}
+
+static void worker_merge(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    size_t bins = run->controls * (size_t)run->kept + 1;
+    for (size_t i = 0; w->bins && i < bins; i++)
+        ceduo_histogram_merge(&run->bins[i], &w->bins[i]);
     for (size_t i = 0; w->cells && i < run->def.cells; i++) {
         ceduo_envelope_settle(&w->cells[i]);
         ceduo_envelope_merge(&run->cells[i], &w->cells[i]);
     }
-    return true;
 }
 
 /* Runs a chunk on as many threads as can be started; this one works too. */
@@ -458,8 +467,10 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
     if (!grow_kept(run, chunk->blocks))
         return CEDUO_NO_MEMORY;
     for (unsigned i = 0; i < n; i++)
-        if (!worker_merge(&workers[i]))
+        if (!worker_reserve(&workers[i]))
             return CEDUO_NO_MEMORY;
+    for (unsigned i = 0; i < n; i++) /* nothing fails from here on: a chunk is there or leaves no trace */
+        worker_merge(&workers[i]);
     for (size_t i = 0; i < chunk->blocks; i++) {
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
         if (full && run->def.part)
@@ -565,20 +576,34 @@ static bool keep_pairs(struct ceduo_run *run)
     return true;
 }
 
+static void free_bins(struct histogram *bins, size_t n)
+{
+    for (size_t i = 0; bins && i < n; i++)
+        ceduo_histogram_clear(&bins[i]);
+    free(bins);
+}
+
+static bool fill_bins(const struct ceduo_run *run, struct histogram *bins)
+{
+    for (size_t i = 0; run->samples && i < columns(run); i++)
+        for (uint64_t r = 0; r < run->rocks; r++) {
+            double v = run->samples[i * run->room + r];
+            if (!isnan(v) && !ceduo_histogram_add(&bins[i], v))
+                return false;
+        }
+    return true;
+}
+
 /* From samples to histograms: there are now too many rocks to keep. */
 static bool bin_samples(struct ceduo_run *run)
 {
-    size_t c = columns(run);
-    run->bins = calloc(c, sizeof *run->bins);
-    if (!run->bins || !keep_pairs(run))
+    struct histogram *bins = calloc(columns(run), sizeof *bins);
+    if (!bins || !fill_bins(run, bins) || !keep_pairs(run)) {
+        free_bins(bins, columns(run));
         return false;
-    for (size_t i = 0; run->samples && i < c; i++)
-        for (uint64_t r = 0; r < run->rocks; r++) {
-            double v = run->samples[i * run->room + r];
-            if (!isnan(v) && !ceduo_histogram_add(&run->bins[i], v))
-                return false;
-        }
+    }
     free(run->samples);
+    run->bins = bins;
     run->samples = run->stops = NULL;
     run->room = 0;
     run->exact = false;
@@ -707,9 +732,7 @@ void ceduo_run_free(struct ceduo_run *run)
     for (size_t i = 0; i < run->kept_room; i++)
         free(run->kept_blocks[i].controls);
     free(run->kept_blocks);
-    for (size_t i = 0; run->bins && i < columns(run); i++)
-        ceduo_histogram_clear(&run->bins[i]);
-    free(run->bins);
+    free_bins(run->bins, columns(run));
     free(run->samples);
     free(run->pairs);
     free(run->cells);
@@ -923,7 +946,7 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
 {
     size_t n = 0;
-    if (!run->exact || !run->samples)
+    if (!run->samples)
         return 0;
     bool from_speed = run->kept != QUANTITIES;
     const double *column = samples_of(run, control, from_speed ? SPEED : ENERGY);
@@ -1133,8 +1156,10 @@ static enum ceduo_status adopt(struct ceduo_run *run, struct bytes *b, struct bl
     if (!good || b->bad || ceduo_bytes_left(b) > 0)
         return CEDUO_BAD_PART;
     for (size_t i = 0; !run->exact && i < columns(run); i++)
-        if (!ceduo_histogram_merge(&run->bins[i], &bins[i]))
+        if (!ceduo_histogram_reserve(&run->bins[i], &bins[i]))
             return CEDUO_NO_MEMORY;
+    for (size_t i = 0; !run->exact && i < columns(run); i++)
+        ceduo_histogram_merge(&run->bins[i], &bins[i]);
     read_blocks(run, &blocks, &head, block, reached, true);
     run->rocks = head.end;
     return CEDUO_OK;
@@ -1143,7 +1168,7 @@ static enum ceduo_status adopt(struct ceduo_run *run, struct bytes *b, struct bl
 enum ceduo_status ceduo_run_adopt(struct ceduo_run *run, const unsigned char *bytes, size_t n)
 {
     bool fits = fits_exact(run, run->def.rocks_most);
-    if (run->def.part || run->def.cells > 0 || run->rocks % CEDUO_BLOCK_ROCKS != 0)
+    if (run->def.part || run->def.cells > 0)
         return CEDUO_BAD_PART;
     if (run->exact && !(fits ? grow_samples(run, run->def.rocks_most) : bin_samples(run)))
         return CEDUO_NO_MEMORY;
@@ -1153,9 +1178,7 @@ enum ceduo_status ceduo_run_adopt(struct ceduo_run *run, const unsigned char *by
     uint64_t *reached = calloc(run->controls + 1, sizeof *reached);
     bool ready = block_init(&block, run->controls) && bins && reached;
     enum ceduo_status status = ready ? adopt(run, &b, &block, bins, reached) : CEDUO_NO_MEMORY;
-    for (size_t i = 0; bins && i < columns(run); i++)
-        ceduo_histogram_clear(&bins[i]);
-    free(bins);
+    free_bins(bins, columns(run));
     free(reached);
     free(block.controls);
     return status;

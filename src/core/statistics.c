@@ -63,7 +63,7 @@ double ceduo_half_width_of_share(double share, double se, uint64_t n)
 size_t ceduo_quantile_rank(size_t n, double p)
 {
     double k = ceil(p * (double)n - 1e-9);
-    return k < 1 ? 1 : k > (double)n ? n : (size_t)k;
+    return k < 1 ? 1 : (size_t)k;
 }
 
 /* Smallest k with P(X <= k) >= q for X binomial(n, p), looked for near its normal approximation. */

@@ -134,11 +134,6 @@ static void put_block(struct text *text, const struct node *node, size_t indent)
 
 void ceduo_emit(struct text *text, const struct node *root)
 {
-    if (root->kind == NODE_SCALAR) {
-        put_flow(text, root);
-        ceduo_text_char(text, '\n');
-        return;
-    }
     put_block(text, root, 0);
 }
 

@@ -4,7 +4,7 @@
 
 #include "node.h"
 
-/* A tree as YAML text. */
+/* A tree as YAML text: a mapping or list that is not empty. */
 void ceduo_emit(struct text *text, const struct node *root);
 
 /* The tree as it is to be written to the scene's own file: what came from another file and is unchanged is its path

@@ -182,8 +182,10 @@ bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name
                                 .folder = keep(arena, folder),
                                 .path = keep(arena, path),
                                 .before = shelf->finds};
+    if (arena->failed) /* its words are not all there */
+        return false;
     shelf->finds = find;
-    return !arena->failed;
+    return true;
 }
 
 bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length)
@@ -193,8 +195,10 @@ bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path
         return false;
     *file = (struct shelf_file){
         .path = keep(arena, path), .bytes = bytes, .length = length, .before = shelf->files};
+    if (arena->failed)
+        return false;
     shelf->files = file;
-    return !arena->failed;
+    return true;
 }
 
 static const struct shelf_file *on_shelf(const struct shelf *shelf, const char *path)

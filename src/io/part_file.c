@@ -181,6 +181,7 @@ static char *take_string(struct arena *arena, struct cursor *c)
         }
     }
     good = good && take(c, "\"") && !text.failed;
+    arena->failed |= text.failed; /* no memory, and nothing wrong with the string */
     char *string = good ? ceduo_arena_string(arena, text.bytes ? text.bytes : "") : NULL;
     ceduo_text_free(&text);
     return string;
@@ -352,8 +353,7 @@ static const char *unpack_word(struct arena *arena, struct bytes *b)
     ceduo_bytes_count(b, &length);
     if (length == UINT64_MAX || b->bad)
         return NULL;
-    b->bad |= length > ceduo_bytes_left(b);
-    const unsigned char *from = b->bad ? NULL : ceduo_bytes_read(b, (size_t)length);
+    const unsigned char *from = ceduo_bytes_read(b, (size_t)length);
     b->bad |= from && memchr(from, '\0', (size_t)length) != NULL;
     return b->bad ? NULL : ceduo_arena_copy(arena, (const char *)from, (size_t)length);
 }
@@ -390,8 +390,8 @@ static void unpack_file(struct arena *arena, struct bytes *b, struct shelf *shel
     const char *path = unpack_word(arena, b);
     uint64_t length;
     ceduo_bytes_count(b, &length);
-    b->bad |= !path || length > ceduo_bytes_left(b);
-    const unsigned char *from = b->bad ? NULL : ceduo_bytes_read(b, (size_t)length);
+    b->bad |= !path;
+    const unsigned char *from = ceduo_bytes_read(b, (size_t)length);
     /* readers of text want a NUL behind it */
     const char *copy = from ? ceduo_arena_copy(arena, (const char *)from, (size_t)length) : NULL;
     b->bad |= !copy || !ceduo_shelf_file(arena, shelf, path, copy, (size_t)length);

@@ -464,8 +464,10 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
         child = spread_map(s, child);
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = empty_map(s);
-    if (!last && !child)
+    else if (!last && !child)
         return fail_at(s, step, _("there is none to change"));
+    if (!last && !child)
+        return NULL; /* no memory for it */
     s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
     map = child ? tell_source(s, map, step) : NULL;

@@ -202,10 +202,12 @@ static bool read_vertices(struct maker *m, struct points *p)
         return false;
     const struct node *node = ceduo_node_get(ceduo_node_get(m->file->root, "slope"), "csv");
     const char *path = ceduo_file_find(&m->file->arena, m->form.slope.csv, node->source->name, "slopes");
-    if (!path) {
+    if (!path && m->file->arena.failed)
+        ceduo_problem_memory(m->problems);
+    else if (!path)
         complain(m, "slope.csv", _("cannot find '%s' beside this file"), m->form.slope.csv);
+    if (!path)
         return false;
-    }
     return ceduo_csv_slope_read(&m->file->arena, path, p, m->problems);
 }
 

@@ -16,23 +16,28 @@
 
 /* ---- states ---- */
 
-static bool push_state(struct document *d, const struct node *root, const char *what)
+/* Room for one more state. */
+static bool reserve_state(struct document *d)
+{
+    if (d->count < d->room)
+        return true;
+    size_t room = d->room ? 2 * d->room : 64;
+    struct document_state *states = realloc(d->states, room * sizeof *states);
+    if (!states)
+        return false;
+    d->states = states;
+    d->room = room;
+    return true;
+}
+
+static void push_state(struct document *d, const struct node *root, const char *what)
 {
     if (d->at + 1 < d->count && d->saved > d->at && d->saved < d->count)
         d->saved = SIZE_MAX; /* the state on disk can no longer be reached by redo */
     if (d->count > 0)
         d->count = d->at + 1;
-    if (d->count == d->room) {
-        size_t room = d->room ? 2 * d->room : 64;
-        struct document_state *states = realloc(d->states, room * sizeof *states);
-        if (!states)
-            return false;
-        d->states = states;
-        d->room = room;
-    }
     d->states[d->count] = (struct document_state){root, what};
     d->at = d->count++;
-    return true;
 }
 
 /* History may grow to DOCUMENT_HISTORY_BYTES: beyond that the older half of it is forgotten. What memory it took is given
@@ -74,17 +79,18 @@ static bool commit(struct document *d, const struct node *root, const char *what
         return false;
     }
     const struct node *before = d->file.root;
+    const char *kept = ceduo_arena_string(&d->file.arena, what);
+    if (!kept || !reserve_state(d)) { /* before anything changes */
+        ceduo_problem_memory(problems);
+        return false;
+    }
     if (!adopt(d, root, problems))
         return false;
     if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
         d->file.root = before;
         return true;
     }
-    const char *kept = ceduo_arena_string(&d->file.arena, what);
-    if (!kept || !push_state(d, d->file.root, kept)) {
-        ceduo_problem_memory(problems);
-        return false;
-    }
+    push_state(d, d->file.root, kept);
     trim_history(d);
     ceduo_document_keep(d);
     return true;
@@ -138,20 +144,28 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
     note_disk(d);
     d->recovery = ceduo_recovery_path(d->path);
-    if (!push_state(d, d->file.root, "")) {
+    if (!reserve_state(d)) {
         ceduo_problem_memory(problems);
+        ceduo_document_close(d);
         return false;
     }
+    push_state(d, d->file.root, "");
     return true;
 }
 
 bool ceduo_document_new(struct document *d, const char *text, struct problems *problems)
 {
     *d = (struct document){.saved = SIZE_MAX};
-    if (!ceduo_scene_read_text(&d->file, _("new scene"), text, problems) || !push_state(d, d->file.root, "")) {
+    bool good = ceduo_scene_read_text(&d->file, _("new scene"), text, problems);
+    if (good && !reserve_state(d)) {
+        ceduo_problem_memory(problems);
+        good = false;
+    }
+    if (!good) {
         ceduo_document_close(d);
         return false;
     }
+    push_state(d, d->file.root, "");
     d->raw = NULL;
     d->recovery = ceduo_recovery_path(NULL);
     ceduo_document_keep(d);
@@ -196,8 +210,10 @@ static const struct node *parse(struct document *d, const char *name, const char
     char *title = ceduo_arena_string(&d->file.arena, name);
     /* a copy: the document may be saved elsewhere, what was typed is looked for where it was typed */
     char *beside = d->path ? ceduo_arena_string(&d->file.arena, d->path) : NULL;
-    if (!source || !copy || !title)
+    if (!source || !copy || !title) {
+        ceduo_problem_memory(problems);
         return NULL;
+    }
     *source = (struct source){
         .name = title, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = beside};
     return ceduo_yaml_read(&d->file.arena, source, problems);

@@ -6,7 +6,8 @@
  *   FAULT=short               every write takes one byte, or is interrupted
  *   FAULT=threads             no thread can be started
  * FAULT_FROM=name: only what the first thread does once a file of this name was put in its place counts.
- * FAULT_MARK names a file that is made when it happens. */
+ * FAULT_MARK names a file that is made when it happens. After main all goes well again: a build with gcc's --coverage
+ * writes its counts then, and fails badly where it cannot. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -170,4 +171,26 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
         return EAGAIN;
     }
     return NEXT(pthread_create)(thread, attributes, start, argument);
+}
+
+static void end_faults(void)
+{
+    fault = NOTHING;
+}
+
+static int (*real_main)(int argc, char **argv, char **environment);
+
+static int main_with_faults(int argc, char **argv, char **environment)
+{
+    atexit(end_faults); /* not before: it has to come ahead of what the C library lets do at the end of its own accord */
+    return real_main(argc, argv, environment);
+}
+
+int __libc_start_main(int (*program)(int, char **, char **), int argc, char **argv, void (*init)(void), void (*fini)(void),
+                      void (*end_of_linker)(void), void *stack_end)
+{
+    typedef int starter(int (*)(int, char **, char **), int, char **, void (*)(void), void (*)(void), void (*)(void), void *);
+    real_main = program;
+    starter *start = (starter *)dlsym(RTLD_NEXT, "__libc_start_main");
+    return start(main_with_faults, argc, argv, init, fini, end_of_linker, stack_end);
 }

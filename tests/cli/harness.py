@@ -19,9 +19,9 @@ ROOT = Path(__file__).resolve().parents[2]
 PROFILES = ROOT / "profiles"
 CEDUO = str(Path(os.environ.get("CEDUO") or ROOT / "ceduo").resolve())
 
-# Sanitizers need memory of their own, and many times as long.
-SANITIZED = any(mark in Path(CEDUO).read_bytes() for mark in (b"__asan_init", b"__tsan_init")) if Path(CEDUO).exists() else False
-SLOWER = 10 if SANITIZED else 1  # by so much what hangs is waited for
+PROGRAM = Path(CEDUO).read_bytes() if Path(CEDUO).exists() else b""
+SANITIZED = b"__asan_init" in PROGRAM or b"__tsan_init" in PROGRAM  # they need memory of their own, and time
+SLOWER = 20 if b"__gcov" in PROGRAM else 10 if SANITIZED else 1  # by so much what hangs is waited for
 
 DONE, RUN, USAGE, INPUT, OUTPUT = range(5)  # exit statuses
 

@@ -15,11 +15,11 @@ import threading
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, USAGE, Failure, Folder, Skip, Suite,  # noqa: E402
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, SLOWER, USAGE, Failure, Folder, Skip, Suite,  # noqa: E402
                      environment, expect, expect_equal, expect_in, only_text, scene)
 from test_input import FILES, SCENE, mutated  # noqa: E402
 
-SECONDS = 10
+SECONDS = 10 * SLOWER
 MEBIBYTE = 1 << 20
 BEYOND = 64 * MEBIBYTE
 
@@ -41,7 +41,7 @@ def limited(*arguments, program=CEDUO, stdin=subprocess.DEVNULL, stdout=None, en
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         p = subprocess.Popen([program, *map(str, arguments)], stdin=stdin, stdout=stdout or out, stderr=err, preexec_fn=limit,
                              env=environment(**(env or {})), **options)
-        watch = threading.Timer(120, p.kill)
+        watch = threading.Timer(SLOWER * 120, p.kill)
         watch.start()
         _, status, usage = os.wait4(p.pid, 0)
         watch.cancel()

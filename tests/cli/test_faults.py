@@ -13,12 +13,11 @@ import sys
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "tui")]
-from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, USAGE, Folder, Skip, Suite, environment, expect, expect_equal,  # noqa: E402
-                     expect_in, good, only_text, tests_of)
+from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, Suite, environment, expect,  # noqa: E402
+                     expect_equal, expect_in, good, only_text, tests_of)
 from play import FAST, Screen  # noqa: E402
 from test_input import FILES  # noqa: E402
 
-SANITIZED = b"__asan_init" in Path(CEDUO).read_bytes() or b"__tsan_init" in Path(CEDUO).read_bytes()
 EACH = int(os.environ.get("FAULTS_EACH") or 3)  # of so many allocations one is made to fail; 1: each
 
 

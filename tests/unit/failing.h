@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Memory that fails: each allocation of a task once, and from each on all. The task then says so, frees what it had, and
+ * where the library promises that one can go on gives the result that it gives with memory; or it gets along without and
+ * gives that at once. The linker puts what stands here in the place of the C library's calls (--wrap). */
+#ifndef FAILING_H
+#define FAILING_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants the four above first */
+#include <cmocka.h>
+#include <errno.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- failing calls ---- */
+
+static atomic_ulong calls;
+static atomic_long live;
+static unsigned long fail_at; /* 0: none */
+static bool fail_on;          /* all that follow as well */
+
+static bool fails(void)
+{
+    unsigned long n = atomic_fetch_add(&calls, 1) + 1;
+    if (fail_at == 0 || !(fail_on ? n >= fail_at : n == fail_at))
+        return false;
+    errno = ENOMEM;
+    return true;
+}
+
+static void *counted(void *p)
+{
+    live += p != NULL;
+    return p;
+}
+
+void *__real_malloc(size_t n);
+void *__real_calloc(size_t n, size_t size);
+void *__real_realloc(void *p, size_t n);
+void *__real_aligned_alloc(size_t align, size_t n);
+char *__real_strdup(const char *s);
+char *__real_realpath(const char *path, char *to);
+void __real_free(void *p);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument);
+
+void *__wrap_malloc(size_t n);
+void *__wrap_calloc(size_t n, size_t size);
+void *__wrap_realloc(void *p, size_t n);
+void *__wrap_aligned_alloc(size_t align, size_t n);
+char *__wrap_strdup(const char *s);
+char *__wrap_realpath(const char *path, char *to);
+void __wrap_free(void *p);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument);
+
+void *__wrap_malloc(size_t n)
+{
+    return fails() ? NULL : counted(__real_malloc(n));
+}
+
+void *__wrap_calloc(size_t n, size_t size)
+{
+    return fails() ? NULL : counted(__real_calloc(n, size));
+}
+
+void *__wrap_realloc(void *p, size_t n)
+{
+    if (fails())
+        return NULL;
+    void *to = __real_realloc(p, n);
+    return p ? to : counted(to);
+}
+
+void *__wrap_aligned_alloc(size_t align, size_t n)
+{
+    return fails() ? NULL : counted(__real_aligned_alloc(align, n));
+}
+
+char *__wrap_strdup(const char *s)
+{
+    return fails() ? NULL : counted(__real_strdup(s));
+}
+
+char *__wrap_realpath(const char *path, char *to)
+{
+    return fails() ? NULL : to ? __real_realpath(path, to) : counted(__real_realpath(path, to));
+}
+
+void __wrap_free(void *p)
+{
+    live -= p != NULL;
+    __real_free(p);
+}
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*start)(void *), void *argument)
+{
+    return fails() ? EAGAIN : __real_pthread_create(thread, attributes, start, argument);
+}
+
+/* ---- a task and what it found ---- */
+
+static uint64_t found;
+
+static void add(const void *bytes, size_t n)
+{
+    const unsigned char *p = bytes;
+    for (size_t i = 0; i < n; i++)
+        found = (found ^ p[i]) * 0x100000001b3u;
+}
+
+/* From here on there is memory again: the task was told that there was none, and goes on. */
+static void relieve(void)
+{
+    fail_at = 0;
+}
+
+/* Does all, and adds what it found; false where there was no memory. */
+typedef bool task(void);
+
+static bool begin(task *todo, unsigned long at, bool on)
+{
+    found = 0xcbf29ce484222325u;
+    calls = 0;
+    live = 0;
+    fail_at = at;
+    fail_on = on;
+    bool done = todo();
+    fail_at = 0;
+    if (live != 0)
+        fail_msg("allocation %lu%s: %ld are not freed", at, on ? " and all that follow" : "", (long)live);
+    return done;
+}
+
+static void without_memory(task *todo)
+{
+    assert_true(begin(todo, 0, false));
+    const uint64_t wanted = found, all = calls;
+    assert_true(begin(todo, 0, false));
+    assert_int_equal(found, wanted);
+    unsigned long failed = 0;
+    for (unsigned long at = 1; at <= all; at++)
+        for (int on = 0; on < 2; on++) {
+            bool done = begin(todo, at, on);
+            failed += !done;
+            if (done && found != wanted)
+                fail_msg("allocation %lu%s: another result", at, on ? " and all that follow" : "");
+        }
+    print_message("# %lu calls, %lu of %lu times the task ended without memory\n", (unsigned long)all, failed,
+                  (unsigned long)(2 * all));
+}
+
+#endif

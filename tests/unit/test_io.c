@@ -1,0 +1,731 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts, trees, files and parts at their edges: what is written is read back, what is none is refused. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants the four above first */
+#include <cmocka.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "ceduo/part.h"
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/json.h"
+#include "io/node.h"
+#include "io/part_file.h"
+#include "io/scene_file.h"
+#include "io/schema.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+/* ---- texts ---- */
+
+static void utf8_is_decoded(void **state)
+{
+    (void)state;
+    const struct {
+        const char *bytes;
+        size_t length;
+        uint32_t code;
+    } rows[] = {{"a", 1, 'a'},
+                {"\x7f", 1, 0x7f},
+                {"\xc2\x80", 2, 0x80},
+                {"\xdf\xbf", 2, 0x7ff},
+                {"\xe0\xa0\x80", 3, 0x800},
+                {"\xed\x9f\xbf", 3, 0xd7ff},
+                {"\xee\x80\x80", 3, 0xe000},
+                {"\xef\xbf\xbf", 3, 0xffff},
+                {"\xf0\x90\x80\x80", 4, 0x10000},
+                {"\xf4\x8f\xbf\xbf", 4, 0x10ffff},
+                {"\x80", 0, 0},
+                {"\xc1\xbf", 0, 0},         /* too long a form */
+                {"\xe0\x9f\xbf", 0, 0},
+                {"\xf0\x8f\xbf\xbf", 0, 0},
+                {"\xed\xa0\x80", 0, 0},     /* half a pair */
+                {"\xed\xbf\xbf", 0, 0},
+                {"\xf4\x90\x80\x80", 0, 0}, /* beyond the last */
+                {"\xf5\x80\x80\x80", 0, 0},
+                {"\xc3", 0, 0},             /* cut */
+                {"\xe2\x80", 0, 0},
+                {"\xc3g", 0, 0},
+                {"\xe2\x80g", 0, 0}};
+    uint32_t code = 0;
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        assert_int_equal(ceduo_utf8_decode(rows[i].bytes, strlen(rows[i].bytes), &code), rows[i].length);
+        if (rows[i].length > 0)
+            assert_int_equal(code, rows[i].code);
+    }
+    assert_int_equal(ceduo_utf8_decode("", 0, &code), 0);
+}
+
+/* Code points that are shown as they are, by whether a terminal or a line of JSON could take them for more. */
+static void no_character_does_anything(void **state)
+{
+    (void)state;
+    const struct {
+        const char *from, *safe, *json;
+    } rows[] = {{"a b", "a b", "\"a b\""},
+                {"\xc3\xa0", "\xc3\xa0", "\"\xc3\xa0\""},
+                {"\x1b[2J", "\\x1b[2J", "\"\\u001b[2J\""},
+                {"\x7f", "\\x7f", "\"\\u007f\""},
+                {"\xc2\x80", "\\xc2\\x80", "\"\\u0080\""},
+                {"\xc2\x9f", "\\xc2\\x9f", "\"\\u009f\""},
+                {"\xc2\xa0", "\xc2\xa0", "\"\xc2\xa0\""},
+                {"\xe2\x80\xa7", "\xe2\x80\xa7", "\"\xe2\x80\xa7\""},
+                {"\xe2\x80\xa8", "\\xe2\\x80\\xa8", "\"\\u2028\""},
+                {"\xe2\x80\xa9", "\\xe2\\x80\\xa9", "\"\\u2029\""},
+                {"\xe2\x80\xaa", "\\xe2\\x80\\xaa", "\"\\u202a\""},
+                {"\xe2\x80\xae", "\\xe2\\x80\\xae", "\"\\u202e\""},
+                {"\xe2\x80\xaf", "\xe2\x80\xaf", "\"\xe2\x80\xaf\""},
+                {"\xe2\x81\xa5", "\xe2\x81\xa5", "\"\xe2\x81\xa5\""},
+                {"\xe2\x81\xa6", "\\xe2\\x81\\xa6", "\"\\u2066\""},
+                {"\xe2\x81\xa9", "\\xe2\\x81\\xa9", "\"\\u2069\""},
+                {"\xe2\x81\xaa", "\xe2\x81\xaa", "\"\xe2\x81\xaa\""},
+                {"\"\\", "\"\\", "\"\\\"\\\\\""},
+                {"\xff", "\\xff", "\"\\ufffd\""}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct text safe = {0}, line = {0};
+        struct json json = {.text = &line};
+        ceduo_text_safe(&safe, rows[i].from);
+        ceduo_json_string(&json, NULL, rows[i].from);
+        assert_string_equal(safe.bytes, rows[i].safe);
+        assert_string_equal(line.bytes, rows[i].json);
+        ceduo_text_free(&safe);
+        ceduo_text_free(&line);
+    }
+}
+
+/* Fewest digits with which %e reads back as the same. */
+static int fewest_digits(double value)
+{
+    char room[64];
+    for (int digits = 1;; digits++) {
+        snprintf(room, sizeof room, "%.*e", digits - 1, value);
+        if (strtod(room, NULL) == value)
+            return digits;
+    }
+}
+
+static void expect_shortest(double value)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    const char *text = ceduo_number_shortest(value, room);
+    double back = 0;
+    assert_int_equal(ceduo_number_read(text, &back), CEDUO_NUMBER_GOOD);
+    if (back != value)
+        fail_msg("%a is written as %s", value, text);
+    if (fabs(value) >= 1e15 && fabs(value) < 1e17)
+        return; /* whole, with all its digits */
+    size_t from = strspn(text, "-0."), digits = 0, zeros = 0;
+    for (const char *p = text + from; *p && *p != 'e'; p++) {
+        digits += *p != '.';
+        zeros = *p == '0' ? zeros + 1 : *p == '.' ? zeros : 0;
+    }
+    if ((int)(digits - zeros) > fewest_digits(value))
+        fail_msg("%a is written as %s", value, text);
+}
+
+static void numbers_are_short(void **state)
+{
+    (void)state;
+    const double few[] = {1, -1, .1, 1. / 3, 1e-5, 1e-6, 123456789, 1e14, 1e15, 1e16, 1e17, 12345678901234567., 1e22, 4.9e-324,
+                          2.2250738585072014e-308, 1.7976931348623157e308, 9007199254740993., .3, 2.5e-310, 999999999999999.9};
+    for (size_t i = 0; i < LENGTH(few); i++) {
+        expect_shortest(few[i]);
+        expect_shortest(-few[i]);
+    }
+    uint64_t bits = 1;
+    for (int i = 0; i < 20000; i++) {
+        bits = bits * 6364136223846793005u + 1442695040888963407u;
+        uint64_t mixed = bits ^ bits >> 31;
+        double value;
+        memcpy(&value, &mixed, sizeof value);
+        if (isfinite(value) && value != 0)
+            expect_shortest(value);
+        expect_shortest(((double)(mixed >> 40) - 8e6 + .5) / (double)(1 + (mixed & 1023)));
+    }
+    char room[CEDUO_NUMBER_ROOM];
+    assert_string_equal(ceduo_number_shortest(NAN, room), "null");
+    assert_string_equal(ceduo_number_shortest(-INFINITY, room), "null");
+    assert_string_equal(ceduo_number_shortest(-0., room), "0");
+}
+
+static void numbers_are_read(void **state)
+{
+    (void)state;
+    const char *const good[] = {"0", "12", "-0.5", "+.5", "1.", "1e3", "1E-3", "1e+3", "0.0"};
+    const char *const none[] = {"", "-", ".", "e3", "1e", "1e+", "1,5", "0x10", "010", "inf", "nan", " 1", "1 ", "1_0", "--1", "1e3x"};
+    double value;
+    uint64_t count;
+    for (size_t i = 0; i < LENGTH(good); i++) {
+        assert_int_equal(ceduo_number_read(good[i], &value), CEDUO_NUMBER_GOOD);
+        assert_true(value == strtod(good[i], NULL));
+    }
+    for (size_t i = 0; i < LENGTH(none); i++) {
+        assert_int_equal(ceduo_number_read(none[i], &value), CEDUO_NUMBER_NONE);
+        assert_int_equal(ceduo_count_read(none[i], 0, 1e9, &count), CEDUO_NUMBER_NONE);
+    }
+    assert_int_equal(ceduo_number_read("1e999", &value), CEDUO_NUMBER_TOO_LARGE);
+    const struct {
+        const char *text;
+        double hi;
+        enum ceduo_number_reading reading;
+        uint64_t value;
+    } counts[] = {{"7", 9, CEDUO_NUMBER_GOOD, 7},
+                  {"1e3", 1e9, CEDUO_NUMBER_GOOD, 1000},
+                  {"2.0", 9, CEDUO_NUMBER_GOOD, 2},
+                  {"2.5", 9, CEDUO_NUMBER_NONE, 0},
+                  {"10", 9, CEDUO_NUMBER_TOO_LARGE, 0},
+                  {"-1", 9, CEDUO_NUMBER_TOO_LARGE, 0},
+                  {"1e999", 9, CEDUO_NUMBER_TOO_LARGE, 0},
+                  {"9007199254740993", 9.1e15, CEDUO_NUMBER_GOOD, 9007199254740993u},
+                  {"9007199254740993", 9007199254740992., CEDUO_NUMBER_TOO_LARGE, 0}};
+    for (size_t i = 0; i < LENGTH(counts); i++) {
+        assert_int_equal(ceduo_count_read(counts[i].text, 0, counts[i].hi, &count), counts[i].reading);
+        if (counts[i].reading == CEDUO_NUMBER_GOOD)
+            assert_int_equal(count, counts[i].value);
+    }
+}
+
+/* ---- trees ---- */
+
+static const struct node *parse(struct arena *arena, const struct text *text)
+{
+    struct source *source = ceduo_arena_take(arena, sizeof *source);
+    struct problems problems = {0};
+    *source = (struct source){
+        .name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};
+    const struct node *root = ceduo_yaml_read(arena, source, &problems);
+    if (!root)
+        fail_msg("%s\n%s", text->bytes, problems.text.bytes);
+    ceduo_problems_free(&problems);
+    return root;
+}
+
+static const struct node *parsed(struct arena *arena, const char *bytes)
+{
+    struct text text = {.bytes = (char *)(uintptr_t)bytes, .length = strlen(bytes)};
+    return parse(arena, &text);
+}
+
+/* Written in its two ways, a tree is read back as it is. */
+static void expect_back(struct arena *arena, const struct node *node)
+{
+    for (int way = 0; way < 2; way++) {
+        struct text text = {0};
+        if (way == 0)
+            ceduo_emit(&text, node);
+        else
+            ceduo_emit_flow(&text, node);
+        const struct node *back = parse(arena, &text);
+        if (!ceduo_node_equal(back, node) || (node->kind == NODE_SCALAR && strcmp(back->text, node->text) != 0))
+            fail_msg("not read back: %s", text.bytes);
+        ceduo_text_free(&text);
+    }
+}
+
+static void scalars_are_read_back(void **state)
+{
+    (void)state;
+    const char *const words[] = {
+        "",     " a",   "a ",  "true", "false", "null", "yes", "~",    "y",   "-",   "- a", "-a",   "--",  "a-b", "a:b",
+        "a: b", "#x",   "a #b", "\"q\"", "\\",  "\n",   "a\nb", "\x01", "\x7f", "0.5", "1e5", "007", "+1",  "\xc3\xa0", "[a]",
+        "{a}",  "&a",   "*a",  "!a",   "%a",    "@a",   "`a`", "|",    ">",   "?",   "? a", ":",    "a,b", "=",   "<<",
+        "_",    ".",    "/",   "a/b",  "..",    "---",  "...", "'",    "a'b", "AZaz09", "on", "null x", "a\tb", "\\n", "no"};
+    struct arena arena = {0};
+    const struct node *empty = parsed(&arena, "{}");
+    for (size_t i = 0; i < LENGTH(words); i++)
+        for (int quoted = 0; quoted < 2; quoted++) {
+            const struct node *word = ceduo_node_scalar(&arena, NULL, words[i], quoted);
+            expect_back(&arena, ceduo_node_with(&arena, empty, "key", word));
+            const struct node *list = parsed(&arena, "[a, [b], {c: d}]");
+            expect_back(&arena, ceduo_node_replaced(&arena, list, 0, word));
+            expect_back(&arena, ceduo_node_replaced(&arena, parsed(&arena, "[[a, b]]"), 0, ceduo_node_replaced(&arena, list, 2, word)));
+        }
+    ceduo_arena_free(&arena);
+}
+
+static void trees_are_read_back(void **state)
+{
+    (void)state;
+    const char *const trees[] = {
+        "a: {}\nb: []\n", "- - - 1\n    - 2\n  - []\n", "- {}\n- a: 1\n  b: [1, 2]\n",
+        "a: [[1, 2], [3, 4], {b: [5, {c: 6}]}]\n",
+        "a: [aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, ccccccccccccccccccccccccccccccc]\n",
+        "a: [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
+        "- [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
+        "- {a: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, b: bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c: ccccccccccc}\n"};
+    struct arena arena = {0};
+    for (size_t i = 0; i < LENGTH(trees); i++)
+        expect_back(&arena, parsed(&arena, trees[i]));
+    ceduo_arena_free(&arena);
+}
+
+static void trees_are_compared(void **state)
+{
+    (void)state;
+    const struct {
+        const char *a, *b;
+        bool equal;
+    } rows[] = {{"1", "1", true},           {"1", "1.0", false},     {"1", "'1'", false},      {"a", "'a'", true},
+                {"a", "[a]", false},        {"[a]", "[a, b]", false}, {"[a, b]", "[a, c]", false}, {"{a: 1}", "{a: 1}", true},
+                {"{a: 1}", "{b: 1}", false}, {"{a: 1}", "{a: 2}", false}, {"'1'", "'1'", true},  {"{a: 1}", "[1]", false}};
+    struct arena arena = {0};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct node *a = parsed(&arena, rows[i].a), *b = parsed(&arena, rows[i].b);
+        assert_int_equal(ceduo_node_equal(a, b), rows[i].equal);
+        assert_int_equal(ceduo_node_equal(b, a), rows[i].equal);
+        assert_true(ceduo_node_equal(a, a));
+        assert_false(ceduo_node_equal(a, NULL));
+        assert_false(ceduo_node_equal(NULL, a));
+    }
+    const struct node *map = parsed(&arena, "{a: 1, b: [1, 2, 3]}"), *b = ceduo_node_get(map, "b");
+    assert_false(ceduo_node_equal(ceduo_node_renamed(&arena, b, NULL), b)); /* one has a key */
+    assert_null(ceduo_node_get(NULL, "a"));
+    assert_null(ceduo_node_get(b, "a"));
+    assert_null(ceduo_node_text(map, "b"));
+    assert_null(ceduo_node_text(map, "c"));
+    assert_string_equal(ceduo_node_text(map, "a"), "1");
+    assert_ptr_equal(ceduo_node_without(&arena, map, "c"), map);
+    assert_true(ceduo_node_equal(ceduo_node_without(&arena, map, "b"), parsed(&arena, "{a: 1}")));
+    const char *const less[] = {"[2, 3]", "[1, 3]", "[1, 2]"};
+    const char *const more[] = {"[9, 1, 2, 3]", "[1, 9, 2, 3]", "[1, 2, 9, 3]", "[1, 2, 3, 9]"};
+    const struct node *list = parsed(&arena, "[1, 2, 3]"), *nine = parsed(&arena, "9");
+    for (size_t i = 0; i < 3; i++)
+        assert_true(ceduo_node_equal(ceduo_node_removed(&arena, list, i), parsed(&arena, less[i])));
+    for (size_t i = 0; i < 4; i++)
+        assert_true(ceduo_node_equal(ceduo_node_inserted(&arena, list, i, nine), parsed(&arena, more[i])));
+    ceduo_arena_free(&arena);
+}
+
+/* Values put into a text, the rest of it left as it is: NULL where more has changed than values. */
+static void texts_are_patched(void **state)
+{
+    (void)state;
+    const struct {
+        const char *before, *now, *wanted;
+    } rows[] = {
+        {"a: 1 # c\n", "a: 2", "a: 2 # c\n"},
+        {"\xef\xbb\xbf" "a: 1 # c\n", "a: 2", "\xef\xbb\xbf" "a: 2 # c\n"},
+        {"'\xc3\xa0': 1 # c\nb: [1, 2] # d", "{'\xc3\xa0': 5, b: [1, 3]}", "'\xc3\xa0': 5 # c\nb: [1, 3] # d"},
+        {"a: [1, 2] # c\n", "a: [1, 2, 3]", "a: [1, 2, 3] # c\n"},
+        {"a: {b: 1} # c\n", "a: {c: 1}", "a: {c: 1} # c\n"},
+        {"a: [1] # c\n", "a: x", "a: x # c\n"},
+        {"a: 1 # c\n", "a: [x, z]", "a: [x, z] # c\n"},
+        {"a: 1\n", "a: 1", "a: 1\n"},
+        {"a: 1\n", "{a: 1, b: 2}", NULL},
+        {"a:\n  b: 1\n", "a: {b: 1, c: 2}", NULL},
+        {"a:\n  b: 1\n", "a: {c: 1}", NULL},
+        {"a:\n  - 1\n", "a: x", NULL},
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct arena arena = {0};
+        struct text text = {0};
+        const struct node *old = parsed(&arena, rows[i].before), *now = parsed(&arena, rows[i].now);
+        bool good = ceduo_emit_patched(&text, old->source, old, now);
+        assert_int_equal(good, rows[i].wanted != NULL);
+        if (good)
+            assert_string_equal(text.bytes, rows[i].wanted);
+        else
+            assert_int_equal(text.length, 0);
+        ceduo_text_free(&text);
+        ceduo_arena_free(&arena);
+    }
+}
+
+/* ---- parts ---- */
+
+static struct text part_line(void)
+{
+    static const unsigned char bytes[] = "seven!\n";
+    char name[] = "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8";
+    struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 3, .rocks = 10, .seconds = 0.5, .inputs = bytes,
+                        .runs = bytes, .inputs_length = 7, .runs_length = 5};
+    struct text text = {0};
+    ceduo_part_write(&text, &part);
+    text.bytes[--text.length] = '\0'; /* without its end */
+    return text;
+}
+
+static enum part_fault read_line(const char *line, size_t n, struct part *part, struct arena *arena)
+{
+    char *copy = malloc(n + 1); /* of its own size: nothing may be read beyond it */
+    assert_non_null(copy);
+    memcpy(copy, line, n);
+    *part = (struct part){0};
+    enum part_fault fault = ceduo_part_read(arena, part, copy, n);
+    free(copy);
+    return fault;
+}
+
+static void parts_are_read_back(void **state)
+{
+    (void)state;
+    struct text line = part_line();
+    struct arena arena = {0};
+    struct part part;
+    char *copy = strdup(line.bytes);
+    assert_int_equal(ceduo_part_read(&arena, &part, copy, line.length), PART_GOOD);
+    assert_string_equal(part.scene, "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8");
+    assert_true(part.shard == 1 && part.shards == 2 && part.place == 3 && part.rocks == 10 && part.seconds == 0.5);
+    assert_true(part.inputs_length == 7 && part.runs_length == 5);
+    assert_memory_equal(part.inputs, "seven!\n", 7);
+    assert_memory_equal(part.runs, "seven", 5);
+    free(copy);
+    assert_int_equal(read_line("", 0, &part, &arena), PART_NONE);
+    assert_int_equal(read_line("{}", 2, &part, &arena), PART_NONE);
+    for (size_t n = 1; n < line.length; n++)
+        assert_int_equal(read_line(line.bytes, n, &part, &arena), PART_CUT);
+    char *other = strdup(line.bytes);
+    for (size_t i = 0; i < line.length; i++) {
+        other[i] ^= 1;
+        assert_int_not_equal(read_line(other, line.length, &part, &arena), PART_GOOD);
+        other[i] ^= 1;
+    }
+    free(other);
+    ceduo_arena_free(&arena);
+    ceduo_text_free(&line);
+}
+
+/* The line with one word replaced, and its sum that of what it says now. */
+static enum part_fault changed(const struct text *line, const char *from, const char *to)
+{
+    static const char sum[] = ", \"sum\": \"";
+    const char *at = strstr(line->bytes, from), *end = strstr(line->bytes, sum);
+    assert_true(at && end && at < end);
+    struct text text = {0};
+    struct arena arena = {0};
+    struct part part;
+    ceduo_text_add(&text, line->bytes, (size_t)(at - line->bytes));
+    ceduo_text_put(&text, to);
+    ceduo_text_add(&text, at + strlen(from), (size_t)(end - at) - strlen(from));
+    uint64_t now = ceduo_bytes_sum(text.bytes, text.length);
+    ceduo_text_format(&text, "%s%016" PRIx64 "\"}", sum, now);
+    enum part_fault fault = read_line(text.bytes, text.length, &part, &arena);
+    ceduo_arena_free(&arena);
+    ceduo_text_free(&text);
+    return fault;
+}
+
+static void parts_of_another_kind(void **state)
+{
+    (void)state;
+    struct text line = part_line();
+    assert_int_equal(changed(&line, "\"place\"", "\"place\""), PART_GOOD);
+    assert_int_equal(changed(&line, "ceduo-part-1", "ceduo-part-2"), PART_FORMAT);
+    assert_int_equal(changed(&line, "\"version\": \"", "\"version\": \"9"), PART_VERSION);
+    const char *const rows[][2] = {
+        {"\"scene\"", "\"Scene\""},          {"\"place\": 3", "\"place\": 0"},    {"\"place\": 3", "\"place\": "},
+        {"\"place\": 3", "\"place\": 2.5"},  {"\"place\": 3", "\"place\": 3000000000"},
+        {"\"place\": 3", "\"place\": 1111111111111111111111111111111"},           {"\"shard\": 1", "\"shard\": 3"},
+        {"\"shard\": 1", "\"hard\": 1"},     {"\"shards\": 2", "\"shards\": x"},  {"\"rocks\": 10", "\"rocks\": 0"},
+        {"\"rocks\": 10", "\"rocks\": 1e99"}, {"\"seconds\"", "\"second\""},      {"\"seconds\": 0.5", "\"seconds\": -1"},
+        {"\"seconds\": 0.5", "\"seconds\": x"},
+        {"\"seconds\": 0.5", "\"seconds\": 0.50000000000000000000000000000000000000"}, {"\"hash\"", "\"Hash\""},
+        {"\"hash\": \"0", "\"hash\": \"g"},  {"\"inputs\"", "\"Inputs\""},        {"\"runs\"", "\"Runs\""},
+        {"\"inputs\": \"", "\"inputs\": \"!!!!"}, {"\"inputs\": \"", "\"inputs\": \"a"}, {"c2V2ZW4=", "c2V2ZW4"}, {"\"runs\": \"", "\"runs\": \"===="},
+        {"\\u0001", "\\u0000"},              {"\\u0001", "\\u00g1"},              {"\\u0001", "\\u00"}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        if (changed(&line, rows[i][0], rows[i][1]) != PART_CHANGED)
+            fail_msg("%s for %s", rows[i][1], rows[i][0]);
+    ceduo_text_free(&line);
+}
+
+/* Any beginning of the inputs is none, and none of their bytes can be changed into something that is read beyond its end. */
+static void inputs_are_refused(void **state)
+{
+    (void)state;
+    const char *sets[] = {"a=1"}, *options[] = {"one", "two"};
+    struct arena arena = {0};
+    struct part_inputs in = {.path = "scene.yaml", .sets = sets, .options = options, .sets_count = 1, .options_count = 2}, back;
+    assert_true(ceduo_shelf_find(&arena, &in.shelf, "s", NULL, "stands", "/s.yaml"));
+    assert_true(ceduo_shelf_file(&arena, &in.shelf, "/s.yaml", "text", 4));
+    size_t n;
+    unsigned char *bytes = ceduo_part_inputs(&in, &n);
+    assert_true(ceduo_part_inputs_read(&arena, &back, bytes, n));
+    assert_string_equal(back.options[1], "two");
+    assert_null(back.shelf.finds->beside);
+    assert_string_equal(back.shelf.finds->folder, "stands");
+    assert_memory_equal(back.shelf.files->bytes, "text", 5);
+    for (size_t less = 0; less < n; less++) {
+        unsigned char *copy = malloc(less + 1);
+        memcpy(copy, bytes, less);
+        assert_false(ceduo_part_inputs_read(&arena, &back, copy, less));
+        free(copy);
+    }
+    for (size_t i = 0; i < n; i++)
+        for (unsigned bit = 0; bit < 8; bit++) {
+            bytes[i] ^= (unsigned char)(1u << bit);
+            if (ceduo_part_inputs_read(&arena, &back, bytes, n)) {
+                size_t m;
+                unsigned char *again = ceduo_part_inputs(&back, &m);
+                assert_int_equal(m, n);
+                assert_memory_equal(again, bytes, n);
+                free(again);
+            }
+            bytes[i] ^= (unsigned char)(1u << bit);
+        }
+    free(bytes);
+    ceduo_arena_free(&arena);
+}
+
+/* ---- files ---- */
+
+static char folder[64];
+
+static void in_folder(char path[256], const char *name)
+{
+    snprintf(path, 256, "%s/%s", folder, name);
+}
+
+static void put(const char *name, const char *text)
+{
+    char path[256];
+    in_folder(path, name);
+    assert_true(ceduo_file_write(path, text, strlen(text)));
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    char path[256];
+    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    const char *const folders[] = {"ceduo", "ceduo/stands", "ceduo/stands/folder.yaml"};
+    for (size_t i = 0; i < LENGTH(folders); i++) {
+        in_folder(path, folders[i]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    setenv("XDG_DATA_HOME", folder, 1);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void files_are_found(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    put("ceduo/stands/own.yaml", "x");
+    put("ceduo/top.yaml", "x");
+    put("beside.yaml", "x");
+    char beside[256], wanted[256];
+    in_folder(beside, "scene.yaml");
+    const struct {
+        const char *name, *found;
+        bool folder;
+    } rows[] = {{"beside.yaml", "beside.yaml", true},
+                {"own.yaml", "ceduo/stands/own.yaml", true},
+                {"own", "ceduo/stands/own.yaml", true},
+                {"own", NULL, false},
+                {"./top.yaml", "ceduo/top.yaml", true},
+                {"../top.yaml", "ceduo/top.yaml", true},
+                {"../.././stands/own.yaml", "ceduo/stands/own.yaml", false},
+                {"stands/own", NULL, true},
+                {"folder.yaml", NULL, true}, /* a folder is no file */
+                {"nothing", NULL, true},
+                {"/nothing", NULL, true}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const char *found = ceduo_file_find(&arena, rows[i].name, beside, rows[i].folder ? "stands" : NULL);
+        if (!rows[i].found) {
+            assert_null(found);
+            continue;
+        }
+        in_folder(wanted, rows[i].found);
+        assert_non_null(found);
+        assert_string_equal(found, wanted);
+    }
+    in_folder(wanted, "beside.yaml");
+    assert_string_equal(ceduo_file_find(&arena, wanted, NULL, NULL), wanted);
+    ceduo_arena_free(&arena);
+}
+
+static void folders_of_the_environment(void **state)
+{
+    (void)state;
+    char own[256], home[256], path[256];
+    in_folder(own, "ceduo");
+    in_folder(home, "home");
+    const char *const parts[] = {"home", "home/.local", "home/.local/share", "home/.local/share/ceduo"};
+    for (size_t i = 0; i < LENGTH(parts); i++) {
+        in_folder(path, parts[i]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    const struct {
+        const char *data, *home, *first;
+    } rows[] = {{folder, home, own}, {NULL, home, path}, {"relative", home, path}, {"", home, path}, {NULL, "", NULL}, {NULL, NULL, NULL}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct arena arena = {0};
+        rows[i].data ? setenv("XDG_DATA_HOME", rows[i].data, 1) : unsetenv("XDG_DATA_HOME");
+        rows[i].home ? setenv("HOME", rows[i].home, 1) : unsetenv("HOME");
+        const char *const *folders = ceduo_file_folders(&arena);
+        bool is_first = folders[0] && rows[i].first && strcmp(folders[0], rows[i].first) == 0;
+        assert_int_equal(is_first, rows[i].first != NULL);
+        for (size_t k = 0; folders[k]; k++)
+            assert_true(k == 0 || !strstr(folders[k], folder));
+        ceduo_arena_free(&arena);
+    }
+    setenv("XDG_DATA_HOME", folder, 1);
+}
+
+static void folders_are_listed(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    char own[256];
+    in_folder(own, "ceduo");
+    size_t n = 1;
+    assert_null(ceduo_file_list(&arena, own, "slopes", &n));
+    assert_int_equal(n, 0);
+    const char *const names[] = {"ceduo/stands/a-b.yaml", "ceduo/stands/a.yaml", "ceduo/stands/b.txt", "ceduo/stands/.yaml",
+                                 "ceduo/stands/.c.yaml", "ceduo/stands/B.yaml", "ceduo/stands/x", "ceduo/stands/aaaa.yaml",
+                                 "ceduo/stands/aa.yaml", "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
+    for (size_t i = 0; i < LENGTH(names); i++)
+        put(names[i], "x");
+    const char *const wanted[] = {"B.yaml", "a.yaml", "a-b.yaml", "aa.yaml", "aaa.yaml", "aaaa.yaml", "aaaaa.yaml", "folder.yaml"};
+    const char *const *list = ceduo_file_list(&arena, own, "stands", &n);
+    assert_int_equal(n, LENGTH(wanted));
+    for (size_t i = 0; i < n; i++)
+        assert_string_equal(list[i], wanted[i]);
+    for (int i = 0; i < 100; i++) { /* more than are first made room for */
+        char name[64];
+        snprintf(name, sizeof name, "ceduo/stands/n%02d.yaml", i);
+        put(name, "x");
+    }
+    list = ceduo_file_list(&arena, own, "stands", &n);
+    assert_int_equal(n, 108);
+    for (size_t i = 8; i < n; i++)
+        assert_int_equal(atoi(list[i] + 1), (int)i - 8);
+    ceduo_arena_free(&arena);
+}
+
+static void files_are_taken(void **state)
+{
+    (void)state;
+    char path[256], link[256], to[256];
+    struct text text = {0};
+    put("some", "twelve bytes");
+    in_folder(path, "some");
+    assert_true(ceduo_file_take(path, &text, 12));
+    assert_string_equal(text.bytes, "twelve bytes");
+    ceduo_text_free(&text);
+    assert_false(ceduo_file_take(path, &text, 11));
+    assert_int_equal(errno, EFBIG);
+    ceduo_text_free(&text);
+    assert_false(ceduo_file_take(folder, &text, 11));
+    assert_int_equal(errno, EISDIR);
+    in_folder(path, "none");
+    assert_false(ceduo_file_take(path, &text, 11));
+    assert_int_equal(errno, ENOENT);
+    /* through links to a file that is not there yet, by relative and absolute ways; one that leads to itself is refused */
+    in_folder(link, "link");
+    in_folder(to, "link2");
+    assert_int_equal(symlink("link2", link), 0);
+    in_folder(path, "target");
+    assert_int_equal(symlink(path, to), 0);
+    assert_true(ceduo_file_write(link, "x", 1));
+    assert_true(ceduo_file_take(path, &text, 9));
+    assert_string_equal(text.bytes, "x");
+    ceduo_text_free(&text);
+    in_folder(link, "loop");
+    assert_int_equal(symlink("loop", link), 0);
+    assert_false(ceduo_file_write(link, "x", 1));
+    assert_int_equal(errno, ELOOP);
+    /* without a folder in its name: in the one that is the present */
+    char here[4096];
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(folder), 0);
+    assert_int_equal(symlink("bare", "bare-link"), 0);
+    assert_true(ceduo_file_write("bare-link", "y", 1));
+    assert_true(ceduo_file_take("bare", &text, 9));
+    assert_string_equal(text.bytes, "y");
+    ceduo_text_free(&text);
+    assert_int_equal(chdir(here), 0);
+}
+
+static void a_closed_shelf_is_all_there_is(void **state)
+{
+    (void)state;
+    char path[256];
+    put("real.yaml", "1234567890");
+    in_folder(path, "real.yaml");
+    struct shelf shelf = {0};
+    struct arena arena = {.shelf = &shelf};
+    struct problems problems = {0};
+    assert_null(ceduo_file_find(&arena, "nothing", path, NULL));
+    assert_non_null(ceduo_file_find(&arena, "real.yaml", path, NULL));
+    const struct source *first = ceduo_file_read(&arena, path, 100, &problems);
+    put("real.yaml", "changed");
+    shelf.closed = true;
+    const struct source *again = ceduo_file_read(&arena, path, 100, &problems);
+    assert_int_equal(again->length, 10);
+    assert_ptr_equal(again->bytes, first->bytes);
+    assert_null(ceduo_file_read(&arena, path, 9, &problems)); /* larger than is asked for */
+    assert_non_null(strstr(problems.text.bytes, "larger than"));
+    assert_null(ceduo_file_read(&arena, folder, 100, &problems));
+    assert_non_null(strstr(problems.text.bytes, "cannot read it"));
+    assert_non_null(ceduo_file_find(&arena, "real.yaml", path, NULL));
+    assert_null(ceduo_file_find(&arena, "real.yaml", NULL, NULL));  /* other words */
+    assert_null(ceduo_file_find(&arena, "real.yaml", path, "stands"));
+    assert_null(ceduo_file_find(&arena, path, NULL, NULL));
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+}
+
+/* ---- the table of parameters ---- */
+
+static void ranges_are_told(void **state)
+{
+    (void)state;
+    const struct {
+        double lo, hi;
+        unsigned flags;
+        const char *text;
+    } rows[] = {{-INFINITY, INFINITY, 0, ""},  {0, INFINITY, 0, ">= 0"},      {0, INFINITY, FIELD_ABOVE, "> 0"},
+                {0, 1, 0, "0\xe2\x80\xa6" "1"}, {0, 1, FIELD_ABOVE | FIELD_UNDER, ">0\xe2\x80\xa6<1"},
+                {-INFINITY, 5, 0, "\xe2\x80\xa6" "5"}, {-1e9, 1e9, 0, ""}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        char room[64];
+        const struct field f = {.lo = rows[i].lo, .hi = rows[i].hi, .flags = rows[i].flags};
+        assert_int_equal(ceduo_schema_range_text(&f, room, sizeof room), rows[i].text[0] != '\0');
+        assert_string_equal(room, rows[i].text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(utf8_is_decoded),
+        cmocka_unit_test(no_character_does_anything),
+        cmocka_unit_test(numbers_are_short),
+        cmocka_unit_test(numbers_are_read),
+        cmocka_unit_test(scalars_are_read_back),
+        cmocka_unit_test(trees_are_read_back),
+        cmocka_unit_test(trees_are_compared),
+        cmocka_unit_test(texts_are_patched),
+        cmocka_unit_test(parts_are_read_back),
+        cmocka_unit_test(parts_of_another_kind),
+        cmocka_unit_test(inputs_are_refused),
+        cmocka_unit_test_setup_teardown(files_are_found, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(folders_of_the_environment, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(folders_are_listed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_are_taken, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, set_up, tear_down),
+        cmocka_unit_test(ranges_are_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,526 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The edges of what the core takes: scenes that it refuses, few values, values beyond every bin. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants the four above first */
+#include <cmocka.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ceduo/ceduo.h"
+#include "core/histogram.h"
+#include "physics/paper_site.h"
+
+/* ---- scenes that are refused ---- */
+
+static struct paper_site site;
+
+static void expect_slope(double *where, double value, enum ceduo_status wanted)
+{
+    double was = *where;
+    *where = value;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), wanted);
+    *where = was;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
+}
+
+static void slopes_are_refused(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    struct ceduo_segment *s = &slope->segments[3];
+    const double outside[] = {-.01, 1.01, NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < 5; i++) {
+        expect_slope(&s->rn.mean, outside[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->rt.mean, outside[i], CEDUO_BAD_SLOPE);
+    }
+    const double negative[] = {-.01, NAN, INFINITY};
+    for (size_t i = 0; i < 3; i++) {
+        expect_slope(&s->rn.spread, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->rt.spread, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->friction, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->roughness_rad, negative[i], CEDUO_BAD_SLOPE);
+    }
+    expect_slope(&s->rn.mean, 0, CEDUO_OK);
+    expect_slope(&s->rt.mean, 1, CEDUO_OK);
+    expect_slope(&s->roughness_rad, 1.5707963267948968, CEDUO_BAD_SLOPE); /* a right angle */
+    expect_slope(&s->roughness_rad, 1.57, CEDUO_OK);
+    expect_slope(&s->roughness_m, .1, CEDUO_BAD_SLOPE); /* said twice */
+    s->roughness_rad = NAN;
+    s->roughness_m = .1;
+    expect_slope(&s->roughness_m, 0, CEDUO_OK);
+    expect_slope(&s->roughness_m, -.1, CEDUO_BAD_SLOPE);
+    expect_slope(&slope->x[4], NAN, CEDUO_BAD_SLOPE);
+    expect_slope(&slope->z[4], INFINITY, CEDUO_BAD_SLOPE);
+    expect_slope(&slope->x[4], slope->x[3], CEDUO_BAD_SLOPE);
+    slope->vertices = 1;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+}
+
+static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status wanted)
+{
+    struct ceduo_rock rock;
+    assert_int_equal(ceduo_rock_of_means(def, &rock), wanted);
+}
+
+static void rocks_are_refused(void **state)
+{
+    (void)state;
+    const double no_size[] = {0, -1, INFINITY, -INFINITY};
+    struct ceduo_rock_def def = ceduo_rock_def_default();
+    expect_rock(&def, CEDUO_BAD_ROCK);
+    def.diameter.mean = 1;
+    expect_rock(&def, CEDUO_OK);
+    for (size_t i = 0; i < 4; i++) {
+        def.diameter.mean = no_size[i];
+        expect_rock(&def, CEDUO_BAD_ROCK);
+    }
+    /* too small or too large: mass, moment or radius would be 0 or infinite */
+    const double sizes[] = {1e-120, 1e-100, 1e100, 1e103};
+    for (size_t i = 0; i < 4; i++) {
+        def.diameter.mean = sizes[i];
+        expect_rock(&def, CEDUO_BAD_ROCK);
+    }
+    def.mass.mean = def.diameter.mean = 1;
+    def.density.mean = INFINITY; /* even where nothing needs it */
+    expect_rock(&def, CEDUO_BAD_ROCK);
+    def.density.mean = 2600;
+    expect_rock(&def, CEDUO_OK);
+    def.diameter.mean = 4e-324;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+
+    def = ceduo_rock_def_default();
+    def.shape = CEDUO_CYLINDER;
+    def.diameter.mean = 1;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+    def.height.mean = 1;
+    expect_rock(&def, CEDUO_OK);
+    def.diameter.mean = NAN;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+
+    def = ceduo_rock_def_default();
+    for (int shape = CEDUO_ELLIPSOID; shape <= CEDUO_BLOCK; shape++) {
+        def.shape = (enum ceduo_shape)shape;
+        for (int all = 0; all < 8; all++) {
+            for (int i = 0; i < 3; i++)
+                def.axes[i].mean = all >> i & 1 ? 1 : NAN;
+            expect_rock(&def, all == 7 ? CEDUO_OK : CEDUO_BAD_ROCK);
+        }
+        def.mass.mean = 1;
+        for (int i = 0; i < 3; i++)
+            def.axes[i].mean = 1e308;
+        expect_rock(&def, CEDUO_BAD_ROCK); /* the sum of the axes is infinite */
+        def.mass.mean = NAN;
+    }
+}
+
+/* ---- few values ---- */
+
+static int by_value(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* Chance that at most k of n, by its definition. */
+static double binomial(size_t n, double p, size_t k)
+{
+    double sum = 0;
+    for (size_t i = 0; i <= k; i++)
+        sum += exp(lgamma((double)n + 1) - lgamma((double)i + 1) - lgamma((double)(n - i) + 1) + (double)i * log(p) +
+                   (double)(n - i) * log1p(-p));
+    return sum;
+}
+
+static void intervals_of_few_values(void **state)
+{
+    (void)state;
+    const double p[] = {.01, .05, .5, .95, .99};
+    for (size_t i = 0; i < 5; i++)
+        for (size_t n = 1; n <= 120; n++) {
+            size_t lo, hi;
+            ceduo_quantile_interval(n, p[i], &lo, &hi);
+            assert_true(lo <= n && hi >= 1 && hi <= n + 1);
+            assert_true(lo == 0 || binomial(n, p[i], lo - 1) < .025 + 1e-9);
+            assert_true(binomial(n, p[i], lo) > .025 - 1e-9);
+            assert_true(hi < 2 || binomial(n, p[i], hi - 2) < .975 + 1e-9);
+            assert_true(binomial(n, p[i], hi - 1) > .975 - 1e-9);
+        }
+    assert_int_equal(ceduo_quantile_rank(10, 0), 1);
+    assert_int_equal(ceduo_quantile_rank(10, 1), 10);
+}
+
+static void expect_near(double found, double wanted, double relative)
+{
+    if (isnan(wanted))
+        assert_true(isnan(found));
+    else
+        assert_true(fabs(found - wanted) <= relative * wanted);
+}
+
+/* Values of all sizes, some of them 0: exact as sorted, binned but for the width of a bin. */
+static void distributions_of_few_values(void **state)
+{
+    (void)state;
+    uint64_t bits = 1;
+    for (size_t n = 0; n <= 200; n += n < 10 ? 1 : 19) {
+        double values[200], sorted[200];
+        struct ceduo_moments m = {0};
+        struct histogram h = {0};
+        for (size_t i = 0; i < n; i++) {
+            bits = bits * 6364136223846793005u + 1442695040888963407u;
+            values[i] = bits >> 62 == 0 ? 0 : ldexp(1 + (double)(bits >> 12 & 1023) / 1024, (int)(bits >> 40 & 31) - 16);
+            sorted[i] = values[i];
+            ceduo_moments_add(&m, values[i]);
+            assert_true(ceduo_histogram_add(&h, values[i]));
+        }
+        qsort(sorted, n, sizeof *sorted, by_value);
+        struct ceduo_distribution binned = ceduo_distribution_binned(&h, &m),
+                                  exact = ceduo_distribution_exact(values, n, &m);
+        size_t lo = 0, hi = 0;
+        if (n > 0)
+            ceduo_quantile_interval(n, .95, &lo, &hi);
+        const double wanted[] = {n > 0 ? sorted[ceduo_quantile_rank(n, .5) - 1] : NAN,
+                                 n > 0 ? sorted[ceduo_quantile_rank(n, .95) - 1] : NAN,
+                                 n > 0 ? sorted[ceduo_quantile_rank(n, .99) - 1] : NAN,
+                                 lo > 0 ? sorted[lo - 1] : NAN,
+                                 n > 0 && hi <= n ? sorted[hi - 1] : NAN};
+        const double of_exact[] = {exact.p50, exact.p95, exact.p99, exact.p95_lo, exact.p95_hi};
+        const double of_binned[] = {binned.p50, binned.p95, binned.p99, binned.p95_lo, binned.p95_hi};
+        for (size_t i = 0; i < 5; i++) {
+            expect_near(of_exact[i], wanted[i], 0);
+            expect_near(of_binned[i], wanted[i], 3.1e-5);
+        }
+        expect_near(exact.max, n > 0 ? sorted[n - 1] : NAN, 0);
+        double squares = 0;
+        for (size_t i = 0; i < n; i++)
+            squares += (sorted[i] - m.mean) * (sorted[i] - m.mean);
+        expect_near(exact.sd, n > 1 ? sqrt(squares / (double)(n - 1)) : NAN, 1e-12);
+        expect_near(exact.se, n > 1 ? exact.sd / sqrt((double)n) : NAN, 1e-12);
+        ceduo_histogram_clear(&h);
+    }
+}
+
+static void values_beyond_every_bin(void **state)
+{
+    (void)state;
+    struct histogram h = {0}, more = {0};
+    const double values[] = {1e-300, 0, 5.5e-20, 1, 1e300};
+    for (size_t i = 0; i < 5; i++)
+        assert_true(ceduo_histogram_add(&h, values[i]));
+    assert_int_equal(h.n, 5);
+    assert_int_equal(h.zeros, 2);
+    assert_true(ceduo_histogram_value(&h, 2) == 0);
+    expect_near(ceduo_histogram_value(&h, 3), 5.5e-20, 3.1e-5);
+    expect_near(ceduo_histogram_value(&h, 4), 1, 3.1e-5);
+    assert_true(ceduo_histogram_value(&h, 5) > 9e18); /* in the last octave */
+    assert_true(isnan(ceduo_histogram_value(&h, 6)));
+    assert_true(ceduo_histogram_reserve(&more, &h));
+    ceduo_histogram_merge(&more, &h);
+    ceduo_histogram_merge(&more, &h);
+    assert_int_equal(more.n, 10);
+    for (uint64_t rank = 1; rank <= 10; rank++)
+        assert_true(ceduo_histogram_value(&more, rank) == ceduo_histogram_value(&h, (rank + 1) / 2));
+    ceduo_histogram_clear(&h);
+    ceduo_histogram_clear(&more);
+}
+
+/* ---- the index ---- */
+
+static void belts_beside_the_way(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_belt *belts = site.belts;
+    struct ceduo_control control = site.control;
+    struct ceduo_index both = ceduo_assess_index(&site.scene, &site.option, &control, 1e5);
+    control.x = belts[0].to; /* the second belt lies behind the control */
+    struct ceduo_index first = ceduo_assess_index(&site.scene, &site.option, &control, 1e5);
+    struct ceduo_stand_result of_first = ceduo_assess_stand(&site.scene, &belts[0]),
+                              of_second = ceduo_assess_stand(&site.scene, &belts[1]);
+    double before = belts[0].to - fmax(belts[0].from, site.scene.release.x.mean);
+    assert_true(fabs(first.length - before) < 1e-12 && both.length > first.length);
+    assert_true(fabs(first.contacts - before / of_first.adc_m) < 1e-9);
+    assert_true(fabs(both.contacts - first.contacts - of_second.contacts) < 1e-9);
+    site.scene.release.x.mean = belts[0].to; /* the first lies behind the release */
+    control.x = site.control.x;
+    struct ceduo_index second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
+    assert_true(fabs(second.contacts - of_second.contacts) < 1e-9);
+    assert_true(isnan(second.residual) && !second.exhausted);
+    control.measured_speed = 10;
+    struct ceduo_rock rock;
+    assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
+    second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
+    assert_true(fabs(second.measured - 50 * rock.mass) < 1e-6);
+    assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);
+}
+
+/* ---- keys ---- */
+
+static uint64_t key_of(void)
+{
+    return ceduo_option_key(&site.scene.simulation, &site.option);
+}
+
+/* Whether a number matters to the rocks: it is changed, and put back. */
+static bool matters(double *number, double value)
+{
+    uint64_t before = key_of();
+    double was = *number;
+    *number = value;
+    bool other = key_of() != before;
+    *number = was;
+    assert_true(key_of() == before);
+    return other;
+}
+
+static void keys_tell_what_rocks_meet(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    struct ceduo_stems *shoots = &stand->shoots[0];
+    assert_true(matters(&shoots->dbh, .123) && matters(&shoots->per_ha, 1234) && matters(&shoots->dbh_sd, .01));
+    assert_true(matters(&stand->spacing, .123) && matters(&site.belts[0].to, 50));
+    assert_true(matters(&shoots->volume, 1.5) && matters(&stand->u, 12345));
+    assert_false(matters(&stand->fracture_ratio, 9) || matters(&shoots->age, 50));
+    stand->energy = CEDUO_DORREN;
+    assert_true(matters(&stand->fracture_ratio, 9));
+    assert_false(matters(&shoots->volume, 1.5) || matters(&stand->u, 12345));
+    stand->energy = CEDUO_BRAUNER;
+    size_t trees = stand->trees_count;
+    stand->trees_count = 0; /* half the volume and twice the work take the same */
+    stand->u = 1000;
+    shoots->volume = 2;
+    uint64_t key = key_of();
+    stand->u = 2000;
+    shoots->volume = 1;
+    assert_true(key_of() == key);
+    stand->trees_count = trees;
+    /* where diameters differ, a volume that is given goes with them, and one that is not is the species' */
+    shoots->dbh_sd = .01;
+    assert_true(matters(&shoots->volume, NAN));
+    int species = stand->species;
+    key = key_of();
+    stand->species = species == 0 ? 1 : 0;
+    assert_true(key_of() != key);
+    stand->species = species;
+    site.scene.simulation.contact_model = CEDUO_POISSON;
+    key = key_of();
+    site.scene.simulation.rule = CEDUO_CROFTON;
+    assert_true(key_of() != key);
+    site.scene.simulation.contact_model = CEDUO_INDEX;
+    assert_true(key_of() == 0);
+    site.scene.simulation.contact_model = CEDUO_STEMS;
+    for (size_t i = 0; i < 2; i++)
+        site.belts[i].stand.shoots_count = site.belts[i].stand.trees_count = 0;
+    assert_true(key_of() == 0); /* bare: as without forest */
+    site.belts[1].stand.shoots_count = 1;
+    key = key_of();
+    site.belts[0].to -= 1;
+    assert_true(key != 0 && key_of() == key);
+}
+
+/* ---- runs ---- */
+
+static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
+    return run;
+}
+
+static void runs_that_take_no_part(void **state)
+{
+    (void)state;
+    static const double cells[] = {10};
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 1500;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene), part = def, other;
+    part.part = true;
+    struct ceduo_run *from = run_of(&part, 1024), *to;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_run_save(from, &bytes, &n), CEDUO_OK);
+    to = run_of(&def, 0);
+    assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_OK);
+    ceduo_run_free(to);
+    for (int i = 0; i < 3; i++) {
+        other = i == 0 ? part : def;
+        other.cells = i == 1 ? 1 : 0;
+        other.cell_x = cells;
+        to = run_of(&other, i == 2 ? 10 : 0);
+        assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_BAD_PART); /* a part; with cells; within a block */
+        ceduo_run_free(to);
+    }
+    free(bytes);
+    ceduo_run_free(from);
+}
+
+static void little_is_asked_of_a_run(void **state)
+{
+    (void)state;
+    static const double cells[] = {20, 152};
+    double energies[8];
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 300;
+    site.scene.slope.segments[0].friction = 9; /* holds all that are released without speed */
+    site.scene.release = (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0),
+                                                ceduo_number(0)};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.threads = 0; /* as one */
+    def.cells = 2;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 300);
+    for (size_t i = 0; i < 2; i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        assert_int_equal(e.passed, 0);
+        assert_true(isnan(e.mean_energy) && isnan(e.speed.p5) && isnan(e.energy.max));
+    }
+    assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK); /* as long as it was made for */
+    assert_int_equal(ceduo_run_rocks(run), 300);
+    ceduo_run_free(run);
+
+    paper_site_init(&site);
+    def = ceduo_run_def_default(&site.scene);
+    def.rocks_most = 300;
+    run = run_of(&def, 0);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
+    ceduo_run_free(run);
+    def.exact_bytes = 100;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    ceduo_run_free(run);
+    site.scene.controls_count = 0; /* nobody asks what arrives; where they stop is told all the same */
+    def.exact_bytes = 100;
+    struct ceduo_ends binned, exact;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &binned), CEDUO_OK);
+    ceduo_run_free(run);
+    def.exact_bytes = CEDUO_EXACT_BYTES;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &exact), CEDUO_OK);
+    ceduo_run_free(run);
+    assert_memory_equal(binned.count, exact.count, sizeof exact.count);
+    assert_true(exact.stop_x.n > 0);
+    expect_near(binned.stop_p50, exact.stop_p50, 3.1e-5);
+
+    struct ceduo_pool *pool;
+    site.scene.slope.vertices = 1;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_BAD_SLOPE);
+    assert_null(run);
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_BAD_SLOPE);
+    assert_null(pool);
+}
+
+/* Forests that the scene has no more: the runs asked for last stay, so many of them. */
+static void a_pool_forgets_what_is_old(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 10;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    enum { MORE = CEDUO_POOL_SPARE + 5 };
+    double to = site.belts[1].to;
+    for (int i = 1; i <= MORE; i++) {
+        site.belts[1].to = to - i;
+        assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
+    }
+    site.belts[1].to = to - 1; /* the first is asked for once more */
+    assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
+    assert_int_equal(ceduo_pool_work(pool).reused, 1);
+    site.belts[1].to = to;
+    ceduo_pool_turn(pool, &site.scene);
+    assert_int_equal(ceduo_pool_work(pool).runs, 2 + CEDUO_POOL_SPARE);
+    assert_non_null(ceduo_pool_find(pool, NULL));
+    assert_non_null(ceduo_pool_find(pool, &site.option));
+    for (int i = 1; i <= MORE; i++) {
+        site.belts[1].to = to - i;
+        assert_int_equal(ceduo_pool_find(pool, &site.option) != NULL, i == 1 || i > MORE - CEDUO_POOL_SPARE + 1);
+    }
+    site.belts[1].to = to;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_pool_save(pool, &bytes, &n), CEDUO_OK);
+    assert_int_equal(ceduo_pool_adopt(pool, bytes, 8), CEDUO_BAD_PART);
+    free(bytes);
+    ceduo_pool_free(pool);
+}
+
+/* ---- looking for a value that is given up ---- */
+
+static atomic_bool cancel;
+static unsigned looked;
+
+static enum ceduo_status give_up(void *context, double value, double *goal)
+{
+    const unsigned *when = context;
+    *goal = 1 / value;
+    atomic_store(&cancel, ++looked >= *when);
+    return CEDUO_OK;
+}
+
+static enum ceduo_status refuse(void *context, double value, double *goal)
+{
+    const unsigned *when = context;
+    *goal = 1 / value;
+    return ++looked >= *when ? CEDUO_BAD_SLOPE : CEDUO_OK;
+}
+
+/* Wherever the search stands: no value is looked at after it, and none is found. */
+static void a_search_ends_at_once(void **state)
+{
+    (void)state;
+    for (int whole = 0; whole < 2; whole++) {
+        struct ceduo_found found;
+        struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = whole, .target = .3, .cancel = &cancel};
+        unsigned when = UINT32_MAX;
+        def.context = &when;
+        def.goal = give_up;
+        looked = 0;
+        atomic_store(&cancel, false);
+        assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+        unsigned all = looked;
+        assert_true(found.found && all > 5);
+        for (when = 1; when < all; when++)
+            for (int k = 0; k < 2; k++) {
+                def.goal = k == 0 ? give_up : refuse;
+                looked = 0;
+                atomic_store(&cancel, false);
+                assert_int_equal(ceduo_find(&def, &found), k == 0 ? CEDUO_CANCELLED : CEDUO_BAD_SLOPE);
+                assert_int_equal(looked, when);
+                assert_false(found.found);
+            }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slopes_are_refused),
+        cmocka_unit_test(rocks_are_refused),
+        cmocka_unit_test(intervals_of_few_values),
+        cmocka_unit_test(distributions_of_few_values),
+        cmocka_unit_test(values_beyond_every_bin),
+        cmocka_unit_test(belts_beside_the_way),
+        cmocka_unit_test(keys_tell_what_rocks_meet),
+        cmocka_unit_test(runs_that_take_no_part),
+        cmocka_unit_test(little_is_asked_of_a_run),
+        cmocka_unit_test(a_pool_forgets_what_is_old),
+        cmocka_unit_test(a_search_ends_at_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

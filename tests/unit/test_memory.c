@@ -1,0 +1,293 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs and what stands on them without memory. */
+#include "unit/failing.h"
+
+#include "physics/paper_site.h"
+
+/* ---- runs ---- */
+
+static struct paper_site site;
+
+static void init(enum ceduo_contact_model model, enum ceduo_law law)
+{
+    paper_site_init(&site);
+    site.scene.simulation.contact_model = model;
+    site.scene.simulation.law = law;
+    site.scene.simulation.rocks = 1500;
+    site.scene.release.x.mean = 118; /* ways are short: each is flown some thousand times */
+    site.scene.release.vx.mean = 14;
+    site.scene.release.vz.mean = -5;
+    site.control.accepted = 50e3;
+}
+
+/* The status at last, which is CEDUO_OK: a call that fails changes nothing and can be made again. */
+static enum ceduo_status extend(struct ceduo_run *run, uint64_t rocks)
+{
+    uint64_t before = ceduo_run_rocks(run);
+    enum ceduo_status status = ceduo_run_extend(run, rocks);
+    if (status == CEDUO_OK)
+        return status;
+    assert_int_equal(status, CEDUO_NO_MEMORY);
+    relieve();
+    assert_int_equal(ceduo_run_rocks(run), before);
+    return ceduo_run_extend(run, rocks);
+}
+
+/* What a run says of control 0, and where its rocks stopped. */
+static bool add_run(const struct ceduo_run *run)
+{
+    struct ceduo_arrivals a;
+    struct ceduo_ends e;
+    enum ceduo_status status = ceduo_run_arrivals(run, 0, &a);
+    if (status == CEDUO_OK)
+        status = ceduo_run_ends(run, &e);
+    if (status != CEDUO_OK) {
+        assert_int_equal(status, CEDUO_NO_MEMORY);
+        return false;
+    }
+    assert_true(a.reached > 0 && e.stop_x.n > 0);
+    add(&a, offsetof(struct ceduo_arrivals, exact));
+    add(&e, sizeof e);
+    uint64_t contacts = ceduo_run_contacts(run);
+    add(&contacts, sizeof contacts);
+    return true;
+}
+
+static bool fly(struct ceduo_run_def def)
+{
+    struct ceduo_run *run;
+    enum ceduo_status status = ceduo_run_create(&def, &run);
+    if (status != CEDUO_OK) {
+        assert_int_equal(status, CEDUO_NO_MEMORY);
+        assert_null(run);
+        return false;
+    }
+    assert_int_equal(extend(run, 40), CEDUO_OK);
+    assert_int_equal(extend(run, 1500), CEDUO_OK);
+    bool good = add_run(run);
+    struct ceduo_difference d = ceduo_run_difference(run, run, 0);
+    add(&d, sizeof d);
+    for (size_t i = 0; i < def.cells; i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        add(&e, sizeof e);
+    }
+    ceduo_run_free(run);
+    return good;
+}
+
+static struct ceduo_run_def def_of(bool wood, size_t exact_bytes)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.option = wood ? &site.option : NULL;
+    def.exact_bytes = exact_bytes;
+    def.threads = 2;
+    return def;
+}
+
+static bool fly_bare(void)
+{
+    static const double cells[] = {20, 60, 130};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
+    def.cells = 3;
+    def.cell_x = cells;
+    return fly(def);
+}
+
+static bool fly_scalar_wood(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_CRSP);
+    site.plots[0].shoots.dbh_sd = 0.02;
+    return fly(def_of(true, CEDUO_EXACT_BYTES));
+}
+
+/* From samples to histograms on the way. */
+static bool fly_histograms(void)
+{
+    init(CEDUO_POISSON, CEDUO_LAW_LUMPED);
+    return fly(def_of(true, 2000));
+}
+
+/* ---- parts ---- */
+
+static bool join_parts(size_t exact_bytes)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_run_def def = def_of(true, exact_bytes), part = def;
+    struct ceduo_run *whole, *run = NULL;
+    unsigned char *bytes = NULL;
+    size_t n;
+    bool good = ceduo_run_create(&def, &whole) == CEDUO_OK;
+    for (uint64_t i = 1; i <= 2 && good; i++) {
+        uint64_t end;
+        part.part = true;
+        ceduo_part_range(1500, i, 2, &part.first, &end);
+        good = ceduo_run_create(&part, &run) == CEDUO_OK;
+        if (!good)
+            break;
+        assert_int_equal(extend(run, end), CEDUO_OK);
+        good = ceduo_run_save(run, &bytes, &n) == CEDUO_OK;
+        if (!good)
+            assert_null(bytes);
+        ceduo_run_free(run);
+        if (!good)
+            break;
+        enum ceduo_status status = ceduo_run_adopt(whole, bytes, n);
+        if (status != CEDUO_OK) {
+            assert_int_equal(status, CEDUO_NO_MEMORY);
+            relieve();
+            assert_int_equal(ceduo_run_adopt(whole, bytes, n), CEDUO_OK);
+        }
+        free(bytes);
+    }
+    good = good && add_run(whole);
+    ceduo_run_free(whole);
+    return good;
+}
+
+static bool join_exact(void)
+{
+    return join_parts(CEDUO_EXACT_BYTES);
+}
+
+static bool join_histograms(void)
+{
+    return join_parts(2000);
+}
+
+/* ---- what stands on runs ---- */
+
+static bool pool_and_years(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    site.scene.simulation.rocks = 30;
+    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
+    struct ceduo_pool *pool;
+    struct ceduo_result *result = NULL;
+    struct ceduo_years *years = NULL;
+    struct ceduo_flown bare = {0};
+    struct ceduo_run *run = NULL;
+    bool met;
+    enum ceduo_status status = ceduo_pool_create(&def, &pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_fill(pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_until(pool, 1, 30, &met);
+    if (status == CEDUO_OK)
+        status = ceduo_result_create(&site.scene, pool, &result);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_run(pool, NULL, &run);
+    if (status == CEDUO_OK)
+        status = ceduo_flown_read(run, 1, &bare);
+    if (status == CEDUO_OK)
+        status = ceduo_years_create(&site.scene, &site.option, 0, 4, 2, &years);
+    if (status == CEDUO_OK)
+        status = ceduo_years_fly(years, pool, &bare, 30);
+    if (status == CEDUO_OK) {
+        const struct ceduo_arrivals *a = ceduo_result_wooded(result, 0, 0);
+        struct ceduo_years_summary s = ceduo_years_sum(years, 0);
+        add(a, offsetof(struct ceduo_arrivals, exact));
+        add(&s.reach, sizeof s.reach);
+        add(&s.worst, sizeof s.worst);
+    }
+    ceduo_years_free(years);
+    ceduo_flown_free(&bare);
+    ceduo_result_free(result);
+    ceduo_pool_free(pool);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
+}
+
+static bool blocks(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_block b[CEDUO_BLOCKS];
+    memset(b, 0, sizeof b);
+    enum ceduo_status status = ceduo_blocks(&site.scene, &site.option, 0, 20, 1, NULL, b);
+    if (status != CEDUO_OK) {
+        assert_int_equal(status, CEDUO_NO_MEMORY);
+        return false;
+    }
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
+        add(&b[i].reached, sizeof b[i].reached);
+        add(&b[i].exceed_hi, sizeof b[i].exceed_hi);
+    }
+    return true;
+}
+
+static bool follow(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_follower *f = ceduo_follower_create(&site.scene, &site.option);
+    if (!f)
+        return false;
+    bool good = true;
+    for (uint64_t rock = 0; rock < 3 && good; rock++) {
+        struct ceduo_way way;
+        struct ceduo_crossing crossing;
+        enum ceduo_status status = ceduo_follower_follow(f, rock, NULL, &way, &crossing);
+        good = status == CEDUO_OK;
+        if (good)
+            add(&way.x, sizeof way.x);
+        else
+            assert_int_equal(status, CEDUO_NO_MEMORY);
+    }
+    ceduo_follower_free(f);
+    return good;
+}
+
+static enum ceduo_status falls(void *context, double value, double *goal)
+{
+    (void)context;
+    *goal = 1 / value;
+    return CEDUO_OK;
+}
+
+static bool find(void)
+{
+    const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 0.3, .goal = falls};
+    struct ceduo_found f;
+    enum ceduo_status status = ceduo_find(&def, &f);
+    if (status != CEDUO_OK) {
+        assert_int_equal(status, CEDUO_NO_MEMORY);
+        assert_false(f.found);
+        return false;
+    }
+    add(&f.value, sizeof f.value);
+    return true;
+}
+
+static void runs_go_on(void **state)
+{
+    (void)state;
+    task *const tasks[] = {fly_bare, fly_scalar_wood, fly_histograms};
+    for (size_t i = 0; i < 3; i++)
+        without_memory(tasks[i]);
+}
+
+static void parts_are_joined(void **state)
+{
+    (void)state;
+    without_memory(join_exact);
+    without_memory(join_histograms);
+}
+
+static void what_stands_on_runs(void **state)
+{
+    (void)state;
+    without_memory(pool_and_years);
+    without_memory(blocks);
+    without_memory(follow);
+    without_memory(find);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(runs_go_on),
+        cmocka_unit_test(parts_are_joined),
+        cmocka_unit_test(what_stands_on_runs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

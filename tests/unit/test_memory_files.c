@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files, documents and parts without memory. */
+#include "unit/failing.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "ceduo/key.h"
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/part_file.h"
+#include "io/scene_file.h"
+#include "model/document.h"
+
+static const char scene[] = "# my comment\n"
+                            "ceduo: scene/1\n"
+                            "rock: {diameter_m: {mean: 0.5, spread: 0.1, source: {kind: assumed, text: a guess}}}\n"
+                            "slope: slope.yaml\n"
+                            "controls: [{x_m: 90, name: road, accepted_kJ: 50}]\n"
+                            "forest:\n"
+                            "  - {from_m: 10, to_m: 50, stand: stand.yaml}\n"
+                            "  - {from_m: 50, to_m: 80, stand: {base: stand.yaml, stools: {per_ha: 1500}}}\n";
+
+static const char slope[] = "ceduo: slope/1\ncsv: profile.csv\n"
+                            "materials: [{from_m: 0, to_m: 30, material: cliff}, {from_m: 30, to_m: 100, material: talus}]\n";
+
+static const char stand[] = "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+                            "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
+
+static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\nslope: {vertices_m: [[0, 1], 2]}\n"
+                             "release: {x_m: [1]}\nsimulation: {law: lumpd, rocks: 1.5, seed: 'a'}\ncontrols: 1\n";
+
+static char folder[64], scene_path[128], faulty_path[128];
+
+static void put(const char *name, const char *text)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_true(ceduo_file_write(path, text, strlen(text)));
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    setenv("XDG_STATE_HOME", folder, 1);
+    snprintf(scene_path, sizeof scene_path, "%s/scene.yaml", folder);
+    snprintf(faulty_path, sizeof faulty_path, "%s/faulty.yaml", folder);
+    put("scene.yaml", scene);
+    put("slope.yaml", slope);
+    put("stand.yaml", stand);
+    put("faulty.yaml", faulty);
+    put("profile.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+static void add_text(const struct text *text)
+{
+    add(text->bytes, text->length);
+}
+
+/* What stands in an arena comes from few pages: here each piece of it can fail. */
+void *__real_ceduo_arena_take(struct arena *arena, size_t size);
+char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
+char *__real_ceduo_arena_string(struct arena *arena, const char *string);
+void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
+char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
+char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
+
+static bool arena_fails(struct arena *arena)
+{
+    bool failed = fails();
+    arena->failed |= failed;
+    return failed;
+}
+
+void *__wrap_ceduo_arena_take(struct arena *arena, size_t size)
+{
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_take(arena, size);
+}
+
+char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
+{
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_copy(arena, bytes, n);
+}
+
+char *__wrap_ceduo_arena_string(struct arena *arena, const char *string)
+{
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_string(arena, string);
+}
+
+/* ---- reading ---- */
+
+static bool add_inputs(const struct part_inputs *in)
+{
+    size_t n;
+    unsigned char *bytes = ceduo_part_inputs(in, &n);
+    if (!bytes)
+        return false;
+    struct arena arena = {0};
+    struct part_inputs again;
+    bool good = ceduo_part_inputs_read(&arena, &again, bytes, n);
+    if (good) {
+        assert_string_equal(again.path, in->path);
+        assert_int_equal(again.sets_count, in->sets_count);
+        assert_true(again.shelf.closed);
+        add(bytes, n);
+    }
+    ceduo_arena_free(&arena);
+    free(bytes);
+    return good;
+}
+
+static bool read_scene(void)
+{
+    ceduo_text_lost(); /* of a task before */
+    static const char *sets[] = {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10",
+                                 "release.vx_m_s={mean: 2, spread: 0.5}"};
+    struct scene_file file;
+    struct problems problems = {0};
+    struct shelf shelf = {0};
+    struct text text = {0};
+    bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 3, &problems);
+    if (good) {
+        uint64_t key = ceduo_part_key(&file, 10);
+        add(&key, sizeof key);
+        ceduo_emit(&text, file.root);
+        struct part_inputs in = {.path = scene_path, .sets = sets, .sets_count = 3, .shelf = shelf};
+        good = good && !text.failed && add_inputs(&in) && !ceduo_text_lost();
+        if (good)
+            add_text(&text);
+    } else {
+        assert_true(problems.memory);
+    }
+    ceduo_text_free(&text);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    return good;
+}
+
+/* What is wrong with a file, whole or with a word that not all is said. */
+static bool read_faulty(void)
+{
+    ceduo_text_lost();
+    struct scene_file file;
+    struct problems problems = {0};
+    assert_false(ceduo_scene_read(&file, faulty_path, NULL, 0, &problems));
+    ceduo_problems_close(&problems);
+    bool good = !problems.memory;
+    if (good)
+        add_text(&problems.text);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    return good && !ceduo_text_lost();
+}
+
+/* ---- editing ---- */
+
+/* An edit that failed left all as it was, and can be made again. */
+#define EDIT(edit)                                   \
+    do {                                             \
+        size_t at = d.at;                            \
+        if (!(edit)) {                               \
+            assert_true(problems.memory);            \
+            assert_int_equal(d.at, at);              \
+            relieve();                               \
+            ceduo_problems_free(&problems);          \
+            assert_true(edit);                       \
+        }                                            \
+        assert_int_equal(d.at, at + 1);              \
+    } while (0)
+
+static void add_scene(const struct scene_file *file)
+{
+    uint64_t key = ceduo_scene_key(&file->scene);
+    add(&key, sizeof key);
+    for (size_t i = 0; i < file->scene.options_count; i++) {
+        key = ceduo_option_key(&file->scene.simulation, &file->scene.options[i]);
+        add(&key, sizeof key);
+    }
+}
+
+static bool open_document(struct document *d, struct problems *problems)
+{
+    ceduo_text_lost();
+    bool good = ceduo_document_open(d, scene_path, problems);
+    if (!good) {
+        assert_true(problems->memory);
+        ceduo_problems_free(problems);
+    }
+    return good;
+}
+
+static bool edit_document(void)
+{
+    struct document d;
+    struct problems problems = {0};
+    struct text text = {0};
+    if (!open_document(&d, &problems))
+        return false;
+    static const char *const sets[] = {"rock.diameter_m=0.6", "release.height_m=1"};
+    EDIT(ceduo_document_set(&d, "forest[0].stand.stools.per_ha", "2500", &problems));
+    EDIT(ceduo_document_copy_option(&d, 0, &problems));
+    EDIT(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
+                              "options[1].forest[1].from_m=45", &problems));
+    EDIT(ceduo_document_move(&d, "options", 1, 0, &problems));
+    EDIT(ceduo_document_insert(&d, "controls", 1, "{x_m: 95}", &problems));
+    EDIT(ceduo_document_delete(&d, "controls[0]", &problems));
+    EDIT(ceduo_document_set_all(&d, sets, 2, "two", &problems));
+    add_scene(&d.file);
+    ceduo_document_text(&d, &text);
+    bool good = !text.failed;
+    ceduo_text_free(&text);
+    ceduo_problems_free(&problems);
+    ceduo_document_forget(&d);
+    ceduo_document_close(&d);
+    return good;
+}
+
+/* What was saved means the same, though without memory a stand may be written out that else names its file. */
+static bool save_document(void)
+{
+    struct document d;
+    struct scene_file file;
+    struct problems problems = {0};
+    bool anew;
+    if (!open_document(&d, &problems))
+        return false;
+    EDIT(ceduo_document_set(&d, "forest[1].stand.stools.spacing_m", "0.5", &problems));
+    bool good = ceduo_document_save(&d, scene_path, &anew);
+    if (!good) {
+        assert_int_equal(errno, ENOMEM);
+        relieve();
+        assert_true(ceduo_document_save(&d, scene_path, &anew));
+    }
+    ceduo_document_close(&d);
+    relieve();
+    assert_true(ceduo_scene_read(&file, scene_path, NULL, 0, &problems));
+    add_scene(&file);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    put("scene.yaml", scene);
+    return good;
+}
+
+/* ---- parts ---- */
+
+static bool write_part(void)
+{
+    static const unsigned char bytes[] = "some bytes";
+    char name[] = "scene \xc3\xa0 \x01";
+    struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 1, .rocks = 10, .seconds = 0.5, .inputs = bytes,
+                        .runs = bytes, .inputs_length = 5, .runs_length = sizeof bytes};
+    struct text text = {0};
+    struct arena arena = {0};
+    ceduo_part_write(&text, &part);
+    bool good = !text.failed;
+    if (good) {
+        struct part again = {0};
+        enum part_fault fault = ceduo_part_read(&arena, &again, text.bytes, text.length - 1);
+        good = fault == PART_GOOD;
+        assert_true(good || fault == PART_MEMORY);
+        if (good) {
+            assert_string_equal(again.scene, name);
+            assert_memory_equal(again.runs, bytes, sizeof bytes);
+        }
+    }
+    ceduo_arena_free(&arena);
+    ceduo_text_free(&text);
+    ceduo_text_lost();
+    return good;
+}
+
+/* ---- folders ---- */
+
+static bool list_profiles(void)
+{
+    struct arena arena = {0};
+    size_t n = 0;
+    const char *const *names = ceduo_file_list(&arena, "profiles", "stands", &n);
+    bool good = !arena.failed;
+    if (good) {
+        assert_true(n > 4);
+        for (size_t i = 0; i < n; i++)
+            add(names[i], strlen(names[i]));
+    }
+    ceduo_arena_free(&arena);
+    return good;
+}
+
+static void scenes_are_read(void **state)
+{
+    (void)state;
+    without_memory(read_scene);
+    without_memory(read_faulty);
+}
+
+static void documents_are_edited(void **state)
+{
+    (void)state;
+    without_memory(edit_document);
+    without_memory(save_document);
+}
+
+static void parts_and_folders(void **state)
+{
+    (void)state;
+    without_memory(write_part);
+    without_memory(list_profiles);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(scenes_are_read, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(documents_are_edited, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(parts_and_folders, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
