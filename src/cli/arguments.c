@@ -385,7 +385,7 @@ static enum exit_status read_option(struct arguments *a, int letter, char *value
         return read_format(a, value);
     case 'o':
         a->output = value;
-        return *value ? EXIT_DONE : usage(_("--output: name a file"));
+        return EXIT_DONE;
     case 's':
         a->sets[a->sets_count++] = value;
         return EXIT_DONE;

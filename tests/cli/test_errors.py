@@ -455,7 +455,6 @@ CASES = {
     "--rocks: 0 lies outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
     "--tolerance: 1 must lie above 0 and below 1": lambda row: (
         Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 must", "0 must"))),
-    "--output: name a file": Words("--batch", "-o", "", "@"),
     "--years: -5:-1 begins before year 0, the stand as filed": Words("--years=-5:-1", "@"),
     "--size: '80' is no size; write columns x lines, as 80x24": Words("--plot", "adc", "--size", "80", "@"),
     "--size: 10x5 lies outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
@@ -489,6 +488,7 @@ CASES = {
     "4 rocks were still moving after 1000000 contacts ... (in the result)": moving,
     "x, 90 m: whether 50 of 1000 rocks at most arrive with too much energy is too close to call; ... (in the result)":
         Elsewhere("tests/cli/test_batch.py", "def test_table_close_call"),
+    "--output: name a file (status 4)": Words("--batch", "-o", "", "@", status=OUTPUT, start="--output: "),
     "scene.yaml: it is read in this run; write elsewhere (status 4)": Words(
         "--batch", "-o", "scene.yaml", "@", status=OUTPUT, start="scene.yaml: "),
     "standard output: No space left on device (status 4)": full,
