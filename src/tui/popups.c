@@ -479,7 +479,11 @@ static bool read_goal(struct app *app, char *text, struct seek *seek)
         ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
     else if (i == SEEK_ENERGY && !equals)
         ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
-    return good && !(i == SEEK_ENERGY && !equals);
+    else if ((i == SEEK_FREE_RUN || i == SEEK_EXCEED) && seek->target > 1)
+        ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
+    else
+        return true;
+    return false;
 }
 
 #define FIND_ROCKS 2000 /* so that the answer is there at once */

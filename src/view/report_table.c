@@ -197,10 +197,10 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
     if (c->name)
         ceduo_text_format(&place, ", %s", c->name);
     struct text where = {0};
-    ceduo_text_format(&where, "controls[%zu]", i);
+    ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
         ceduo_text_format(&place, _(", bears %s kJ%s"), ceduo_number_shortest(c->accepted * KILO, room),
-                          where.bytes ? assumed_mark(p, where.bytes) : "");
+                          where.bytes && ceduo_scene_assumes_value(p->report->file, where.bytes) ? "*" : "");
     put_wrapped(p, "  ", 4, place.bytes ? place.bytes : "");
     ceduo_text_free(&where);
     ceduo_text_free(&place);

@@ -972,6 +972,8 @@ def test_table_changed():
                              ("source={kind: assumed}", "")):
             text = " ".join(good("--batch", path, "-s", f"controls[0].{change}").out.split())
             expect_in(f"all a guess{said} (controls[", text, change)
+        for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ\n")):
+            expect_in(f"bears {star}", good("--batch", path, "-s", f"controls[0].{change}").out, "its star")
         twice = good("--batch", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
         expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
         whole = good("--batch", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out

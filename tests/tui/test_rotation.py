@@ -456,7 +456,8 @@ def test_find_refused():
     for goal, lo, hi, words in (("fun", 6, 600, "adc, free-run, energy=KJ or exceed"), ("energy", 6, 600, "energy=50"),
                                 ("adc=x", 6, 600, "adc, free-run, energy=KJ or exceed"), ("adc=-3", 6, 600, "the goal is"),
                                 ("", 6, 600, "the goal is"), ("adc", "x", 600, "numbers"), ("adc", 600, 6, "the smaller first"),
-                                ("adc", 6, "", "numbers"), ("exceed", 6, 600, "index")):
+                                ("adc", 6, "", "numbers"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
+                                ("free-run=2", 6, 600, "0.05 for 5 %")):
         steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, lo, hi))
         with Place() as place:
             open_, closed = place.play(FIND + steps + "dump\nkey Esc\ndump", "reserves.yaml")
