@@ -239,3 +239,10 @@ def tests_of(module):
     """The functions test_… of a module in the order of their source."""
     found = [f for name, f in vars(module).items() if name.startswith("test_") and callable(f)]
     return sorted(found, key=lambda f: f.__code__.co_firstlineno)
+
+
+def run_all(name):
+    """Runs all tests of the module of that name, and ends the program."""
+    suite = Suite()
+    suite.run(tests_of(sys.modules[name]))
+    suite.end()

@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "tui")]
-from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, Suite, environment, expect,  # noqa: E402
-                     expect_equal, expect_in, good, only_text, tests_of)
+from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, environment, expect,  # noqa: E402
+                     expect_equal, expect_in, good, only_text, run_all)
 from play import FAST, Screen  # noqa: E402
 from test_input import FILES  # noqa: E402
 
@@ -379,11 +379,5 @@ def test_reader_leaves():
     expect_in(b"p ", done.stdout)
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

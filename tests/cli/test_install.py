@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import ROOT, Folder, Skip, Suite, ceduo, environment, expect, expect_equal, expect_in, good, tests_of  # noqa: E402
+from harness import ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, expect_in, good, run_all  # noqa: E402
 
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 
@@ -119,11 +119,5 @@ def test_zsh():
             expect(any(f"--{option}" in line for line in lines), f"--{option} is missing", done.stdout)
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import PROFILES, SLOWER, Suite, expect, expect_equal, good, result, tests_of  # noqa: E402
+from harness import PROFILES, SLOWER, expect, expect_equal, good, result, run_all  # noqa: E402
 
 MANY = 10_000_000
 SECONDS = 20 * SLOWER  # of processor time: ten million rocks take minutes, what is asked here none
@@ -92,11 +92,5 @@ def test_tolerance_stops():
     expect(found["rocks"] < 5000, found["rocks"])
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

@@ -15,8 +15,8 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, PROFILES, USAGE, Failure, Folder, Suite, ceduo, environment, expect, expect_equal,
-                     expect_in, expect_near, good, result, results, tests_of)
+from harness import (CEDUO, DONE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
+                     expect_in, expect_near, good, result, results, run_all)
 
 STANDS = PROFILES / "stands"
 SYSTEMS = [("simple", "simple-coppice.yaml"), ("standards", "coppice-with-standards.yaml"),
@@ -927,11 +927,5 @@ def test_interrupt():
             expect_equal((p.returncode, out, err), (-signal.SIGINT, b"", b""), arguments[0])
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good  # noqa: E402
-from harness import Suite, ceduo, expect, expect_equal, expect_in, expect_near, tests_of  # noqa: E402
+from harness import ceduo, expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
 
 SHAPES = ["sphere", "cylinder", "ellipsoid", "block"]
 
@@ -154,11 +154,5 @@ def test_command_line():
         expect("take it out" in done.err and "-s" not in done.err, done)
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

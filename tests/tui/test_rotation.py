@@ -9,8 +9,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
 from play import check_good  # noqa: E402
-from harness import (PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, good, result,  # noqa: E402
-                     tests_of)
+from harness import (PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, result,  # noqa: E402
+                     run_all)
 
 ROCKS = 10240  # of each year in the terminal program
 MARKS = {"✔": "pass", "✘": "fail", "?": "unknown"}
@@ -555,11 +555,5 @@ def test_plot_cuts():
             expect(not re.search(r"▼(c|cu|t|ut)(?=[▼ …]|$)", line), f"rotation {rotation}: {line!r}")
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good, run_script  # noqa: E402
-from harness import Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
+from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
 
 EDIT = "key 2\nkey /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
 # It can be read, but the file beside it that would take its place has too long a name for any folder, root's too.
@@ -88,11 +88,5 @@ def test_anew():
         expect_equal(place.text("fast.yaml.bak"), FAST, "the old file, with its comments, still")
 
 
-def main():
-    suite = Suite()
-    suite.run(tests_of(sys.modules[__name__]))
-    suite.end()
-
-
 if __name__ == "__main__":
-    main()
+    run_all(__name__)
