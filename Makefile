@@ -211,8 +211,8 @@ do-check-all: do-check
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
 
 # Threads are exercised by these: workers of a run and of a pool, of the terminal program, of years and parts.
-do-check-threads: $(addprefix $(T)/physics/test_,statistics_of_runs part years wide) $(PROGRAM)
-	set -e; for t in $(filter %test_statistics_of_runs %test_part %test_years %test_wide,$^); do $$t; done
+do-check-threads: $(addprefix $(T)/physics/test_,statistics_of_runs part years) $(PROGRAM)
+	set -e; for t in $(filter %test_statistics_of_runs %test_part %test_years,$^); do $$t; done
 	set -e; for t in tests/tui/test_screens.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py; do \
 	    CEDUO=$(CURDIR)/$(PROGRAM) $$t; done
 

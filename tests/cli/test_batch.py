@@ -17,7 +17,7 @@ import unicodedata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, USAGE, Failure, Folder, Skip, Suite, belt, ceduo,
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, RUN, SANITIZED, USAGE, Failure, Folder, Skip, Suite, belt, ceduo,
                      environment, expect, expect_equal, expect_in, expect_near, good, only_text, result, results,
                      scene, stand, tests_of, wooded_scene)
 

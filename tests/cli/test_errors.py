@@ -15,7 +15,7 @@ import threading
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, SLOWER, USAGE, Failure, Folder, Skip, Suite,  # noqa: E402
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, SLOWER, USAGE, Folder, Skip, Suite,  # noqa: E402
                      environment, expect, expect_equal, expect_in, only_text, scene)
 from test_input import FILES, SCENE, mutated  # noqa: E402
 

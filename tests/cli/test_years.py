@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
+from harness import (CEDUO, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
                      expect_in, expect_near, good, result, results, run_all)
 
 STANDS = PROFILES / "stands"
