@@ -746,6 +746,7 @@ static void wrong_scenes_are_told(void **state)
         {"rock: {diameter_m: {mean: 0.5, wide: 1}}", "rock.diameter_m.wide: unknown key; known here: mean, spread, kind, source"},
         {"rock: {diameter_m: {spread: 0.1}}", "rock.diameter_m: 'mean' is missing"},
         {"rock: {diameter_m: {mean: 0.5, spread: 0.4}}", "the spread reaches from -0.7 to 1.7 m"},
+        {"rock: {diameter_m: {mean: 999, spread: 1}}", "the spread reaches from 996 to 1002 m"},
         {"rock: {diameter_m: {mean: x, spread: 9}}", "rock.diameter_m.mean: 'x' is no number"},
         {"rock: {shape: block, axes_m: [1, 2]}", "rock.axes_m: a list of three numbers is wanted"},
         {"rock: {shape: block, axes_m: 1}", "rock.axes_m: a list of three numbers is wanted"},
@@ -851,6 +852,8 @@ static void grounds_split_segments(void **state)
             double x = s->x[v], z = x < 40 ? 50 - x * 30 / 40 : 20 - (x - 40) * 20 / 60;
             assert_true(fabs(s->z[v] + s->origin_z - z) < 1e-12);
         }
+        assert_true(ceduo_scene_assumes_value(&file, "slope.materials[0].material"));
+        assert_false(ceduo_scene_assumes_value(&file, "slope.vertices_m[0]"));
         free(text);
         ceduo_text_free(&line);
         ceduo_problems_free(&problems);
