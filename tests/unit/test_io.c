@@ -825,6 +825,51 @@ static void long_words_are_told(void **state)
     free(text);
 }
 
+/* Paths of --set that lead to nothing, and some that lead to what is not there yet. */
+static void paths_are_told(void **state)
+{
+    (void)state;
+    const struct {
+        const char *set, *told;
+    } rows[] = {{"forest[0]x.to_m=5", "malformed path"},
+                {"forest[].to_m=5", "malformed path"},
+                {"forest[0=5", "malformed path"},
+                {"rock..density_kg_m3=5", "malformed path"},
+                {"forest[9].to_m=5", "'9': no such item"},
+                {"forest[other].to_m=5", "'other': no such item"},
+                {"forest.to_m=5", "there is no mapping here"},
+                {"rock[0]=5", "there is no list here"},
+                {"controls[0].x_m.spread=5", "there is no mapping here"},
+                {"options[0].name=x", "there is none to change"},
+                {"rock.axes_m[0]=5", "there is none to change"},
+                {"rock.wide=5", "unknown key (ceduo --list-parameters)"},
+                {"=5", "PATH=VALUE is wanted"},
+                {"rock", "PATH=VALUE is wanted"},
+                {"rock.diameter_m=0.6", NULL},
+                {"rock.diameter_m.spread=0.01", NULL},
+                {"release.height_m.mean=2", NULL},
+                {"rock.source.kind=assumed", NULL},
+                {"simulation.seed=7", NULL},
+                {"forest[wood].stand.stools.per_ha=1500", NULL},
+                {"forest[0].to_m=70", NULL}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct scene_file file;
+        struct problems problems = {0};
+        char *text = scene_with(
+            "forest: [{from_m: 10, to_m: 80, stand: {name: wood, stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: "
+            "6000, dbh_m: 0.06, height_m: 6}]}}]");
+        assert_true(ceduo_scene_read_text(&file, "scene", text, &problems));
+        bool good = ceduo_scene_set(&file, "--set", rows[i].set, &problems);
+        if (good != !rows[i].told || (!good && !strstr(problems.text.bytes, rows[i].told)))
+            fail_msg("%s: %s", rows[i].set, problems.text.bytes);
+        if (good && !ceduo_scene_bind(&file, &problems))
+            fail_msg("%s: %s", rows[i].set, problems.text.bytes);
+        ceduo_problems_free(&problems);
+        ceduo_scene_release(&file);
+        free(text);
+    }
+}
+
 /* Grounds that end where a vertex is, or behind the profile, split no segment; one that ends within does. */
 static void grounds_split_segments(void **state)
 {
@@ -981,6 +1026,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, set_up, tear_down),
         cmocka_unit_test(wrong_scenes_are_told),
         cmocka_unit_test(long_words_are_told),
+        cmocka_unit_test(paths_are_told),
         cmocka_unit_test(grounds_split_segments),
         cmocka_unit_test(problems_are_put_together),
         cmocka_unit_test(notes_are_found),
