@@ -831,7 +831,7 @@ static void paths_are_told(void **state)
     (void)state;
     const struct {
         const char *set, *told;
-    } rows[] = {{"forest[0]x.to_m=5", "malformed path"},
+    } rows[] = {{"forest[0]xto_m=5", "malformed path"},
                 {"forest[].to_m=5", "malformed path"},
                 {"forest[0=5", "malformed path"},
                 {"rock..density_kg_m3=5", "malformed path"},

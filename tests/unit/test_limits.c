@@ -252,17 +252,17 @@ static void columns_are_refused(void **state)
         assert_true(isnan(column[i]) ? isnan(back[i]) : back[i] == column[i]);
     const struct {
         size_t at;
-        unsigned char bits;
-    } rows[] = {{1, 0x08}, {0, 0x01}, {2 + 7, 0x7f}}; /* a bit behind the last; one more than values; an infinite value */
+        unsigned char bytes[2];
+    } rows[] = {{0, {0xb6, 0x0c}},     /* as many bits, one of them behind the last */
+                {0, {0xb7, 0x05}},     /* one more */
+                {2 + 6, {0xf0, 0x7f}}}; /* infinite */
     for (size_t i = 0; i < 3; i++) {
-        unsigned char was[2] = {b.to[rows[i].at], b.to[rows[i].at - (i == 2)]};
-        b.to[rows[i].at] |= rows[i].bits;
-        if (i == 2)
-            b.to[rows[i].at - 1] = 0xf0;
+        unsigned char was[2];
+        memcpy(was, b.to + rows[i].at, 2);
+        memcpy(b.to + rows[i].at, rows[i].bytes, 2);
         struct bytes from = {.reads = true, .from = b.to, .length = b.length};
         assert_false(ceduo_bytes_column(&from, back, 11, &again));
-        b.to[rows[i].at] = was[0];
-        b.to[rows[i].at - (i == 2)] = was[1];
+        memcpy(b.to + rows[i].at, was, 2);
     }
     free(b.to);
 }
