@@ -338,8 +338,7 @@ static void make_materials(struct maker *m)
     const struct material_form *rows = m->form.slope.materials.items;
     size_t n = m->form.slope.materials.n;
     for (size_t i = 1; i < n; i++)
-        if (rows[i].from - m->origin < s->x[s->vertices - 1])
-            split_at(s, rows[i].from - m->origin);
+        split_at(s, rows[i].from - m->origin);
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
     if (!s->segments)
         return;

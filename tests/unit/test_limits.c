@@ -12,6 +12,9 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
+#include "core/bytes.h"
+#include "core/envelope.h"
+#include "core/ground.h"
 #include "core/histogram.h"
 #include "physics/paper_site.h"
 
@@ -228,6 +231,135 @@ static void values_beyond_every_bin(void **state)
         assert_true(ceduo_histogram_value(&more, rank) == ceduo_histogram_value(&h, (rank + 1) / 2));
     ceduo_histogram_clear(&h);
     ceduo_histogram_clear(&more);
+}
+
+static void columns_are_refused(void **state)
+{
+    (void)state;
+    double column[11], back[11];
+    uint64_t there, again;
+    for (size_t i = 0; i < 11; i++)
+        column[i] = i % 3 == 0 ? NAN : (double)i;
+    struct bytes b = {0};
+    assert_true(ceduo_bytes_column(&b, column, 11, &there));
+    assert_int_equal(there, 7);
+    assert_int_equal(b.length, 2 + 7 * 8);
+    for (size_t n = 0; n <= b.length; n++) {
+        struct bytes from = {.reads = true, .from = b.to, .length = n};
+        assert_int_equal(ceduo_bytes_column(&from, back, 11, &again), n == b.length);
+    }
+    for (size_t i = 0; i < 11; i++)
+        assert_true(isnan(column[i]) ? isnan(back[i]) : back[i] == column[i]);
+    const struct {
+        size_t at;
+        unsigned char bytes[2];
+    } rows[] = {{0, {0xb6, 0x0c}},     /* as many bits, one of them behind the last */
+                {0, {0xb7, 0x05}},     /* one more */
+                {2 + 6, {0xf0, 0x7f}}}; /* infinite */
+    for (size_t i = 0; i < 3; i++) {
+        unsigned char was[2];
+        memcpy(was, b.to + rows[i].at, 2);
+        memcpy(b.to + rows[i].at, rows[i].bytes, 2);
+        struct bytes from = {.reads = true, .from = b.to, .length = b.length};
+        assert_false(ceduo_bytes_column(&from, back, 11, &again));
+        memcpy(b.to + rows[i].at, was, 2);
+    }
+    free(b.to);
+}
+
+/* The highest and fastest of all: its size is kept, whatever its bin. */
+static void cells_take_any_value(void **state)
+{
+    (void)state;
+    struct envelope_cell *cell = calloc(1, sizeof *cell);
+    struct ceduo_envelope e;
+    assert_non_null(cell);
+    ceduo_envelope_add(cell, 1e200, 1e-200, 1e300);
+    ceduo_envelope_settle(cell);
+    ceduo_envelope_read(cell, &e);
+    assert_int_equal(e.passed, 1);
+    assert_true(e.speed.max == 1e200 && e.energy.max == 1e300 && e.height.max == 1e-200);
+    assert_true(e.speed.p50 > 1e4 && e.energy.p50 > 1e9 && e.height.p50 == 0);
+    free(cell);
+}
+
+/* ---- grounds and growth ---- */
+
+/* Two segments on one line: how many are made of them. */
+static size_t segments_made(void)
+{
+    struct ground g;
+    assert_true(ceduo_ground_init(&g, &site.scene.slope, 9.81, .3, false));
+    size_t n = g.n;
+    ceduo_ground_release(&g);
+    return n;
+}
+
+static void alike_neighbours_are_one(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    struct ceduo_segment *a = &slope->segments[0], *b = &slope->segments[1];
+    slope->vertices = 3;
+    for (int i = 0; i < 3; i++) {
+        slope->x[i] = 10 * i;
+        slope->z[i] = -5 * i;
+    }
+    *b = *a;
+    assert_int_equal(segments_made(), 1);
+    double *const numbers[] = {&b->rn.mean, &b->rt.mean, &b->friction, &b->roughness_rad, &b->rn.spread, &b->rt.spread, &slope->z[1]};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        double was = *numbers[i];
+        *numbers[i] += .01;
+        assert_int_equal(segments_made(), 2);
+        *numbers[i] = was;
+    }
+    b->rn.kind = CEDUO_UNIFORM; /* of no spread */
+    assert_int_equal(segments_made(), 1);
+    a->rn.spread = b->rn.spread = .01;
+    assert_int_equal(segments_made(), 2);
+    a->rn.kind = CEDUO_UNIFORM;
+    assert_int_equal(segments_made(), 1);
+    a->roughness_m = b->roughness_m = .1;
+    a->roughness_rad = b->roughness_rad = NAN;
+    assert_int_equal(segments_made(), 1);
+    b->roughness_m = .2;
+    assert_int_equal(segments_made(), 2);
+    b->roughness_m = NAN;
+    b->roughness_rad = .1;
+    assert_int_equal(segments_made(), 2);
+}
+
+/* A stand of whose growth something is not known stays as it is; and is never cut. */
+static void growth_is_known_or_not(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    struct ceduo_curve *shoots = &stand->growth.shoots;
+    struct ceduo_grown_stand grown;
+    assert_true(ceduo_growth_of_species(ceduo_species_find("ostrya-carpinifolia"), &stand->growth));
+    stand->growth.sdi_most = 0;
+    stand->cutting = (struct ceduo_cutting){.rotation = 25};
+    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_most, &shoots->height_rate};
+    stand->shoots[0].age = 10;
+    for (size_t i = 0; i <= 4; i++) {
+        double was = i < 4 ? *numbers[i] : 0;
+        if (i < 4)
+            *numbers[i] = 0;
+        assert_int_equal(ceduo_stand_at(stand, NAN, 5, &grown), CEDUO_OK);
+        bool grows = grown.stand.shoots[0].dbh > stand->shoots[0].dbh;
+        assert_int_equal(grows, i == 4);
+        assert_int_equal(ceduo_first_cut(stand, 3) != CEDUO_NEVER, i == 4);
+        ceduo_grown_stand_release(&grown);
+        if (i < 4)
+            *numbers[i] = was;
+    }
+    stand->growth.shoots_old = 0;
+    assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
+    stand->cutting.rotation = 0;
+    assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
 }
 
 /* ---- the index ---- */
@@ -507,6 +639,28 @@ static void a_search_ends_at_once(void **state)
     }
 }
 
+/* Goals without end, and one that is met exactly: by halves. */
+static enum ceduo_status steps_down(void *context, double value, double *goal)
+{
+    const double *levels = context;
+    *goal = value < 3 ? levels[0] : levels[1];
+    return CEDUO_OK;
+}
+
+static void goals_without_end(void **state)
+{
+    (void)state;
+    const double levels[][2] = {{INFINITY, -INFINITY}, {1, -INFINITY}, {INFINITY, 0}, {1, .5}, {NAN, 0}};
+    for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
+        struct ceduo_found found;
+        double pair[2] = {levels[i][0], levels[i][1]};
+        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = steps_down, .context = pair};
+        assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+        assert_true(found.found && found.value >= 3 && found.value < 3 + 1e-7);
+        assert_true(found.goal_at_value == levels[i][1] && found.side == CEDUO_SMALLEST);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -515,6 +669,11 @@ int main(void)
         cmocka_unit_test(intervals_of_few_values),
         cmocka_unit_test(distributions_of_few_values),
         cmocka_unit_test(values_beyond_every_bin),
+        cmocka_unit_test(columns_are_refused),
+        cmocka_unit_test(cells_take_any_value),
+        cmocka_unit_test(alike_neighbours_are_one),
+        cmocka_unit_test(growth_is_known_or_not),
+        cmocka_unit_test(goals_without_end),
         cmocka_unit_test(belts_beside_the_way),
         cmocka_unit_test(keys_tell_what_rocks_meet),
         cmocka_unit_test(runs_that_take_no_part),

@@ -147,6 +147,24 @@ static bool read_scene(void)
     return good;
 }
 
+static bool read_text(void)
+{
+    static const char text[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
+                               "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
+    ceduo_text_lost();
+    struct scene_file file;
+    struct problems problems = {0};
+    bool good = ceduo_scene_read_text(&file, "scene", text, &problems);
+    assert_true(good || problems.memory);
+    if (good) {
+        uint64_t key = ceduo_scene_key(&file.scene);
+        add(&key, sizeof key);
+    }
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    return good;
+}
+
 /* What is wrong with a file, whole or with a word that not all is said. */
 static bool read_faulty(void)
 {
@@ -301,6 +319,7 @@ static void scenes_are_read(void **state)
 {
     (void)state;
     without_memory(read_scene);
+    without_memory(read_text);
     without_memory(read_faulty);
 }
 
