@@ -985,11 +985,15 @@ static void pack_block(struct bytes *b, struct block *block, size_t controls)
     }
 }
 
+static bool is_plain_zero(double value)
+{
+    return value == 0 && !signbit(value);
+}
+
 /* Of nothing they are 0: anything else would get lost where they are merged. */
 static bool good_moments(const struct ceduo_moments *m, uint64_t n)
 {
-    static const struct ceduo_moments none = {0};
-    if (m->n == 0 && memcmp(m, &none, sizeof none) != 0)
+    if (m->n == 0 && !(is_plain_zero(m->mean) && is_plain_zero(m->m2) && is_plain_zero(m->max)))
         return false;
     return m->n == n && isfinite(m->mean) && isfinite(m->m2) && isfinite(m->max) && m->m2 >= 0;
 }
