@@ -111,13 +111,8 @@ struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, con
     d.max = m->max;
     size_t lo, hi, from = 0, r50 = ceduo_quantile_rank(n, 0.5), r95 = ceduo_quantile_rank(n, 0.95);
     ceduo_quantile_interval(n, 0.95, &lo, &hi);
-    if (lo >= r50 || lo == 0) {
-        d.p50 = select_rank(values, n, &from, r50);
-        d.p95_lo = lo > 0 ? select_rank(values, n, &from, lo) : NAN;
-    } else {
-        d.p95_lo = select_rank(values, n, &from, lo);
-        d.p50 = select_rank(values, n, &from, r50);
-    }
+    d.p50 = select_rank(values, n, &from, r50);
+    d.p95_lo = lo > 0 ? select_rank(values, n, &from, lo) : NAN; /* not before the median, for any n */
     d.p95 = select_rank(values, n, &from, r95);
     size_t r99 = ceduo_quantile_rank(n, 0.99);
     bool hi_first = hi <= r99;

@@ -591,7 +591,7 @@ static void folders_are_listed(void **state)
     size_t n = 1;
     assert_null(ceduo_file_list(&arena, own, "slopes", &n));
     assert_int_equal(n, 0);
-    const char *const names[] = {"ceduo/stands/a-b.yaml", "ceduo/stands/a.yaml", "ceduo/stands/b.txt", "ceduo/stands/.yaml",
+    const char *const names[] = {"ceduo/stands/a-b.yaml", "ceduo/stands/a.yaml", "ceduo/stands/letter.txt", "ceduo/stands/.yaml",
                                  "ceduo/stands/.c.yaml", "ceduo/stands/B.yaml", "ceduo/stands/x", "ceduo/stands/aaaa.yaml",
                                  "ceduo/stands/aa.yaml", "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
     for (size_t i = 0; i < LENGTH(names); i++)
@@ -771,6 +771,7 @@ static void wrong_scenes_are_told(void **state)
         {"forest: [{from_m: 10, to_m: 80, stand: {source: {word: x}}}]", "unknown key; known here: kind, text"},
         {"forest: 5", "forest: a list is wanted here, not a single value"},
         {"forest: [{from_m: 10, to_m: 80, stand: {base: [1]}}]", "base: a path to a file is wanted"},
+        {"slope: {base: other, vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}", "slope.base: unknown key"},
         {"forest: [5]", "forest[0]: a mapping is wanted here, not a single value"},
         {"controls: [{x_m: 90, *a : 1}]", "an alias; write the value out"},
         {"controls: [{x_m: 90, [a]: 1}]", "a key must be a plain word"},

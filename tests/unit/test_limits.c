@@ -171,7 +171,7 @@ static void distributions_of_few_values(void **state)
 {
     (void)state;
     uint64_t bits = 1;
-    for (size_t n = 0; n <= 200; n += n < 10 ? 1 : 19) {
+    for (size_t n = 0; n <= 200; n++) {
         double values[200], sorted[200];
         struct ceduo_moments m = {0};
         struct histogram h = {0};
@@ -229,8 +229,19 @@ static void values_beyond_every_bin(void **state)
     assert_int_equal(more.n, 10);
     for (uint64_t rank = 1; rank <= 10; rank++)
         assert_true(ceduo_histogram_value(&more, rank) == ceduo_histogram_value(&h, (rank + 1) / 2));
-    ceduo_histogram_clear(&h);
     ceduo_histogram_clear(&more);
+    struct bytes b = {0};
+    assert_true(ceduo_histogram_pack(&h, &b, 0));
+    for (size_t n = 0; n <= b.length; n++)
+        for (uint64_t most = 0; most < 7; most++) { /* short of bytes, or more values than there may be */
+            struct bytes from = {.reads = true, .from = b.to, .length = n};
+            bool good = ceduo_histogram_pack(&more, &from, most);
+            assert_int_equal(good, n == b.length && most >= 5);
+            assert_true(!good || (more.n == 5 && more.zeros == 2));
+            ceduo_histogram_clear(&more);
+        }
+    free(b.to);
+    ceduo_histogram_clear(&h);
 }
 
 static void columns_are_refused(void **state)
@@ -356,8 +367,24 @@ static void growth_is_known_or_not(void **state)
         if (i < 4)
             *numbers[i] = was;
     }
+    site.scene.options = &site.option; /* what is shown of it: up to a rotation after the cut, where that is not too far */
+    site.scene.options_count = 1;
+    site.belts[1].stand.cutting.rotation = 0;
+    const unsigned usual[][2] = {{3, 29}, {100, 120}, {119, 120}, {130, 10}};
+    for (size_t i = 0; i < 4; i++) {
+        site.belts[0].cut_year = usual[i][0];
+        assert_int_equal(ceduo_years_usual(&site.scene), usual[i][1]);
+    }
     stand->growth.shoots_old = 0;
     assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
+    stand->shoots_count = 0; /* trees alone: cut when they are old enough, if that is known */
+    stand->stools_per_ha = 0;
+    stand->growth = (struct ceduo_growth){.sdi_most = 0};
+    assert_true(stand->trees_count == 1);
+    stand->trees[0].age = NAN;
+    assert_int_equal(ceduo_first_cut(stand, NAN), CEDUO_NEVER);
+    stand->trees[0].age = 10;
+    assert_int_equal(ceduo_first_cut(stand, NAN), 15);
     stand->cutting.rotation = 0;
     assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
 }
@@ -516,6 +543,10 @@ static void little_is_asked_of_a_run(void **state)
         assert_int_equal(e.passed, 0);
         assert_true(isnan(e.mean_energy) && isnan(e.speed.p5) && isnan(e.energy.max));
     }
+    uint64_t reached;
+    double mean, se;
+    ceduo_run_energy(run, 0, &reached, &mean, &se);
+    assert_true(reached == 0 && isnan(mean) && isnan(se));
     assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK); /* as long as it was made for */
     assert_int_equal(ceduo_run_rocks(run), 300);
     ceduo_run_free(run);
@@ -531,6 +562,25 @@ static void little_is_asked_of_a_run(void **state)
     def.exact_bytes = 100;
     run = run_of(&def, 300);
     assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    ceduo_run_free(run);
+    struct ceduo_arrivals steps, once; /* room is taken twice over, where that fits */
+    const double of_control[] = {site.control.x};
+    def.exact_bytes = 3 * sizeof(double) * 300;
+    def.cells = 1;
+    def.cell_x = of_control;
+    run = run_of(&def, 200);
+    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &steps), CEDUO_OK);
+    struct ceduo_envelope at_control; /* a cell where a control is */
+    ceduo_run_envelope(run, 0, &at_control);
+    assert_int_equal(at_control.passed, steps.reached);
+    assert_true(at_control.speed.max == steps.speed.max && at_control.energy.max == steps.energy.max);
+    ceduo_run_free(run);
+    def.cells = 0;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &once), CEDUO_OK);
+    assert_true(steps.exact && once.exact && steps.reached > 0);
+    assert_memory_equal(&steps, &once, offsetof(struct ceduo_arrivals, exact));
     ceduo_run_free(run);
     site.scene.controls_count = 0; /* nobody asks what arrives; where they stop is told all the same */
     def.exact_bytes = 100;
@@ -552,6 +602,54 @@ static void little_is_asked_of_a_run(void **state)
     assert_null(run);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_BAD_SLOPE);
     assert_null(pool);
+}
+
+/* The pool of a scene as it flies it, or as a part of that. */
+static struct ceduo_pool *pool_of(bool part)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
+    def.part = part;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    return pool;
+}
+
+static void pools_of_another_kind(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 20;
+    site.scene.options = &site.option;
+    site.scene.options_count = 1;
+    struct ceduo_pool *part = pool_of(true);
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_pool_extend(part, 20), CEDUO_OK);
+    assert_int_equal(ceduo_pool_save(part, &bytes, &n), CEDUO_OK);
+    bytes = realloc(bytes, n + 1);
+    assert_non_null(bytes);
+    bytes[n] = 0;
+    for (int i = 0; i < 5; i++) { /* as it is; of other runs, of another forest, shorter, longer */
+        struct ceduo_pool *whole = pool_of(false);
+        bytes[0] ^= i == 1;
+        bytes[8] ^= i == 2;
+        size_t length = i == 3 ? n - 1 : i == 4 ? n + 1 : n;
+        assert_int_equal(ceduo_pool_adopt(whole, bytes, length), i == 0 ? CEDUO_OK : CEDUO_BAD_PART);
+        bytes[0] ^= i == 1;
+        bytes[8] ^= i == 2;
+        ceduo_pool_free(whole);
+    }
+    free(bytes);
+    ceduo_pool_free(part);
+    site.scene.controls_count = 0; /* and a result of no control at all */
+    struct ceduo_pool *pool = pool_of(false);
+    struct ceduo_result *result;
+    assert_int_equal(ceduo_pool_extend(pool, 20), CEDUO_OK);
+    assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
+    assert_int_equal(ceduo_result_rocks(result), 20);
+    ceduo_result_free(result);
+    ceduo_pool_free(pool);
 }
 
 /* Forests that the scene has no more: the runs asked for last stay, so many of them. */
@@ -616,9 +714,10 @@ static enum ceduo_status refuse(void *context, double value, double *goal)
 static void a_search_ends_at_once(void **state)
 {
     (void)state;
-    for (int whole = 0; whole < 2; whole++) {
+    for (int kind = 0; kind < 4; kind++) { /* where nothing passes, all is looked through */
         struct ceduo_found found;
-        struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = whole, .target = .3, .cancel = &cancel};
+        double target = kind < 2 ? .3 : -1;
+        struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = kind % 2, .target = target, .cancel = &cancel};
         unsigned when = UINT32_MAX;
         def.context = &when;
         def.goal = give_up;
@@ -626,7 +725,7 @@ static void a_search_ends_at_once(void **state)
         atomic_store(&cancel, false);
         assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
         unsigned all = looked;
-        assert_true(found.found && all > 5);
+        assert_true(found.found == (kind < 2) && all > 5);
         for (when = 1; when < all; when++)
             for (int k = 0; k < 2; k++) {
                 def.goal = k == 0 ? give_up : refuse;
@@ -679,6 +778,7 @@ int main(void)
         cmocka_unit_test(runs_that_take_no_part),
         cmocka_unit_test(little_is_asked_of_a_run),
         cmocka_unit_test(a_pool_forgets_what_is_old),
+        cmocka_unit_test(pools_of_another_kind),
         cmocka_unit_test(a_search_ends_at_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
