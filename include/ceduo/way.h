@@ -9,8 +9,9 @@
 /* How a rock's way ends. */
 enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_STOPPED_BY_STEMS, CEDUO_ENDS };
 
-/* More contacts than this and a rock counts as unfinished. */
+/* More contacts than this, or more stems made up along its way, and a rock counts as unfinished. */
 #define CEDUO_CONTACTS_MOST 1000000
+#define CEDUO_STEMS_MOST 1000000
 
 /* A piece of a rock's way, from (x, z) to (x1, z1): in flight the parabola that starts with (vx, vz), in a roll the
  * straight line along the ground, speeds (vx, vz) at its start and (vx1, vz1) at its end. */
@@ -36,6 +37,7 @@ struct ceduo_stem_passed {
 
 /* Who looks on as a rock goes its way: each may be NULL. */
 struct ceduo_watch {
+    bool (*enough)(void *context); /* asked every few milliseconds: true ends the way there, CEDUO_CANCELLED */
     void (*piece)(void *context, const struct ceduo_piece *piece);      /* each piece of the way, in order */
     void (*stem)(void *context, const struct ceduo_stem_passed *stem); /* each stem, after the piece that leads to it */
     void *context;
@@ -62,7 +64,8 @@ struct ceduo_way {
 
 /* Follows rock number `rock` of a scene through the forest of `option` (NULL: without forest), the same rock that a run
  * flies. `watch` may be NULL. `crossings` (may be NULL) holds one entry for each control, in their order. The scene must
- * have passed ceduo_scene_check(). CEDUO_NO_MEMORY, otherwise CEDUO_OK. */
+ * have passed ceduo_scene_check(). CEDUO_NO_MEMORY, CEDUO_CANCELLED (`way` is what is known up to there), otherwise
+ * CEDUO_OK. */
 enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
                                    const struct ceduo_watch *watch, struct ceduo_way *way,
                                    struct ceduo_crossing *crossings);

@@ -434,11 +434,10 @@ static enum exit_status plot_run(const struct arguments *a, const struct scene_f
                                      .pictures = pool,
                                      .cells = def->cells,
                                      .cell_x = def->cell_x,
-                                     .trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0};
-    if (ceduo_outlook_create(&from, &outlook) != CEDUO_OK) {
-        ceduo_batch_complain(file->path, _("out of memory"));
-        return EXIT_RUN;
-    }
+                                     .trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0,
+                                     .cancel = ceduo_interrupt_flag()};
+    if (ceduo_outlook_create(&from, &outlook) != CEDUO_OK)
+        return fell_short(file);
     struct ceduo_years **years = NULL;
     if (a->plot == CEDUO_PLOT_ROTATION &&
         !(years = fly_years(a, &file->scene, pool, &outlook->bare->flown))) {

@@ -9,6 +9,10 @@
 
 #include "random.h"
 
+/* What costs little is counted as a part of a stem: steps over others in a list, belts and strata that are passed over. */
+#define STEPS_OF_A_STEM 16
+#define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
+
 /* The number of an event, never 0: which stratum, which side, the how-manieth. The side is its last bit. */
 static uint64_t event_of(size_t stratum, int side, uint64_t n)
 {
@@ -64,6 +68,7 @@ static void advance(struct stems *s, int side, size_t stratum)
 {
     struct stream *stream = &s->side[side].streams[stratum];
     const struct wood_belt *belts = s->wood->along[side];
+    size_t first = stream->belt;
     uint64_t event = event_of(stratum, side, stream->drawn++);
     struct random_four four = random_four(s->seed, s->number, event, RANDOM_STEM);
     double left = -log(four.first + 0x1p-54), at = stream->at;
@@ -82,11 +87,13 @@ static void advance(struct stems *s, int side, size_t stratum)
         if (left < room) {
             at = from + left / rate;
             stream->at = at < belt->to ? at : belt->to;
+            s->effort += (stream->belt - first) / STEPS_OF_A_STEM;
             return;
         }
         left -= room;
     }
     stream->at = INFINITY;
+    s->effort += (stream->belt - first) / STEPS_OF_A_STEM;
 }
 
 /* ---- stools ---- */
@@ -114,12 +121,13 @@ static bool make_room(struct stems *s, struct stems_side *side, size_t more)
 }
 
 /* Puts a stem among those waiting, for which there is room, in the order they are come to. */
-static inline void put_in(struct stems_side *side, const struct stem *stem)
+static inline void put_in(struct stems *s, struct stems_side *side, const struct stem *stem)
 {
-    size_t i = side->end++;
+    size_t end = side->end++, i = end;
     for (; i > side->first && side->waiting[i - 1].along > stem->along; i--)
         side->waiting[i] = side->waiting[i - 1];
     side->waiting[i] = *stem;
+    s->effort += (end - i) / STEPS_OF_A_STEM;
 }
 
 static const struct wood_kind *draw_cohort(const struct stems *s, const struct wood_stools *stools, uint64_t event,
@@ -140,7 +148,7 @@ static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem s
 {
     stem.along = -stem.along;
     if (make_room(s, &s->side[1], 1))
-        put_in(&s->side[1], &stem);
+        put_in(s, &s->side[1], &stem);
 }
 
 /* The kind and diameter of shoot i of a stool whose shoots differ. */
@@ -165,6 +173,7 @@ static void draw_stool(struct stems *s, int i_side)
     if (!make_room(s, side, n))
         return;
     s->drawn += n;
+    s->effort += 1 + n;
     double r = stools->radius[more], sine, cosine;
     const double *ring = stools->ring[more];
     wood_direction(s->wood, (stream->turn - 0.5) * stools->turn[more], &cosine, &sine);
@@ -188,18 +197,27 @@ static void draw_stool(struct stems *s, int i_side)
         if (i_side == 0 && stem.along < s->start)
             turn_behind(s, stem);
         else
-            put_in(side, &stem);
+            put_in(s, side, &stem);
     }
 }
 
-/* Draws the stools that have a centre up to `to` along a side. */
-static void draw_stools_to(struct stems *s, int side, double to)
+/* Whether it is time to let the caller look up. */
+static bool pauses(const struct stems *s)
+{
+    return s->no_memory || s->effort >= s->pause || ceduo_stems_too_many(s);
+}
+
+/* Draws the stools that have a centre up to `to` along a side; false where it stopped before. */
+static bool draw_stools_to(struct stems *s, int side, double to)
 {
     struct stream *stream = &s->side[side].streams[0];
-    while (stream->at <= to && stream->at < INFINITY && !s->no_memory) {
+    while (stream->at <= to && stream->at < INFINITY) {
+        if (pauses(s))
+            return false;
         draw_stool(s, side);
         advance(s, side, 0);
     }
+    return true;
 }
 
 /* ---- what comes next ---- */
@@ -208,6 +226,7 @@ static void draw_stools_to(struct stems *s, int side, double to)
 static void find_single(struct stems *s, struct stems_side *side)
 {
     side->single_at = INFINITY;
+    s->effort += s->wood->strata / STEPS_OF_A_STEM;
     for (size_t k = s->poisson ? 0 : 1; k < s->wood->strata; k++)
         if (side->streams[k].at < side->single_at) {
             side->single_at = side->streams[k].at;
@@ -223,10 +242,17 @@ static void find_next(struct stems *s, int i)
         double waits = any ? side->waiting[side->first].along : INFINITY;
         side->next_waits = any && waits <= side->single_at;
         side->next = side->next_waits ? waits : side->single_at;
-        /* a stool reaches ahead of its centre */
-        if (s->poisson || !(side->streams[0].at < INFINITY) || s->no_memory ||
-            side->streams[0].at - s->wood->reach > side->next)
+        side->next_known = true;
+        if (s->poisson || !(side->streams[0].at < INFINITY))
             return;
+        double reach = side->streams[0].at - s->wood->reach; /* a stool reaches ahead of its centre */
+        if (reach > side->next)
+            return;
+        if (pauses(s)) {
+            side->next = reach;
+            side->next_known = false;
+            return;
+        }
         draw_stool(s, i);
         advance(s, i, 0);
     }
@@ -249,7 +275,8 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->b = b;
     s->start = x;
     s->behind_ready = false;
-    s->drawn = 0;
+    s->drawn = s->effort = 0;
+    s->pause = PAUSE_STEMS;
     for (int i = 0; i < 2; i++)
         s->side[i].first = s->side[i].end = 0;
     memset(s->met, 0, (s->wood->places + 1) * sizeof *s->met);
@@ -263,9 +290,9 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
  * ahead. */
 static void prepare_behind(struct stems *s)
 {
+    if (!s->poisson && !draw_stools_to(s, 0, s->start + s->wood->reach))
+        return;
     s->behind_ready = true;
-    if (!s->poisson)
-        draw_stools_to(s, 0, s->start + s->wood->reach);
     find_next(s, 0);
     start_side(s, 1, -s->start, -s->start + s->wood->reach);
     find_next(s, 1);
@@ -274,8 +301,13 @@ static void prepare_behind(struct stems *s)
 bool ceduo_stems_take(struct stems *s, int i, struct stem *stem)
 {
     struct stems_side *side = &s->side[i];
+    s->pause = s->effort + PAUSE_STEMS;
     if (i == 1 && !s->behind_ready) {
         prepare_behind(s);
+        return false;
+    }
+    if (!side->next_known) {
+        find_next(s, i);
         return false;
     }
     if (side->next_waits) {
@@ -291,6 +323,7 @@ bool ceduo_stems_take(struct stems *s, int i, struct stem *stem)
         *stem = (struct stem){.along = stream->at, .dbh = d, .kind = k, .stool = event};
         stem->y = s->poisson ? NAN : (stream->offset - 0.5) * (s->b + d);
         s->drawn++;
+        s->effort++;
         advance(s, i, side->single);
         find_single(s, side);
     }

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "ceduo/rock.h"
+#include "ceduo/way.h"
 #include "wood.h"
 
 /* The stems in one rock's way, drawn as it comes to them. Stools and trees are Poisson processes in the plane, of which
@@ -36,6 +37,7 @@ struct stems_side {
     struct stem *waiting;   /* shoots of drawn stools that are in the way, from `first` to before `end`, the nearest first */
     size_t first, end, room;
     double next;            /* m along the way: no stem before */
+    bool next_known;        /* a stem stands there; otherwise stools up to there have not been drawn yet */
     bool next_waits;        /* it is one of those waiting; otherwise the next of `single` */
     size_t single;          /* the stream whose next is the nearest, but for stools */
     double single_at;
@@ -53,7 +55,15 @@ struct stems {
                             * at a time are far fewer than the places */
     bool no_memory;        /* the way is not to be used */
     uint64_t drawn;        /* stems made up */
+    uint64_t effort;       /* the same, and what is done to keep them in order, in units of one stem */
+    uint64_t pause;        /* effort at which the drawing stops for a moment: the rock may be waited for no longer */
 };
+
+/* Whether a rock has met too many stems to be followed further. */
+static inline bool ceduo_stems_too_many(const struct stems *stems)
+{
+    return stems->effort > CEDUO_STEMS_MOST;
+}
 
 /* False without memory. */
 bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson);
@@ -62,8 +72,8 @@ void ceduo_stems_release(struct stems *stems);
 /* Begins the way of rock `number`, of mean diameter b, released at x. */
 void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, double b, double x);
 
-/* Takes the next stem of a side and looks for the one after it; false where it was only now found out that none stands
- * at side[].next. */
+/* Takes the next stem of a side and looks for the one after it. False: no stem is taken, because what stands at
+ * side[].next was not known yet; side[].next has moved on. Each call does a bounded amount of work. */
 bool ceduo_stems_take(struct stems *stems, int side, struct stem *stem);
 
 /* A stool astride of the release was hit: its shoots that wait behind know of it, however late the rock comes to them. */

@@ -7,16 +7,15 @@
 #include "law_lumped.h"
 
 #ifndef PAUSE
-#define PAUSE 4000 /* contacts; the most are a multiple of it */
+#define PAUSE 4000 /* contacts, or stems */
 #endif
+#define PAUSE_SEGMENTS 64 /* a contact may pass over all segments: of a longer profile the pauses are shorter */
 #ifndef ROUNDING
 #define ROUNDING 1e-9 /* what is nearer to a limit is looked at more closely; only speed depends on it */
 #endif
 #ifndef STOP_ROUNDING
 #define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: a rock stops no nearer than this */
 #endif
-_Static_assert(CEDUO_CONTACTS_MOST % PAUSE == 0, "a way ends at a pause");
-
 enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
 
 /* ---- release ---- */
@@ -36,6 +35,20 @@ static inline void set_next_stems(struct walker *w)
 {
     w->stem_ahead = w->stems->side[0].next;
     w->stem_behind = -w->stems->side[1].next;
+}
+
+/* Whether nobody waits for the rock any more. */
+static bool is_cancelled(const struct walker *w)
+{
+    return (w->cancel && atomic_load_explicit(w->cancel, memory_order_relaxed)) ||
+           (w->watch && w->watch->enough && w->watch->enough(w->watch->context));
+}
+
+/* The contacts of the next pause: so near that the work up to there is done in a few milliseconds. */
+static uint64_t next_pause(const struct walker *w)
+{
+    uint64_t pieces = w->g->n / PAUSE_SEGMENTS + 1, step = PAUSE / pieces + 1, next = w->contacts + step;
+    return next < CEDUO_CONTACTS_MOST ? next : CEDUO_CONTACTS_MOST;
 }
 
 static enum ceduo_status draw_rock(struct walker *w, const struct ceduo_scene *scene, const struct ceduo_rock *mean)
@@ -81,8 +94,9 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
                             .segment = segment,
                             .on_ground = !(height > 0)};
     w->contacts = 0;
-    w->pause = PAUSE;
-    w->cancelled = false;
+    w->pause = next_pause(w);
+    w->stems_pause = PAUSE;
+    w->cancelled = w->gives_up = false;
     w->facets_of = UINT64_MAX;
     w->next_mark = 0;
     while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
@@ -190,13 +204,19 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
     w->watch->stem(w->watch->context, &p);
 }
 
-/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or no memory. */
+/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the way is given
+ * up. */
 static bool take_stem(struct walker *w, int side, struct stem *stem)
 {
     bool taken = ceduo_stems_take(w->stems, side, stem);
     set_next_stems(w);
     w->cancelled |= w->stems->no_memory;
-    return taken && !w->cancelled;
+    if (w->stems->effort >= w->stems_pause) {
+        w->stems_pause = w->stems->effort + PAUSE;
+        w->cancelled |= is_cancelled(w);
+    }
+    w->gives_up = w->cancelled || ceduo_stems_too_many(w->stems);
+    return taken && !w->gives_up;
 }
 
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
@@ -255,7 +275,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         }
         struct stem stem;
         if (!take_stem(w, side, &stem)) {
-            if (w->cancelled)
+            if (w->gives_up)
                 return true;
             continue;
         }
@@ -503,7 +523,7 @@ static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, str
             return NO_STEM;
         struct stem stem;
         if (!take_stem(w, r->dir > 0 ? 0 : 1, &stem)) {
-            if (w->cancelled)
+            if (w->gives_up)
                 return STOPPED_AT_STEM;
             continue;
         }
@@ -749,8 +769,8 @@ SELDOM bool has_enough(struct walker *w)
 {
     if (w->arrivals_only && w->next_mark == w->marks->n)
         return true;
-    w->pause += PAUSE;
-    w->cancelled = w->cancel && atomic_load_explicit(w->cancel, memory_order_relaxed);
+    w->pause = next_pause(w);
+    w->cancelled = is_cancelled(w);
     return w->cancelled || w->contacts >= CEDUO_CONTACTS_MOST;
 }
 
@@ -772,7 +792,7 @@ SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct lan
         then = roll_on(w, 0, l);
     }
     if (then == STOPPED)
-        return w->cancelled ? GROUND_TOO_MANY : GROUND_STOPPED;
+        return w->gives_up ? GROUND_TOO_MANY : GROUND_STOPPED;
     return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
@@ -781,7 +801,7 @@ HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, enum 
 {
     if (stem_on_way(w, l->x) && fly_past_stems(w, at, l)) {
         w->at = *at;
-        *end = w->cancelled ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
+        *end = w->gives_up ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
         return false;
     }
     fly(w, at, l);

@@ -26,6 +26,7 @@ struct walker {
     double spin;
     uint64_t contacts;
     uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
+    uint64_t stems_pause; /* the same, of the effort spent on stems */
     size_t next_mark;
     double next_x;    /* of that mark, infinite behind the last */
     struct stems *stems;       /* NULL: no forest */
@@ -39,6 +40,7 @@ struct walker {
     bool arrivals_only;        /* behind the last mark nobody asks on: the way ends soon after it, CEDUO_UNFINISHED */
     const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
     bool cancelled;            /* it was raised, or memory ran out: the way is not at its end */
+    bool gives_up;             /* among stems: cancelled, or there were too many */
 };
 
 /* Draws rock number `number` of the scene and puts it at its release. walker.stems and those who look on are the

@@ -70,7 +70,9 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
     way->stems_hit = w.stems_hit;
     way->stools_met = w.stools_met;
     way->stems_drawn = w.stems ? w.stems->drawn : 0;
-    return w.cancelled ? CEDUO_NO_MEMORY : CEDUO_OK;
+    if (w.stems && w.stems->no_memory)
+        return CEDUO_NO_MEMORY;
+    return w.cancelled ? CEDUO_CANCELLED : CEDUO_OK;
 }
 
 void ceduo_follower_free(struct ceduo_follower *f)

@@ -130,7 +130,7 @@ static bool precise(const struct ceduo_outlook *o)
 }
 
 /* Hands over what is known so far. */
-static bool publish(struct worker *w, struct ceduo_outlook **outlook)
+static enum ceduo_status publish(struct worker *w, struct ceduo_outlook **outlook)
 {
     struct flight_plan *plan = w->plan;
     struct ceduo_outlook *o, *mine;
@@ -140,13 +140,16 @@ static bool publish(struct worker *w, struct ceduo_outlook **outlook)
                                     .cells = plan->cells_count,
                                     .cell_x = plan->cells,
                                     .trails = CEDUO_OUTLOOK_TRAILS,
+                                    .cancel = &w->cancel,
                                     .last = plan->last};
-    if (ceduo_outlook_create(&def, &mine) != CEDUO_OK)
-        return false;
+    enum ceduo_status status = ceduo_outlook_create(&def, &mine);
+    if (status != CEDUO_OK)
+        return status;
     ceduo_outlook_free(plan->last);
     def.last = plan->last = mine;
-    if (ceduo_outlook_create(&def, &o) != CEDUO_OK)
-        return false;
+    status = ceduo_outlook_create(&def, &o);
+    if (status != CEDUO_OK)
+        return status;
     pthread_mutex_lock(&w->lock);
     if (w->requested) { /* stale already */
         ceduo_outlook_free(o);
@@ -159,7 +162,7 @@ static bool publish(struct worker *w, struct ceduo_outlook **outlook)
     pthread_mutex_unlock(&w->lock);
     tell(w);
     *outlook = mine;
-    return true;
+    return CEDUO_OK;
 }
 
 static void count_rocks(struct worker *w, uint64_t rocks)
@@ -226,15 +229,14 @@ static enum ceduo_status fly_plan(struct worker *w, size_t shown, bool years)
         if (status == CEDUO_OK && wooded)
             status = fly_forest(w, &scene->options[shown], rocks);
         if (status == CEDUO_OK && wooded && scene->options_count > 1) {
-            if (!publish(w, &o))
-                return CEDUO_NO_MEMORY;
+            status = publish(w, &o);
             for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
                 status = fly_forest(w, &scene->options[i], rocks);
         }
+        if (status == CEDUO_OK)
+            status = publish(w, &o);
         if (status != CEDUO_OK)
             return status;
-        if (!publish(w, &o))
-            return CEDUO_NO_MEMORY;
         if (atomic_load(&w->cancel))
             return CEDUO_CANCELLED;
         if (years && rocks == WORKER_FIRST_ROCKS) {

@@ -3,11 +3,26 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "io/intl.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
 #define PIECES_MOST 20000
+#define SECONDS_MOST 0.05 /* that a key may take */
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool is_enough(void *context)
+{
+    const struct steps *s = context;
+    return now() - s->begun > SECONDS_MOST;
+}
 
 static void add_piece(void *context, const struct ceduo_piece *piece)
 {
@@ -83,8 +98,11 @@ bool ceduo_steps_follow(struct steps *s, const struct ceduo_scene *scene, const 
         s->n = s->at = s->stems_count = 0;
         s->key = key;
         s->rock = rock;
-        const struct ceduo_watch watch = {.piece = add_piece, .stem = add_stem, .context = s};
-        if (ceduo_way_follow(scene, option, rock, &watch, &s->way, NULL) != CEDUO_OK)
+        s->begun = now();
+        const struct ceduo_watch watch = {.enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
+        enum ceduo_status status = ceduo_way_follow(scene, option, rock, &watch, &s->way, NULL);
+        s->cut_short = status == CEDUO_CANCELLED;
+        if (status != CEDUO_OK && !s->cut_short)
             return false;
     }
     return draw_trail(s, scene->simulation.gravity);
@@ -128,8 +146,9 @@ static void say_end(const struct steps *s, double origin, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
-    ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
-                      _(ends[s->way.end]), s->way.x + origin, (unsigned long long)s->way.contacts);
+    const char *end = s->cut_short ? N_("goes on too long to be shown") : ends[s->way.end];
+    ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock, _(end),
+                      s->way.x + origin, (unsigned long long)s->way.contacts);
     if (s->way.stems_drawn > 0)
         ceduo_text_format(text, _(", %llu stems hit"), (unsigned long long)s->way.stems_hit);
 }

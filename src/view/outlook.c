@@ -14,11 +14,18 @@
 #define RESOLUTION         2000 /* parts of the slope's length that a picture may show */
 
 struct tracer {
+    const atomic_bool *cancel;
     struct ceduo_trail *trail;
     size_t room;
     double gravity, step;
     bool failed;
 };
+
+static bool is_cancelled(void *context)
+{
+    const struct tracer *t = context;
+    return t->cancel && atomic_load(t->cancel);
+}
 
 static bool make_room(struct tracer *t)
 {
@@ -65,15 +72,16 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
 }
 
 static enum ceduo_status trace(struct ceduo_follower *follower, const struct ceduo_scene *scene, uint64_t rock,
-                               struct ceduo_trail *trail)
+                               const atomic_bool *cancel, struct ceduo_trail *trail)
 {
     const struct ceduo_slope *slope = &scene->slope;
     *trail = (struct ceduo_trail){0};
-    struct tracer tracer = {.trail = trail,
+    struct tracer tracer = {.cancel = cancel,
+                            .trail = trail,
                             .gravity = scene->simulation.gravity,
                             .step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION};
     struct ceduo_way way;
-    const struct ceduo_watch watch = {.piece = trace_piece, .context = &tracer};
+    const struct ceduo_watch watch = {.enough = is_cancelled, .piece = trace_piece, .context = &tracer};
     enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way, NULL);
     if (status == CEDUO_OK)
         add_point(&tracer, way.x, way.z, true);
@@ -85,7 +93,7 @@ enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, const stru
 {
     *trail = (struct ceduo_trail){0};
     struct ceduo_follower *follower = ceduo_follower_create(scene, option);
-    enum ceduo_status status = follower ? trace(follower, scene, rock, trail) : CEDUO_NO_MEMORY;
+    enum ceduo_status status = follower ? trace(follower, scene, rock, NULL, trail) : CEDUO_NO_MEMORY;
     ceduo_follower_free(follower);
     return status;
 }
@@ -97,14 +105,14 @@ void ceduo_trail_free(struct ceduo_trail *trail)
     *trail = (struct ceduo_trail){0};
 }
 
-static enum ceduo_status follow_trails(struct ceduo_follower *follower, const struct ceduo_scene *scene, size_t trails,
+static enum ceduo_status follow_trails(struct ceduo_follower *follower, const struct ceduo_outlook_def *def,
                                        struct ceduo_sight *s)
 {
-    trails = trails < s->flown.rocks ? trails : (size_t)s->flown.rocks;
+    size_t trails = def->trails < s->flown.rocks ? def->trails : (size_t)s->flown.rocks;
     s->trails = calloc(trails + 1, sizeof *s->trails);
     enum ceduo_status status = s->trails ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < trails && status == CEDUO_OK; i++)
-        status = trace(follower, scene, i, &s->trails[s->trails_count++]);
+        status = trace(follower, def->scene, i, def->cancel, &s->trails[s->trails_count++]);
     return status;
 }
 
@@ -124,15 +132,18 @@ size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x)
 
 #define FLOWN_MOST 4000 /* rocks flown once more where a run is too long to keep its samples */
 
-static enum ceduo_status fly_energies(struct ceduo_follower *follower, struct ceduo_sight *s)
+static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel,
+                                      struct ceduo_sight *s)
 {
+    struct tracer waits = {.cancel = cancel};
+    const struct ceduo_watch watch = {.enough = is_cancelled, .context = &waits};
     size_t controls = s->flown.controls;
     uint64_t rocks = s->flown.rocks < FLOWN_MOST ? s->flown.rocks : FLOWN_MOST;
     struct ceduo_crossing *crossings = calloc(controls + 1, sizeof *crossings);
     enum ceduo_status status = crossings ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (uint64_t rock = 0; rock < rocks && status == CEDUO_OK; rock++) {
         struct ceduo_way way;
-        status = ceduo_follower_follow(follower, rock, NULL, &way, crossings);
+        status = ceduo_follower_follow(follower, rock, &watch, &way, crossings);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
             const struct ceduo_crossing *at = &crossings[c];
             double energy = 0.5 * way.rock.mass * (at->vx * at->vx + at->vz * at->vz) +
@@ -146,7 +157,7 @@ static enum ceduo_status fly_energies(struct ceduo_follower *follower, struct ce
 }
 
 static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run,
-                                       struct ceduo_sight *s)
+                                       const atomic_bool *cancel, struct ceduo_sight *s)
 {
     bool kept = true;
     for (size_t c = 0; c < s->flown.controls; c++) {
@@ -161,7 +172,7 @@ static enum ceduo_status read_energies(struct ceduo_follower *follower, const st
     }
     for (size_t c = 0; c < s->flown.controls && !kept; c++)
         s->energies[c].n = 0;
-    return kept ? CEDUO_OK : fly_energies(follower, s);
+    return kept ? CEDUO_OK : fly_energies(follower, cancel, s);
 }
 
 static void let_go(struct ceduo_sight *s)
@@ -193,9 +204,9 @@ static enum ceduo_status read_sight(const struct ceduo_outlook_def *def, const s
     for (size_t i = 0; i < def->cells && status == CEDUO_OK && pictures; i++)
         ceduo_run_envelope(pictures, i, &s->envelopes[i]);
     if (status == CEDUO_OK)
-        status = read_energies(follower, run, s);
+        status = read_energies(follower, run, def->cancel, s);
     if (status == CEDUO_OK)
-        status = follow_trails(follower, def->scene, def->trails, s);
+        status = follow_trails(follower, def, s);
     ceduo_follower_free(follower);
     return status;
 }

@@ -62,11 +62,12 @@ struct ceduo_outlook_def {
     size_t cells;
     const double *cell_x;
     size_t trails;                     /* ways that are followed for each */
+    const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
     const struct ceduo_outlook *last;  /* whose sights are taken over where nothing has changed; NULL: none. It must be
                                         * of the same scene but for its forests */
 };
 
-/* CEDUO_NO_MEMORY or CEDUO_OK. */
+/* CEDUO_NO_MEMORY, CEDUO_CANCELLED or CEDUO_OK. */
 enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook);
 void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
 

@@ -179,7 +179,15 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
 {
     say_tolerance(result, remarks, say, context);
     uint64_t unfinished = ceduo_result_unfinished(result);
-    if (unfinished > 0)
+    if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
+        say_format(say, context,
+                   ngettext("%llu rock had more than %d contacts or stems on its way through the wood and counts as "
+                            "unfinished: are the rock's size and the stems per hectare as they should be?",
+                            "%llu rocks had more than %d contacts or stems on their way through the wood and count as "
+                            "unfinished: are the rock's size and the stems per hectare as they should be?",
+                            (unsigned long)unfinished),
+                   (unsigned long long)unfinished, CEDUO_STEMS_MOST);
+    else if (unfinished > 0)
         say_format(say, context,
                    ngettext("%llu rock was still moving after %d contacts and counts as unfinished: does the ground "
                             "take energy?",
@@ -221,6 +229,8 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %.3g m has no forest; a rock reaches full speed in %g m."), s->longest_gap,
                           limit);
+    else if (isinf(s->worst_adc))
+        ceduo_text_format(text, _("A belt has no stems; a rock reaches full speed in %g m."), limit);
     else
         ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc,
                           limit);
