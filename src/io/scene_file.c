@@ -509,6 +509,18 @@ static enum ceduo_system system_of(const struct stand_form *f)
     return f->shoots.n > 0 ? CEDUO_SIMPLE_COPPICE : f->trees.n > 0 ? CEDUO_HIGH_FOREST : CEDUO_BARE;
 }
 
+/* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
+static void check_spreads(struct maker *m, const char *path, const char *list, const struct ceduo_stems *stems, size_t n)
+{
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    for (size_t i = 0; i < n; i++)
+        if (stems[i].dbh_sd > stems[i].dbh && known(m, "%s.%s[%zu].dbh_m", path, list, i) &&
+            known(m, "%s.%s[%zu].dbh_sd_m", path, list, i))
+            complain(m, path_of(m, "%s.%s[%zu].dbh_sd_m", path, list, i),
+                     _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                     shown(stems[i].dbh_sd, a), shown(stems[i].dbh, b));
+}
+
 static void make_stand(struct maker *m, const char *path, const struct stand_form *f, struct ceduo_stand *stand)
 {
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
@@ -536,6 +548,8 @@ static void make_stand(struct maker *m, const char *path, const struct stand_for
                  shown(f->growth.shoots_young, a), shown(f->growth.shoots_old, b));
     if (f->system == CEDUO_BARE && (f->shoots.n > 0 || f->trees.n > 0))
         complain(m, path_of(m, "%s.system", path), _("'bare', but there are stems; name the system or take them out"));
+    check_spreads(m, path, "shoots", f->shoots.items, f->shoots.n);
+    check_spreads(m, path, "trees", f->trees.items, f->trees.n);
     if (!known(m, "%s.stools.per_ha", path) || !known(m, "%s.shoots", path))
         return;
     if (f->stools_per_ha > 0 && ceduo_stand_shoots(stand) / f->stools_per_ha > SHOOTS_MOST)
