@@ -23,7 +23,7 @@ struct ceduo_block {
 /* A rock of the same shape and density `factor` times as long in every dimension; spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
 
-/* Flies `rocks` blocks of each size through the forest of `option` to a control; sorted by volume. With the contact model
+/* Flies `rocks` blocks, or fewer of a size that costs very much, of each size through the forest of `option` to a control; sorted by volume. With the contact model
  * index nothing is flown and the shares are NaN. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY, or what
  * ceduo_run_create() says. */
 enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,

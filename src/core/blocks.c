@@ -25,6 +25,19 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
     return to;
 }
 
+/* A size of rock that costs more than this, in contacts and stems made up, is flown with fewer rocks: a splinter as large
+ * as a house is more work than all the rest of a page. */
+#define EFFORT_MOST 20e6
+#define FIRST_ROCKS 16
+
+/* How many rocks a size may have, by what the first of them cost. */
+static uint64_t affordable(const struct ceduo_run *run, uint64_t rocks)
+{
+    double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn;
+    double most = EFFORT_MOST / effort * (double)ceduo_run_rocks(run);
+    return (double)rocks < most ? rocks : (uint64_t)most;
+}
+
 static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
                                    uint64_t rocks, unsigned threads, const atomic_bool *cancel, struct ceduo_block *b)
 {
@@ -39,7 +52,9 @@ static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct
     if (status != CEDUO_OK)
         return status;
     struct ceduo_arrivals a;
-    status = ceduo_run_extend(run, rocks);
+    status = ceduo_run_extend(run, FIRST_ROCKS);
+    if (status == CEDUO_OK)
+        status = ceduo_run_extend(run, affordable(run, rocks));
     if (status == CEDUO_OK)
         status = ceduo_run_arrivals(run, control, &a);
     if (status == CEDUO_OK) {
