@@ -8,7 +8,7 @@
  * the same rocks with the same random numbers, so that their differences are those of the forests. */
 struct ceduo_pool;
 
-/* A pool for the scene of `def`, whose `option` is not looked at. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* A pool for the scene of `def`, whose `option` is not looked at, and whose exact_bytes the scene's runs share. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 void ceduo_pool_free(struct ceduo_pool *pool);
 
@@ -36,6 +36,10 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
  * it has no more are freed, but for the CEDUO_POOL_SPARE that were asked for last. */
 #define CEDUO_POOL_SPARE 16
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene);
+
+/* Frees runs that the scene does not need, as those of years, the oldest first, until the samples of all runs take no
+ * more than CEDUO_EXACT_BYTES. */
+void ceduo_pool_trim(struct ceduo_pool *pool);
 
 /* What was done so far. */
 struct ceduo_work {

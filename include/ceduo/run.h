@@ -49,6 +49,7 @@ void ceduo_run_free(struct ceduo_run *run);
 enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks);
 
 uint64_t ceduo_run_rocks(const struct ceduo_run *run);
+size_t ceduo_run_sample_bytes(const struct ceduo_run *run); /* taken by what is kept of single rocks */
 uint64_t ceduo_run_contacts(const struct ceduo_run *run); /* ground contacts of all rocks */
 
 /* Stems on the ways of all rocks. */

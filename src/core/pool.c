@@ -19,6 +19,7 @@ struct ceduo_pool {
     size_t count, room;
     struct pooled *runs;
     uint64_t reused, asked;
+    struct ceduo_work dropped; /* what the runs did that are freed */
 };
 
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **out)
@@ -33,6 +34,8 @@ enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct cedu
     pool->def = *def;
     pool->scene = *def->scene;
     pool->def.scene = &pool->scene;
+    bool wooded = def->scene->simulation.contact_model != CEDUO_INDEX;
+    pool->def.exact_bytes /= wooded ? def->scene->options_count + 1 : 1;
     *out = pool;
     return CEDUO_OK;
 }
@@ -100,6 +103,16 @@ static bool is_needed(const struct ceduo_pool *pool, uint64_t key)
     return key == 0;
 }
 
+static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
+{
+    struct ceduo_stem_counts stems = ceduo_run_stems(run);
+    work->rocks += ceduo_run_rocks(run);
+    work->contacts += ceduo_run_contacts(run);
+    work->stems.drawn += stems.drawn;
+    work->stems.hit += stems.hit;
+    work->stems.met += stems.met;
+}
+
 /* Frees the run that was asked for longest ago of those that the scene does not need. */
 static void drop_oldest(struct ceduo_pool *pool)
 {
@@ -108,17 +121,38 @@ static void drop_oldest(struct ceduo_pool *pool)
         if (!is_needed(pool, pool->runs[i].key) &&
             (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
             oldest = i;
+    add_work(&pool->dropped, pool->runs[oldest].run);
+    pool->dropped.runs++;
     ceduo_run_free(pool->runs[oldest].run);
     pool->runs[oldest] = pool->runs[--pool->count];
+}
+
+static size_t spare_runs(const struct ceduo_pool *pool)
+{
+    size_t spare = 0;
+    for (size_t i = 0; i < pool->count; i++)
+        spare += !is_needed(pool, pool->runs[i].key);
+    return spare;
 }
 
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
 {
     pool->scene = *scene;
-    size_t spare = 0;
+    for (size_t spare = spare_runs(pool); spare > CEDUO_POOL_SPARE; spare--)
+        drop_oldest(pool);
+}
+
+static size_t sample_bytes(const struct ceduo_pool *pool)
+{
+    size_t bytes = 0;
     for (size_t i = 0; i < pool->count; i++)
-        spare += !is_needed(pool, pool->runs[i].key);
-    for (; spare > CEDUO_POOL_SPARE; spare--)
+        bytes += ceduo_run_sample_bytes(pool->runs[i].run);
+    return bytes;
+}
+
+void ceduo_pool_trim(struct ceduo_pool *pool)
+{
+    for (size_t spare = spare_runs(pool); spare > 0 && sample_bytes(pool) > CEDUO_EXACT_BYTES; spare--)
         drop_oldest(pool);
 }
 
@@ -174,16 +208,11 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
 
 struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
 {
-    struct ceduo_work work = {.runs = pool->count, .reused = pool->reused};
-    for (size_t i = 0; i < pool->count; i++) {
-        const struct ceduo_run *run = pool->runs[i].run;
-        struct ceduo_stem_counts stems = ceduo_run_stems(run);
-        work.rocks += ceduo_run_rocks(run);
-        work.contacts += ceduo_run_contacts(run);
-        work.stems.drawn += stems.drawn;
-        work.stems.hit += stems.hit;
-        work.stems.met += stems.met;
-    }
+    struct ceduo_work work = pool->dropped;
+    work.runs += pool->count;
+    work.reused = pool->reused;
+    for (size_t i = 0; i < pool->count; i++)
+        add_work(&work, pool->runs[i].run);
     return work;
 }
 

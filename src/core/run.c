@@ -58,8 +58,8 @@ struct ceduo_run {
     bool alike;            /* the rocks differ in nothing but their numbers */
     bool exact;            /* samples are kept; otherwise histograms */
     uint64_t room;         /* rocks that the samples have room for */
-    double *samples;       /* [control][quantity][room], NaN where a rock did not arrive */
-    double *stops;         /* [room], NaN where a rock did not stop */
+    double **samples;      /* [control, quantity][room], NaN where a rock did not arrive; then one of the stops: NaN where
+                            * it did not stop */
     uint64_t pairs_room;   /* where samples are not kept: the first rocks' energies, for differences */
     double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
     struct histogram *bins; /* [control][quantity], then one of the stops */
@@ -145,7 +145,12 @@ static void block_swap(struct block *a, struct block *b)
 
 static double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
 {
-    return run->samples + (control * (size_t)run->kept + (size_t)quantity) * run->room;
+    return run->samples[control * (size_t)run->kept + (size_t)quantity];
+}
+
+static double *stops_of(const struct ceduo_run *run)
+{
+    return run->samples[run->controls * (size_t)run->kept];
 }
 
 static struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
@@ -201,7 +206,7 @@ static void clear_samples(struct ceduo_run *run, uint64_t rock)
     for (size_t c = 0; c < run->controls; c++)
         for (int q = 0; q < run->kept; q++)
             samples_of(run, c, q)[rock - run->first] = NAN;
-    run->stops[rock - run->first] = NAN;
+    stops_of(run)[rock - run->first] = NAN;
 }
 
 static void note_stop(struct worker *w, uint64_t rock, double x)
@@ -209,7 +214,7 @@ static void note_stop(struct worker *w, uint64_t rock, double x)
     struct ceduo_run *run = w->run;
     w->stops[rock - w->from] = x;
     if (run->exact)
-        run->stops[rock - run->first] = x;
+        stops_of(run)[rock - run->first] = x;
     else if (!ceduo_histogram_add(&w->bins[run->controls * (size_t)run->kept], x))
         w->no_memory = true;
 }
@@ -241,12 +246,10 @@ static bool cancelled(const struct ceduo_run *run)
     return run->def.cancel && atomic_load_explicit(run->def.cancel, memory_order_relaxed);
 }
 
-#define CANCEL_ROCKS 64 /* how often the flag is looked at */
-
-/* Whether to go on with rock r. */
-static bool goes_on(struct worker *w, uint64_t r)
+/* Whether to go on with the next rock. */
+static bool goes_on(struct worker *w)
 {
-    if ((r % CANCEL_ROCKS == 0 && cancelled(w->run)) || w->no_memory)
+    if (cancelled(w->run) || w->no_memory)
         atomic_store(&w->chunk->stop, true);
     return !atomic_load_explicit(&w->chunk->stop, memory_order_relaxed);
 }
@@ -270,7 +273,7 @@ static bool next_rock(void *context, size_t lane)
 {
     struct worker *w = context;
     struct ceduo_run *run = w->run;
-    while (w->next < w->to && goes_on(w, w->next)) {
+    while (w->next < w->to && goes_on(w)) {
         uint64_t number = w->next++;
         clear_samples(run, number);
         if (release(w, &w->walkers[lane], number) == CEDUO_OK)
@@ -523,12 +526,13 @@ static size_t columns(const struct ceduo_run *run)
     return run->controls * (size_t)run->kept + 1; /* and the stops */
 }
 
+/* With one column more, in which they are sorted. */
 static bool fits_exact(const struct ceduo_run *run, uint64_t rocks)
 {
-    return (double)rocks * (double)columns(run) * sizeof(double) <= (double)run->def.exact_bytes;
+    return (double)rocks * (double)(columns(run) + 1) * sizeof(double) <= (double)run->def.exact_bytes;
 }
 
-/* Makes room for the samples of `rocks` rocks. */
+/* Makes room for the samples of `rocks` rocks. Each column grows by itself: never are all there twice. */
 static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
 {
     rocks -= run->first;
@@ -536,18 +540,25 @@ static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
         return true;
     uint64_t room = 2 * run->room;
     room = room < rocks || !fits_exact(run, room) ? rocks : room;
-    size_t c = columns(run);
-    double *grown = malloc((size_t)room * c * sizeof(double));
-    if (!grown)
+    if (!run->samples && !(run->samples = calloc(columns(run), sizeof *run->samples)))
         return false;
-    for (size_t i = 0; run->samples && i < c; i++)
-        memcpy(grown + i * room, run->samples + i * run->room,
-               (size_t)(run->rocks - run->first) * sizeof(double));
-    free(run->samples);
-    run->samples = grown;
+    for (size_t i = 0; i < columns(run); i++) {
+        double *grown = realloc(run->samples[i], (size_t)room * sizeof(double));
+        if (!grown)
+            return false;
+        run->samples[i] = grown;
+    }
     run->room = room;
-    run->stops = run->samples + (c - 1) * room;
     return true;
+}
+
+static void free_samples(struct ceduo_run *run)
+{
+    for (size_t i = 0; run->samples && i < columns(run); i++)
+        free(run->samples[i]);
+    free(run->samples);
+    run->samples = NULL;
+    run->room = 0;
 }
 
 /* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
@@ -571,7 +582,7 @@ static bool keep_pairs(struct ceduo_run *run)
         return false;
     run->pairs_room = room;
     for (size_t c = 0; c < run->controls; c++)
-        for (uint64_t r = 0; run->samples && r < run->rocks && r < room; r++)
+        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++)
             run->pairs[c * room + r] = energy_of(run, c, r);
     return true;
 }
@@ -585,9 +596,9 @@ static void free_bins(struct histogram *bins, size_t n)
 
 static bool fill_bins(const struct ceduo_run *run, struct histogram *bins)
 {
-    for (size_t i = 0; run->samples && i < columns(run); i++)
+    for (size_t i = 0; run->room > 0 && i < columns(run); i++)
         for (uint64_t r = 0; r < run->rocks; r++) {
-            double v = run->samples[i * run->room + r];
+            double v = run->samples[i][r];
             if (!isnan(v) && !ceduo_histogram_add(&bins[i], v))
                 return false;
         }
@@ -602,10 +613,8 @@ static bool bin_samples(struct ceduo_run *run)
         free_bins(bins, columns(run));
         return false;
     }
-    free(run->samples);
+    free_samples(run);
     run->bins = bins;
-    run->samples = run->stops = NULL;
-    run->room = 0;
     run->exact = false;
     return true;
 }
@@ -733,7 +742,7 @@ void ceduo_run_free(struct ceduo_run *run)
         free(run->kept_blocks[i].controls);
     free(run->kept_blocks);
     free_bins(run->bins, columns(run));
-    free(run->samples);
+    free_samples(run);
     free(run->pairs);
     free(run->cells);
     ceduo_wood_release(&run->wood);
@@ -748,6 +757,11 @@ void ceduo_run_free(struct ceduo_run *run)
 uint64_t ceduo_run_rocks(const struct ceduo_run *run)
 {
     return run->rocks;
+}
+
+size_t ceduo_run_sample_bytes(const struct ceduo_run *run)
+{
+    return (size_t)(run->room * columns(run) + run->pairs_room * run->controls) * sizeof(double);
 }
 
 uint64_t ceduo_run_contacts(const struct ceduo_run *run)
@@ -788,7 +802,7 @@ static struct ceduo_distribution distribution(const struct ceduo_run *run, size_
 {
     if (!run->exact)
         return ceduo_distribution_binned(&run->bins[control * (size_t)run->kept + (size_t)q], m);
-    size_t n = run->samples ? gather(run, samples_of(run, control, q), scratch) : 0;
+    size_t n = run->room > 0 ? gather(run, samples_of(run, control, q), scratch) : 0;
     return ceduo_distribution_exact(scratch, n, m);
 }
 
@@ -930,7 +944,7 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     double *scratch = malloc((n + 1) * sizeof(double));
     if (!scratch)
         return CEDUO_NO_MEMORY;
-    gather(run, run->stops, scratch);
+    gather(run, stops_of(run), scratch);
     struct ceduo_distribution d = ceduo_distribution_exact(scratch, n, &ends->stop_x);
     ends->stop_p50 = d.p50;
     ends->stop_p95 = d.p95;
@@ -946,7 +960,7 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
 {
     size_t n = 0;
-    if (!run->samples)
+    if (run->room == 0)
         return 0;
     bool from_speed = run->kept != QUANTITIES;
     const double *column = samples_of(run, control, from_speed ? SPEED : ENERGY);

@@ -131,6 +131,7 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
         if (status != CEDUO_OK)
             return status;
         assess(scene, bare, y);
+        ceduo_pool_trim(pool);
     }
     return CEDUO_OK;
 }
