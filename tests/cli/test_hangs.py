@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Nothing hangs or takes all memory: scenes that are in order end, and a signal or a key ends the program whatever a rock is doing.
+
+How soon a signal takes effect is printed by tests/bench/bench_reaction.py; here only what hangs fails."""
+import os
+import signal
+import subprocess
+
+from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Folder, Skip, ceduo, environment, expect, expect_equal,
+                     expect_in, run_all, scene, stand)
+from long_scenes import LONG, Running, dense_trees, long_slope
+
+LATE = 1 * SLOWER  # seconds: ten times what it takes, for a machine with much to do
+
+
+def test_too_many_stems():
+    """A rock with more than a million stems on its way is unfinished, and the page says so"""
+    with Folder() as f:
+        path = f.write("long.yaml", long_slope(1e5, 1e5 - 1, 1e6))
+        r = ceduo("--batch", "-f", "json", "-n", 20, path)
+        expect_equal(r.status, RUN, "status")
+        found = r.json()[0]
+        option = found["options"][0]
+        expect_equal(option["ends"]["unfinished"], 20, "unfinished rocks")
+        expect_equal(option["controls"][0]["wooded"]["rocks_reached"], 0, "that arrive")
+        expect(option["controls"][0]["wooded"]["reach_hi"] == 1, "any of them may arrive", option["controls"][0])
+        expect_equal(option["controls"][0]["bare"]["rocks_reached"], 20, "that arrive without stems")
+        warnings = " ".join(found["warnings"])
+        expect_in("20 rocks had more than 1000000 contacts or stems on their way through the wood", warnings)
+        # a million stems drawn, and at most one pause's more, for each
+        drawn = found["work"]["stems_drawn"] / 20
+        expect(1e6 <= drawn < 1.02e6, f"{drawn} stems for each rock")
+
+
+def test_wood_that_ends_before():
+    """A rock that meets somewhat fewer stems goes on to its end"""
+    with Folder() as f:
+        # 0.5 m of rock and 0.02 m of tree, 100 trees a square metre: 52 stems a metre, 936 000 in 18 km
+        path = f.write("long.yaml", long_slope(1e5, 18000, 1e6))
+        r = ceduo("--batch", "-f", "json", "-n", 5, path)
+        expect_equal(r.status, DONE, r)
+        wooded = r.json()[0]["options"][0]["controls"][0]["wooded"]
+        expect_equal(wooded["rocks_reached"], 5, "rocks that arrive")
+        expect(abs(wooded["contacts"]["mean"] / 936000 - 1) < 0.004, "four standard errors of a Poisson number", wooded)
+
+
+def test_spread():
+    """Diameters that spread by more than themselves are refused, with the reason"""
+    for stems, where in (({"trees": [{"per_ha": 10, "dbh_m": 1e-9, "height_m": 9, "dbh_sd_m": 0.01}]}, "trees[0]"),
+                         ({"shoots": [{"per_ha": 5000, "dbh_m": 0.05, "height_m": 6},
+                                      {"per_ha": 5000, "dbh_m": 0.05, "height_m": 6, "dbh_sd_m": 0.0500001}]}, "shoots[1]")):
+        with Folder() as f:
+            path = f.write("s.yaml", scene(forest=[{"from_m": 0, "to_m": 90, "stand": stand(**stems)}]))
+            r = ceduo("--batch", path)
+            expect_equal(r.status, INPUT, r)
+            expect_in(f"{where}.dbh_sd_m: ", r.err)
+            expect_in("more than the diameter itself", r.err)
+    with Folder() as f:
+        equal = {"trees": [{"per_ha": 10, "dbh_m": 0.2, "height_m": 9, "dbh_sd_m": 0.2}]}
+        path = f.write("s.yaml", scene(forest=[{"from_m": 0, "to_m": 90, "stand": stand(**equal)}]))
+        expect_equal(ceduo("--batch", "-n", 20, path).status, DONE, "as large as itself")
+
+
+def test_other_sizes():
+    """The page of a splinter of a rock takes no longer than its JSON and a few seconds"""
+    for rock in ({"shape": "cylinder", "diameter_m": 1e-6, "height_m": 0.75}, {"shape": "block", "axes_m": [1e-6, 0.75, 0.75]}):
+        with Folder() as f:
+            path = f.write("s.yaml", scene(rock=rock, forest=[{"from_m": 0, "to_m": 90, "stand": stand()}]))
+            r = ceduo("--batch", "-n", 2000, path, timeout=60)
+            expect(r.status in (DONE, RUN), r)
+            expect_in("Blocks of other sizes", r.out)
+
+
+def test_all_end():
+    """Each of the long scenes ends by itself, with few rocks"""
+    for name, what in LONG.items():
+        with Folder() as f:
+            path = f.write("long.yaml", what)
+            for form in ("json", "table"):
+                r = ceduo("--batch", "-f", form, "-n", 3, path, timeout=60)
+                expect(r.status in (DONE, RUN), name, r)
+
+
+def end_all(begin, end):
+    latest = 0
+    for name, what in LONG.items():
+        with Folder() as f:
+            path = f.write("long.yaml", what)
+            with Running(*begin, path, terminal=begin == ()) as r:
+                r.work(0.5)
+                seconds = end(r)
+                expect(seconds < LATE, f"{name}: ended after {seconds} s")
+                latest = max(latest, seconds)
+    print(f"# at the latest after {latest * 1000:.0f} ms")
+
+
+def test_signal_json():
+    """SIGTERM ends a run of each long scene at once"""
+    end_all(("--batch", "-f", "json", "-n", 1e7), lambda r: r.end_by_signal(signal.SIGTERM))
+
+
+def test_signal_picture():
+    """SIGINT ends a picture of each long scene at once"""
+    end_all(("--plot", "profile", "-n", 1e7), lambda r: r.end_by_signal(signal.SIGINT))
+
+
+def test_signal_terminal():
+    """SIGTERM ends the terminal program at once, with each long scene"""
+    end_all((), lambda r: r.end_by_signal(signal.SIGTERM))
+
+
+def test_key_terminal():
+    """q ends the terminal program at once, with each long scene"""
+    end_all((), lambda r: r.end_by_key("q"))
+
+
+def peak_memory(*arguments):
+    """MB that the program takes at the most."""
+    process = subprocess.Popen([CEDUO, *map(str, arguments)], stdout=subprocess.DEVNULL, env=environment())
+    _, status, used = os.wait4(process.pid, 0)
+    process.returncode = status
+    expect_equal(status, 0, "status")
+    return used.ru_maxrss / 1024
+
+
+def test_memory():
+    """What is kept of ten million rocks takes no more than 300 MB"""
+    if SANITIZED:
+        raise Skip("a sanitizer has memory of its own")
+    # speed and height at the control and the stops, 8 bytes each: 240 MB, and 80 MB to sort in
+    short = {"vertices_m": [[0, 4], [4, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}
+    with Folder() as f:
+        path = f.write("many.yaml", scene(slope=short, controls=[{"x_m": 3}], simulation={"contact_model": "index"}))
+        used = peak_memory("--batch", "-q", "-f", "json", "-n", 10000000, path)
+        expect(used < 300, f"{used:.0f} MB")
+
+
+def test_stepping():
+    """A rock whose way is too long to be shown is shown as far as it is known"""
+    with Folder() as f:
+        path = f.write("long.yaml", long_slope(1e5, 1e5 - 1, 1e6))
+        script = f.write("keys", "resize 100 30\nkey 1 Tab Right Right\ndump -\n")
+        r = ceduo("--script", script, path)
+        expect_equal(r.status, DONE, r)
+        expect_in("goes on ", r.out)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
