@@ -1,0 +1,420 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Keys of scenes, forests and years: every field of what they stand for is changed alone. Where it decides, the key
+ * must change, or old figures would stand under new values; where it does not, the key must stay, or the same rocks would
+ * fly twice. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "paper_site.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+/* What a key stands for, and which fields decide about it. */
+enum about {
+    FLIGHT = 1 << 0,  /* of a scene: the ways of rocks where no stem stands, and what is counted of them */
+    STEMS = 1 << 1,   /* of an option: stems with the energy of brauner, each kind with a volume that is given */
+    DORREN = 1 << 2,  /* the same with the energy of dorren */
+    DBHS = 1 << 3,    /* brauner, diameters that spread */
+    POISSON = 1 << 4, /* contacts by a rule of the ADC */
+    YEARS = 1 << 5    /* of an option: what becomes of its forest */
+};
+#define WOOD    (STEMS | DORREN | DBHS | YEARS)
+#define BRAUNER (STEMS | DBHS | YEARS)
+
+static struct paper_site site;
+static double stay[] = {40, 20}; /* trees of the cutting */
+
+static uint64_t key_of(enum about about)
+{
+    return about == FLIGHT  ? ceduo_scene_key(&site.scene)
+           : about == YEARS ? ceduo_years_key(&site.option)
+                            : ceduo_option_key(&site.scene.simulation, &site.option);
+}
+
+/* ---- fields ---- */
+
+/* SPREAD: a struct ceduo_number. WORD: an enum, or an int. ELSEWHERE: walked over by itself. */
+enum kind { NUMBER, SPREAD, WORD, FLAG, COUNT, TEXT, ELSEWHERE };
+
+struct field {
+    const char *name;
+    size_t offset, size;
+    enum kind kind;
+    unsigned decides; /* about what */
+};
+
+#define FIELD(of, member, kind, decides)                                                                               \
+    {                                                                                                                  \
+#of "." #member, offsetof(struct of, member), sizeof((struct of *)0)->member, kind, decides                    \
+    }
+
+/* Makes it another of its kind; a count becomes smaller, for there is no more than is counted. */
+static void change(void *at, enum kind kind)
+{
+    static char other[] = "another name";
+    double number;
+    int word;
+    size_t count;
+    switch (kind) {
+    case NUMBER:
+        memcpy(&number, at, sizeof number);
+        number = isnan(number) ? .5 : number + .125;
+        memcpy(at, &number, sizeof number);
+        break;
+    case WORD:
+        memcpy(&word, at, sizeof word);
+        word = word > 0 ? word - 1 : word + 1;
+        memcpy(at, &word, sizeof word);
+        break;
+    case COUNT:
+        memcpy(&count, at, sizeof count);
+        assert_true(count > 0);
+        count--;
+        memcpy(at, &count, sizeof count);
+        break;
+    case FLAG:
+        *(bool *)at = !*(bool *)at;
+        break;
+    case TEXT:
+        *(char **)at = other;
+        break;
+    default:
+        fail_msg("kind %d is not changed as a whole", kind);
+    }
+}
+
+static void expect_decides(enum about about, uint64_t before, const char *name, const char *part, bool decides)
+{
+    if ((key_of(about) != before) != decides)
+        fail_msg("%s%s, key of %d: it %s", name, part, about, decides ? "stays" : "changes");
+}
+
+/* The kind of a spread decides only where there is one. */
+static void walk_spread(enum about about, struct ceduo_number *n, const char *name)
+{
+    const enum ceduo_spread_kind kind = n->kind, other = kind == CEDUO_NORMAL ? CEDUO_UNIFORM : CEDUO_NORMAL;
+    uint64_t before = key_of(about);
+    n->kind = other;
+    expect_decides(about, before, name, ", kind without spread", false);
+    change(&n->mean, NUMBER);
+    expect_decides(about, before, name, ", mean", true);
+    before = key_of(about);
+    n->spread = .25;
+    expect_decides(about, before, name, ", spread", true);
+    before = key_of(about);
+    n->kind = kind;
+    expect_decides(about, before, name, ", kind", true);
+}
+
+#define SIZE_MOST 512
+
+/* Every byte of a structure is a field's, but for padding, so that a field that is new is missed here. */
+static void expect_whole(const struct field *fields, size_t n, size_t size)
+{
+    bool seen[SIZE_MOST] = {false};
+    assert_true(size <= SIZE_MOST);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < fields[i].size; k++) {
+            if (seen[fields[i].offset + k])
+                fail_msg("%s is in the list twice", fields[i].name);
+            seen[fields[i].offset + k] = true;
+        }
+    for (size_t k = 0, unseen = 0; k < size; k++) {
+        unseen = seen[k] ? 0 : unseen + 1;
+        if (unseen >= sizeof(double))
+            fail_msg("the field at byte %zu of the structure of %s is missing", k + 1 - unseen, fields[0].name);
+    }
+}
+
+static void walk(enum about about, void *structure, size_t size, const struct field *fields, size_t n)
+{
+    unsigned char was[SIZE_MOST];
+    expect_whole(fields, n, size);
+    memcpy(was, structure, size);
+    const uint64_t before = key_of(about);
+    for (size_t i = 0; i < n; i++) {
+        const struct field *f = &fields[i];
+        void *at = (char *)structure + f->offset;
+        if (f->kind == SPREAD) {
+            walk_spread(about, at, f->name);
+        } else if (f->kind != ELSEWHERE) {
+            change(at, f->kind);
+            expect_decides(about, before, f->name, "", f->decides & about);
+        }
+        memcpy(structure, was, size);
+        assert_true(key_of(about) == before);
+    }
+}
+
+#define WALK(about, structure, fields) walk(about, structure, sizeof *(structure), fields, LENGTH(fields))
+
+/* Numbers in a row, each of which decides. */
+static void walk_numbers(enum about about, double *numbers, size_t n, const char *name)
+{
+    const uint64_t before = key_of(about);
+    for (size_t i = 0; i < n; i++) {
+        double was = numbers[i];
+        change(&numbers[i], NUMBER);
+        expect_decides(about, before, name, "", true);
+        numbers[i] = was;
+    }
+}
+
+static const struct field scene_fields[] = {
+    FIELD(ceduo_scene, title, TEXT, 0),
+    FIELD(ceduo_scene, rock, ELSEWHERE, 0),
+    FIELD(ceduo_scene, release, ELSEWHERE, 0),
+    FIELD(ceduo_scene, slope, ELSEWHERE, 0),
+    FIELD(ceduo_scene, controls_count, COUNT, FLIGHT),
+    FIELD(ceduo_scene, controls, ELSEWHERE, 0),
+    FIELD(ceduo_scene, options_count, COUNT, 0),
+    FIELD(ceduo_scene, options, ELSEWHERE, 0),
+    FIELD(ceduo_scene, simulation, ELSEWHERE, 0),
+    FIELD(ceduo_scene, rocks_per_year, NUMBER, 0),
+    FIELD(ceduo_scene, reserves_minimum, NUMBER, 0),
+};
+
+static const struct field rock_fields[] = {
+    FIELD(ceduo_rock_def, shape, WORD, FLIGHT),     FIELD(ceduo_rock_def, diameter, SPREAD, FLIGHT),
+    FIELD(ceduo_rock_def, height, SPREAD, FLIGHT),  FIELD(ceduo_rock_def, volume, SPREAD, FLIGHT),
+    FIELD(ceduo_rock_def, mass, SPREAD, FLIGHT),    FIELD(ceduo_rock_def, density, SPREAD, FLIGHT),
+    FIELD(ceduo_rock_def, axes[0], SPREAD, FLIGHT), FIELD(ceduo_rock_def, axes[1], SPREAD, FLIGHT),
+    FIELD(ceduo_rock_def, axes[2], SPREAD, FLIGHT),
+};
+
+static const struct field release_fields[] = {
+    FIELD(ceduo_release, x, SPREAD, FLIGHT),    FIELD(ceduo_release, height, SPREAD, FLIGHT),
+    FIELD(ceduo_release, vx, SPREAD, FLIGHT),   FIELD(ceduo_release, vz, SPREAD, FLIGHT),
+    FIELD(ceduo_release, spin, SPREAD, FLIGHT),
+};
+
+static const struct field slope_fields[] = {
+    FIELD(ceduo_slope, facets, WORD, FLIGHT),   FIELD(ceduo_slope, vertices, COUNT, FLIGHT),
+    FIELD(ceduo_slope, x, ELSEWHERE, 0),        FIELD(ceduo_slope, z, ELSEWHERE, 0),
+    FIELD(ceduo_slope, segments, ELSEWHERE, 0), FIELD(ceduo_slope, origin_x, NUMBER, 0),
+    FIELD(ceduo_slope, origin_z, NUMBER, 0),
+};
+
+static const struct field segment_fields[] = {
+    FIELD(ceduo_segment, rn, SPREAD, FLIGHT),          FIELD(ceduo_segment, rt, SPREAD, FLIGHT),
+    FIELD(ceduo_segment, roughness_m, NUMBER, FLIGHT), FIELD(ceduo_segment, roughness_rad, NUMBER, FLIGHT),
+    FIELD(ceduo_segment, friction, NUMBER, FLIGHT),
+};
+
+static const struct field control_fields[] = {
+    FIELD(ceduo_control, x, NUMBER, FLIGHT),
+    FIELD(ceduo_control, x_given, NUMBER, 0),
+    FIELD(ceduo_control, name, TEXT, 0),
+    FIELD(ceduo_control, accepted, NUMBER, FLIGHT),
+    FIELD(ceduo_control, measured_speed, NUMBER, 0),
+};
+
+static const struct field simulation_fields[] = {
+    FIELD(ceduo_simulation, law, WORD, FLIGHT),       FIELD(ceduo_simulation, rocks, COUNT, 0),
+    FIELD(ceduo_simulation, seed, COUNT, FLIGHT),     FIELD(ceduo_simulation, contact_model, WORD, STEMS | POISSON),
+    FIELD(ceduo_simulation, rule, WORD, POISSON),     FIELD(ceduo_simulation, threshold, NUMBER, 0),
+    FIELD(ceduo_simulation, gravity, NUMBER, FLIGHT), FIELD(ceduo_simulation, scale_rn, FLAG, FLIGHT),
+};
+
+static const struct field option_fields[] = {
+    FIELD(ceduo_option, name, TEXT, 0),
+    FIELD(ceduo_option, belts_count, COUNT, WOOD),
+    FIELD(ceduo_option, belts, ELSEWHERE, 0),
+};
+
+static const struct field belt_fields[] = {
+    FIELD(ceduo_belt, from, NUMBER, WOOD),      FIELD(ceduo_belt, to, NUMBER, WOOD),
+    FIELD(ceduo_belt, from_given, NUMBER, 0),   FIELD(ceduo_belt, to_given, NUMBER, 0),
+    FIELD(ceduo_belt, name, TEXT, 0),           FIELD(ceduo_belt, assumed, FLAG, 0),
+    FIELD(ceduo_belt, cut_year, NUMBER, YEARS), FIELD(ceduo_belt, stand, ELSEWHERE, 0),
+};
+
+/* The species says the volume of each stem where diameters spread, and of what comes up after a cut. */
+static const struct field stand_fields[] = {
+    FIELD(ceduo_stand, system, WORD, 0),
+    FIELD(ceduo_stand, species, WORD, DBHS | YEARS),
+    FIELD(ceduo_stand, stools_per_ha, NUMBER, WOOD),
+    FIELD(ceduo_stand, spacing, NUMBER, WOOD),
+    FIELD(ceduo_stand, shoots_count, COUNT, WOOD),
+    FIELD(ceduo_stand, trees_count, COUNT, WOOD),
+    FIELD(ceduo_stand, shoots, ELSEWHERE, 0),
+    FIELD(ceduo_stand, trees, ELSEWHERE, 0),
+    FIELD(ceduo_stand, energy, WORD, WOOD),
+    FIELD(ceduo_stand, u, NUMBER, BRAUNER),
+    FIELD(ceduo_stand, fracture_ratio, NUMBER, DORREN),
+    FIELD(ceduo_stand, growth, ELSEWHERE, 0),
+    FIELD(ceduo_stand, cutting, ELSEWHERE, 0),
+};
+
+static const struct field stems_fields[] = {
+    FIELD(ceduo_stems, per_ha, NUMBER, WOOD), FIELD(ceduo_stems, dbh, NUMBER, WOOD),
+    FIELD(ceduo_stems, height, NUMBER, WOOD), FIELD(ceduo_stems, volume, NUMBER, BRAUNER),
+    FIELD(ceduo_stems, dbh_sd, NUMBER, WOOD), FIELD(ceduo_stems, age, NUMBER, YEARS),
+};
+
+static const struct field growth_fields[] = {
+    FIELD(ceduo_growth, shoots, ELSEWHERE, 0),        FIELD(ceduo_growth, trees, ELSEWHERE, 0),
+    FIELD(ceduo_growth, shoots_young, NUMBER, YEARS), FIELD(ceduo_growth, shoots_old, NUMBER, YEARS),
+    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),
+};
+
+static const struct field curve_fields[] = {
+    FIELD(ceduo_curve, dbh_most, NUMBER, YEARS),
+    FIELD(ceduo_curve, dbh_rate, NUMBER, YEARS),
+    FIELD(ceduo_curve, height_most, NUMBER, YEARS),
+    FIELD(ceduo_curve, height_rate, NUMBER, YEARS),
+};
+
+static const struct field cutting_fields[] = {
+    FIELD(ceduo_cutting, rotation, WORD, YEARS),
+    FIELD(ceduo_cutting, cohorts, WORD, YEARS),
+    FIELD(ceduo_cutting, stay_count, COUNT, YEARS),
+    FIELD(ceduo_cutting, stay_per_ha, ELSEWHERE, 0),
+};
+
+/* ---- what is walked over ---- */
+
+static void walk_simulation(enum about about)
+{
+    WALK(about, &site.scene.simulation, simulation_fields);
+}
+
+static void walk_option(enum about about)
+{
+    WALK(about, &site.option, option_fields);
+    for (size_t i = 0; i < 2; i++) {
+        struct ceduo_stand *stand = &site.belts[i].stand;
+        WALK(about, &site.belts[i], belt_fields);
+        WALK(about, stand, stand_fields);
+        WALK(about, &site.plots[i].shoots, stems_fields);
+        WALK(about, &site.plots[i].trees, stems_fields);
+        WALK(about, &stand->growth, growth_fields);
+        WALK(about, &stand->growth.shoots, curve_fields);
+        WALK(about, &stand->growth.trees, curve_fields);
+        WALK(about, &stand->cutting, cutting_fields);
+    }
+}
+
+/* The paper's site, its woods cut now and then. */
+static void open_site(void)
+{
+    paper_site_init(&site);
+    for (size_t i = 0; i < 2; i++)
+        site.belts[i].stand.cutting =
+            (struct ceduo_cutting){.rotation = 25, .cohorts = 3, .stay_count = LENGTH(stay), .stay_per_ha = stay};
+}
+
+static void whatever_decides_about_a_flight_makes_another_scene(void **state)
+{
+    (void)state;
+    open_site();
+    WALK(FLIGHT, &site.scene, scene_fields);
+    WALK(FLIGHT, &site.scene.rock, rock_fields);
+    WALK(FLIGHT, &site.scene.release, release_fields);
+    WALK(FLIGHT, &site.scene.slope, slope_fields);
+    walk_numbers(FLIGHT, site.x, PAPER_VERTICES, "x of a vertex");
+    walk_numbers(FLIGHT, site.z, PAPER_VERTICES, "z of a vertex");
+    for (size_t j = 0; j < PAPER_SEGMENTS; j++)
+        WALK(FLIGHT, &site.segments[j], segment_fields);
+    WALK(FLIGHT, &site.control, control_fields);
+    walk_simulation(FLIGHT);
+    walk_option(FLIGHT); /* a forest has a key of its own */
+}
+
+/* Values that change places are another scene too. */
+static void a_value_in_another_place_makes_another_scene(void **state)
+{
+    (void)state;
+    open_site();
+    site.scene.release.vx = ceduo_number(2);
+    site.scene.release.vz = ceduo_number(-1);
+    uint64_t key = key_of(FLIGHT);
+    site.scene.release.vx = ceduo_number(-1);
+    site.scene.release.vz = ceduo_number(2);
+    assert_true(key_of(FLIGHT) != key);
+    site.segments[0].roughness_m = .25;
+    site.segments[0].roughness_rad = NAN;
+    key = key_of(FLIGHT);
+    site.segments[0].roughness_m = NAN;
+    site.segments[0].roughness_rad = .25;
+    assert_true(key_of(FLIGHT) != key);
+}
+
+static void whatever_decides_about_stems_makes_another_forest(void **state)
+{
+    (void)state;
+    open_site();
+    walk_simulation(STEMS);
+    walk_option(STEMS);
+    for (size_t i = 0; i < 2; i++) {
+        site.belts[i].stand.energy = CEDUO_DORREN;
+        site.belts[i].stand.fracture_ratio = 1.5;
+    }
+    walk_option(DORREN);
+    for (size_t i = 0; i < 2; i++) {
+        site.belts[i].stand.energy = CEDUO_BRAUNER;
+        site.plots[i].shoots.dbh_sd = site.plots[i].trees.dbh_sd = .02;
+    }
+    walk_option(DBHS);
+    open_site();
+    site.scene.simulation.contact_model = CEDUO_POISSON;
+    walk_simulation(POISSON);
+}
+
+/* The same numbers in other places are another forest. */
+static void stems_of_another_sort_make_another_forest(void **state)
+{
+    (void)state;
+    open_site();
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    struct ceduo_stems *shoots = &site.plots[0].shoots;
+    struct ceduo_stems both[] = {site.plots[0].shoots, site.plots[0].trees};
+    uint64_t key = key_of(STEMS);
+    stand->shoots = both; /* what were trees are now shoots of the stools */
+    stand->shoots_count = 2;
+    stand->trees_count = 0;
+    assert_true(key_of(STEMS) != key);
+    open_site();
+    stand->trees_count = 0;
+    shoots->volume = 1.5; /* a hit takes 1.5 J, or 1.5 times what dorren says */
+    stand->u = 1;
+    key = key_of(STEMS);
+    stand->energy = CEDUO_DORREN;
+    stand->fracture_ratio = 1.5;
+    assert_true(key_of(DORREN) != key);
+    open_site();
+    shoots->dbh_sd = .02;
+    shoots->volume = NAN; /* each stem has the volume that its species has at its diameter, */
+    key = key_of(DBHS);
+    enum ceduo_volume_from from;
+    shoots->volume = ceduo_stem_volume(stand, shoots, &from);
+    assert_true(key_of(DBHS) != key); /* or all the given one on the mean */
+}
+
+static void whatever_decides_about_growth_makes_other_years(void **state)
+{
+    (void)state;
+    open_site();
+    walk_option(YEARS);
+    walk_numbers(YEARS, stay, LENGTH(stay), "trees that stay");
+    walk_simulation(YEARS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(whatever_decides_about_a_flight_makes_another_scene),
+        cmocka_unit_test(a_value_in_another_place_makes_another_scene),
+        cmocka_unit_test(whatever_decides_about_stems_makes_another_forest),
+        cmocka_unit_test(stems_of_another_sort_make_another_forest),
+        cmocka_unit_test(whatever_decides_about_growth_makes_other_years),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
