@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lights where a figure is exactly its limit: an ADC below the threshold passes and one that equals it does not; a gap
+ * as long as the threshold, a share of 0.05 and an energy that is accepted pass. Every equality is one of doubles, and the
+ * next double beyond it decides otherwise. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "line_scene.h"
+#include "paper_site.h"
+
+/* ---- index ---- */
+
+/* The paper's slope and control with a sphere of 3/4 m, and trees of 1/4 m in two belts: the ADC of N trees a hectare
+ * is 10^4/N m, by whatever form. */
+static struct paper_site site;
+
+static void plant_trees(double first_per_ha, double second_per_ha)
+{
+    paper_site_init(&site);
+    site.scene.rock = ceduo_rock_def_default();
+    site.scene.rock.diameter = ceduo_number(.75);
+    for (size_t i = 0; i < 2; i++) {
+        site.belts[i].stand.shoots_count = 0;
+        site.belts[i].stand.stools_per_ha = 0;
+        site.plots[i].trees.dbh = .25;
+        site.plots[i].trees.per_ha = i == 0 ? first_per_ha : second_per_ha;
+    }
+}
+
+static struct ceduo_index assess(void)
+{
+    return ceduo_assess_index(&site.scene, &site.option, &site.control, NAN);
+}
+
+static double next_above(double value)
+{
+    return nextafter(value, INFINITY);
+}
+
+static double next_below(double value)
+{
+    return nextafter(value, -INFINITY);
+}
+
+static void an_adc_as_long_as_the_threshold_fails(void **state)
+{
+    (void)state;
+    for (size_t worst = 0; worst < 2; worst++) {
+        plant_trees(worst == 0 ? 400 : 1000, worst == 0 ? 1000 : 400);
+        site.scene.simulation.threshold = 25; /* 10^4/400 */
+        struct ceduo_index at = assess();
+        assert_true(at.worst_adc == 25 && at.longest_gap == 0);
+        assert_true(at.contact == CEDUO_FAIL && !at.contact_passes);
+        assert_false(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
+        assert_true(ceduo_assess_stand(&site.scene, &site.belts[1 - worst]).passes_threshold);
+        site.scene.simulation.threshold = next_above(25);
+        at = assess();
+        assert_true(at.contact == CEDUO_PASS && at.contact_passes);
+        assert_true(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
+    }
+}
+
+/* From the release at 0 to the control at 135 m, the threshold being 30 m: before, between and behind the belts. */
+static void a_gap_as_long_as_the_threshold_passes(void **state)
+{
+    (void)state;
+    static const double at_limit[][4] = {{30, 67.5, 67.5, 135}, {0, 50, 80, 135}, {0, 67.5, 67.5, 105}};
+    const double beyond[][4] = {
+        {next_above(30), 67.5, 67.5, 135}, {0, next_below(50), 80, 135}, {0, 67.5, 67.5, next_below(105)}};
+    for (size_t i = 0; i < 3; i++)
+        for (int longer = 0; longer < 2; longer++) {
+            const double *ends = longer ? beyond[i] : at_limit[i];
+            plant_trees(1000, 1000);
+            assert_true(site.scene.simulation.threshold == 30);
+            for (size_t b = 0; b < 2; b++) {
+                site.belts[b].from = ends[2 * b];
+                site.belts[b].to = ends[2 * b + 1];
+            }
+            struct ceduo_index found = assess();
+            assert_true(longer ? found.longest_gap > 30 : found.longest_gap == 30);
+            assert_int_equal(found.contact, longer ? CEDUO_FAIL : CEDUO_PASS);
+            assert_int_equal(found.contact_passes, !longer);
+        }
+}
+
+/* exp(-x) of a double x is never the double 0.1 itself: the two chances next to it, 2e-17 below and above. */
+static void a_chance_of_a_tenth_to_run_free_is_the_most_that_passes(void **state)
+{
+    (void)state;
+    plant_trees(400, 1000);
+    double threshold = 25 * log(10) * (1 - 1e-15); /* over an ADC of 25 m */
+    for (enum ceduo_light light = CEDUO_FAIL; light != CEDUO_PASS; threshold = next_above(threshold)) {
+        site.scene.simulation.threshold = threshold;
+        struct ceduo_index at = assess();
+        assert_true(fabs(at.worst_free_run - .1) < 5e-16);
+        assert_int_equal(at.free_run, at.worst_free_run <= .1 ? CEDUO_PASS : CEDUO_FAIL);
+        light = at.free_run;
+    }
+    assert_true(site.scene.simulation.threshold > 25 * log(10) * (1 - 5e-16));
+    assert_true(fabs(assess().worst_free_run - .1) < 3e-17);
+}
+
+/* Where the stems could take exactly what a rock has, nothing is left, but nothing was cut off either. */
+static void energy_that_is_just_used_up_is_not_exhausted(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    double taken = assess().dissipated;
+    struct ceduo_index at = ceduo_assess_index(&site.scene, &site.option, &site.control, taken);
+    assert_true(at.residual == 0 && !at.exhausted);
+    at = ceduo_assess_index(&site.scene, &site.option, &site.control, next_below(taken));
+    assert_true(at.residual == 0 && at.exhausted);
+    at = ceduo_assess_index(&site.scene, &site.option, &site.control, next_above(taken));
+    assert_true(at.residual > 0 && !at.exhausted);
+}
+
+/* ---- rocks ---- */
+
+static enum ceduo_light light_of(double exceed, uint64_t unfinished)
+{
+    const struct ceduo_arrivals a = {.released = 20, .exceed_probability = exceed, .unfinished = unfinished};
+    return ceduo_energy_light(&a);
+}
+
+static void a_share_of_a_twentieth_passes(void **state)
+{
+    (void)state;
+    assert_int_equal(light_of(.05, 0), CEDUO_PASS);
+    assert_int_equal(light_of(next_above(.05), 0), CEDUO_FAIL);
+    assert_int_equal(light_of(0, 1), CEDUO_PASS); /* 1 of 20 whatever it does */
+    assert_int_equal(light_of(1e-16, 1), CEDUO_UNKNOWN);
+    assert_int_equal(light_of(.05, 1), CEDUO_UNKNOWN);
+}
+
+/* Rocks of 2 kg, released over level ground with 3 m/s where gravity is 4 m/s2: 1 s later, 3 m on, they fall with 4 m/s
+ * and have 5 m/s, that is 25 J. */
+static struct line_scene flat;
+
+static void drop(double accepted)
+{
+    static const double x[] = {0, 100}, z[] = {0, 0};
+    line_scene_init(&flat, 2, x, z, (struct line_ground){.3, .8, .5}, .25, CEDUO_LAW_LUMPED);
+    line_scene_release(&flat, 1, 50, 3, 0, 0);
+    flat.scene.rock.mass = ceduo_number(2);
+    flat.scene.simulation.gravity = 4;
+    flat.scene.simulation.rocks = 20;
+    flat.control = (struct ceduo_control){.x = 4, .x_given = 4, .accepted = accepted, .measured_speed = NAN};
+    flat.scene.controls_count = 1;
+}
+
+static struct ceduo_run *fly(const struct ceduo_option *option)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&flat.scene);
+    struct ceduo_run *run;
+    def.option = option;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
+    return run;
+}
+
+static struct ceduo_arrivals arrive(double accepted)
+{
+    struct ceduo_arrivals a;
+    drop(accepted);
+    struct ceduo_run *run = fly(NULL);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    assert_true(a.reached == 20 && a.energy.mean == 25 && a.energy.max == 25);
+    ceduo_run_free(run);
+    return a;
+}
+
+static void a_rock_with_the_accepted_energy_does_not_exceed_it(void **state)
+{
+    (void)state;
+    struct ceduo_arrivals a = arrive(25);
+    assert_true(a.exceeded == 0 && a.exceed_probability == 0);
+    assert_int_equal(ceduo_energy_light(&a), CEDUO_PASS);
+    a = arrive(next_below(25));
+    assert_true(a.exceeded == 20 && a.exceed_probability == 1);
+    assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
+}
+
+/* Nor does it in a difference: some rocks are stopped by trees on the way, none exceeds, with or without the wood. */
+static void a_difference_counts_no_rock_with_the_accepted_energy(void **state)
+{
+    (void)state;
+    struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
+    struct ceduo_belt belt = {
+        .from = 1, .to = 4, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
+    struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
+    drop(25);
+    struct ceduo_run *through = fly(&wood), *bare = fly(NULL);
+    struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
+    assert_true(d.reach_probability.mean < 0 && d.reach_probability.se > 0);
+    assert_true(d.exceed_probability.mean == 0 && d.exceed_probability.se == 0);
+    ceduo_run_free(through);
+    ceduo_run_free(bare);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+/* Of 20 rocks on the paper's site, one has more than the next to fastest brings: 1 of 20 passes, 2 do not. */
+static void one_rock_of_twenty_may_exceed(void **state)
+{
+    (void)state;
+    double energies[20];
+    paper_site_init(&site);
+    for (int law = 0; law < CEDUO_LAW_COUNT; law++)
+        for (int more = 0; more < 2; more++) {
+            struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+            struct ceduo_run *run;
+            struct ceduo_arrivals a;
+            site.scene.simulation.law = (enum ceduo_law)law;
+            site.control.x = 40; /* which all reach */
+            site.control.accepted = 0;
+            assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+            assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
+            assert_int_equal(ceduo_run_energies(run, 0, energies, 20), 20);
+            ceduo_run_free(run);
+            qsort(energies, 20, sizeof *energies, by_value);
+            assert_true(energies[17] < energies[18] && energies[18] < energies[19]);
+            site.control.accepted = more ? next_below(energies[18]) : energies[18];
+            assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+            assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
+            assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+            assert_int_equal(a.exceeded, more ? 2 : 1);
+            assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);
+            ceduo_run_free(run);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_adc_as_long_as_the_threshold_fails),
+        cmocka_unit_test(a_gap_as_long_as_the_threshold_passes),
+        cmocka_unit_test(a_chance_of_a_tenth_to_run_free_is_the_most_that_passes),
+        cmocka_unit_test(energy_that_is_just_used_up_is_not_exhausted),
+        cmocka_unit_test(a_share_of_a_twentieth_passes),
+        cmocka_unit_test(a_rock_with_the_accepted_energy_does_not_exceed_it),
+        cmocka_unit_test(a_difference_counts_no_rock_with_the_accepted_energy),
+        cmocka_unit_test(one_rock_of_twenty_may_exceed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
