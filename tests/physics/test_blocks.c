@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Blocks of other sizes: how a rock is scaled, which sizes are shown in which order, and that they fly with the mass
+ * that is shown. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "line_scene.h"
+
+#define LENGTH(a)    (sizeof(a) / sizeof(a)[0])
+#define LIMESTONE    2600.0
+#define BLOCKS_FLOWN 5
+
+static const double volumes[] = {.05, .2, 1, 5}; /* of the classes of NaiS, and 1 m3 */
+
+static void expect_near(const char *what, double found, double wanted)
+{
+    if (!(fabs(found - wanted) <= 1e-14 * fabs(wanted)))
+        fail_msg("%s: %.17g is not %.17g", what, found, wanted);
+}
+
+/* ---- one rock ---- */
+
+static struct ceduo_number number(double mean, double spread)
+{
+    return (struct ceduo_number){mean, spread, CEDUO_UNIFORM};
+}
+
+static void expect_scaled(const char *what, struct ceduo_number found, struct ceduo_number was, double factor)
+{
+    if (found.mean != factor * was.mean || found.spread != factor * was.spread || found.kind != was.kind)
+        fail_msg("%s: %g ± %g, not %g times %g ± %g", what, found.mean, found.spread, factor, was.mean, was.spread);
+}
+
+/* A spread grows with what it is the spread of, so that of the density does not. */
+static void a_rock_twice_as_long_is_eight_times_as_heavy(void **state)
+{
+    (void)state;
+    const struct ceduo_rock_def was = {.shape = CEDUO_BLOCK,
+                                       .diameter = number(.5, .125),
+                                       .height = number(.75, .0625),
+                                       .volume = number(.25, .03125),
+                                       .mass = number(640, 64),
+                                       .density = number(LIMESTONE, 100),
+                                       .axes = {number(.5, .25), number(1, .5), number(1.5, .75)}};
+    struct ceduo_rock_def is = ceduo_rock_scaled(&was, 2);
+    assert_int_equal(is.shape, CEDUO_BLOCK);
+    expect_scaled("diameter", is.diameter, was.diameter, 2);
+    expect_scaled("height", is.height, was.height, 2);
+    expect_scaled("volume", is.volume, was.volume, 8);
+    expect_scaled("mass", is.mass, was.mass, 8);
+    expect_scaled("density", is.density, was.density, 1);
+    for (int i = 0; i < 3; i++)
+        expect_scaled("axis", is.axes[i], was.axes[i], 2);
+}
+
+/* However a rock is described. */
+static const struct rock {
+    const char *name;
+    enum ceduo_shape shape;
+    double diameter, height, volume, mass, axes[3];
+} rocks[] = {
+    {"sphere by its diameter", CEDUO_SPHERE, .7, NAN, NAN, NAN, {NAN, NAN, NAN}},
+    {"sphere by its volume", CEDUO_SPHERE, NAN, NAN, .3, NAN, {NAN, NAN, NAN}},
+    {"sphere by its mass", CEDUO_SPHERE, NAN, NAN, NAN, 700, {NAN, NAN, NAN}},
+    {"sphere by diameter and mass", CEDUO_SPHERE, .7, NAN, NAN, 700, {NAN, NAN, NAN}},
+    {"cylinder", CEDUO_CYLINDER, .56, .8, NAN, NAN, {NAN, NAN, NAN}},
+    {"ellipsoid", CEDUO_ELLIPSOID, NAN, NAN, NAN, NAN, {.4, .9, 1.3}},
+    {"block by its axes", CEDUO_BLOCK, NAN, NAN, NAN, NAN, {.4, .9, 1.3}},
+    {"block by axes and mass", CEDUO_BLOCK, NAN, NAN, NAN, 900, {.4, .9, 1.3}},
+};
+
+static struct ceduo_rock_def def_of(const struct rock *r)
+{
+    struct ceduo_rock_def def = ceduo_rock_def_default();
+    def.shape = r->shape;
+    def.diameter = ceduo_number(r->diameter);
+    def.height = ceduo_number(r->height);
+    def.volume = ceduo_number(r->volume);
+    def.mass = ceduo_number(r->mass);
+    for (int i = 0; i < 3; i++)
+        def.axes[i] = ceduo_number(r->axes[i]);
+    return def;
+}
+
+static void every_description_keeps_shape_and_density(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < LENGTH(rocks); i++) {
+        struct ceduo_rock_def def = def_of(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
+        struct ceduo_rock was, is;
+        assert_int_equal(ceduo_rock_of_means(&def, &was), CEDUO_OK);
+        assert_int_equal(ceduo_rock_of_means(&other, &is), CEDUO_OK);
+        expect_near(rocks[i].name, is.mean_diameter, 2 * was.mean_diameter);
+        expect_near(rocks[i].name, is.volume, 8 * was.volume);
+        expect_near(rocks[i].name, is.mass, 8 * was.mass);
+        expect_near(rocks[i].name, is.k, was.k);
+        expect_near(rocks[i].name, is.moment, 32 * was.moment); /* mass times length squared */
+    }
+}
+
+/* ---- the table ---- */
+
+static struct line_scene scene;
+
+/* Released over level ground with 3 m/s where gravity is 4 m/s2: 1 s later, 3 m on, every block has 5 m/s. */
+static void drop(struct ceduo_rock_def rock, double accepted)
+{
+    static const double x[] = {0, 100}, z[] = {0, 0};
+    line_scene_init(&scene, 2, x, z, (struct line_ground){.3, .8, .5}, 1, CEDUO_LAW_LUMPED);
+    line_scene_release(&scene, 1, 50, 3, 0, 0);
+    scene.scene.rock = rock;
+    scene.scene.simulation.gravity = 4;
+    scene.control = (struct ceduo_control){.x = 4, .x_given = 4, .accepted = accepted, .measured_speed = NAN};
+    scene.scene.controls_count = 1;
+}
+
+static void size_up(struct ceduo_block blocks[CEDUO_BLOCKS])
+{
+    enum ceduo_status status = ceduo_blocks(&scene.scene, &scene.option, 0, BLOCKS_FLOWN, 1, NULL, blocks);
+    assert_int_equal(status, CEDUO_OK);
+}
+
+/* A block of one size is as many of 1 m3 as it has: of 1 m by 1 m by so much, whose volume no rounding touches. */
+static struct ceduo_rock_def slab(double volume)
+{
+    struct ceduo_rock_def def = ceduo_rock_def_default();
+    def.shape = CEDUO_BLOCK;
+    def.axes[0] = ceduo_number(volume);
+    def.axes[1] = def.axes[2] = ceduo_number(1);
+    return def;
+}
+
+/* All sizes of the table and the own one, rising, once each and the own one marked; as large as a size of the table it
+ * stands before it. */
+static void expect_sizes(double own, size_t place)
+{
+    struct ceduo_block b[CEDUO_BLOCKS];
+    drop(slab(own), NAN);
+    scene.scene.simulation.contact_model = CEDUO_INDEX;
+    size_up(b);
+    for (size_t i = 0, row = 0; i < CEDUO_BLOCKS; i++) {
+        if (b[i].own != (i == place))
+            fail_msg("own volume %g: block %zu of %g m3 is %smarked", own, i, b[i].volume, b[i].own ? "" : "not ");
+        assert_true(b[i].volume == (i == place ? own : volumes[row++]));
+        assert_true(i == 0 || b[i - 1].volume <= b[i].volume);
+    }
+}
+
+static void the_own_size_has_its_place_among_the_others(void **state)
+{
+    (void)state;
+    static const struct {
+        double own;
+        size_t place;
+    } rows[] = {{.01, 0}, {.05, 0}, {.06, 1}, {.2, 1}, {.5, 2}, {1, 2}, {3, 3}, {5, 3}, {6, 4}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        expect_sizes(rows[i].own, rows[i].place);
+}
+
+static void blocks_have_the_mass_and_width_of_their_volume(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < LENGTH(rocks); i++) {
+        struct ceduo_rock_def def = def_of(&rocks[i]);
+        struct ceduo_block b[CEDUO_BLOCKS];
+        struct ceduo_rock own;
+        assert_int_equal(ceduo_rock_of_means(&def, &own), CEDUO_OK);
+        drop(def, NAN);
+        scene.scene.simulation.contact_model = CEDUO_INDEX;
+        size_up(b);
+        for (size_t k = 0; k < CEDUO_BLOCKS; k++) {
+            expect_near(rocks[i].name, b[k].mass, own.mass / own.volume * b[k].volume);
+            expect_near(rocks[i].name, b[k].diameter, own.mean_diameter * cbrt(b[k].volume / own.volume));
+        }
+    }
+}
+
+/* Half of M times 25 m2/s2: what a place bears between two sizes, the smaller ones keep and the larger ones exceed. */
+static void blocks_fly_with_their_own_mass(void **state)
+{
+    (void)state;
+    for (size_t bears = 0; bears < LENGTH(volumes); bears++) {
+        struct ceduo_block b[CEDUO_BLOCKS];
+        drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
+        size_up(b);
+        for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
+            assert_true(b[i].released == BLOCKS_FLOWN && b[i].reached == BLOCKS_FLOWN && b[i].reach_probability == 1);
+            bool exceeds = b[i].volume > 1.1 * volumes[bears];
+            assert_int_equal(b[i].exceeded, exceeds ? BLOCKS_FLOWN : 0);
+            assert_true(b[i].exceed_probability == (exceeds ? 1 : 0));
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_rock_twice_as_long_is_eight_times_as_heavy),
+        cmocka_unit_test(every_description_keeps_shape_and_density),
+        cmocka_unit_test(the_own_size_has_its_place_among_the_others),
+        cmocka_unit_test(blocks_have_the_mass_and_width_of_their_volume),
+        cmocka_unit_test(blocks_fly_with_their_own_mass),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
