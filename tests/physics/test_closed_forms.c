@@ -555,6 +555,10 @@ static void ranks_of_quantiles(void **state)
                 {999, .95, 950},
                 {1000, .95, 950},
                 {10000000, .95, 9500000},
+                {10000001, .95, 9500001},
+                {100, .07, 7}, /* whole numbers that a product of doubles is above or below */
+                {100, .55, 55},
+                {100, .29, 29},
                 {5, 1, 5}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         assert_int_equal(ceduo_quantile_rank(rows[i].n, rows[i].p), rows[i].rank);

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures that are read from counts in bins: the middle of a bin, never more than the largest value, and of a quantile
+ * the value of its rank. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/envelope.h"
+#include "core/histogram.h"
+
+/* ---- cells along the slope: 32 bins an octave ---- */
+
+/* What a cell says of rocks whose speed is `values` and energy twice that. */
+static struct ceduo_envelope cell_of(const double *values, size_t n)
+{
+    struct ceduo_envelope e;
+    struct envelope_cell *cell = calloc(1, sizeof *cell);
+    assert_non_null(cell);
+    for (size_t i = 0; i < n; i++)
+        ceduo_envelope_add(cell, values[i], values[i] / 2, 2 * values[i]);
+    ceduo_envelope_settle(cell);
+    ceduo_envelope_read(cell, &e);
+    free(cell);
+    return e;
+}
+
+/* 1.5 begins the bin from 48/32 to 49/32, whose middle is 97/64; that of a power of two is 65/64 of it. */
+static void a_cell_reads_the_middle_of_a_bin(void **state)
+{
+    (void)state;
+    const double values[] = {1.5, 2};
+    struct ceduo_envelope e = cell_of(values, 2);
+    assert_true(e.speed.p5 == 97. / 64 && e.speed.p50 == 97. / 64);
+    assert_true(e.height.p50 == 97. / 128);
+    assert_true(e.energy.p50 == 2 * 97. / 64);
+    assert_true(e.mean_energy == (2 * 97. / 64 + 4 * 65. / 64) / 2);
+}
+
+/* The middle of the last bin lies above all that is in it. */
+static void a_cell_reads_no_more_than_the_largest(void **state)
+{
+    (void)state;
+    const double values[] = {1.5, 2};
+    struct ceduo_envelope e = cell_of(values, 2);
+    assert_true(e.speed.p95 == 2 && e.speed.max == 2);
+    assert_true(e.height.p95 == 1 && e.energy.p95 == 4);
+    e = cell_of(values, 1);
+    assert_true(e.speed.p5 == 1.5 && e.speed.p50 == 1.5 && e.speed.p95 == 1.5);
+}
+
+/* Of 20 rocks 5, 50 and 95 % are the 1st, the 10th and the 19th; of 21 the 2nd, the 11th and the 20th. */
+static void a_cell_reads_the_rock_of_the_rank(void **state)
+{
+    (void)state;
+    double values[21];
+    for (int i = 0; i < 21; i++)
+        values[i] = ldexp(1, i);
+    struct ceduo_envelope e = cell_of(values, 20);
+    assert_true(e.speed.p5 == ldexp(65. / 64, 0) && e.speed.p50 == ldexp(65. / 64, 9) &&
+                e.speed.p95 == ldexp(65. / 64, 18));
+    e = cell_of(values, 21);
+    assert_true(e.speed.p5 == ldexp(65. / 64, 1) && e.speed.p50 == ldexp(65. / 64, 10) &&
+                e.speed.p95 == ldexp(65. / 64, 19));
+}
+
+/* ---- histograms of long runs: 16384 bins an octave ---- */
+
+/* The middle of the bin of a power of two, one of itself. */
+#define MIDDLE (1 + 1. / 32768)
+
+/* 1 and 3: the second lies at the edge of bin 8192 of the octave from 2 on. */
+static void a_histogram_reads_the_middle_of_a_bin(void **state)
+{
+    (void)state;
+    struct histogram h = {0};
+    assert_true(ceduo_histogram_add(&h, 1) && ceduo_histogram_add(&h, 3));
+    assert_true(ceduo_histogram_value(&h, 1) == MIDDLE);
+    assert_true(ceduo_histogram_value(&h, 2) == 2 * (1.5 + 1. / 32768));
+    ceduo_histogram_clear(&h);
+}
+
+static void expect_cut(const struct ceduo_distribution *d, double p50, double p95, double p99, double lo, double hi)
+{
+    assert_true(d->p50 == p50 && d->p95 == p95 && d->p99 == p99);
+    assert_true(isnan(lo) ? isnan(d->p95_lo) : d->p95_lo == lo);
+    assert_true(isnan(hi) ? isnan(d->p95_hi) : d->p95_hi == hi);
+}
+
+/* Powers of two: of 2 values the first is the median and the second the rest; of 100 it is the 50th, 95th and 99th, the
+ * 95th between the 90th and the 100th (as in tables of the binomial law). */
+static void a_distribution_of_bins_has_no_more_than_the_largest(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {1, 2, 100};
+    for (int k = 0; k < 3; k++) {
+        struct histogram h = {0};
+        struct ceduo_moments m = {0};
+        for (size_t i = 0; i < sizes[k]; i++) {
+            double value = ldexp(1, (int)i - 50);
+            ceduo_moments_add(&m, value);
+            assert_true(ceduo_histogram_add(&h, value));
+        }
+        struct ceduo_distribution d = ceduo_distribution_binned(&h, &m);
+        double first = ldexp(1, -50);
+        assert_true(d.max == ldexp(first, (int)sizes[k] - 1));
+        if (sizes[k] == 1)
+            expect_cut(&d, first, first, first, NAN, NAN);
+        else if (sizes[k] == 2)
+            expect_cut(&d, first * MIDDLE, 2 * first, 2 * first, first * MIDDLE, NAN);
+        else
+            expect_cut(&d, ldexp(first, 49) * MIDDLE, ldexp(first, 94) * MIDDLE, ldexp(first, 98) * MIDDLE,
+                       ldexp(first, 89) * MIDDLE, ldexp(first, 99));
+        ceduo_histogram_clear(&h);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cell_reads_the_middle_of_a_bin),
+        cmocka_unit_test(a_cell_reads_no_more_than_the_largest),
+        cmocka_unit_test(a_cell_reads_the_rock_of_the_rank),
+        cmocka_unit_test(a_histogram_reads_the_middle_of_a_bin),
+        cmocka_unit_test(a_distribution_of_bins_has_no_more_than_the_largest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
