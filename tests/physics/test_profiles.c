@@ -260,6 +260,62 @@ static void flights_land_as_without_blocks(void **state)
     assert_true(far > 1000); /* blocks were passed */
 }
 
+/* Ground with teeth whose tips lie on one line but for rounding: each is as high as a flight along this line is there
+ * without weight, or some last digits higher or lower. Where blocks of segments begin the ground is as deep below
+ * everywhere, so that the chords of blocks are parallel to the line. */
+static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
+{
+    const size_t block = (size_t)1 << GROUND_BITS;
+    struct ceduo_slope s = new_slope(vertices);
+    double x = 0, depth = line_uniform(r, .1, 2);
+    for (size_t i = 0; i < vertices; i++) {
+        bool tooth = i % block != 0 && line_chance(r, .02);
+        s.x[i] = x;
+        s.z[i] = top - fall * x;
+        if (!tooth)
+            s.z[i] -= depth * (i % block == 0 ? 1 : line_uniform(r, 1, 2));
+        for (int k = (int)line_uniform(r, -3, 3); tooth && k != 0; k -= k > 0 ? 1 : -1)
+            s.z[i] = nextafter(s.z[i], k > 0 ? INFINITY : -INFINITY);
+        s.segments[i] = site.segments[3];
+        x += line_uniform(r, .2, 2);
+    }
+    return s;
+}
+
+/* Whether a flight that grazes many teeth touches one is for rounding to decide; a block that is passed as a whole must
+ * not decide it otherwise. That is what the margin of its height is for. */
+static void flights_along_teeth_touch_the_same_with_blocks(void **state)
+{
+    (void)state;
+    init_site(CEDUO_LAW_LUMPED);
+    struct line_random r = {.state = 11};
+    uint64_t touched = 0;
+    for (size_t n = 0; n < 2000; n++) {
+        double fall = line_uniform(&r, -2, 2), top = line_uniform(&r, -10, 10), speed = line_uniform(&r, 1, 50);
+        struct ceduo_slope slope = toothed_slope(305, &r, fall, top);
+        struct ground g;
+        assert_true(ceduo_ground_init(&g, &slope, 1e-30, .34, false) && g.top > 0);
+        struct ground plain = g;
+        plain.top = 0;
+        for (int dir = -1; dir <= 1; dir += 2) {
+            double x = dir > 0 ? 0 : g.x[g.n];
+            struct flight f = {.x = x,
+                               .z = top - fall * x,
+                               .vx = dir * speed,
+                               .vz = -fall * (dir * speed),
+                               .segment = dir > 0 ? 0 : g.n - 1,
+                               .on_ground = false};
+            struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
+            assert_true(a.t == b.t && a.x == b.x && a.z == b.z && a.segment == b.segment && a.left == b.left);
+            touched += !b.left;
+        }
+        ceduo_ground_release(&g);
+        free_slope(&slope);
+    }
+    print_message("%ju of 4000 flights touch a tooth\n", (uintmax_t)touched);
+    assert_true(touched > 1000 && touched < 3950);
+}
+
 /* ---- rolls over whole segments ---- */
 
 static void nobody_minds(void *context, const struct ceduo_piece *piece)
@@ -312,6 +368,7 @@ int main(void)
         cmocka_unit_test(another_ground_is_another_segment),
         cmocka_unit_test(small_breaks_stay),
         cmocka_unit_test(flights_land_as_without_blocks),
+        cmocka_unit_test(flights_along_teeth_touch_the_same_with_blocks),
         cmocka_unit_test(rolls_are_the_same_whoever_looks_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
