@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a single hit is: a stem that is as high as the rock flies over it is none, and of stems of many diameters each
+ * takes by its own, so that all together take what was given for the mean of them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "line_scene.h"
+
+#define STEMS_MOST 8192
+#define WORK       1e5 /* J/m3 */
+
+/* Level ground, one belt of one kind of stem. */
+static struct line_scene scene;
+static struct ceduo_stems kind;
+static struct ceduo_belt belt;
+
+static void plant(double metres, double radius, bool shoots)
+{
+    const double x[] = {0, metres}, z[] = {0, 0};
+    line_scene_init(&scene, 2, x, z, (struct line_ground){.3, .8, .3}, radius, CEDUO_LAW_LUMPED);
+    kind = (struct ceduo_stems){.per_ha = 4000, .dbh = .25, .height = 90, .volume = .4, .age = NAN};
+    belt = (struct ceduo_belt){.from = 10, .to = metres - 10, .stand = {.species = -1, .u = WORK}};
+    if (shoots) {
+        belt.stand.stools_per_ha = 1000;
+        belt.stand.spacing = .4;
+        belt.stand.shoots_count = 1;
+        belt.stand.shoots = &kind;
+    } else {
+        belt.stand.trees_count = 1;
+        belt.stand.trees = &kind;
+    }
+    scene.option = (struct ceduo_option){.belts_count = 1, .belts = &belt};
+}
+
+static struct passed {
+    size_t count;
+    struct ceduo_stem_passed stems[STEMS_MOST];
+    struct ceduo_way way;
+} passed;
+
+static void note_stem(void *context, const struct ceduo_stem_passed *stem)
+{
+    struct passed *to = context;
+    assert_true(to->count < STEMS_MOST);
+    to->stems[to->count++] = *stem;
+}
+
+static void follow(uint64_t rock)
+{
+    const struct ceduo_watch watch = {.stem = note_stem, .context = &passed};
+    passed.count = 0;
+    assert_int_equal(ceduo_way_follow(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
+}
+
+/* ---- diameters ---- */
+
+/* By brauner a stem d thick of those with mean m and deviation s takes V·U·d2/(m2 + s2): the mean of d2 by the gamma law,
+ * of shape (m/s)2 and scale s2/m, is shape(shape + 1)scale2 = m2 + s2. Rocks come to a stem with a chance that goes with
+ * B + d: weighted with one over that, the stems that they hit are those of the wood, which take V·U on the mean. */
+static void expect_mean_of_all_stems(bool shoots)
+{
+    const double radius = 1.5, sd = .1, given = .4 * WORK;
+    double n = 0, sum = 0, squares = 0;
+    plant(520, radius, shoots);
+    kind.dbh_sd = sd;
+    line_scene_release(&scene, 0, 1, 700, 0, 0);
+    for (uint64_t rock = 0; rock < 200; rock++) {
+        follow(rock);
+        for (size_t i = 0; i < passed.count; i++) {
+            const struct ceduo_stem_passed *s = &passed.stems[i];
+            double wanted = given * s->dbh * s->dbh / (.25 * .25 + sd * sd);
+            assert_true(s->hit && s->shoot == shoots);
+            if (!(fabs(s->taken - wanted) <= 1e-12 * wanted))
+                fail_msg("a stem of %g m takes %.17g J, not %.17g", s->dbh, s->taken, wanted);
+            double off = (s->taken - given) / (2 * radius + s->dbh);
+            n++;
+            sum += off;
+            squares += off * off;
+        }
+    }
+    double mean = sum / n, se = sqrt((squares / n - mean * mean) / n);
+    double one_percent = .01 * given / (2 * radius + .25);
+    print_message("# %.0f stems, off by %.3g ± %.2g of V·U\n", n, .01 * mean / one_percent, .01 * se / one_percent);
+    assert_true(n > 1e5 && se < one_percent);
+    assert_true(fabs(mean) <= 4 * se);
+}
+
+static void stems_of_many_diameters_take_their_given_volume_on_the_mean(void **state)
+{
+    (void)state;
+    expect_mean_of_all_stems(false);
+    expect_mean_of_all_stems(true);
+}
+
+/* ---- heights ---- */
+
+/* Stem number i of the way of a rock, when all stems have this height. */
+static struct ceduo_stem_passed stem_of_height(uint64_t rock, size_t i, double height)
+{
+    uint64_t hits = 0;
+    kind.height = height;
+    follow(rock);
+    assert_true(i < passed.count);
+    for (size_t k = 0; k < passed.count; k++)
+        hits += passed.stems[k].hit;
+    assert_int_equal(passed.way.stems_hit, hits);
+    for (size_t k = 0; k < i; k++) /* it falls: over those before it is higher */
+        assert_false(passed.stems[k].hit);
+    return passed.stems[i];
+}
+
+static void a_stem_as_high_as_the_rock_flies_is_not_hit(void **state)
+{
+    (void)state;
+    for (int shoots = 0; shoots < 2; shoots++)
+        for (uint64_t rock = 0; rock < 20; rock++) {
+            plant(200, .3, shoots);
+            line_scene_release(&scene, 0, 30, 40, 0, 0);
+            for (size_t i = 0; i < 5; i++) {
+                struct ceduo_stem_passed low = stem_of_height(rock, i, 1);
+                assert_true(!low.hit && low.clearance > 1);
+                struct ceduo_stem_passed at = stem_of_height(rock, i, low.clearance);
+                assert_true(at.x == low.x && at.clearance == low.clearance && at.clearance == at.height);
+                assert_true(!at.hit && at.taken == 0);
+                struct ceduo_stem_passed higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
+                assert_true(higher.x == low.x && higher.clearance == low.clearance);
+                assert_true(higher.hit && higher.taken > 0);
+            }
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stems_of_many_diameters_take_their_given_volume_on_the_mean),
+        cmocka_unit_test(a_stem_as_high_as_the_rock_flies_is_not_hit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
