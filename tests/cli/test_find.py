@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--find where a goal is exactly what is asked for, and where several controls say different things.
+
+What is found is known beforehand: the ADC of N trees of 1/4 m a hectare and a rock of 3/4 m is 10000/N m; and rocks of
+2 kg that are released with 3 m/s where gravity is 4 m/s2 have 13 J after 1/2 s and 25 J after 1 s.
+"""
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import Folder, expect, expect_equal, good, result, run_all, scene, wooded_scene  # noqa: E402
+
+PER_HA = "forest[0].stand.trees[0].per_ha"
+
+
+def below(value):
+    return math.nextafter(value, -math.inf)
+
+
+def above(value):
+    return math.nextafter(value, math.inf)
+
+
+def find(mapping, path, lo, hi, goal, target=None):
+    goal = goal if target is None else f"{goal}={target!r}"
+    with Folder() as f:
+        return good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-f", "json", f.write("s.yaml", mapping)).json()[0]
+
+
+def is_found(mapping, goal, target=None):
+    """Whether 400 trees a hectare reach a goal, nothing else being looked at."""
+    found = find(mapping, PER_HA, 400, 400, goal, target)
+    expect_equal((found["value"], found["nearest"]), (400, None) if found["found"] else (None, 400), goal)
+    return found["found"]
+
+
+def trees(per_ha, **changes):
+    return {"name": "trees", "trees": [{"per_ha": per_ha, "dbh_m": 0.25, "height_m": 12, "volume_m3": 1e-9, **changes}],
+            "energy": {"u_J_m3": 100000}}
+
+
+def wood(*belts, controls=(100,), **changes):
+    """Belts (from, to, trees per ha), the threshold being 25 m."""
+    return scene(rock={"shape": "sphere", "diameter_m": 0.75}, controls=[{"x_m": x} for x in controls],
+                 forest=[{"from_m": a, "to_m": b, "stand": trees(n)} for a, b, n in belts],
+                 simulation={"rocks": 1, "threshold_m": 25}, **changes)
+
+
+def drop(accepted=None, controls=(4,)):
+    """Rocks that fly over level ground, all alike, with a wood behind the controls."""
+    return scene(rock={"shape": "sphere", "mass_kg": 2}, release={"x_m": 1, "height_m": 50, "vx_m_s": 3},
+                 slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]},
+                 controls=[{"x_m": x} if accepted is None else {"x_m": x, "accepted_kJ": accepted} for x in controls],
+                 forest=[{"from_m": 50, "to_m": 60, "stand": trees(400)}], simulation={"rocks": 20, "gravity_m_s2": 4})
+
+
+def test_adc_equal():
+    """Goal adc: an ADC that equals the target does not reach it, by the light's limit or another"""
+    mapping = wood((0, 100, 400))  # 25 m
+    for target in (None, 25, below(25)):
+        expect(not is_found(mapping, "adc", target), "an ADC of 25 m is not below", target or "the threshold of 25 m")
+    expect(is_found(mapping, "adc", above(25)), "an ADC of 25 m is below", above(25))
+    for target in (None, 25):
+        expect_equal(find(mapping, PER_HA, 1, 1000, "adc", target)["value"], 401, "the first below 25 m")
+
+
+def test_free_run_equal():
+    """Goal free-run: a chance that equals the target reaches it"""
+    mapping, chance = wood((0, 100, 400)), math.exp(-1)  # over 25 m with an ADC of 25 m
+    expect(is_found(mapping, "free-run", chance), chance)
+    expect(not is_found(mapping, "free-run", below(chance)), below(chance))
+    expect_equal(find(mapping, PER_HA, 1, 1000, "free-run", chance)["value"], 400, "the first at most e^-1")
+
+
+def test_energy_equal():
+    """Goal energy: a mean that equals the target reaches it"""
+    expect(is_found(drop(), "energy", 0.025), "25 J")
+    expect(not is_found(drop(), "energy", below(0.025)), "less than 25 J")
+
+
+def test_exceed_equal():
+    """Goal exceed: a share that equals the target reaches it; rocks with just the accepted energy are none of it"""
+    expect(is_found(drop(accepted=0.025), "exceed", 0), "25 J are no more than 25 J")
+    expect(is_found(drop(accepted=0.0249), "exceed", 1), "all")
+    expect(not is_found(drop(accepted=0.0249), "exceed", below(1)), "less than all")
+
+
+def test_exceed_one_in_twenty():
+    """Goal exceed without a value: 1 rock of 20 is as many as may exceed, 2 are too many"""
+    mapping = wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": trees(400)}], simulation={"rocks": 20})
+    with Folder() as f:
+        wooded = result(f.write("s.yaml", mapping))["options"][0]["controls"][0]["wooded"]
+    expect_equal(wooded["rocks_reached"], 20, "rocks at the control")
+    second, first = wooded["energy_kJ"]["p95"], wooded["energy_kJ"]["max"]  # the 19th and the 20th of 20
+    for accepted, reached in (((first + second) / 2, True), (second * (1 - 1e-9), False)):
+        mapping["controls"] = [{"x_m": 60, "accepted_kJ": accepted}]
+        expect_equal(is_found(mapping, "exceed"), reached, f"{accepted} kJ")
+
+
+def test_worst_control():
+    """The goal counts at the control where it is worst, in whatever order they stand"""
+    belts = (0, 60, 400), (60, 100, 1000)  # ADC 25 and 10 m
+    for controls in ((60, 100), (100, 60)):
+        mapping = wood(*belts, controls=controls)
+        path = "forest[1].stand.trees[0].per_ha"  # which only the control at 100 m lies behind
+        found = find(mapping, path, 200, 1000, "adc", 30)
+        expect_equal((found["value"], found["side"]), (334, "smallest"), f"adc, {controls}")  # 10^4/30 = 333.3
+        chance = math.exp(-1)
+        expect_equal(find(mapping, path, 200, 1000, "free-run", chance)["value"], 400, f"free-run, {controls}")
+        lower = find(mapping, path, 200, 1000, "free-run", below(chance))
+        expect(not lower["found"], "the first belt has e^-1", controls)
+        expect(not find(mapping, path, 200, 1000, "adc", 25)["found"], "the first belt has 25 m", controls)
+    for controls in ((2.5, 4), (4, 2.5)):  # 13 and 25 J
+        for target, reached in ((0.026, True), (0.025, True), (0.014, False), (0.012, False)):
+            expect_equal(is_found(drop(controls=controls), "energy", target), reached, f"{target} kJ, {controls}")
+        for accepted, reached in ((0.026, True), (0.02, False), (0.01, False)):
+            expect_equal(is_found(drop(accepted, controls), "exceed", 0.5), reached, f"bears {accepted} kJ, {controls}")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
