@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""+ and - in the terminal program: a step is one unit of the second digit, also from a power of ten down, so that +
+takes back what - did."""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import fast  # noqa: E402
+from harness import expect_equal, run_all  # noqa: E402
+
+THRESHOLD = 3, "simulation.threshold_m", "^threshold"
+ROCKS = 3, "simulation.rocks", r"^rocks \(batch\)"
+STOOLS = 2, "stools.per_ha", "^stools per ha"
+
+
+def stepped(field, start, keys):
+    """The values of a field from a start on, one after each key."""
+    view, name, row = field
+    script = f"key {view}\nfind {name}\nset {start}\n" + "".join(f"key {key}\ndump\n" for key in keys)
+    return [float(screen.row(row)[-1]) for screen in fast(script)]
+
+
+def test_down_from_a_power_of_ten():
+    """Down from 1 the step is that of what is below: 0.99; and + leads back to 1"""
+    for field, start, lower in ((THRESHOLD, 0.1, 0.099), (THRESHOLD, 1, 0.99), (THRESHOLD, 10, 9.9),
+                                (THRESHOLD, 100, 99), (THRESHOLD, 10000, 9900), (STOOLS, 1000, 990),
+                                (ROCKS, 1000, 990), (ROCKS, 100, 99)):
+        expect_equal(stepped(field, start, "-+"), [lower, start], f"{field[1]} from {start}: after -, then +")
+
+
+def test_through_a_power_of_ten():
+    """From 1.2 down to 0.97 and up again: tenths above 1, hundredths below"""
+    down = [1.1, 1, 0.99, 0.98, 0.97]
+    expect_equal(stepped(THRESHOLD, 1.2, "-" * 5 + "+" * 5), down + [0.98, 0.99, 1, 1.1, 1.2], "threshold")
+
+
+def test_counts_stay_whole():
+    """A count of few has steps of 1: from 10 down to 9"""
+    expect_equal(stepped(ROCKS, 11, "---++"), [10, 9, 8, 9, 10], "rocks")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
