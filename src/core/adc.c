@@ -173,7 +173,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
     struct ceduo_adc adc = ceduo_adc(stand, b);
     if (adc.interception < adc.gsteiger_stems)
         warnings |= CEDUO_WARN_BELOW_FREE_PATH;
-    if (rule == CEDUO_RULE_AUTO && fabs(b - stand->spacing) < 0.1 * b)
+    if (rule == CEDUO_RULE_AUTO && fabs(b - stand->spacing) < 0.1 * stand->spacing)
         warnings |= CEDUO_WARN_NEAR_JUMP;
     if (stand->spacing > b + mean_shoot_dbh(stand))
         warnings |= CEDUO_WARN_WIDE_SPACING;

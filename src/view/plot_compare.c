@@ -52,8 +52,7 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     m.awaited = !a;
     m.middle = a ? 1000 * (isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability) : NAN;
     m.last = a ? a->energy.mean * KILO : NAN;
-    if (a && !isnan(a->exceed_probability))
-        m.energy = a->exceed_probability <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_FAIL;
+    m.energy = ceduo_energy_light(a);
     return m;
 }
 

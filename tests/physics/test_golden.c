@@ -541,7 +541,8 @@ static void warning_near_the_jump(void **state)
     (void)state;
     struct paper_plot plot;
     paper_plot_init(&plot, 1);
-    static const double near[] = {.62, .68, .74}, far[] = {.60, .76};
+    /* a tenth of the spacing: from .68/1.1 = .618 to .68/.9 = .756 m */
+    static const double near[] = {.619, .68, .755}, far[] = {.617, .757};
     for (size_t i = 0; i < LENGTH(near); i++) {
         plot.stand.spacing = near[i];
         expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_NEAR_JUMP, 0);
