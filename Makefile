@@ -20,6 +20,8 @@ MANDIR ?= $(PREFIX)/share/man
 BASHDIR ?= $(PREFIX)/share/bash-completion/completions
 ZSHDIR ?= $(PREFIX)/share/zsh/site-functions
 BUILD := build/$(VARIANT)
+# A path that the user chose, for the shell: it may hold blanks and apostrophes.
+quoted = '$(subst ','\'',$(1))'
 ifeq ($(origin CC),default)
 CC := gcc
 endif
@@ -69,7 +71,8 @@ $(BUILD)/%.o: %.c Makefile
 	$(CC) $(ALL_CFLAGS) $(DEFINES) -c -o $@ $<
 
 # Where installed profiles are looked for, after those beside the program itself.
-$(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR='"$(DATADIR)"'
+c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
+$(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
 -include $(shell find build -name '*.d' 2>/dev/null)
 
@@ -126,7 +129,7 @@ $(UNIT:=.tap): %.tap: %
 	@tests/run $@ $<
 
 $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
-	@CEDUO=$(CURDIR)/$(PROGRAM) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
+	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
 
 $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:
@@ -153,7 +156,7 @@ $(T)/fuzz/seeds/part: $(T)/fuzz/replay_part
 do-replay_part do-fuzz_part: $(T)/fuzz/seeds/part
 
 $(REPLAYS:%=do-%): do-replay_%: $(T)/fuzz/replay_%
-	@printf '#!/bin/sh\nexec $(CURDIR)/$< $* $(CHANGES_$*) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)\n' >$<.sh
+	@printf '#!/bin/sh\nexec ./$< $* $(CHANGES_$*) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)\n' >$<.sh
 	@chmod +x $<.sh
 	@rm -f $<.tap
 	@tests/run $<.tap $<.sh
@@ -169,7 +172,7 @@ FUZZ_OPTIONS = -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1000 -m
 	-dict=tests/fuzz/words.dict -artifact_prefix=$(T)/fuzz/
 $(FUZZERS:%=do-fuzz_%): do-fuzz_%: $(T)/fuzz/%
 	@mkdir -p $(T)/fuzz/corpus/$*
-	$< $(FUZZ_OPTIONS) $(CURDIR)/$(T)/fuzz/corpus/$* $(addprefix $(CURDIR)/,$(wildcard tests/fuzz/seeds/$*) $(dir $(SEEDS_$*))) \
+	$< $(FUZZ_OPTIONS) $(foreach f,$(T)/fuzz/corpus/$* $(wildcard tests/fuzz/seeds/$*) $(dir $(SEEDS_$*)),$(call quoted,$(CURDIR)/$f)) \
 	    2>$<.log || { tail -40 $<.log; exit 1; }
 	@grep 'stat::number_of_executed_units\|cov:' $<.log | tail -2
 
@@ -214,7 +217,7 @@ do-check-all: do-check
 do-check-threads: $(addprefix $(T)/physics/test_,statistics_of_runs part years) $(PROGRAM)
 	set -e; for t in $(filter %test_statistics_of_runs %test_part %test_years,$^); do $$t; done
 	set -e; for t in tests/tui/test_screens.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py; do \
-	    CEDUO=$(CURDIR)/$(PROGRAM) $$t; done
+	    CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) $$t; done
 
 # Memory as valgrind sees it: every scene as a batch, a picture, years, a number that is looked for, parts that are joined,
 # and the terminal program by a script.
@@ -232,7 +235,7 @@ do-check-memory: all
 
 # The workflows once more, with a Slurm of one node for their job arrays; where none can be started it says why.
 do-check-slurm: all
-	CEDUO=$(CURDIR)/$(PROGRAM) tests/slurm.sh tests/cli/test_workflows.py || [ $$? = 77 ]
+	CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) tests/slurm.sh tests/cli/test_workflows.py || [ $$? = 77 ]
 
 # The archive, unpacked elsewhere, passes too.
 do-check-dist: dist
@@ -282,24 +285,26 @@ $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo: $(COMPLETION)
 	@mkdir -p $(@D)
 	$(COMPLETION) $(if $(findstring _ceduo,$@),zsh,bash) >$@
 
+# What `uninstall` takes away again, file by file: where it lies others may have put theirs.
+DATA := profiles/scenes/*.yaml profiles/slopes/*.yaml profiles/stands/*.yaml profiles/jobs/*.sbatch
+FOLDERS := $(patsubst profiles/%/,%,$(dir $(DATA)))
+to = $(call quoted,$(DESTDIR)$(1))
+
 install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
-	install -d $(DESTDIR)$(BASHDIR) $(DESTDIR)$(ZSHDIR)
-	install -m 644 $(BUILD)/completion/ceduo $(DESTDIR)$(BASHDIR)/ceduo
-	install -m 644 $(BUILD)/completion/_ceduo $(DESTDIR)$(ZSHDIR)/_ceduo
-	install -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(DATADIR) $(DESTDIR)$(MANDIR)/man1 $(DESTDIR)$(MANDIR)/man5 \
-	    $(DESTDIR)$(MANDIR)/man7
-	install -m 755 $(PROGRAM) $(DESTDIR)$(BINDIR)/ceduo
-	for k in scenes slopes stands; do \
-	    install -d $(DESTDIR)$(DATADIR)/$$k && install -m 644 profiles/$$k/*.yaml $(DESTDIR)$(DATADIR)/$$k/ || exit 1; \
-	done
-	install -d $(DESTDIR)$(DATADIR)/jobs && install -m 644 profiles/jobs/*.sbatch $(DESTDIR)$(DATADIR)/jobs/
-	for p in $(PAGES); do install -m 644 $$p $(DESTDIR)$(MANDIR)/man$${p##*.}/ || exit 1; done
+	install -d -- $(call to,$(BASHDIR)) $(call to,$(ZSHDIR))
+	install -m 644 -- $(BUILD)/completion/ceduo $(call to,$(BASHDIR))/ceduo
+	install -m 644 -- $(BUILD)/completion/_ceduo $(call to,$(ZSHDIR))/_ceduo
+	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 5 7,$(call to,$(MANDIR))/man$n)
+	install -m 755 -- $(PROGRAM) $(call to,$(BINDIR))/ceduo
+	for f in $(DATA); do install -m 644 -- $$f $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
+	for p in $(PAGES); do install -m 644 -- $$p $(call to,$(MANDIR))/man$${p##*.}/ || exit 1; done
 
 uninstall:
-	rm -f $(DESTDIR)$(BINDIR)/ceduo
-	rm -rf $(DESTDIR)$(DATADIR)
-	for p in $(notdir $(PAGES)); do rm -f $(DESTDIR)$(MANDIR)/man$${p##*.}/$$p; done
-	rm -f $(DESTDIR)$(BASHDIR)/ceduo $(DESTDIR)$(ZSHDIR)/_ceduo
+	rm -f -- $(call to,$(BINDIR))/ceduo
+	for f in $(DATA); do rm -f -- $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
+	for d in $(FOLDERS:%=/%) ''; do rmdir -- $(call to,$(DATADIR))$$d 2>/dev/null || :; done
+	for p in $(notdir $(PAGES)); do rm -f -- $(call to,$(MANDIR))/man$${p##*.}/$$p || exit 1; done
+	rm -f -- $(call to,$(BASHDIR))/ceduo $(call to,$(ZSHDIR))/_ceduo
 
 # The sources under version control, or in an unpacked archive those that came with it; the same bytes each time.
 DIST := ceduo-$(VERSION)

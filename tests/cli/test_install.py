@@ -14,9 +14,9 @@ from harness import ROOT, Folder, Skip, ceduo, environment, expect, expect_equal
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 
 
-def make(*words):
+def make(*words, folder=ROOT):
     env = {k: v for k, v in environment().items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-    done = subprocess.run(["make", "-s", "-C", str(ROOT), f"VARIANT={VARIANT}", *words], env=env, capture_output=True, text=True,
+    done = subprocess.run(["make", "-s", "-C", str(folder), f"VARIANT={VARIANT}", *words], env=env, capture_output=True, text=True,
                           check=False, timeout=300)
     expect(done.returncode == 0, "make", words, done.stdout, done.stderr)
 
@@ -24,15 +24,18 @@ def make(*words):
 class Installed(Folder):
     """The program installed below a folder."""
 
+    def __init__(self, root="root", prefix="/opt/forest"):
+        self.root, self.below = root, prefix
+
     def __enter__(self):
         super().__enter__()
-        self.into = [f"DESTDIR={self.path / 'root'}", "PREFIX=/opt/forest"]
+        self.into = [f"DESTDIR={self.path / self.root}", f"PREFIX={self.below}"]
         make("install", *self.into)
-        self.prefix = self.path / "root/opt/forest"
+        self.prefix = self.path / (self.root + self.below)
         return self
 
     def files(self):
-        return sorted(str(p.relative_to(self.path)) for p in (self.path / "root").rglob("*") if not p.is_dir())
+        return sorted(str(p.relative_to(self.path)) for p in (self.path / self.root).rglob("*") if not p.is_dir())
 
 
 def test_install():
@@ -51,6 +54,79 @@ def test_install():
         (place.prefix / "share/man/man1/other.1").write_text("not ours")
         make("uninstall", *place.into)
         expect_equal(place.files(), ["root/opt/forest/share/man/man1/other.1"], "left behind")
+
+
+# Where they are not in quotes a shell takes other paths for these, and make for the per cent.
+ODD = (("root of it", "/opt/a forest"), ("it's", "/opt/oaks, 50% o'\"them\" & more; $(HASH)(*)"))
+
+
+def test_install_odd_names():
+    """make install and uninstall with blanks, quotes and other signs in PREFIX and DESTDIR: these folders and no others"""
+    with Installed() as plain:
+        wanted = [f.removeprefix("root/opt/forest/") for f in plain.files()]
+    for root, prefix in ODD:
+        with Folder() as outside:
+            make("install", f"DESTDIR={outside.path / root}", f"PREFIX={prefix}", "HASH=#")
+            below = outside.path / (root + prefix.replace("$(HASH)", "#"))
+            expect_equal(outside.names(), [root], "folders made")
+            expect_equal(sorted(str(p.relative_to(below)) for p in below.rglob("*") if not p.is_dir()), wanted, root)
+            foreign = [outside.path / root.split(" ")[0], outside.path / (root + prefix.split(" ")[0])]
+            foreign = [outside.write(p, "theirs") for p in foreign if not p.exists()]
+            make("uninstall", f"DESTDIR={outside.path / root}", f"PREFIX={prefix}", "HASH=#")
+            expect_equal(sorted(p for p in outside.path.rglob("*") if not p.is_dir()), sorted(foreign), "left behind")
+            expect_equal([p for p in outside.path.rglob("ceduo")], [], "folders left behind")
+
+
+def test_uninstall_foreign():
+    """make uninstall leaves what is not its own, also among its profiles, and goes twice"""
+    with Installed() as place:
+        shared = place.prefix / "share/ceduo"
+        mine = [place.write(shared / name, "mine") for name in ("notes.txt", "stands/mine.yaml", "jobs/old/a.sbatch")]
+        make("uninstall", *place.into)
+        expect_equal(sorted(p for p in shared.rglob("*") if not p.is_dir()), sorted(mine), "left behind")
+        expect_equal(sorted(p.name for p in shared.iterdir()), ["jobs", "notes.txt", "stands"], "folders left behind")
+        for path in mine:
+            path.unlink()
+        (shared / "jobs/old").rmdir()
+        make("uninstall", *place.into)
+        expect(not shared.exists(), "an empty folder of its own is left", shared)
+
+
+def copy_of_sources(to, *left_out):
+    """The sources with what was compiled of them, so that make has nothing to compile but what is left out."""
+    for name in ("Makefile", "include", "src", "man", "profiles", "tests"):
+        subprocess.run(["cp", "-a", ROOT / name, to / name], check=True)
+    (to / f"build/{VARIANT}").mkdir(parents=True)
+    for name in ("src", "libceduo.a", "libparts.a", "ceduo"):
+        subprocess.run(["cp", "-a", ROOT / f"build/{VARIANT}/{name}", to / f"build/{VARIANT}/{name}"], check=True)
+    for name in left_out:
+        (to / f"build/{VARIANT}/{name}").unlink()
+
+
+def test_odd_data_folder():
+    """DATADIR may hold what a C string or a shell would take for its own: profiles are found there"""
+    with Folder() as place:
+        copy_of_sources(place.path, "src/io/file.o", "libparts.a", "ceduo")
+        data = place.path / "it's \"so\" a\\n % ??/ folder"
+        place.write(data / "scenes/there.yaml", "title: found\n")
+        make("all", f"DATADIR={data}", folder=place.path)
+        (place.path / "alone").mkdir()
+        program = shutil.copy2(place.path / f"build/{VARIANT}/ceduo", place.path / "alone/ceduo")
+        listed = subprocess.run([program, "--list-profiles"], env=environment(), capture_output=True, text=True, check=True).stdout
+        expect_in(f"{data}/scenes/there.yaml", listed)
+
+
+def test_odd_source_folder():
+    """The sources may lie in a folder with a blank and an apostrophe"""
+    with Folder() as place:
+        here = place.path / "it's a wood"
+        here.mkdir()
+        copy_of_sources(here)
+        make("install", f"DESTDIR={place.path / 'root'}", "PREFIX=/usr", folder=here)
+        expect((place.path / "root/usr/share/ceduo/scenes/paper-site.yaml").exists(), "nothing is installed")
+        make("do-replay_csv", "CHANGES_csv=20", folder=here)
+        tap = (here / f"build/{VARIANT}/tests/fuzz/replay_csv.tap").read_text()
+        expect("not ok" not in tap and "\nok " in f"\n{tap}", tap)
 
 
 def test_installed_runs():
