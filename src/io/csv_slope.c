@@ -47,20 +47,25 @@ static const char *field_end(const char *p, const char *end, char separator)
     return p;
 }
 
+/* Takes the first field off what is left of a line; false where nothing is left. A line without a byte has one field. */
+static bool next_field(struct span *left, char separator, struct span *field)
+{
+    if (!left->p)
+        return false;
+    const char *end = left->p + left->n, *stop = field_end(left->p, end, separator);
+    *field = (struct span){left->p, (size_t)(stop - left->p)};
+    *left = stop == end ? (struct span){NULL, 0} : (struct span){stop + 1, (size_t)(end - stop) - 1};
+    return true;
+}
+
 /* Field number `which` of a line; false where it has fewer. */
 static bool field_of(struct span line, char separator, size_t which, struct span *field)
 {
-    const char *p = line.p, *end = line.p + line.n;
-    for (size_t i = 0;; i++) {
-        const char *stop = field_end(p, end, separator);
-        if (i == which) {
-            *field = trim((struct span){p, (size_t)(stop - p)});
-            return true;
-        }
-        if (stop == end)
+    for (size_t i = 0; i <= which; i++)
+        if (!next_field(&line, separator, field))
             return false;
-        p = stop + 1;
-    }
+    *field = trim(*field);
+    return true;
 }
 
 static bool is_word(struct span f, const char *word)
@@ -79,9 +84,9 @@ static size_t column_of(struct span line, char separator, const char *name, cons
     const char *const names[] = {name, short_name};
     for (int k = 0; k < 2; k++) {
         size_t found = SIZE_MAX;
-        struct span f;
-        for (size_t i = 0; field_of(line, separator, i, &f); i++)
-            if (is_word(f, names[k]))
+        struct span left = line, f;
+        for (size_t i = 0; next_field(&left, separator, &f); i++)
+            if (is_word(trim(f), names[k]))
                 found = found == SIZE_MAX ? i : SIZE_MAX - 1;
         if (found != SIZE_MAX)
             return found;

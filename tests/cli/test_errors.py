@@ -543,6 +543,8 @@ FLOODS = [
      "999980 more problems"),
     ("60 MiB of blank CSV lines", lambda: NAMED.replace("75", "175"), lambda: LINE + "\n" * (60 << 20), "beyond the slope"),
     ("a CSV field of 60 MiB", lambda: NAMED, lambda: LINE + "5" * (60 << 20) + ",1", "line.csv:4:1: '…' is no number"),
+    ("a CSV header of 300000 columns", lambda: NAMED, lambda: "distance" + ",c" * 300000 + ",elevation\n0,64\n100,0\n",
+     "too few columns"),
     ("200000 vertices that are no pairs, each on its line", lambda: HEAD + "slope: {segments: [{rn: 0.3, rt: 0.8}], vertices_m: [\n" +
      "1,\n" * 200000 + "1]}\ncontrols_m: [75]\n", None, "more problems"),
     ("8 million values", lambda: "title: [" + "1," * 8000000 + "1]\n", None, "more than 250000 values"),
