@@ -245,8 +245,11 @@ static void put_goal(const struct seek *s, double goal, struct text *text)
 
 void ceduo_seek_say(const struct seek *s, const struct ceduo_found *f, struct text *text)
 {
+    struct text path = {0};
+    ceduo_text_safe(&path, s->path);
+    const char *name = path.bytes ? path.bytes : "";
     if (f->found) {
-        ceduo_text_format(text, "%s = ", s->path);
+        ceduo_text_format(text, "%s = ", name);
         put_value(text, f->value);
         ceduo_text_put(text, "\n  ");
         ceduo_text_put(text, f->whole_range        ? _("every value of the range reaches the goal: ")
@@ -254,7 +257,7 @@ void ceduo_seek_say(const struct seek *s, const struct ceduo_found *f, struct te
                                                    : _("the largest value that reaches the goal: "));
         put_goal(s, f->goal_at_value, text);
     } else {
-        ceduo_text_format(text, _("no value of %s from "), s->path);
+        ceduo_text_format(text, _("no value of %s from "), name);
         put_value(text, s->lo);
         ceduo_text_put(text, _(" to "));
         put_value(text, s->hi);
@@ -271,7 +274,11 @@ void ceduo_seek_say(const struct seek *s, const struct ceduo_found *f, struct te
         ceduo_text_format(text, "%g %%", s->target * 100);
     else
         ceduo_text_format(text, s->goal == SEEK_ADC ? "%g m" : "%g kJ", s->target);
-    ceduo_text_format(text, _(" is wanted), option '%s', worst control\n"), s->file->scene.options[s->option].name);
+    ceduo_text_put(text, _(" is wanted), option '"));
+    ceduo_text_safe(text, s->file->scene.options[s->option].name);
+    ceduo_text_put(text, _("', worst control\n"));
+    text->failed |= path.failed;
+    ceduo_text_free(&path);
     if (!f->monotone)
         ceduo_text_put(text, _("  ! The goal does not only rise or only fall over this range: there may be other values.\n"));
 }

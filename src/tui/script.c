@@ -11,10 +11,12 @@
 
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {
-    struct text safe = {0};
-    ceduo_text_safe(&safe, word);
-    fprintf(stderr, "%s:%zu: %s: %s\n", path, line, what, safe.bytes ? safe.bytes : "");
-    ceduo_text_free(&safe);
+    struct text message = {0};
+    ceduo_text_safe(&message, path);
+    ceduo_text_format(&message, ":%zu: %s: ", line, what);
+    ceduo_text_safe(&message, word);
+    fprintf(stderr, "%s\n", message.failed ? what : message.bytes); /* even without memory */
+    ceduo_text_free(&message);
     return SCRIPT_WRONG;
 }
 

@@ -10,8 +10,8 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, PROFILES, SLOWER, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
-                     expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of)
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, SLOWER, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
+                     expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of, wooded_scene)
 
 SCENE = """\
 ceduo: scene/1
@@ -582,6 +582,53 @@ def test_names_with_escapes():
         expect_in("\\xff\\xfe", done.err)
         done = ceduo("--batch", "--option", "\x1b[31m", path)
         expect(done.status == USAGE, done)
+
+
+NASTY = "\x1b[31mred\a\x9b2J\u202eevil\nline"
+
+
+def test_names_in_every_mode():
+    """Control characters in the names of files, options and arguments come out raw in no mode, on neither stream"""
+    mapping = wooded_scene(title=NASTY, simulation={"rocks": 20})
+    mapping["options"] = [{"name": NASTY, "forest": mapping.pop("forest")}]
+    path = f"options[{NASTY}].forest[0].stand.stools.per_ha"
+    with Folder() as f:
+        def run(*words, status):
+            done = ceduo(*words, cwd=f.path, env={"XDG_DATA_HOME": str(f.path)})  # looks for them in both streams
+            expect_equal(done.status, status, ascii(words))
+            expect("\x9b" not in done.err and "\u202e" not in done.err, ascii(done.err))
+            if words[0] != "--shard" and "json" not in words:
+                expect("\x9b" not in done.out and "\u202e" not in done.out, ascii(done.out))
+            return done
+
+        name = f.write(f"{NASTY}.yaml", mapping).name
+        f.write(f"ceduo/scenes/{name}", mapping)
+        for form in ("table", "csv", "json"):
+            run("--batch", "-f", form, name, status=DONE)
+            run("--years", "0:2", "-f", form, name, status=DONE)
+            run("--batch", "-f", form, "-o", f"{NASTY}/x", name, status=OUTPUT)
+            for goal, scenes in (("adc=30", [name]), ("adc=30", [name, name]), ("adc=0.001", [name])):
+                run("--find", f"{path}=500:5000", "--goal", goal, "-f", form, *scenes, status=DONE)
+        for plot in ("profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"):
+            run("--plot", plot, name, status=DONE)
+        for i in (1, 2):
+            run("--shard", f"{i}/2", "-o", f"{NASTY}{i}", name, status=DONE)
+        run("--merge", f"{NASTY}1", f"{NASTY}2", status=DONE)
+        expect_in("once more", run("--merge", f"{NASTY}1", f"{NASTY}1", f"{NASTY}2", status=INPUT).err)
+        expect_in("missing: 2", run("--merge", f"{NASTY}1", status=INPUT).err)
+        for words in (("--merge", f"{NASTY}0"), ("--merge", name), ("--check", f"{NASTY}0"), ("--script", f"{NASTY}0", name)):
+            run(*words, status=INPUT)
+        run("--list-profiles", status=DONE)
+        for text, status in ((f"{NASTY[:5]}\n", USAGE), (f"key {NASTY[:5]}\n", USAGE), (f"dump {NASTY[:5]}/x\n", OUTPUT),
+                             ("key s\ndump -\nkey o\ntype red\nkey Enter\ndump -\nkey Esc w\ndump -\nkey Enter\ndump -\n", DONE)):
+            f.write(NASTY, text)
+            done = run("--script", NASTY, name, status=status)
+            expect(status == DONE or len(done.err.splitlines()) == 1, ascii(done.err))
+        for option in ("format", "rows", "plot", "charset", "rocks", "tolerance", "years", "size", "find", "goal", "shard", "seed",
+                       "threads", "option", "set", NASTY, f"check={NASTY}"):
+            run("--batch", f"--{option}", f"{NASTY}?", name, status=USAGE)
+        for word in (f"-{NASTY}", f"--{NASTY}", f"--batch={NASTY}"):
+            run(word, name, status=USAGE)
 
 
 def test_name_not_utf8():
