@@ -19,6 +19,7 @@
 
 #define ROOM_FIRST ((size_t)64 * 1024)
 #define FIFO_WAIT  3000 /* ms */
+#define PART       8192 /* bytes read or written at a time: a stack may be small */
 
 /* As read(), but what writes to a FIFO may begin later: a reader that came first waits for it, though not for ever.
  * ETIME: nobody came. `first`: nothing was read yet. */
@@ -81,7 +82,7 @@ static bool read_all(int fd, struct arena *arena, size_t size, size_t most, stru
 
 static bool read_text(int fd, struct text *into, size_t most)
 {
-    char part[65536];
+    char part[PART];
     for (;;) {
         ssize_t n = read_part(fd, part, sizeof part, into->length == 0);
         if (n < 0)
@@ -437,7 +438,7 @@ struct content {
 
 static bool write_content(int fd, const struct content *content)
 {
-    char part[65536];
+    char part[PART];
     ssize_t n = 0;
     off_t at = 0;
     while (content->before >= 0 && (n = pread(content->before, part, sizeof part, at)) > 0) {

@@ -18,6 +18,7 @@ from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, 
 from play import FAST, Screen  # noqa: E402
 from test_input import FILES  # noqa: E402
 
+VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 EACH = int(os.environ.get("FAULTS_EACH") or 3)  # of so many allocations one is made to fail; 1: each
 
 
@@ -298,6 +299,37 @@ def test_read_only_folder():
         expect(done.returncode == OUTPUT and b"out.csv: Permission denied" in done.stderr, told(done, 0))
         expect_equal(sorted(p.name for p in (f.path / "theirs").iterdir()), ["scene.yaml"])
         os.chmod(f.path / "theirs", 0o755)
+
+
+# ---- a small stack ----
+
+def test_small_stack():
+    """With a stack of 64 KiB every mode does its work, and writes its file"""
+    if SANITIZED or VARIANT != "release":
+        raise Skip("a build that is not optimised needs more")
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_STACK, (65536, 65536))
+
+    few, find = ("-n", 2000, "-j", 2, "paper-site"), ("--find", "forest[0].stand.stools.per_ha=500:5000", "--goal", "adc=30")
+    with Folder() as f:
+        f.write("play.txt", "key 1 2 3 4 5 6\nkey Enter Esc ? Esc w Enter Esc\nkey S Ctrl-U\ntype new.yaml\nkey Enter\n")
+        for words in (*(("--batch", "-f", form, *few) for form in ("table", "csv", "json")),
+                      ("--batch", "-s", "simulation.law=crsp", *few), ("--batch", "-s", "simulation.contact_model=poisson", *few),
+                      *(("--plot", plot, *few) for plot in ("profile", "histogram", "rotation", "stand", "compare")),
+                      ("--years", "0:3", "-n", 200, "rotation"), (*find, "paper-site"), ("--check", "paper-site"),
+                      ("--list-parameters",), ("--list-profiles",), ("--shard", "1/2", *few), ("--shard", "2/2", *few),
+                      ("--merge", "part-1", "part-2"), ("--script", "play.txt", "paper-site")):
+            out = "part-" + words[1][0] if words[0] == "--shard" else "new.yaml" if words[0] == "--script" else "out"
+            into = () if words[0] in ("--check", "--script") else ("-o", out)
+            done = subprocess.run([CEDUO, *map(str, (*words, *into))], cwd=f.path, env=environment(), preexec_fn=limit,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, timeout=300)
+            expect(done.returncode == DONE and done.stderr == b"", words, told(done, 0))
+            kept = ["play.txt"] + [name for name in ("part-1", "part-2") if (f.path / name).exists()]
+            expect_equal(f.names(), sorted(kept if words[0] == "--check" else {*kept, out}), words)
+            expect(words[0] == "--check" or (f.path / out).stat().st_size > 0, words, "an empty file")
+            if not out.startswith("part-"):
+                (f.path / out).unlink(missing_ok=True)
 
 
 # ---- disks ----
