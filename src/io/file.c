@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "intl.h"
+#include "temporary.h"
 
 /* ---- reading ---- */
 
@@ -462,47 +463,21 @@ static bool write_straight(const char *path, const struct content *content)
     return good;
 }
 
-/* The rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on. */
-static void sync_folder(char *path)
-{
-    char *slash = strrchr(path, '/');
-    if (slash == path)
-        slash++;
-    if (slash)
-        *slash = '\0';
-    int fd = open(slash ? path : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd >= 0) {
-        fsync(fd);
-        close(fd);
-    }
-}
-
+/* It stays open, and so locked, until it is in its place. */
 static bool fill_temporary(int fd, mode_t mode, const struct content *content, bool wait)
 {
     bool good = fchmod(fd, mode) == 0 && write_content(fd, content) && (!wait || fsync(fd) == 0);
-    int why = errno;
-    if (close(fd) != 0 && good)
-        return false;
-    errno = why;
-    return good;
+    int once_more = good ? dup(fd) : -1; /* some file systems say only now that there is no room */
+    return once_more >= 0 && close(once_more) == 0;
 }
 
-static bool write_whole(char *target, mode_t mode, const struct content *content, bool wait)
+static bool write_whole(const char *target, mode_t mode, const struct content *content, bool wait)
 {
-    size_t length = strlen(target);
-    char *temporary = malloc(length + 8);
-    if (!temporary)
-        return false;
-    memcpy(temporary, target, length);
-    memcpy(temporary + length, ".XXXXXX", 8);
-    int fd = mkstemp(temporary);
-    bool good = fd >= 0 && fill_temporary(fd, mode, content, wait) && rename(temporary, target) == 0;
+    struct temporary temporary;
+    bool good = ceduo_temporary_begin(&temporary, target) && fill_temporary(temporary.fd, mode, content, wait) &&
+                ceduo_temporary_place(&temporary, wait);
     int why = errno;
-    if (!good && fd >= 0)
-        unlink(temporary);
-    if (good && wait)
-        sync_folder(temporary);
-    free(temporary);
+    ceduo_temporary_end(&temporary);
     errno = why;
     return good;
 }
@@ -572,6 +547,16 @@ bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n)
 {
     return write_file(path, &(struct content){before, bytes, n}, true);
+}
+
+void ceduo_file_tidy(const char *path)
+{
+    struct stat st;
+    bool exists = stat(path, &st) == 0;
+    char *target = !exists ? follow_links(path) : S_ISREG(st.st_mode) ? realpath(path, NULL) : NULL;
+    if (target)
+        ceduo_temporary_tidy(target);
+    free(target);
 }
 
 bool ceduo_file_same(const char *a, const char *b)

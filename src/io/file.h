@@ -62,6 +62,10 @@ bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n);
 /* The same as ceduo_file_write(), but first what the open file `before` holds (-1: nothing). */
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n);
 
+/* Takes away what a program left behind that was killed while it wrote this file; what a living one writes stays. Each
+ * write does so first. */
+void ceduo_file_tidy(const char *path);
+
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);
 

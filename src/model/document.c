@@ -132,6 +132,22 @@ static void note_disk(struct document *d)
     }
 }
 
+static void put_backup(struct text *name, const char *path)
+{
+    ceduo_text_format(name, "%s.bak", path);
+}
+
+/* A save that was killed may have left something behind. */
+static void tidy(const char *path)
+{
+    struct text backup = {0};
+    put_backup(&backup, path);
+    ceduo_file_tidy(path);
+    if (!backup.failed)
+        ceduo_file_tidy(backup.bytes);
+    ceduo_text_free(&backup);
+}
+
 bool ceduo_document_open(struct document *d, const char *path, struct problems *problems)
 {
     *d = (struct document){0};
@@ -142,6 +158,8 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : strdup(d->file.path);
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
+    if (d->path && !d->shipped)
+        tidy(d->path);
     note_disk(d);
     d->recovery = ceduo_recovery_path(d->path);
     if (!reserve_state(d)) {
@@ -596,7 +614,7 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 static bool keep_backup(const struct document *d, const char *path)
 {
     struct text backup = {0};
-    ceduo_text_format(&backup, "%s.bak", path);
+    put_backup(&backup, path);
     bool good = !backup.failed && ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length);
     ceduo_text_free(&backup);
     return good;

@@ -87,6 +87,15 @@ static char *read_copy(const char *path)
     return copy;
 }
 
+static void tidy(const char *folder, const char *name)
+{
+    struct text path = {0};
+    ceduo_text_format(&path, "%s/%s", folder, name);
+    if (!path.failed)
+        ceduo_file_tidy(path.bytes);
+    ceduo_text_free(&path);
+}
+
 char *ceduo_recovery_find(const char *path, char **file)
 {
     struct text folder = {0};
@@ -95,8 +104,14 @@ char *ceduo_recovery_find(const char *path, char **file)
     for (struct dirent *e; dir && !found && (e = readdir(dir));) {
         unsigned long long number;
         long process;
-        if (sscanf(e->d_name, "%16llx-%ld.yaml", &number, &process) != 2 || number != number_of(path))
+        int used = 0;
+        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &number, &process, &used) != 2 || used == 0 || number != number_of(path))
             continue;
+        if (e->d_name[used] != '\0') { /* its writer was killed, and it may be half of one */
+            e->d_name[used] = '\0';
+            tidy(folder.bytes, e->d_name);
+            continue;
+        }
         if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM)
             continue; /* its program still runs */
         struct text name = {0};

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Put before the C library by LD_PRELOAD: one call of a kind goes wrong. The test says which:
  *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all after it, too
- *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, renames or removes fails with EIO
+ *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, links, renames or removes fails with EIO
  *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call
+ *   FAULT=stop    FAULT_AT=n  SIGSTOP just before that call; of both only the first thread's calls count: the others'
+ *                             come in another order each time
  *   FAULT=short               every write takes one byte, or is interrupted
  *   FAULT=threads             no thread can be started
+ * FAULT_NAMED: no file can be without a name, as on some file systems.
  * FAULT_FROM=name: only what the first thread does once a file of this name was put in its place counts.
  * FAULT_MARK names a file that is made when it happens. After main all goes well again: a build with gcc's --coverage
  * writes its counts then, and fails badly where it cannot. */
@@ -27,7 +30,7 @@ void *__libc_malloc(size_t n);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t n);
 
-static enum { NOTHING, MEMORY, CALL, KILL, SHORT, THREADS } fault;
+static enum { NOTHING, MEMORY, CALL, KILL, STOP, SHORT, THREADS } fault;
 static unsigned long fault_at;
 static bool fault_on;
 static const char *fault_from; /* NULL: everything counts */
@@ -36,9 +39,9 @@ static atomic_ulong count;
 
 __attribute__((constructor)) static void set_up(void)
 {
-    static const char *const names[] = {"", "memory", "call", "kill", "short", "threads"};
+    static const char *const names[] = {"", "memory", "call", "kill", "stop", "short", "threads"};
     const char *name = getenv("FAULT"), *at = getenv("FAULT_AT");
-    for (int i = 1; name && i < 6; i++)
+    for (int i = 1; name && i < 7; i++)
         if (strcmp(name, names[i]) == 0)
             fault = i;
     fault_at = at ? strtoul(at, NULL, 10) : 0;
@@ -56,7 +59,8 @@ static void mark(void)
 
 static bool happens(void)
 {
-    if (atomic_load(&waits) || (fault_from && gettid() != getpid()))
+    bool first_only = fault_from || fault == KILL || fault == STOP;
+    if (atomic_load(&waits) || (first_only && gettid() != getpid()))
         return false;
     unsigned long n = atomic_fetch_add(&count, 1) + 1;
     if (n == fault_at)
@@ -90,10 +94,12 @@ void *realloc(void *p, size_t n)
 /* True where this call is to fail. */
 static bool fails(void)
 {
-    if ((fault != CALL && fault != KILL) || !happens())
+    if ((fault != CALL && fault != KILL && fault != STOP) || !happens())
         return false;
-    if (fault == KILL)
-        raise(SIGKILL);
+    if (fault != CALL)
+        raise(fault == KILL ? SIGKILL : SIGSTOP);
+    if (fault == STOP)
+        return false;
     errno = EIO;
     return true;
 }
@@ -106,12 +112,16 @@ int open(const char *path, int flags, ...)
     va_start(args, flags);
     int mode = va_arg(args, int);
     va_end(args);
+    if (getenv("FAULT_NAMED") && (flags & O_TMPFILE) == O_TMPFILE) {
+        errno = EOPNOTSUPP;
+        return -1;
+    }
     return fails() ? -1 : (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
 }
 
-int mkstemp(char *path)
+int linkat(int from_folder, const char *from, int to_folder, const char *to, int flags)
 {
-    return fails() ? -1 : NEXT(mkstemp)(path);
+    return fails() ? -1 : (int)syscall(SYS_linkat, from_folder, from, to_folder, to, flags);
 }
 
 int fchmod(int fd, mode_t mode)

@@ -14,6 +14,7 @@
 
 #include "io/file.h"
 #include "model/document.h"
+#include "model/recovery.h"
 
 static const char scene[] = "# my comment\n"
                             "ceduo: scene/1\n"
@@ -287,6 +288,43 @@ static void unsaved_work_is_found_again(void **state)
     ceduo_problems_free(&problems);
 }
 
+/* What is left of a copy whose writer was killed is not offered as work: it may be half of it. */
+static void half_a_copy_is_taken_away(void **state)
+{
+    (void)state;
+    char *own = ceduo_recovery_path(path), *file = NULL, names[2][400];
+    assert_non_null(own);
+    int n = (int)(strrchr(own, '-') - own); /* what stands before the process */
+    snprintf(names[0], sizeof names[0], "%.*s-999999999.yaml.ceduo-tmp-999999999-0", n, own);
+    snprintf(names[1], sizeof names[1], "%.*s-999999999.yam", n, own);
+    for (int i = 0; i < 2; i++) {
+        FILE *f = fopen(names[i], "w");
+        assert_non_null(f);
+        fputs("rock: {", f);
+        fclose(f);
+    }
+    assert_null(ceduo_document_left_behind(path, &file));
+    assert_int_equal(access(names[0], F_OK), -1);
+    assert_int_equal(access(names[1], F_OK), 0); /* somebody else's */
+    free(own);
+}
+
+static void what_a_killed_save_left_is_taken_away(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"scene.yaml.ceduo-tmp-1-0", "scene.yaml.bak.ceduo-tmp-1-0", "stand.yaml.ceduo-tmp-1-0"};
+    struct document d;
+    for (int i = 0; i < 3; i++)
+        write_file(names[i], "rock: {");
+    open_scene(&d);
+    for (int i = 0; i < 3; i++) {
+        char left[256];
+        snprintf(left, sizeof left, "%s/%s", folder, names[i]);
+        assert_int_equal(access(left, F_OK) == 0, i == 2); /* the program saves no stand */
+    }
+    ceduo_document_close(&d);
+}
+
 static void unsaved_work_belongs_to_the_name_saved_under(void **state)
 {
     (void)state;
@@ -337,6 +375,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_a_killed_save_left_is_taken_away, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, tear_down),
     };

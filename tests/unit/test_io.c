@@ -7,11 +7,13 @@
 /* cmocka wants the four above first */
 #include <cmocka.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -613,6 +615,81 @@ static void folders_are_listed(void **state)
     ceduo_arena_free(&arena);
 }
 
+/* Names as long as a file system takes them, of characters of two bytes: its temporary's name is cut between two. */
+static void long_names_are_written(void **state)
+{
+    (void)state;
+    char name[256] = "", path[512];
+    for (int i = 0; i < 127; i++)
+        strcat(name, "\xc3\xa4");
+    for (int longer = 0; longer < 2; longer++) {
+        snprintf(path, sizeof path, "%s/%s%s", folder, longer ? "x" : "", name);
+        for (int twice = 0; twice < 2; twice++)
+            assert_true(ceduo_file_write(path, "some", 4));
+        assert_int_equal(access(path, F_OK), 0);
+        char dead[512];
+        snprintf(dead, sizeof dead, "%s/%s%.218s.ceduo-tmp-4194304-12", folder, longer ? "x" : "", name);
+        int fd = open(dead, O_CREAT | O_WRONLY, 0600);
+        assert_true(fd >= 0 && close(fd) == 0);
+        ceduo_file_tidy(path);
+        assert_int_equal(access(dead, F_OK), -1);
+    }
+}
+
+/* Of what lies beside a file only that goes which bears the name of a temporary of this file and has no living writer. */
+static void only_dead_temporaries_are_removed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        bool goes;
+    } rows[] = {{"out.ceduo-tmp-17-0", true},    {"out.ceduo-tmp-4194304-99", true}, {"out.ceduo-tmp-17-1", false},
+                {"out.ceduo-tmp-17", false},     {"out.ceduo-tmp-17-", false},       {"out.ceduo-tmp--1", false},
+                {"out.ceduo-tmp-17-0x", false},  {"out.ceduo-tmp-x-0", false},       {"out.ceduo-tmp-17-0.yaml", false},
+                {"other.ceduo-tmp-17-0", false}, {"out.bak.ceduo-tmp-17-0", false},  {"out.AbCdEf", false},
+                {"out.ceduo-tmp-12345678901234567890-12345678", false}};
+    char path[256], link[256];
+    int held = -1;
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        in_folder(path, rows[i].name);
+        int fd = open(path, O_CREAT | O_WRONLY, 0600);
+        assert_true(fd >= 0);
+        if (i == 2) {
+            assert_int_equal(flock(fd, LOCK_EX), 0); /* that of a living writer */
+            held = fd;
+        } else {
+            close(fd);
+        }
+    }
+    in_folder(path, "victim");
+    in_folder(link, "out.ceduo-tmp-18-0");
+    put("victim", "x");
+    assert_int_equal(symlink(path, link), 0);
+    in_folder(link, "out.ceduo-tmp-19-0");
+    assert_int_equal(mkfifo(link, 0600), 0);
+    in_folder(path, "out");
+    ceduo_file_tidy(path); /* whether the file itself is there or not */
+    for (int again = 0; again < 2; again++) {
+        for (size_t i = 0; i < LENGTH(rows); i++) {
+            char there[256];
+            in_folder(there, rows[i].name);
+            assert_int_equal(access(there, F_OK) == 0, !rows[i].goes);
+        }
+        for (int i = 0; i < 2; i++) {
+            struct stat st;
+            in_folder(link, i == 0 ? "out.ceduo-tmp-18-0" : "out.ceduo-tmp-19-0");
+            assert_int_equal(lstat(link, &st), 0);
+        }
+        put("out", "x");
+    }
+    close(held);
+    in_folder(link, "link");
+    assert_int_equal(symlink("out", link), 0);
+    ceduo_file_tidy(link); /* those of what a link leads to */
+    in_folder(path, "out.ceduo-tmp-17-1");
+    assert_int_equal(access(path, F_OK), -1);
+}
+
 static void files_are_taken(void **state)
 {
     (void)state;
@@ -1023,6 +1100,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(files_are_found, set_up, tear_down),
         cmocka_unit_test_setup_teardown(folders_of_the_environment, set_up, tear_down),
         cmocka_unit_test_setup_teardown(folders_are_listed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(long_names_are_written, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(only_dead_temporaries_are_removed, set_up, tear_down),
         cmocka_unit_test_setup_teardown(files_are_taken, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, set_up, tear_down),
         cmocka_unit_test(wrong_scenes_are_told),
