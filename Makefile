@@ -8,6 +8,7 @@
 #   make dist       the sources, in one archive   VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make lint       cppcheck and clang-tidy
 #   make fuzz       libFuzzer, FUZZ_SECONDS=600 for each reader
+#   make net        what the program prints, against that of a commit before: BEFORE=v0.2 ONLY=plot
 #   make coverage   branches of src/core and src/io that no test takes, each with its reason: slow
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
@@ -74,7 +75,8 @@ $(BUILD)/%.o: %.c Makefile
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
--include $(shell find build -name '*.d' 2>/dev/null)
+# Not those of another commit's build: its headers may be gone.
+-include $(shell find build -path build/before -prune -o -name '*.d' -print 2>/dev/null)
 
 # ---- a fresh machine ----
 
@@ -91,7 +93,7 @@ deps:
 
 # With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
 # asked for, and do their work in a make of their own.
-GOALS := run check check-all bench stress fuzz lint coverage
+GOALS := run check check-all bench stress fuzz lint coverage net
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -204,6 +206,10 @@ do-coverage:
 	@+TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(TAPS:$(T)/%=build/cov/tests/%) do-replay
 	@-tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
 	@tests/coverage.py build/cov
+
+# For a change after which everything should be as it was.
+do-net: all $(T)/tables $(BUILD)/man/completion
+	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(ONLY)')
 
 DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
 DEBIAN_BENCH := python3-numpy gnuplot-nox
