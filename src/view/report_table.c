@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <wchar.h>
@@ -69,7 +70,20 @@ static void put_padded(struct page *p, const char *string, int width)
     ceduo_text_free(&safe);
 }
 
-/* A number in a column, a blank before it; in thousands or millions (134e3) where it has no room. */
+/* As short as can be: 3e26, 7e-3; where that has no more room either, what is small as 0.00. */
+static void put_shortest(struct text *cell, double value, size_t room)
+{
+    char power[16];
+    snprintf(power, sizeof power, "%.0e", value);
+    ceduo_text_free(cell);
+    ceduo_text_format(cell, "%.*se%ld", (int)strcspn(power, "e"), power, strtol(strchr(power, 'e') + 1, NULL, 10));
+    if (fabs(value) < 1 && columns_of(cell->bytes ? cell->bytes : "") > room) {
+        ceduo_text_free(cell);
+        ceduo_text_format(cell, "%.*f", (int)room - (value < 0 ? 3 : 2), value);
+    }
+}
+
+/* A number in a column, a blank before it; in thousands or millions (134e3) where it has no room, or with fewer digits. */
 static void put_cell(struct page *p, double value, int digits, int width)
 {
     struct text cell = {0};
@@ -82,6 +96,8 @@ static void put_cell(struct page *p, double value, int digits, int width)
         ceduo_text_free(&cell);
         ceduo_words_number(&cell, value, --digits);
     }
+    if (isfinite(value) && columns_of(cell.bytes ? cell.bytes : "") >= (size_t)width)
+        put_shortest(&cell, value, (size_t)width - 1);
     put_padded(p, cell.bytes ? cell.bytes : "", -width);
     ceduo_text_free(&cell);
 }

@@ -773,6 +773,31 @@ def test_table_widest():
     expect_in("> 123 MJ", head, "limit")
 
 
+def cells_of_rows(text):
+    """What stands in the rows of arrivals behind the shares: mean, 95 %, m/s, m up."""
+    rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
+    expect(rows, "no rows", text)
+    return [row[52:].strip().rsplit(None, 3) for row in rows]
+
+
+def test_table_small():
+    """Table: small figures have a blank before them and are not cut"""
+    slope = {"vertices_m": [[0, 0], [100, -60]], "segments": [{"rn": 0.05, "rt": 0.95, "roughness_rad": 0.1, "friction": 0.1}]}
+    with Folder() as f:
+        path = f.write("s.yaml", scene(slope=slope, release={"vx_m_s": 2}, controls=[{"x_m": x} for x in (2, 20, 90)]))
+        for diameter in (1, 0.1, 0.03, 0.01, 0.003, 0.001, 1e-4):
+            orders = ["-n", 60, "-s", f"rock.diameter_m={diameter}", path]
+            controls = [a for c in result(*orders)["options"][0]["controls"] for a in (c["wooded"], c["bare"])]
+            found = cells_of_rows(good("--batch", *orders).out)
+            expect_equal(len(found), len(controls), "rows")
+            for cells, a in zip(found, controls):
+                expect(len(cells) == 4 and "…" not in "".join(cells), f"diameter {diameter}: {cells}")
+                for cell, value in zip(cells[1:], (a["energy_kJ"]["p95"], a["speed_m_s"]["mean"], a["height_m"]["p95"])):
+                    shown, _, power = cell.partition("e")
+                    place = 10.0 ** (int(power or 0) - len(shown.partition(".")[2]))
+                    expect_near(float(cell), value, 0.51 * place, f"diameter {diameter}: {cells}")
+
+
 def test_table_warnings_once():
     """Table: what belts of one stand have in common is warned of once an option"""
     text = good("--batch", "-n", 10, "staggered").out
