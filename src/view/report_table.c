@@ -250,8 +250,11 @@ static void put_mean(const struct page *p, struct text *text, const struct ceduo
     for (int places = 1; places >= 0 && a->reached > 0; places--) {
         double unit = pow(10, e - places);
         ceduo_text_free(text);
-        ceduo_text_format(text, "(%.*f%s%.*f)e%d", places, mean / pow(10, e), plus_minus(p), places,
-                          ceil(half / unit) * pow(10, -places), e);
+        if (isnan(half)) /* of one rock */
+            ceduo_text_format(text, "%.*fe%d %s-", places, mean / pow(10, e), e, plus_minus(p));
+        else
+            ceduo_text_format(text, "(%.*f%s%.*f)e%d", places, mean / pow(10, e), plus_minus(p), places,
+                              ceil(half / unit) * pow(10, -places), e);
         if (columns_of(text->bytes ? text->bytes : "") < MEAN_WIDTH)
             return;
     }
@@ -733,6 +736,8 @@ static void put_per_1000(struct page *p, double mean, double half, bool sign, in
     struct text cell = {0};
     if (isnan(mean))
         ceduo_text_put(&cell, "-");
+    else if (isnan(half)) /* of one rock */
+        ceduo_text_format(&cell, sign ? "%+.0f %s-" : "%.0f %s-", mean * 1000, plus_minus(p));
     else
         ceduo_text_format(&cell, sign ? "%+.0f %s%.0f" : "%.0f %s%.0f", mean * 1000, plus_minus(p), ceil(half * 1000));
     put_padded(p, cell.bytes ? cell.bytes : "", -width);

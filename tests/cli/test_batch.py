@@ -798,6 +798,14 @@ def test_table_small():
                     expect_near(float(cell), value, 0.51 * place, f"diameter {diameter}: {cells}")
 
 
+def test_table_one_rock():
+    """Table: of one rock no error is known, whatever it weighs and however it is compared: a dash"""
+    for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 500}", "{diameter_m: 0.001}"):
+        text = good("--batch", "-n", 1, "-s", f"rock={rock}", FOUR).out
+        expect(not re.search(r"\bnan\b", text), re.findall(".*nan.*", text))
+        expect(all("±-" in cells[0] for cells in cells_of_rows(text) if cells[0] != "-"), cells_of_rows(text))
+
+
 def test_table_warnings_once():
     """Table: what belts of one stand have in common is warned of once an option"""
     text = good("--batch", "-n", 10, "staggered").out
