@@ -184,13 +184,15 @@ static void put_slope(struct page *p)
         low = fmin(low, slope->z[i]);
         high = fmax(high, slope->z[i]);
     }
-    ceduo_text_put(p->text, _("Slope    "));
-    put_number(p, slope->x[slope->vertices - 1], 4);
-    ceduo_text_put(p->text, _(" m long, "));
-    put_number(p, high - low, 4);
-    ceduo_text_format(p->text, ngettext(" m high, %zu segment; law %s, facets %s%s\n", " m high, %zu segments; law %s, facets %s%s\n",
-                                         slope->vertices - 1),
+    struct text line = {0};
+    ceduo_words_number(&line, slope->x[slope->vertices - 1], 4);
+    ceduo_text_put(&line, _(" m long, "));
+    ceduo_words_number(&line, high - low, 4);
+    ceduo_text_format(&line, ngettext(" m high, %zu segment; law %s, facets %s%s", " m high, %zu segments; law %s, facets %s%s",
+                                      slope->vertices - 1),
                       slope->vertices - 1, ceduo_words_law(s->simulation.law), ceduo_facets_names[slope->facets], assumed_mark(p, "slope"));
+    put_wrapped(p, _("Slope    "), 9, line.bytes ? line.bytes : "");
+    ceduo_text_free(&line);
 }
 
 static void put_head(struct page *p)

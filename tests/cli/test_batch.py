@@ -806,6 +806,14 @@ def test_table_one_rock():
         expect(all("±-" in cells[0] for cells in cells_of_rows(text) if cells[0] != "-"), cells_of_rows(text))
 
 
+def test_table_width_short():
+    """Table of a slope of a millimetre stays within 80 columns"""
+    with Folder() as f:
+        path = f.write("short.yaml", scene(slope={"vertices_m": [[0, 0], [0.007693, -0.005387]],
+                                                  "segments": [{"rn": 0.3, "rt": 0.8}]}, controls=[{"x_m": 0.001}]))
+        expect_width(good("--batch", "-n", 5, path).out)
+
+
 def test_table_warnings_once():
     """Table: what belts of one stand have in common is warned of once an option"""
     text = good("--batch", "-n", 10, "staggered").out
