@@ -308,21 +308,22 @@ static struct ceduo_years **fly_years(const struct arguments *a, const struct ce
 
 #define BLOCK_ROCKS 2000 /* of each size at the most: a page shows no more digits */
 
-/* Blocks of other sizes through the forest of each option, for the page. NULL without memory, or where it was
- * interrupted. */
-static struct ceduo_block *fly_blocks(const struct arguments *a, const struct ceduo_scene *scene, uint64_t rocks)
+/* Blocks of other sizes through the forest of each option, for the page; NULL unless CEDUO_OK. */
+static enum ceduo_status fly_blocks(const struct arguments *a, const struct ceduo_scene *scene, uint64_t rocks,
+                                    struct ceduo_block **blocks)
 {
     size_t n = scene->options_count;
-    struct ceduo_block *blocks = calloc(n * CEDUO_BLOCKS + 1, sizeof *blocks);
-    enum ceduo_status status = blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
+    *blocks = calloc(n * CEDUO_BLOCKS + 1, sizeof **blocks);
+    enum ceduo_status status = *blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++)
         status = ceduo_blocks(scene, &scene->options[i], ceduo_plot_last_control(scene),
                               rocks < BLOCK_ROCKS ? rocks : BLOCK_ROCKS, a->threads, ceduo_interrupt_flag(),
-                              &blocks[i * CEDUO_BLOCKS]);
+                              &(*blocks)[i * CEDUO_BLOCKS]);
     if (status == CEDUO_OK)
-        return blocks;
-    free(blocks);
-    return NULL;
+        return status;
+    free(*blocks);
+    *blocks = NULL;
+    return status;
 }
 
 /* Why something came to nothing: an interruption says nothing. */
@@ -353,11 +354,12 @@ enum exit_status ceduo_batch_report(const struct arguments *a, const struct scen
     if (start > 0)
         report->seconds = ceduo_batch_now() - start;
     struct ceduo_block *blocks = NULL;
-    bool with_blocks = a->format == CEDUO_TABLE && !a->years && file->scene.controls_count > 0;
-    if (with_blocks)
-        blocks = fly_blocks(a, &file->scene, ceduo_result_rocks(result));
+    enum ceduo_status sizes = CEDUO_OK; /* CEDUO_BAD_ROCK: so thin a splinter has no other sizes; the page does without */
+    if (a->format == CEDUO_TABLE && !a->years && file->scene.controls_count > 0)
+        sizes = fly_blocks(a, &file->scene, ceduo_result_rocks(result), &blocks);
     report->blocks = blocks;
-    enum exit_status status = with_blocks && !blocks ? fell_short(file) : write_report(a, report, out);
+    bool short_of = sizes == CEDUO_NO_MEMORY || sizes == CEDUO_CANCELLED;
+    enum exit_status status = short_of ? fell_short(file) : write_report(a, report, out);
     free(blocks);
     free_years(years);
     if (ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result))

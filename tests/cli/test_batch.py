@@ -814,6 +814,15 @@ def test_table_width_short():
         expect_width(good("--batch", "-n", 5, path).out)
 
 
+def test_table_splinter():
+    """Table: a rock so thin that its volume is next to 0 has no other sizes, and all else of its page"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": [1e-320, 1, 1], "mass_kg": 50}))
+        text = good("--batch", "-n", 5, path).out
+        expect_in("through the wood", text)
+        expect("Blocks of other sizes" not in text, text)
+
+
 def test_table_warnings_once():
     """Table: what belts of one stand have in common is warned of once an option"""
     text = good("--batch", "-n", 10, "staggered").out
