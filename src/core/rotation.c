@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #define SHOOTS_FALL 5.0  /* years in which the surplus of shoots falls to 1/e; assumed */
+#define GROWS_MOST  1e9 /* times as wide or as high: beyond that an age is as good as 0 */
 #define AGE_GRAIN   1e-6 /* years: an age that comes from a curve is no better known */
 
 static const double PI = 3.14159265358979323846;
@@ -209,12 +210,25 @@ void ceduo_grown_stand_release(struct ceduo_grown_stand *grown)
     *grown = (struct ceduo_grown_stand){.stems = NULL};
 }
 
+static struct ceduo_stems stems_of_age(const struct ceduo_curve *curve, double per_ha, double age)
+{
+    return (struct ceduo_stems){.per_ha = per_ha,
+                                .dbh = curve->dbh_most * reached(curve->dbh_rate, age),
+                                .height = curve->height_most * reached(curve->height_rate, age),
+                                .volume = NAN,
+                                .age = age};
+}
+
 static void grow_stems(struct ceduo_stems *stems, const struct ceduo_curve *curve, double age, double years)
 {
     if (isinf(age))
         return;
     double wider = reached(curve->dbh_rate, age + years) / reached(curve->dbh_rate, age);
     double taller = reached(curve->height_rate, age + years) / reached(curve->height_rate, age);
+    if (!(fmax(wider, taller) <= GROWS_MOST)) { /* so young that its sizes tell nothing: as a new one */
+        *stems = stems_of_age(curve, stems->per_ha, age + years);
+        return;
+    }
     stems->dbh *= wider;
     stems->dbh_sd *= wider;
     stems->height *= taller;
@@ -252,15 +266,6 @@ static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned ye
     if (known(&g->shoots)) /* after the trees: the shoots make room for them */
         grow_shoots(&out->stand, g, year);
     return CEDUO_OK;
-}
-
-static struct ceduo_stems stems_of_age(const struct ceduo_curve *curve, double per_ha, double age)
-{
-    return (struct ceduo_stems){.per_ha = per_ha,
-                                .dbh = curve->dbh_most * reached(curve->dbh_rate, age),
-                                .height = curve->height_most * reached(curve->height_rate, age),
-                                .volume = NAN,
-                                .age = age};
 }
 
 static size_t classes_to_stay(const struct ceduo_cutting *cutting)

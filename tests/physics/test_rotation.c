@@ -157,6 +157,30 @@ static void a_given_age_stands_over_that_of_the_curve(void **state)
     ceduo_grown_stand_release(&grown);
 }
 
+/* By its curve a stem of 1e-320 m is some 1e-318 years old; what it is wide later was beyond all numbers. */
+static void next_to_nothing_grows_as_a_new_stem(void **state)
+{
+    (void)state;
+    static const double given[][2] = {{1e-320, NAN}, {5e-324, NAN}, {.05, 5e-324}, {.05, 1e-300}};
+    for (size_t i = 0; i < LENGTH(given); i++) {
+        struct sample s;
+        init(&s);
+        s.shoots[0].dbh = s.trees[0].dbh = given[i][0];
+        s.shoots[0].age = s.trees[0].age = given[i][1];
+        s.shoots[0].volume = s.trees[0].volume = 1;
+        s.stand.growth.sdi_most = 0;
+        struct ceduo_grown_stand grown = at(&s, INFINITY, 10);
+        const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
+        expect_near(shoot->dbh, .16 * (1 - exp(-.22)), 1e-13);
+        expect_near(shoot->height, 14 * (1 - exp(-.35)), 1e-13);
+        expect_near(tree->dbh, .45 * (1 - exp(-.14)), 1e-13);
+        expect_near(tree->height, 20 * (1 - exp(-.3)), 1e-13);
+        assert_true(isnan(shoot->volume) && isnan(tree->volume) && shoot->age == 10 && tree->age == 10);
+        assert_true(tree->per_ha == 60 && shoot->per_ha < 7500);
+        ceduo_grown_stand_release(&grown);
+    }
+}
+
 static void thicker_than_its_curve_it_grows_no_more(void **state)
 {
     (void)state;
@@ -567,6 +591,7 @@ int main(void)
         cmocka_unit_test(year_0_is_the_stand_as_filed),
         cmocka_unit_test(an_inventory_grows_along_its_curves),
         cmocka_unit_test(a_given_age_stands_over_that_of_the_curve),
+        cmocka_unit_test(next_to_nothing_grows_as_a_new_stem),
         cmocka_unit_test(thicker_than_its_curve_it_grows_no_more),
         cmocka_unit_test(a_stratum_without_a_curve_stays),
         cmocka_unit_test(never_less_than_one_shoot_a_stool),
