@@ -14,7 +14,17 @@ enum ceduo_system {
     CEDUO_BARE
 };
 
-enum ceduo_energy_model { CEDUO_BRAUNER, CEDUO_DORREN };
+/* The laws of what a contact with a stem takes from a rock. A new law is a file like src/core/energy_dorren.h and a line
+ * here. */
+#define CEDUO_ENERGY_MODELS(X) \
+    X(BRAUNER, brauner)        \
+    X(DORREN, dorren)
+
+enum ceduo_energy_model {
+#define X(NAME, name) CEDUO_##NAME,
+    CEDUO_ENERGY_MODELS(X)
+#undef X
+};
 
 /* Stems of one kind: shoots of one age on the stools, or trees of one class. Densities are per horizontal hectare. */
 struct ceduo_stems {

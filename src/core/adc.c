@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "energy.h"
 #include "strata.h"
 
 static const double PI = 3.14159265358979323846;
@@ -147,14 +148,8 @@ double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ce
 static unsigned stems_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems, size_t n)
 {
     unsigned warnings = 0;
-    for (size_t i = 0; i < n; i++) {
-        enum ceduo_volume_from from;
-        ceduo_stem_volume(stand, &stems[i], &from);
-        if (stand->energy == CEDUO_DORREN && stems[i].dbh < 0.1)
-            warnings |= CEDUO_WARN_DORREN_THIN;
-        if (stand->energy == CEDUO_BRAUNER && from == CEDUO_VOLUME_FORM_FACTOR)
-            warnings |= CEDUO_WARN_FORM_FACTOR;
-    }
+    for (size_t i = 0; i < n; i++)
+        warnings |= stem_energy_warnings(stand, &stems[i]);
     return warnings;
 }
 
@@ -164,10 +159,6 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         return 0;
     unsigned warnings = stems_warnings(stand, stand->shoots, stand->shoots_count) |
                         stems_warnings(stand, stand->trees, stand->trees_count);
-    size_t count;
-    bool known = stand->species >= 0 && ceduo_species_list(&count)[stand->species].u_literature;
-    if (stand->energy == CEDUO_BRAUNER && isnan(stand->u) && !known)
-        warnings |= CEDUO_WARN_U_ASSUMED;
     if (stand->shoots_count == 0)
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);

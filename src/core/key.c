@@ -70,14 +70,14 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *scene)
 
 /* ---- forests ---- */
 
-/* What a hit takes goes in by what decides it: for brauner the volume and the work of breaking. */
+/* What a hit takes goes in by what a hit of the mean stem takes. */
 static void mix_stems(uint64_t *key, const struct ceduo_stand *stand, const struct ceduo_stems *s)
 {
     mix_double(key, s->per_ha);
     mix_double(key, s->dbh);
     mix_double(key, s->dbh_sd);
     mix_double(key, s->height);
-    mix_double(key, stand->energy == CEDUO_BRAUNER ? ceduo_contact_energy(stand, s) : stand->fracture_ratio);
+    mix_double(key, ceduo_contact_energy(stand, s));
     mix(key, s->dbh_sd > 0 ? (uint64_t)(int64_t)stand->species : 0);
     mix(key, s->dbh_sd > 0 && !isnan(s->volume));
 }

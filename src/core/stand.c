@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "energy.h"
+
 static const double PI = 3.14159265358979323846;
 
 static double sum_per_ha(const struct ceduo_stems *stems, size_t n)
@@ -41,30 +43,10 @@ bool ceduo_stand_is_bare(const struct ceduo_stand *stand)
     return stand->shoots_count == 0 && stand->trees_count == 0;
 }
 
-static double volume_by_equation(const struct ceduo_species *s, double d_cm, double h)
-{
-    return (s->b0 + s->b1 * d_cm * d_cm * h + s->b2 * d_cm) / 1000;
-}
-
 double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from)
 {
-    enum ceduo_volume_from unused;
-    from = from ? from : &unused;
-    if (!isnan(stems->volume)) {
-        *from = CEDUO_VOLUME_GIVEN;
-        return stems->volume;
-    }
-    size_t count;
-    const struct ceduo_species *s = stand->species >= 0 ? &ceduo_species_list(&count)[stand->species] : NULL;
-    double d_cm = stems->dbh * 100, h = stems->height;
-    bool inside = s && s->has_volume && h >= s->h_lo && h <= s->h_hi && d_cm >= s->d_lo && d_cm <= s->d_hi;
-    double v = inside ? volume_by_equation(s, d_cm, h) : 0;
-    if (v > 0) {
-        *from = CEDUO_VOLUME_EQUATION;
-        return v;
-    }
-    *from = CEDUO_VOLUME_FORM_FACTOR;
-    return CEDUO_FORM_FACTOR * PI / 4 * stems->dbh * stems->dbh * h;
+    const struct stem_volume volume = stem_volume_of(stand, stems);
+    return stem_volume_mean(&volume, from);
 }
 
 double ceduo_dorren_energy(double dbh, double fracture_ratio)
@@ -91,7 +73,6 @@ double ceduo_dorren_mean_share(void)
 
 double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    if (stand->energy == CEDUO_DORREN)
-        return ceduo_dorren_mean_share() * ceduo_dorren_energy(stems->dbh, stand->fracture_ratio);
-    return ceduo_stem_volume(stand, stems, NULL) * ceduo_stand_u(stand);
+    const struct stem_energy energy = stem_energy_of(stand, stems);
+    return stem_energy_mean(&energy);
 }

@@ -338,19 +338,6 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
         behind->waiting[i].met |= behind->waiting[i].stool == stool;
 }
 
-double ceduo_stem_energy_of(const struct stem *stem, double b)
-{
-    const struct wood_kind *k = stem->kind;
-    if (k->stand->energy == CEDUO_DORREN)
-        return ceduo_dorren_share(2 * fabs(stem->y) / (b + stem->dbh)) *
-               ceduo_dorren_energy(stem->dbh, k->stand->fracture_ratio);
-    struct ceduo_stems one = *k->stems;
-    one.dbh = stem->dbh;
-    if (!isnan(one.volume)) /* the mean of all, which goes with the square of the diameter */
-        one.volume *= stem->dbh * stem->dbh / (k->dbh * k->dbh + k->stems->dbh_sd * k->stems->dbh_sd);
-    return ceduo_contact_energy(k->stand, &one);
-}
-
 /* ---- making and freeing ---- */
 
 bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson)

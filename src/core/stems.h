@@ -2,6 +2,7 @@
 #ifndef CEDUO_STEMS_H
 #define CEDUO_STEMS_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -92,13 +93,11 @@ static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem
     return first;
 }
 
-/* Energy (J) that a hit of this stem takes from a rock of diameter b: brauner's V·U (Eq. 3 of Ciabocco et al. 2009), the
- * volume of a stem of its own diameter; or dorren's with the eccentricity of this hit (Dorren et al. 2006). */
-double ceduo_stem_energy_of(const struct stem *stem, double b);
-
+/* Energy (J) that a hit of this stem takes from a rock of diameter b. */
 static inline double ceduo_stem_energy(const struct stem *stem, double b)
 {
-    return stem->kind->energy >= 0 ? stem->kind->energy : ceduo_stem_energy_of(stem, b);
+    const struct wood_kind *k = stem->kind;
+    return k->energy >= 0 ? k->energy : stem_energy_hit(&k->by_hit, stem->dbh, 2 * fabs(stem->y) / (b + stem->dbh));
 }
 
 #endif

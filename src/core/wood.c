@@ -30,15 +30,18 @@ static double thickest(double shape, double scale)
 
 static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    struct wood_kind k = {
-        .stand = stand, .stems = stems, .dbh = stems->dbh, .most = stems->dbh, .height = stems->height, .energy = NAN};
+    struct wood_kind k = {.dbh = stems->dbh,
+                          .most = stems->dbh,
+                          .height = stems->height,
+                          .energy = NAN,
+                          .by_hit = stem_energy_of(stand, stems)};
     if (stems->dbh_sd > 0) {
         double ratio = stems->dbh / stems->dbh_sd;
         k.shape = ratio * ratio;
         k.scale = stems->dbh_sd / ratio;
         k.most = thickest(k.shape, k.scale);
-    } else if (stand->energy == CEDUO_BRAUNER) {
-        k.energy = ceduo_contact_energy(stand, stems);
+    } else if (stem_energy_alike(stand->energy)) {
+        k.energy = stem_energy_mean(&k.by_hit);
     }
     return k;
 }

@@ -3,18 +3,18 @@
 #define CEDUO_WOOD_H
 
 #include "ceduo/scene.h"
+#include "energy.h"
 
 /* An option's forest made ready for many rocks: what the drawing of stems needs, belt by belt. */
 
 /* Stems of one kind as rocks meet them: a cohort of shoots, a class of trees, or all that one stratum of a form of the
  * ADC stands for. */
 struct wood_kind {
-    const struct ceduo_stand *stand; /* NULL: a contact of a Poisson process, always with the same energy */
-    const struct ceduo_stems *stems;
-    double dbh;     /* m, mean */
+    double dbh;     /* m, mean; NaN: a contact of a Poisson process */
     double most;    /* m: no stem is thicker */
     double height;  /* m; infinite where height does not matter */
-    double energy;  /* J that every hit takes; NaN: it depends on diameter or eccentricity */
+    double energy;  /* J that every hit takes; NaN: it depends on diameter or eccentricity, */
+    struct stem_energy by_hit; /* in this way */
     double shape, scale; /* of the gamma law of diameters; shape 0: all alike */
     double share_to;     /* of shoots: the share of all that this cohort and those before it make up */
 };

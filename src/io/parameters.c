@@ -15,7 +15,11 @@ const char *const ceduo_shape_names[] = {"sphere", "cylinder", "ellipsoid", "blo
 const char *const ceduo_facets_names[] = {"against", "both"};
 const char *const ceduo_system_names[] = {"simple-coppice", "coppice-with-standards", "selection-coppice",
                                           "large-reserves", "high-forest", "bare"};
-const char *const ceduo_energy_names[] = {"brauner", "dorren"};
+const char *const ceduo_energy_names[] = {
+#define X(NAME, name) #name,
+    CEDUO_ENERGY_MODELS(X)
+#undef X
+};
 const char *const ceduo_law_names[] = {
 #define X(NAME, name) #name,
     CEDUO_LAWS(X)
@@ -25,7 +29,7 @@ const char *const ceduo_rule_names[] = {"auto", "gsteiger-stools", "gsteiger-ste
 const char *const ceduo_contact_model_names[] = {"index", "poisson", "stems"};
 
 static const struct choices shapes = {ceduo_shape_names, 4}, facets = {ceduo_facets_names, 2},
-                            systems = {ceduo_system_names, 6}, energies = {ceduo_energy_names, 2},
+                            systems = {ceduo_system_names, 6}, energies = {ceduo_energy_names, sizeof ceduo_energy_names / sizeof ceduo_energy_names[0]},
                             laws = {ceduo_law_names, CEDUO_LAW_COUNT}, rules = {ceduo_rule_names, 5},
                             contact_models = {ceduo_contact_model_names, 3};
 

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ENERGY_H
+#define CEDUO_ENERGY_H
+
+#include "energy_brauner.h"
+#include "energy_dorren.h"
+
+/* What a hit takes from a rock, by one of CEDUO_ENERGY_MODELS, made ready for many hits of stems of one kind. A law is a
+ * header energy_NAME.h with
+ *     struct energy_NAME                            what it keeps of stand and stems
+ *     energy_NAME(stand, stems)                     makes that
+ *     NAME_mean(energy)                             J: the mean stem, over all places where it can be hit
+ *     NAME_hit(energy, dbh, eccentricity)           J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle
+ *     NAME_ALIKE                                    whether hits of stems of one diameter all take the same
+ *     NAME_warnings(stand, stems)                   bits of enum ceduo_warning */
+struct stem_energy {
+    enum ceduo_energy_model model;
+    union {
+#define X(NAME, name) struct energy_##name name;
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    } by;
+};
+
+static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    struct stem_energy e = {.model = stand->energy};
+    switch (stand->energy) {
+#define X(NAME, name)                                 \
+    case CEDUO_##NAME:                                \
+        e.by.name = energy_##name(stand, stems);      \
+        break;
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return e;
+}
+
+static inline double stem_energy_mean(const struct stem_energy *e)
+{
+    switch (e->model) {
+#define X(NAME, name)  \
+    case CEDUO_##NAME: \
+        return name##_mean(&e->by.name);
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return 0;
+}
+
+static inline double stem_energy_hit(const struct stem_energy *e, double dbh, double eccentricity)
+{
+    switch (e->model) {
+#define X(NAME, name)  \
+    case CEDUO_##NAME: \
+        return name##_hit(&e->by.name, dbh, eccentricity);
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return 0;
+}
+
+static inline bool stem_energy_alike(enum ceduo_energy_model model)
+{
+    switch (model) {
+#define X(NAME, name)  \
+    case CEDUO_##NAME: \
+        return NAME##_ALIKE;
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return false;
+}
+
+static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    switch (stand->energy) {
+#define X(NAME, name)  \
+    case CEDUO_##NAME: \
+        return name##_warnings(stand, stems);
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return 0;
+}
+
+#endif

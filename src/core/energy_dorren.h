@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_ENERGY_DORREN_H
+#define CEDUO_ENERGY_DORREN_H
+
+#include "ceduo/adc.h"
+
+/* Dorren et al. 2006: FE·38.7·dbh_cm^2.31 J for a hit in the middle of the stem, less for one beside it. */
+struct energy_dorren {
+    double fracture_ratio, dbh; /* FE; m, of the mean stem */
+};
+
+#define DORREN_ALIKE false
+#define DORREN_DBH_LEAST 0.1 /* m: thinner stems lie outside the data */
+
+static inline struct energy_dorren energy_dorren(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    return (struct energy_dorren){stand->fracture_ratio, stems->dbh};
+}
+
+static inline double dorren_mean(const struct energy_dorren *e)
+{
+    return ceduo_dorren_mean_share() * ceduo_dorren_energy(e->dbh, e->fracture_ratio);
+}
+
+static inline double dorren_hit(const struct energy_dorren *e, double dbh, double eccentricity)
+{
+    return ceduo_dorren_share(eccentricity) * ceduo_dorren_energy(dbh, e->fracture_ratio);
+}
+
+static inline unsigned dorren_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    (void)stand;
+    return stems->dbh < DORREN_DBH_LEAST ? CEDUO_WARN_DORREN_THIN : 0u;
+}
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_VOLUME_H
+#define CEDUO_VOLUME_H
+
+#include <math.h>
+
+#include "ceduo/stand.h"
+
+/* The volume of a stem by its diameter, made ready for many stems of one kind: as given, by the equation of the species
+ * inside its rectangle of dbh and height, otherwise form factor × basal area × height. */
+struct stem_volume {
+    double given;      /* m3, of the mean stem; NaN: not given */
+    double squares;    /* m2: the mean of dbh2 */
+    double dbh;        /* m, of the mean stem */
+    double height;     /* m */
+    bool has_equation; /* for stems of this height */
+    double b0, b1, b2, d_lo, d_hi; /* of the equation; d in cm */
+};
+
+static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    struct stem_volume v = {.given = stems->volume,
+                            .squares = stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd,
+                            .dbh = stems->dbh,
+                            .height = stems->height};
+    size_t count;
+    const struct ceduo_species *s = stand->species >= 0 ? &ceduo_species_list(&count)[stand->species] : NULL;
+    v.has_equation = s && s->has_volume && v.height >= s->h_lo && v.height <= s->h_hi;
+    if (v.has_equation) {
+        v.b0 = s->b0;
+        v.b1 = s->b1;
+        v.b2 = s->b2;
+        v.d_lo = s->d_lo;
+        v.d_hi = s->d_hi;
+    }
+    return v;
+}
+
+/* m3 of a stem of diameter dbh whose volume is not given. `from` may be NULL. */
+static inline double stem_volume_computed(const struct stem_volume *v, double dbh, enum ceduo_volume_from *from)
+{
+    const double pi = 3.14159265358979323846;
+    double d = dbh * 100;
+    double equation = v->has_equation && d >= v->d_lo && d <= v->d_hi
+                          ? (v->b0 + v->b1 * d * d * v->height + v->b2 * d) / 1000
+                          : 0;
+    if (from)
+        *from = equation > 0 ? CEDUO_VOLUME_EQUATION : CEDUO_VOLUME_FORM_FACTOR;
+    return equation > 0 ? equation : CEDUO_FORM_FACTOR * pi / 4 * dbh * dbh * v->height;
+}
+
+/* m3 of the mean stem. `from` may be NULL. */
+static inline double stem_volume_mean(const struct stem_volume *v, enum ceduo_volume_from *from)
+{
+    if (isnan(v->given))
+        return stem_volume_computed(v, v->dbh, from);
+    if (from)
+        *from = CEDUO_VOLUME_GIVEN;
+    return v->given;
+}
+
+/* m3 of one stem: a given volume is the mean of all stems, and goes with the square of the diameter. */
+static inline double stem_volume_one(const struct stem_volume *v, double dbh)
+{
+    return isnan(v->given) ? stem_volume_computed(v, dbh, NULL) : v->given * (dbh * dbh / v->squares);
+}
+
+#endif
