@@ -7,6 +7,7 @@
 
 #include "file.h"
 #include "intl.h"
+#include "schema.h"
 
 /* A line of the file, and a field of it. */
 struct span {
@@ -120,12 +121,13 @@ static bool read_value(const struct source *s, struct span f, size_t line, const
     }
     enum ceduo_number_reading reading = fits && !memchr(room, '\0', f.n) ? ceduo_number_read(room, value)
                                                                         : CEDUO_NUMBER_NONE;
-    if (reading == CEDUO_NUMBER_GOOD && *value <= 1e9 && *value >= -1e9)
+    const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
+    if (reading == CEDUO_NUMBER_GOOD && *value <= vertex->hi && *value >= vertex->lo)
         return true;
     if (f.n == 0)
         ceduo_problem(problems, s, line, column, _("a value is missing; take the line out"));
     else if (reading != CEDUO_NUMBER_NONE)
-        ceduo_problem(problems, s, line, column, _("beyond 1e9 m"));
+        ceduo_problem(problems, s, line, column, _("beyond %g m"), vertex->hi);
     else if (fits && strchr(room, ','))
         ceduo_problem(problems, s, line, column, _("'%s' is no number; write a dot for the decimals"), room);
     else

@@ -589,12 +589,10 @@ void ceduo_schema_bind(struct arena *arena, const struct object *object, const s
 
 /* ---- showing the table ---- */
 
-#define UNBOUNDED 1e9 /* nobody needs to be told of such a limit */
-
 bool ceduo_schema_range_text(const struct field *f, char *buffer, size_t size)
 {
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    bool low = f->lo > -UNBOUNDED, high = f->hi < UNBOUNDED;
+    bool low = isfinite(f->lo), high = isfinite(f->hi);
     snprintf(lo, sizeof lo, "%.5g", f->lo);
     snprintf(hi, sizeof hi, f->hi > 1e15 ? "%.17g" : "%.5g", f->hi);
     if (!low && !high)

@@ -1836,6 +1836,41 @@ def test_list_parameters():
             expect_in(word, table[path].split(), path)
 
 
+GROWTH = {which: {"dbh_most_m": 0.5, "dbh_rate_1_y": 0.05, "height_most_m": 20, "height_rate_1_y": 0.05}
+          for which in ("shoots", "trees")}
+
+
+def test_bounds_are_listed():
+    """What is beyond the bounds that --list-parameters shows is refused with these bounds, and no other bound is met"""
+    mapping = scene(forest=[{"from_m": 10, "to_m": 20, "stand": stand(
+        growth={**GROWTH, "shoots_young": 3, "shoots_old": 2}, cutting={"rotation_years": 20})}], minimum={"reserves_per_ha": 1})
+    lines = [re.split("  +", line) for line in good("--list-parameters").out.split("\n\n")[0].splitlines()[1:]]
+    forms = {"number": "{}", "number~": "{}", "count": "{:.0f}", "numbers": "[{}]", "points": "[[{0}, 0], [1, {0}]]",
+             "3 numbers~": "[{0}, {0}, {0}]"}
+    seen = 0
+    with Folder() as f:
+        path = f.write("s.yaml", mapping)
+        materials = f.write("m.yaml", scene(slope={"vertices_m": [[0, 64], [100, 0]],
+                                                   "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}))
+        for name, kind, unit, text, *_ in lines:
+            if kind not in forms:
+                continue
+            seen += 1
+            shown = re.fullmatch(r"(>?)(\S*)\u2026(<?)(\S*)", text) or re.fullmatch(r"(>=?) (\S+)", text)
+            lo = float(shown[2]) if shown and shown[2] else None
+            hi = float(shown[4]) if shown and len(shown.groups()) == 4 else None
+            for bound, sign, words in ((lo, -1, "is below|is not above"), (hi, 1, "is above|is not below")):
+                for value in (sign * 1e17,) if bound is None else (bound + sign * max(abs(bound) * 1e-3, 1), sign * 1e17):
+                    change = name.replace("[]", "[0]") + "=" + forms[kind].format(value)
+                    done = ceduo("--check", "-s", change, materials if "materials" in name else path)
+                    found = re.search(rf"({words}) ([-+.0-9e]+)(?: (\S+))?$", done.err, re.M)
+                    expect(bool(found) == (bound is not None), f"{change}; shown: {text}", done)
+                    if found:
+                        expect_near(float(found[2]), bound, abs(bound) * 1e-4, change)  # 1.5708 for half of pi
+                        expect_equal((found[3] or "-", done.status), (unit, USAGE), change)
+    expect(seen > 50, f"{seen} parameters that are numbers")
+
+
 def test_list_profiles():
     """--list-profiles shows file, kind and title; one's own come from the XDG data folder and run by name"""
     text = good("--list-profiles").out

@@ -392,7 +392,7 @@ CASES = {
     "a value is missing; take the line out": csv("distance,elevation\n0,64\n50,\n100,0\n", "line.csv:3:4: "),
     "'100,5' is no number; write a dot for the decimals": csv("distance;elevation\n0;64\n100,5;0\n", "line.csv:3:1: "),
     "distance 0 does not lie beyond 0; distances must rise": csv("distance,elevation\n0,64\n0,0\n", "line.csv:3:1: "),
-    "beyond 1e9 m": csv("distance,elevation\n0,64\n100,-1e10\n", "line.csv:3:5: "),
+    "beyond 1e+09 m": csv("distance,elevation\n0,64\n100,-1e10\n", "line.csv:3:5: "),
     "holds nothing": csv("", "line.csv: "),
     # Release, controls, forest
     "100 lies beyond the slope, which has room for a release from ...": sc("{x_m: 5, h", "{x_m: @@100, h"),
