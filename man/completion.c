@@ -43,20 +43,79 @@ static void put_pattern(const struct argument_row *row)
     printf("--%s)", row->name);
 }
 
+/* Names hold blanks and quotes: they come one on a line, are never expanded, and readline quotes what is inserted. */
+static const char *const bash_head =
+    "# bash completion for ceduo\n"
+    "\n"
+    "# a word as it was typed, without its quotes, to plain\n"
+    "_ceduo_plain()\n"
+    "{\n"
+    "    local word=$1 quote= c\n"
+    "    plain=\n"
+    "    while [[ -n $word ]]; do\n"
+    "        c=${word:0:1} word=${word:1}\n"
+    "        if [[ -n $quote && $c == \"$quote\" ]]; then\n"
+    "            quote=\n"
+    "        elif [[ -z $quote && $c == [\\'\\\"] ]]; then\n"
+    "            quote=$c\n"
+    "        elif [[ $c == \\\\ && ( -z $quote || ( $quote == \\\" && $word == [\\\\\\\"\\$\\`]* ) ) ]]; then\n"
+    "            plain+=${word:0:1} word=${word:1}\n"
+    "        else\n"
+    "            plain+=$c\n"
+    "        fi\n"
+    "    done\n"
+    "}\n"
+    "\n"
+    "# of the lines given those that begin as what was typed\n"
+    "_ceduo_offer()\n"
+    "{\n"
+    "    local line\n"
+    "    while IFS= read -r line; do\n"
+    "        [[ $line == \"$plain\"* ]] && COMPREPLY+=(\"$line\")\n"
+    "    done\n"
+    "}\n"
+    "\n"
+    "# folders, and files that match an expression\n"
+    "_ceduo_files()\n"
+    "{\n"
+    "    local pattern=$plain name c\n"
+    "    [[ $cur == '~/'* ]] && pattern=$HOME${plain:1}\n"
+    "    for c in '\\' '*' '?' '['; do\n"
+    "        pattern=${pattern//\"$c\"/\"\\\\$c\"}\n"
+    "    done\n"
+    "    while IFS= read -r name; do\n"
+    "        [[ -d $name || ( -e $name && $name =~ $1 ) ]] || continue\n"
+    "        [[ $cur == '~/'* ]] && name='~'${name:${#HOME}}\n"
+    "        COMPREPLY+=(\"$name\")\n"
+    "    done < <(compgen -G \"$pattern*\")\n"
+    "}\n"
+    "\n"
+    "_ceduo()\n"
+    "{\n"
+    "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} program plain\n"
+    "    # --option=value comes in three words\n"
+    "    if [[ $cur == = ]]; then\n"
+    "        cur=\n"
+    "    elif [[ $prev == = ]]; then\n"
+    "        prev=${COMP_WORDS[COMP_CWORD-2]}\n"
+    "    fi\n"
+    "    _ceduo_plain \"${COMP_WORDS[0]/#'~/'/$HOME/}\"\n"
+    "    program=$plain\n"
+    "    _ceduo_plain \"$cur\"\n"
+    "    COMPREPLY=()\n"
+    "    case $prev in";
+
+/* Names of the scenes among the profiles, a line each, from the program's list. */
+#define SCENES \
+    "--list-profiles 2>/dev/null |\n" \
+    "            awk 'match($0, /\\.yaml +scene /) {$0 = substr($0, 1, RSTART - 1); sub(/.*\\//, \"\"); print}'"
+#define PARAMETERS(after) \
+    "--list-parameters 2>/dev/null |\n" \
+    "            awk 'NR > 1 && !NF {exit} NR > 1 {print $1 \"" after "\"}'"
+
 static void put_bash(const struct argument_row *rows, size_t n)
 {
-    puts("# bash completion for ceduo\n"
-         "_ceduo()\n"
-         "{\n"
-         "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} program=${COMP_WORDS[0]}\n"
-         "    # --option=value comes in three words\n"
-         "    if [[ $cur == = ]]; then\n"
-         "        cur=\n"
-         "    elif [[ $prev == = ]]; then\n"
-         "        prev=${COMP_WORDS[COMP_CWORD-2]}\n"
-         "    fi\n"
-         "    COMPREPLY=()\n"
-         "    case $prev in");
+    puts(bash_head);
     for (size_t i = 0; i < n; i++) {
         if (!rows[i].value)
             continue;
@@ -64,31 +123,28 @@ static void put_bash(const struct argument_row *rows, size_t n)
         put_pattern(&rows[i]);
         const char *words = words_of(&rows[i]);
         if (words)
-            printf(" COMPREPLY=($(compgen -W '%s' -- \"$cur\")); return;;\n", words);
+            printf(" _ceduo_offer < <(printf '%%s\\n' %s); return;;\n", words);
         else if (takes_path(&rows[i]))
             puts("\n"
-                 "        COMPREPLY=($(compgen -W \"$(\"$program\" --list-parameters 2>/dev/null |\n"
-                 "            awk 'NR > 1 {print $1 \"=\"}')\" -- \"$cur\"))\n"
+                 "        _ceduo_offer < <(\"$program\" " PARAMETERS("=") ")\n"
                  "        [[ ${COMPREPLY-} == *= ]] && compopt -o nospace 2>/dev/null\n"
                  "        return;;");
         else if (takes_file(&rows[i]))
-            puts(" COMPREPLY=($(compgen -f -- \"$cur\")); return;;");
+            puts(" _ceduo_files ''; return;;");
         else
             puts(" return;;");
     }
     puts("    esac\n"
-         "    if [[ $cur == -* ]]; then");
-    fputs("        COMPREPLY=($(compgen -W '", stdout);
+         "    if [[ $plain == -* ]]; then");
+    fputs("        _ceduo_offer < <(printf '%s\\n'", stdout);
     for (size_t i = 0; i < n; i++)
-        printf("%s--%s", i ? " " : "", rows[i].name);
-    puts("' -- \"$cur\"))\n"
+        printf(" --%s", rows[i].name);
+    puts(")\n"
          "    else\n"
-         "        COMPREPLY=($(compgen -f -X '!*.@(yaml|yml|jsonl)' -- \"$cur\") $(compgen -d -- \"$cur\")\n"
-         "            $(compgen -W \"$(\"$program\" --list-profiles 2>/dev/null |\n"
-         "                sed -n 's|^.*/scenes/\\(.*\\)\\.yaml .*|\\1|p')\" -- \"$cur\"))\n"
+         "        _ceduo_files '\\.(ya?ml|jsonl)$'\n"
+         "        _ceduo_offer < <(\"$program\" " SCENES ")\n"
          "    fi\n"
          "}\n"
-         "shopt -s extglob\n"
          "complete -o filenames -F _ceduo ceduo");
 }
 
@@ -126,13 +182,13 @@ static void put_zsh(const struct argument_row *rows, size_t n)
          "_ceduo_parameters()\n"
          "{\n"
          "    local -a paths\n"
-         "    paths=(${(f)\"$($words[1] --list-parameters 2>/dev/null | awk 'NR > 1 {print $1}')\"})\n"
+         "    paths=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " PARAMETERS("") ")\"})\n"
          "    compadd -S = -a paths\n"
          "}\n"
          "_ceduo_scenes()\n"
          "{\n"
          "    local -a names\n"
-         "    names=(${(f)\"$($words[1] --list-profiles 2>/dev/null | sed -n 's|^.*/scenes/\\(.*\\)\\.yaml .*|\\1|p')\"})\n"
+         "    names=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " SCENES ")\"})\n"
          "    compadd -a names\n"
          "    _files -g '*.(yaml|yml|jsonl)(-.)'\n"
          "}\n"

@@ -2,14 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Installing to a folder, using what was installed, taking it away again; completion in the shell."""
 import os
+import pty
 import re
+import select
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, expect_in, good, run_all  # noqa: E402
+from harness import (ROOT, SLOWER, Folder, Skip, ceduo, environment, expect, expect_equal, expect_in, good,  # noqa: E402
+                     run_all)
 
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 
@@ -142,15 +146,91 @@ def test_installed_runs():
         expect_in("/opt/forest/bin/../share/ceduo/scenes/paper-site.yaml", listed)
 
 
-def completed(place, *words):
+def completed(place, *words, **changes):
     """What bash offers for the last of the words."""
     script = (place.prefix / "share/bash-completion/completions/ceduo").read_text()
     line = " ".join(f"'{w}'" for w in words)
     run = f"{script}\nCOMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; _ceduo; printf '%s\\n' \"${{COMPREPLY[@]}}\""
-    done = subprocess.run(["bash", "--norc", "-c", run], cwd=place.path, env=environment(), capture_output=True, text=True,
+    done = subprocess.run(["bash", "--norc", "-c", run], cwd=place.path, env=environment(**changes), capture_output=True, text=True,
                           check=False)
     expect(done.stderr == "", done.stderr)
-    return done.stdout.split()
+    return done.stdout.splitlines()
+
+
+# What is typed before the Tab, and the word that the program is then given last.
+COMPLETIONS = (
+    ("my", "my wood.yaml"), ("my\\ w", "my wood.yaml"), ('"my w', "my wood.yaml"), ("'my w", "my wood.yaml"),
+    ("it\\'", "it's a wood.yaml"), ('"it\'s', "it's a wood.yaml"), ("quo", 'quo"ted".yaml'), ("back", "back\\slash.yaml"),
+    ("back\\\\s", "back\\slash.yaml"), ("dollar", "dollar$HOME`x`.yaml"), ("star", "star* [a]?.yaml"),
+    ("star\\*", "star* [a]?.yaml"), ("\u00fc", "\u00fcber & <weg>;.yaml"), ("old\\ woods/d", "old woods/deep one.yaml"),
+    ('"old woods/d', "old woods/deep one.yaml"), ("ol", "old woods/"), ("~/at", "home/at home.yaml"), ("forest", "forest of oaks"),
+    ("forest\\ o", "forest of oaks"), ('"forest of', "forest of oaks"), ("ash", "ash's own"),
+    ("--script pl", "play list.txt"), ("-o 'pl", "play list.txt"), ("--output=pl", "--output=play list.txt"), ("-f js", "json"),
+    ("--find rocks_per", "rocks_per_year="))
+
+
+class Shells(Installed):
+    """The program installed, and a folder of files with odd names, which an interactive shell completes."""
+
+    def __enter__(self):
+        super().__enter__()
+        for name in ("my wood.yaml", "my wood.txt", "it's a wood.yaml", 'quo"ted".yaml', "back\\slash.yaml", "dollar$HOME`x`.yaml",
+                     "star* [a]?.yaml", "starling.txt", "\u00fcber & <weg>;.yaml", "old woods/deep one.yaml", "play list.txt",
+                     "home/at home.yaml"):
+            self.write(f"work/{name}", "")
+        for name in ("forest of oaks", "ash's own", "evil$(touch pwned)"):
+            self.write(f"data/ceduo/scenes/{name}.yaml", "title: /scenes/see b.yaml  scene by scene\n")
+        self.write("a path/ceduo", f"#!/bin/sh\ncase $1 in --list-*) exec '{self.prefix}/bin/ceduo' \"$@\";; esac\n"
+                   "for w; do :; done; printf '%s\\n' \"$w\" >>\"$CALLS\"\n").chmod(0o755)
+        return self
+
+    def given(self, shell, start, typed):
+        """The last word that the program is given where this is typed, then Tab and Enter."""
+        calls, work = self.path / "calls", self.path / "work"
+        env = environment(HOME=str(work / "home"), XDG_DATA_HOME=str(self.path / "data"), TERM="dumb", CALLS=str(calls),
+                          PATH=f"{self.path / 'a path'}:{os.environ['PATH']}", PS1="> ", ZDOTDIR=str(self.path))
+        calls.unlink(missing_ok=True)
+        master, slave = pty.openpty()
+        with subprocess.Popen(shell, stdin=slave, stdout=slave, stderr=slave, cwd=work, env=env, start_new_session=True) as process:
+            os.close(slave)
+            seen, end, asked = b"", time.monotonic() + 60 * SLOWER, False
+            os.write(master, start.encode() + b"; echo READY$((1 + 1))\n")
+            while time.monotonic() < end and not (calls.exists() and calls.read_bytes().endswith(b"\n")):
+                if select.select([master], [], [], 0.02)[0]:
+                    seen += os.read(master, 65536)
+                if not asked and b"READY2" in seen:
+                    os.write(master, typed.encode() + b"\t\n")
+                    asked = True
+            process.kill()
+        os.close(master)
+        expect(calls.exists(), f"{typed!r} comes to nothing", seen.decode("utf-8", "replace"))
+        return calls.read_text().rstrip("\n")
+
+    def check(self, shell, start, folder):
+        for typed, wanted in COMPLETIONS:
+            found = self.given(shell, start, f"ceduo {typed}").removeprefix(f"{self.path}/work/")
+            expect_equal(found, folder if wanted == "old woods/" else wanted, typed)
+        for typed, wanted in (("forest", "forest of oaks"), ("--find rocks_per", "rocks_per_year=")):
+            expect_equal(self.given(shell, start, f"{self.path}/a\\ path/ceduo {typed}"), wanted, f"in a folder with a blank: {typed}")
+
+
+def test_bash_odd_names():
+    """bash completes names with blanks, quotes and other signs as one word, however they were begun, and carries out none"""
+    if not shutil.which("bash"):
+        raise Skip("no bash here")
+    with Shells() as place:
+        expect_equal(completed(place, str(place.prefix / "bin/ceduo"), "ev", XDG_DATA_HOME=str(place.path / "data")), ["evil$(touch pwned)"])
+        place.check(["bash", "--norc", "--noprofile", "-i"], f". '{place.prefix}/share/bash-completion/completions/ceduo'", "old woods/")
+        expect(not list(place.path.rglob("pwned")), "the name of a profile was carried out")
+
+
+def test_zsh_odd_names():
+    """zsh does the same"""
+    if not shutil.which("zsh"):
+        raise Skip("no zsh here")
+    with Shells() as place:
+        place.check(["zsh", "-f", "-i"], f"fpath=('{place.prefix}/share/zsh/site-functions' $fpath); autoload -Uz compinit; compinit -u -D",
+                    "old woods")  # zsh takes the slash back at Enter
 
 
 def test_bash():
