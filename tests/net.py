@@ -32,6 +32,7 @@ import test_errors  # noqa: E402
 import test_input  # noqa: E402
 import test_random_keys  # noqa: E402
 import test_rotation  # noqa: E402
+import test_screens  # noqa: E402
 from harness import PROFILES, SLOWER  # noqa: E402
 
 # Not compared: what differs from run to run; and the version wherever it stands but in --version, which a new one alone
@@ -64,8 +65,7 @@ SCENES = sorted(path.stem for path in (PROFILES / "scenes").glob("*.yaml"))
 SEEDS = ROOT / "tests/fuzz/seeds"
 FEW = ["-j", 1, "-n", 200]
 FORMATS = {"table": ["-f", "table"], "csv": ["-f", "csv"], "stands": ["-f", "csv", "--rows", "stands"], "json": ["-f", "json"]}
-PLOTS = ["profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"]
-CHARSETS = ["braille", "block", "ascii"]
+PLOTS = re.search(r'CEDUO_PLOT_NAMES "(.*)"', (ROOT / "src/view/plot.h").read_text()).group(1).split(", ")
 SMALL = (SEEDS / "scene/small.yaml").read_text()
 CSV_SLOPE = SMALL[:SMALL.index("slope:")] + "slope: {csv: line.csv}\n" + SMALL[SMALL.index("controls:"):]
 
@@ -91,14 +91,14 @@ def by_index(name):
 
 # ---- screens ----
 
-SIZES = ["80 24", "120 40", "200 50"]
+SIZES = [f"{width} {height}" for width, height in test_screens.SIZES]
 
 
 def script(text):
     """A script that waits after each key. 'dump' takes the screen and its roles; 'find WORD' searches, 'set VALUE' types
-    into the field, 'clear' takes the message away."""
+    into the field, 'clear' takes the message away. ' | ' ends a line, too."""
     lines, size, taken = ["wait idle"], "80x24", 0
-    for line in text.strip().split("\n"):
+    for line in text.strip().replace(" | ", "\n").split("\n"):
         word, _, rest = line.strip().partition(" ")
         if word in ("dump", "roles"):
             lines += [f"dump {taken:03}-{size}.txt", f"roles roles-{taken:03}-{size}.txt"]
@@ -135,36 +135,50 @@ def every_key(view):
 
 
 FORMS = {  # what is typed into fields, and what comes of it
-    "stand": "key 2\nfind stools.per_ha\nset 1000\ndump\nfind shoots[0]\nset 3000\ndump\nkey u u Ctrl-R\ndump\nkey Enter\ndump\nkey Tab\ndump",
-    "rock": "key 3\nfind rock.shape\nkey Enter Down\ndump\nkey Enter\ndump\nkey u\nfind rock.diameter_m\nset {mean: 0.5, spread: 0.1}\ndump",
-    "range": "key 3\nfind rock.diameter_m\nset 0\ndump\nkey Esc\nfind release.x_m\nset -7\ndump\nkey Esc\nfind threshold_m\nset 5\ndump\nset\ndump",
-    "slope": "key 1\nresize 200 70\nfind vertices_m[1]\nset [60, 45]\ndump\nset here\ndump\nkey Esc\nkey y\ndump\nfind controls[0]\nkey a\ndump\nkey d d d\ndump",
-    "belts": "key 1\nresize 200 70\nfind forest[0]\nkey y\ndump\nkey >\ndump\nkey d\ndump\nfind forest[1].from_m\nset 20\ndump",
-    "steps": "key 2\nfind stools.per_ha\nkey + - -\ndump\nkey 3\nfind simulation.law\nkey +\ndump\nfind scale_rn\nkey +\ndump\nfind contact_model\nkey Enter\ndump",
-    "line": "key 3\nfind title\nkey Enter\ntype Über dem Weg\nkey Home Del\ntype u\nkey End Backspace\ndump\nkey Enter\ndump\nfind zzz\ndump",
-    "cohorts": "key 2\nresize 120 60\nfind shoots[0]\nkey y\ndump\nkey > d d d\ndump\nfind trees[0]\nkey y a\ndump\nkey d d d d d\ndump",
-    "rotation": "key 6\nfind cut_year\nset 3\ndump\nkey Tab Right Right\ndump\nfind rotation_years\nset 9\ndump",
-    "save": "key 2\nfind stools.per_ha\nset 2222\nkey s\ndump\nfind trees[0]\nkey y s\ndump\nkey S Ctrl-U\ntype mine.yaml\nkey Enter\ndump",
+    "stand": "key 2 | find stools.per_ha | set 1000 | dump | find shoots[0] | set 3000 | dump | key u u Ctrl-R | dump"
+             " | key Enter | dump | key Tab | dump",
+    "rock": "key 3 | find rock.shape | key Enter Down | dump | key Enter | dump | key u | find rock.diameter_m"
+            " | set {mean: 0.5, spread: 0.1} | dump",
+    "range": "key 3 | find rock.diameter_m | set 0 | dump | key Esc | find release.x_m | set -7 | dump | key Esc"
+             " | find threshold_m | set 5 | dump | set | dump",
+    "slope": "key 1 | resize 200 70 | find vertices_m[1] | set [60, 45] | dump | set here | dump | key Esc | key y | dump"
+             " | find controls[0] | key a | dump | key d d d | dump",
+    "belts": "key 1 | resize 200 70 | find forest[0] | key y | dump | key > | dump | key d | dump | find forest[1].from_m"
+             " | set 20 | dump",
+    "steps": "key 2 | find stools.per_ha | key + - - | dump | key 3 | find simulation.law | key + | dump | find scale_rn"
+             " | key + | dump | find contact_model | key Enter | dump",
+    "line": "key 3 | find title | key Enter | type Über dem Weg | key Home Del | type u | key End Backspace | dump"
+            " | key Enter | dump | find zzz | dump",
+    "cohorts": "key 2 | resize 120 60 | find shoots[0] | key y | dump | key > d d d | dump | find trees[0] | key y a | dump"
+               " | key d d d d d | dump",
+    "rotation": "key 6 | find cut_year | set 3 | dump | key Tab Right Right | dump | find rotation_years | set 9 | dump",
+    "save": "key 2 | find stools.per_ha | set 2222 | key s | dump | find trees[0] | key y s | dump | key S Ctrl-U"
+            " | type mine.yaml | key Enter | dump",
 }
 POPUPS = {
-    "help": "key ?\ndump\nkey PgDn\ndump\nkey PgDn\ndump\nkey Esc\nkey 4 ?\ndump",
-    "presets": "key 2 p\ndump\n" + "key Down\ndump\n" * 40 + "key Enter\ndump",
-    "new": "key n\ndump\ntype Above the mill\nkey Enter\ntype 0 120, 40 60; 90 0\nkey Enter Enter\ntype 0.9\nkey Enter\ntype 80\nkey Enter\ntype 30\n"
-           "key Enter\ndump\nkey Enter\ndump\nkey s\ndump\nkey Ctrl-U\ntype mill.yaml\nkey Enter\ndump",
-    "new-wrong": "key n Enter\ntype 0 10\nkey Enter Enter Enter Enter Enter Enter\ndump\nkey Up Up Up Up\ntype x\nkey Enter Enter Enter Enter\ndump",
-    "new-csv": "key n Enter\ntype line.csv\nkey Enter Enter Enter\ntype 60\nkey Enter Enter Enter\ndump",
-    "open": "key o\ndump\nkey End\ndump\nkey Home Enter\ntype missing.yaml\nkey Enter\ndump\nkey Esc\nkey o Enter\ntype other.yaml\nkey Enter\ndump",
-    "export": "key w\ndump\nkey Enter\ndump\nkey Enter\ndump\nkey w Down Enter Enter\nkey w Down Down Enter Enter\nkey w Down Down Down Enter Enter\n"
-              "dump\nkey w End Enter\ndump\nkey Esc\nkey w Enter Enter\ndump",
-    "counts": "key 2\nfind forest[1]\nkey c\ndump\ntype 300\nkey Tab Tab Tab\ntype 90\nkey Tab\ntype 200\nkey Tab\n"
-              "dump\nkey Enter\ndump\ntype 12\nkey Enter\ndump",
-    "find": "key 2\nfind trees[0].per_ha\nkey f\ndump\nkey Enter Enter Enter\ndump\nkey u f Ctrl-U\ntype energy\nkey Enter Enter Enter\ndump\n"
-            "key Up Up Ctrl-U\ntype energy=120\nkey Enter Enter Enter\ndump",
-    "search": "key 3 /\ndump\ntype density\nkey Enter\ndump\nkey N\ndump\nfind zzz\ndump",
-    "quit": "find stools\nkey 2 +\nkey q\ndump\nkey Down\ndump\nkey Enter\ndump",
-    "choices": "key 3\nfind simulation.rule\nkey Enter\ndump\nkey Esc\nkey 1\nfind stand\nkey Enter\ndump\nkey End Enter\ndump",
-    "ways": "key .\ndump\nkey . , Tab Right\ndump\nkey Down Down Down\ndump\nkey 2\ndump",
-    "options": "key 5\ndump\nkey y\ndump\nkey > <\ndump\nkey Enter\ntype mine\nkey Enter\ndump\nkey a\ndump\nkey G Enter\ndump\nkey d\ndump\nkey ] 2\ndump",
+    "help": "key ? | dump | key PgDn | dump | key PgDn | dump | key Esc | key 4 ? | dump",
+    "presets": "key 2 p | dump | " + "key Down | dump | " * 40 + "key Enter | dump",
+    "new": "key n | dump | type Above the mill | key Enter | type 0 120, 40 60; 90 0 | key Enter Enter | type 0.9 | key Enter"
+           " | type 80 | key Enter | type 30 | key Enter | dump | key Enter | dump | key s | dump | key Ctrl-U | type mill.yaml"
+           " | key Enter | dump",
+    "new-wrong": "key n Enter | type 0 10 | key Enter Enter Enter Enter Enter Enter | dump | key Up Up Up Up | type x"
+                 " | key Enter Enter Enter Enter | dump",
+    "new-csv": "key n Enter | type line.csv | key Enter Enter Enter | type 60 | key Enter Enter Enter | dump",
+    "open": "key o | dump | key End | dump | key Home Enter | type missing.yaml | key Enter | dump | key Esc | key o Enter"
+            " | type other.yaml | key Enter | dump",
+    "export": "key w | dump | key Enter | dump | key Enter | dump | key w Down Enter Enter | key w Down Down Enter Enter"
+              " | key w Down Down Down Enter Enter | dump | key w End Enter | dump | key Esc | key w Enter Enter | dump",
+    "counts": "key 2 | find forest[1] | key c | dump | type 300 | key Tab Tab Tab | type 90 | key Tab | type 200 | key Tab"
+              " | dump | key Enter | dump | type 12 | key Enter | dump",
+    "find": "key 2 | find trees[0].per_ha | key f | dump | key Enter Enter Enter | dump | key u f Ctrl-U | type energy"
+            " | key Enter Enter Enter | dump | key Up Up Ctrl-U | type energy=120 | key Enter Enter Enter | dump",
+    "search": "key 3 / | dump | type density | key Enter | dump | key N | dump | find zzz | dump",
+    "quit": "find stools | key 2 + | key q | dump | key Down | dump | key Enter | dump",
+    "choices": "key 3 | find simulation.rule | key Enter | dump | key Esc | key 1 | find stand | key Enter | dump"
+               " | key End Enter | dump",
+    "ways": "key . | dump | key . , Tab Right | dump | key Down Down Down | dump | key 2 | dump",
+    "options": "key 5 | dump | key y | dump | key > < | dump | key Enter | type mine | key Enter | dump | key a | dump"
+               " | key G Enter | dump | key d | dump | key ] 2 | dump",
 }
 
 
@@ -192,7 +206,8 @@ def screens():
     for seed in range(12):
         text = test_random_keys.random_script(random.Random(seed), test_random_keys.words_of_keys(), 40)
         yield screen(f"random/{seed}", text, ("easy.yaml", "easy-options.yaml")[seed % 2], EASY)
-    yield Case("screen/stdout", ["-j", 1, "--script", "-", "easy.yaml"], files=EASY, stdin=b"wait idle\nkey 3\ndump -\nkey ?\ndump -\n")
+    yield Case("screen/stdout", ["-j", 1, "--script", "-", "easy.yaml"], files=EASY,
+               stdin=b"wait idle\nkey 3\ndump -\nkey ?\ndump -\n")
 
 
 # ---- pages, pictures, years ----
@@ -234,7 +249,7 @@ def pages():
         yield Case(f"page/several/{form}", ["-b", *FEW, *words, "paper-site", "road-below", "terrace"])
         yield Case(f"page/several, one bad/{form}", ["-b", *FEW, *words, "paper-site", "none.yaml", "road-below"])
         options = ["--option", "large reserves", "--option", "selection coppice"]
-        yield Case(f"page/options/{form}", ["-b", *FEW, *words, *options, "four-systems"], ["-b", *FEW, *words, *options[:2], "four-systems"])
+        yield Case(f"page/options/{form}", *(["-b", *FEW, *words, *some, "four-systems"] for some in (options, options[:2])))
         yield Case(f"page/tolerance/{form}", ["-b", "-j", 1, "-e", 0.04, *words, "road-below"],
                    ["-b", "-j", 1, "-e", 0.001, "-n", 2000, *words, "terrace"])
         yield Case(f"page/path/{form}", ["-b", *FEW, *words, "../../profiles/scenes/paper-site.yaml"])
@@ -250,16 +265,16 @@ def pages():
     yield Case("page/seed", [*json, "--seed", 0], [*json, "--seed", 9007199254740992])
     yield Case("page/output", [*json, "-n", 9, "-o", "out.json"], ["-b", "-n", 9, "-o", "old.txt", "paper-site"],
                [*json, "-n", 9, "-o", "no/such/folder"], files={"old.txt": "old"})
-    yield Case("page/ways of a run", ["-b", "ways.yaml"], ["-b", "-f", "json", "ways.yaml"],
-               files={"ways.yaml": test_input.SCENE.replace("rocks: 20", "rocks: 300"), **{k: v for k, v in test_input.FILES.items() if k != "scene.yaml"}})
+    yield Case("page/files beside the scene", ["-b", "scene.yaml"], ["-b", "-f", "json", "scene.yaml"], files=test_input.FILES)
 
 
 def pictures():
     for name in SCENES:
         for kind in PLOTS:
             years = ["--years", "0:3"] if kind == "rotation" else []
-            yield Case(f"plot/{name}/{kind}", *(["--plot", kind, "-j", 1, "-n", 100, *years, "--charset", charset, "--size", size, name]
-                                               for charset in CHARSETS for size in ("80x24", "130x44")))
+            words = ["--plot", kind, "-j", 1, "-n", 100, *years]
+            yield Case(f"plot/{name}/{kind}", *([*words, "--charset", charset, "--size", size, name]
+                                               for charset in test_screens.CHARSETS for size in ("80x24", "130x44")))
     for kind in PLOTS:
         index = ["--plot", kind, "-j", 1, "-n", 100, "-s", "simulation.contact_model=index", "paper-site"]
         yield Case(f"plot/by index/{kind}", index)
@@ -323,7 +338,8 @@ def standard_input():
     yield Case("input/json", ["-b", *FEW, "-f", "json", "-"], stdin=SMALL.encode())
     yield Case("input/picture", ["--plot", "profile", *FEW, "-"], stdin=SMALL.encode())
     yield Case("input/twice", ["-b", "-", "-"], stdin=SMALL.encode())
-    for name, text in (("nothing", b""), ("bytes", bytes(range(256))), ("cut", SMALL[:300].encode()), ("CRLF", SMALL.replace("\n", "\r\n").encode())):
+    for name, text in (("nothing", b""), ("bytes", bytes(range(256))), ("cut", SMALL[:300].encode()),
+                       ("CRLF", SMALL.replace("\n", "\r\n").encode())):
         yield both(f"input/{name}", "-", {}, stdin=text)
     for name in SCENES:
         yield Case(f"input/check {name}", ["--check", name])
@@ -349,14 +365,16 @@ def faults():
         elif isinstance(case, test_errors.Words):
             yield Case(name, ["scene.yaml" if w == "@" else w for w in case.words], files=test_input.FILES)
         elif isinstance(case, test_errors.Set):
-            yield Case(name, ["-b", *(w for s in case.changes for w in ("-s", s.replace("@@", ""))), "scene.yaml"], files=test_input.FILES)
+            words = [w for s in case.changes for w in ("-s", s.replace("@@", ""))]
+            yield Case(name, ["-b", *words, "scene.yaml"], files=test_input.FILES)
         elif isinstance(case, test_errors.Script):
             yield Case(name, ["--script", "play.txt", "scene.yaml"], files={**test_input.FILES, "play.txt": case.text})
 
 
 def all_cases():
     """What takes longest comes first, so that the cores end together."""
-    return [case for chapter in (screens, pictures, pages, years, goals, parts, standard_input, faults, lists) for case in chapter()]
+    chapters = (screens, pictures, pages, years, goals, parts, standard_input, faults, lists)
+    return [case for chapter in chapters for case in chapter()]
 
 
 # ---- running ----
@@ -381,7 +399,8 @@ class Program:
             tool, words = (words[0], words[1:]) if words and words[0] in TOOLS else ("ceduo", words)
             before = f"command {i}, " if len(case.commands) > 1 else ""
             status, out, err = self.call(tool, words, case, folder)
-            outcome.update({before + "exit status": f"{status}\n".encode(), before + "standard output": out, before + "standard error": err})
+            outcome[before + "exit status"] = f"{status}\n".encode()
+            outcome[before + "standard output"], outcome[before + "standard error"] = out, err
         for path in sorted(p for p in folder.rglob("*") if p.is_file()):
             outcome[str(path.relative_to(folder))] = path.read_bytes()
         shutil.rmtree(folder)
@@ -391,9 +410,9 @@ class Program:
         if tool not in self.paths:
             return "not built", b"", b""
         try:
-            done = subprocess.run([tool, *map(str, words)], executable=self.paths[tool], input=case.stdin, stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, cwd=folder, env={**play.home(folder / "home"), **case.env}, timeout=SECONDS,
-                                  check=False)
+            done = subprocess.run([tool, *map(str, words)], executable=self.paths[tool], input=case.stdin,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder,
+                                  env={**play.home(folder / "home"), **case.env}, timeout=SECONDS, check=False)
         except subprocess.TimeoutExpired:
             return "hangs", b"", b""
         return done.returncode, done.stdout, done.stderr
@@ -463,6 +482,10 @@ def compare(cases, old, new):
 
 # ---- the program of before ----
 
+# Of a make that called this; not for the one that builds what was before.
+ABOVE = ("MAKEFLAGS", "MFLAGS", "MAKEOVERRIDES", "MAKELEVEL", "BUILD", "CFLAGS")
+
+
 class Unable(Exception):
     """They cannot be compared."""
 
@@ -492,8 +515,7 @@ def built(commit):
         half.mkdir(parents=True)
         try:
             output_of("tar", "-x", "-C", half, input=output_of("git", "archive", commit))
-            # Goals and variables of a make that called this are not those of the one below.
-            env = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKEOVERRIDES", "MAKELEVEL", "BUILD", "CFLAGS")}
+            env = {k: v for k, v in os.environ.items() if k not in ABOVE}
             make = ["make", "-C", half, f"-j{os.cpu_count() or 1}", f"CC={os.environ.get('CC') or 'gcc'}", "VARIANT=release"]
             for tool in TOOLS.values():
                 try:
@@ -513,7 +535,7 @@ def main():
     words.add_argument("--before", metavar="COMMIT", help="compare with the program of this commit")
     words.add_argument("--program", metavar="FILE", type=Path, default=ROOT / "build/release/ceduo", help="the program of now")
     words.add_argument("--against", metavar="FILE", type=Path, help="the program of before, instead of a commit's")
-    words.add_argument("--only", metavar="PATTERN", default="", help="only cases in whose names this regular expression is found")
+    words.add_argument("--only", metavar="PATTERN", default="", help="cases in whose names this regular expression is found")
     words.add_argument("--list", action="store_true", help="print the names of the cases")
     given = words.parse_args()
     cases = [case for case in all_cases() if re.search(given.only, case.name)]

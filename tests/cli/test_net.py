@@ -25,8 +25,8 @@ esac
 
 def net(*words, tree=ROOT, **env):
     """Status and what is printed, both streams one after the other."""
-    done = subprocess.run([sys.executable, tree / "tests/net.py", *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, env={**os.environ, **env}, timeout=600, check=False)
+    done = subprocess.run([sys.executable, tree / "tests/net.py", *map(str, words)], stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **env}, timeout=600, check=False)
     return done.returncode, (done.stdout + done.stderr).decode()
 
 
@@ -61,8 +61,9 @@ def test_same():
 
 def test_one_case():
     """What a case prints, on either stream or in a file, or how it ends: each case is named with its lines, status 1"""
-    status, out = changed("^list/--(version|list-profiles)$|^screen/form/(line|stand)$|^page/seed$", ("fake 1", "fake 2"), ("such list", "such file"),
-                          ("exit 3", "exit 2"), ("2.5", "2.4"), ("play.txt)", "play.txt | sed s/002/0x2/)"))
+    status, out = changed("^list/--(version|list-profiles)$|^screen/form/(line|stand)$|^page/seed$",
+                          ("fake 1", "fake 2"), ("such list", "such file"), ("exit 3", "exit 2"), ("2.5", "2.4"),
+                          ("play.txt)", "play.txt | sed s/002/0x2/)"))
     wanted = {
         "screen/form/line": ["002-80x24.txt: only before", "0x2-80x24.txt: only now"],
         "screen/form/stand": ["002-80x24.txt: only before", "0x2-80x24.txt: only now"],
@@ -109,8 +110,8 @@ def test_list():
 
 def test_program():
     """The program against itself: pages, pictures, parts, screens are the same twice"""
-    status, out = net("--against", CEDUO, "--program", CEDUO, "--only",
-                      "^list/|^page/paper-site/(table|csv|json)|^plot/road-below/stand|^parts/merge|^screen/form/steps$|^screen/random/3$")
+    status, out = net("--against", CEDUO, "--program", CEDUO, "--only", "^list/|^page/paper-site/(table|csv|json)|"
+                      "^plot/road-below/stand|^parts/merge|^screen/form/steps$|^screen/random/3$")
     expect_equal((status, differing(out)), (0, []), out)
     expect(int(re.search(r"(\d+) with 0", out).group(1)) > 30, "most should end well", out)
 
@@ -134,9 +135,8 @@ class Tree(Folder):
             raise Skip("no git")
         super().__enter__()
         self.tree, self.log = self.path / "tree", self.path / "log"
-        for part in ("tests", "profiles", "man"):
-            shutil.copytree(ROOT / part, self.tree / part, ignore=shutil.ignore_patterns("__pycache__"))
-        self.write("tree/src/tui/keys.h", (ROOT / "src/tui/keys.h").read_bytes())
+        for part in ("tests", "profiles", "man", "src"):
+            shutil.copytree(ROOT / part, self.tree / part, ignore=shutil.ignore_patterns("__pycache__", "*.c"))
         self.write("tree/Makefile", MAKEFILE)
         self.write("tree/.gitignore", "/build/\n")
         self.git("init", "-q")
@@ -144,8 +144,8 @@ class Tree(Folder):
 
     def git(self, *words):
         env = {**os.environ, "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_CONFIG_SYSTEM": "/dev/null"}
-        return subprocess.run(["git", "-c", "user.name=A", "-c", "user.email=a@b.c", *words], cwd=self.tree, env=env, check=True,
-                              stdout=subprocess.PIPE).stdout.decode().strip()
+        return subprocess.run(["git", "-c", "user.name=A", "-c", "user.email=a@b.c", *words], cwd=self.tree, env=env,
+                              check=True, stdout=subprocess.PIPE).stdout.decode().strip()
 
     def commit(self, version):
         program(self, "tree/fake", FAKE.replace("fake 1", version))
