@@ -75,7 +75,7 @@ $(BUILD)/%.o: %.c Makefile
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
-# Not those of another commit's build: its headers may be gone.
+# Not those of another commit's build, which name other headers.
 -include $(shell find build -path build/before -prune -o -name '*.d' -print 2>/dev/null)
 
 # ---- a fresh machine ----
@@ -209,7 +209,7 @@ do-coverage:
 
 # For a change after which everything should be as it was.
 do-net: all $(T)/tables $(BUILD)/man/completion
-	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(ONLY)')
+	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
 DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
 DEBIAN_BENCH := python3-numpy gnuplot-nox
