@@ -9,8 +9,7 @@ from play import FAST, Place, check_good, run_script  # noqa: E402
 from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
 
 EDIT = "key 2\nkey /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
-# It can be read, but the file beside it that would take its place has too long a name for any folder, root's too.
-STUCK = "n" * 245 + ".yaml"
+STUCK = "stuck.yaml"
 
 
 def test_save_as():
@@ -47,10 +46,18 @@ def test_folder_kept():
         expect_equal(place.text("sub/fastr.yaml"), FAST, "beside it")
 
 
+def stuck(place):
+    """STUCK can be read, but the file that would take the place of what it leads to has too long a path, for root too."""
+    deep = place.path.resolve()
+    while (rest := 4090 - len("/fast.yaml") - len(str(deep))) > 0:
+        deep = deep / ("n" * (100 if rest > 202 else rest - 1))
+    (place.path / STUCK).symlink_to(place.write(deep / "fast.yaml", FAST).relative_to(place.path.resolve()))
+
+
 def test_failed():
     """Where a file cannot be written the reason is said and another name asked for; with that one all is well."""
     with Place() as place:
-        place.write(STUCK, FAST)
+        stuck(place)
         failed, stayed, saved = place.play(EDIT + "key s\ndump\nkey Esc\ndump\nkey s Ctrl-U\ntype mine.yaml\nkey Enter\ndump",
                                            STUCK)
         failed.has("Save as", "File name too long", "another name")
@@ -64,7 +71,7 @@ def test_failed():
 def test_failed_quit():
     """'save and quit' where the file cannot be written quits once it is saved under another name, and not before."""
     with Place() as place:
-        place.write(STUCK, FAST)
+        stuck(place)
         failed = place.play(EDIT + "key q Down Enter\ndump\nkey Esc\ndump\nkey S Ctrl-U\ntype a.yaml\nkey Enter\ndump", STUCK)
         failed[0].has("Save as", "File name too long")
         expect("* fast" in failed[1].title, failed[1].title)
