@@ -22,16 +22,37 @@
 #define FIFO_WAIT  3000 /* ms */
 #define PART       8192 /* bytes read or written at a time: a stack may be small */
 
+/* Reasons of our own, by numbers that no call here gives. */
+#define NOBODY_WRITES ETIME
+#define NO_FILE       ENOSTR
+#define NO_END        ENOSR
+
+/* Some of the system's files, /proc/kmsg for one, seem empty and never end: who reads on waits for ever. */
+static bool waits_for_more(int fd)
+{
+    struct pollfd poll_fd = {.fd = fd, .events = POLLIN};
+    struct stat st;
+    return fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && st.st_size == 0 && poll(&poll_fd, 1, 0) == 0;
+}
+
 /* As read(), but what writes to a FIFO may begin later: a reader that came first waits for it, though not for ever.
- * ETIME: nobody came. `first`: nothing was read yet. */
+ * `first`: nothing was read yet. */
 static ssize_t read_part(int fd, char *to, size_t room, bool first)
 {
     struct pollfd poll_fd = {.fd = fd, .events = POLLIN};
     struct stat st;
+    if (waits_for_more(fd)) {
+        errno = NO_END;
+        return -1;
+    }
     for (bool waited = false, came = false;;) {
         ssize_t n = read(fd, to, room);
         if (n < 0 && errno == EINTR)
             continue;
+        if (n < 0 && errno == EAGAIN && fstat(fd, &st) == 0 && S_ISREG(st.st_mode)) {
+            errno = NO_END;
+            return -1;
+        }
         if (n < 0 && errno == EAGAIN) { /* it is there, and has nothing to say yet */
             came = true;
             poll(&poll_fd, 1, -1);
@@ -40,7 +61,7 @@ static ssize_t read_part(int fd, char *to, size_t room, bool first)
         if (n != 0 || came || !first || fstat(fd, &st) != 0 || !S_ISFIFO(st.st_mode))
             return n;
         if (waited) {
-            errno = ETIME;
+            errno = NOBODY_WRITES;
             return -1;
         }
         int ready = poll(&poll_fd, 1, FIFO_WAIT);
@@ -107,26 +128,58 @@ static bool is_standard(const char *path)
     return strcmp(path, "-") == 0;
 }
 
+/* 0, or why this is not read: only files, pipes and terminals come to an end, and /dev/null. A program that starts this
+ * one may give it a socket as standard input. */
+static int why_not(int fd, const struct stat *st, bool standard)
+{
+    struct stat null;
+    switch (st->st_mode & S_IFMT) {
+    case S_IFREG:
+    case S_IFIFO:
+        return 0;
+    case S_IFDIR:
+        return EISDIR;
+    case S_IFSOCK:
+        return standard ? 0 : NO_FILE;
+    case S_IFCHR:
+        return isatty(fd) || (stat("/dev/null", &null) == 0 && null.st_rdev == st->st_rdev) ? 0 : NO_FILE;
+    default:
+        return NO_FILE;
+    }
+}
+
 /* Does not wait for somebody to open the other end of a FIFO: read_part() does, but not for ever. */
 static int open_to_read(const char *path)
 {
-    if (is_standard(path))
-        return STDIN_FILENO;
-    int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    bool standard = is_standard(path);
+    int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     struct stat st = {0};
-    if (fd >= 0 && fstat(fd, &st) == 0 && S_ISDIR(st.st_mode)) {
-        close(fd);
-        errno = EISDIR;
+    if (fd < 0 && errno == ENXIO) /* a socket, or a device that is not there */
+        errno = NO_FILE;
+    int why = fd >= 0 && fstat(fd, &st) == 0 ? why_not(fd, &st, standard) : 0;
+    if (why != 0) {
+        if (!standard)
+            close(fd);
+        errno = why;
         return -1;
     }
-    if (fd >= 0 && !S_ISFIFO(st.st_mode))
+    if (fd >= 0 && !standard && !S_ISFIFO(st.st_mode) && !(S_ISREG(st.st_mode) && st.st_size == 0))
         fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
     return fd;
 }
 
 const char *ceduo_file_why(int why)
 {
-    return why == ETIME ? _("nobody writes to this FIFO") : strerror(why);
+    switch (why) {
+    case NOBODY_WRITES:
+        return _("nobody writes to this FIFO");
+    case NO_FILE:
+        return _("a device or a socket; name a file");
+    case NO_END:
+        return _("it does not end; name a file that does");
+    default:
+        return strerror(why);
+    }
 }
 
 /* Keeps the errno of what was done before. */

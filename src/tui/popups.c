@@ -341,10 +341,7 @@ static bool filled_save(struct app *app, struct popup *p)
         return false;
     }
     bool confirmed = p->kept && strcmp(p->kept, path) == 0;
-    FILE *there = fopen(path, "r");
-    bool exists = there != NULL;
-    if (there)
-        fclose(there);
+    bool exists = access(path, F_OK) == 0;
     bool own = app->document.path && strcmp(app->document.path, path) == 0 &&
                !ceduo_document_changed_on_disk(&app->document);
     if (exists && !confirmed && !own) {
@@ -735,10 +732,8 @@ static bool filled_export(struct app *app, struct popup *p)
     put_export(app, p->path, &text);
     const char *path = p->fields[0].text;
     bool confirmed = p->kept && strcmp(p->kept, path) == 0;
-    FILE *there = confirmed ? NULL : fopen(path, "r");
     bool good = false;
-    if (there) {
-        fclose(there);
+    if (!confirmed && access(path, F_OK) == 0) {
         free(p->kept);
         p->kept = strdup(path);
         ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));

@@ -305,6 +305,8 @@ CASES = {
     "cannot read it: Permission denied": lambda row: as_nobody(row, "--check", "scene.yaml", forbidden="scene.yaml",
                                                                status=INPUT, start="scene.yaml: "),
     "cannot read it: nobody writes to this FIFO": Elsewhere("tests/cli/test_input.py", "def test_fifo_first"),
+    "cannot read it: a device or a socket; name a file": Words("--batch", "/dev/zero", status=INPUT, start="/dev/zero: "),
+    "cannot read it: it does not end; name a file that does": Elsewhere("tests/cli/test_input.py", "def test_no_end"),
     "larger than 16 MiB": Sparse("s.yaml", 16 * MEBIBYTE),
     "larger than 64 MiB": Sparse("line.csv", 64 * MEBIBYTE),
     "cannot find 'x.yaml' beside this file or among the profiles": sc("slope: slope.yaml", "slope: @@x.yaml"),

@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bad input: every fault is named with file, line, column, path and mend, its line shown with a caret below it."""
 import os
+import pty
 import random
 import re
+import resource
+import socket
 import subprocess
 import sys
 import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, SLOWER, USAGE, Failure, Folder, Suite, ceduo, environment, expect,
-                     expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of, wooded_scene)
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, SANITIZED, SLOWER, USAGE, Failure, Folder, Skip, Suite, ceduo,
+                     environment, expect, expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of, wooded_scene)
 
 SCENE = """\
 ceduo: scene/1
@@ -524,6 +527,88 @@ def test_devices():
             check(f, "s.yaml")
             f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 20, "stand": {"base": target}}]))
             check(f, "s.yaml")
+
+
+def expect_refused(done, name, words):
+    expect(done.status == INPUT and done.out == "" and f"{name}: cannot read it: {words}" in done.err, done)
+
+
+def bounded():
+    """What reads without an end comes to the end of its memory, not of the machine's."""
+    if not SANITIZED:
+        resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+
+
+DEVICE = "a device or a socket; name a file\n"
+
+
+def test_no_files():
+    """Sockets, block devices and other devices but terminals are refused by every reader, as a path and as standard input"""
+    with Folder() as f, socket.socket(socket.AF_UNIX) as there:
+        there.bind(str(f.path / "socket.yaml"))
+        f.write("s.yaml", flat_scene())
+        blocks = [p for p in Path("/dev").iterdir() if p.is_block_device() and os.access(p, os.R_OK)][:1]
+        for path in (f.path / "socket.yaml", Path("/dev/zero"), *blocks):
+            for words in (("--check", path), ("--batch", path), ("--merge", path), ("--script", path, "s.yaml")):
+                expect_refused(ceduo(*words, cwd=f.path, timeout=20, preexec_fn=bounded), path, DEVICE)
+            for slope in (str(path), {"csv": str(path)}):
+                expect_refused(ceduo("--check", f.write("refers.yaml", scene(slope=slope)), timeout=20, preexec_fn=bounded), path, DEVICE)
+            if path.is_socket():
+                continue
+            for mode in ("--check", "--merge"):
+                with open(path, "rb") as stream:
+                    done = subprocess.run([CEDUO, mode, "-"], stdin=stream, capture_output=True, text=True, env=environment(),
+                                          preexec_fn=bounded, timeout=20 * SLOWER, check=False)
+                expect((done.returncode, done.stderr) == (INPUT, f"standard input: cannot read it: {DEVICE}"), mode, path, done)
+
+
+def test_no_end():
+    """A file of the system that never ends, as /proc/kmsg, is refused, as a path and as standard input"""
+    endless = Path("/proc/kmsg")
+    try:
+        os.close(os.open(endless, os.O_RDONLY | os.O_NONBLOCK))
+    except OSError as why:
+        raise Skip(f"{endless} cannot be read here: {why}") from why
+    with Folder() as f:
+        f.write("s.yaml", flat_scene())
+        for words in (("--check", endless), ("--merge", endless), ("--script", endless, "s.yaml")):
+            expect_refused(ceduo(*words, cwd=f.path, timeout=20), endless, "it does not end; name a file that does\n")
+        for mode in ("--check", "--merge"):
+            with open(endless, "rb", buffering=0) as stream:
+                done = subprocess.run([CEDUO, mode, "-"], stdin=stream, capture_output=True, text=True, env=environment(),
+                                      timeout=20 * SLOWER, check=False)
+            expect("standard input: cannot read it: it does not end" in done.stderr and done.returncode == INPUT, mode, done)
+
+
+def test_streams():
+    """A terminal, a socket as standard input, /dev/stdin and /dev/null are read to their end"""
+    text = flat_scene()
+    master, slave = pty.openpty()
+    with Folder() as f:
+        os.write(master, text + b"\x04")  # the key that ends it
+        for name in (os.ttyname(slave), "-"):
+            with open(os.ttyname(slave), "rb") as stream:
+                done = subprocess.run([CEDUO, "--check", name], stdin=stream, capture_output=True, env=environment(),
+                                      timeout=20 * SLOWER, check=False)
+            expect(done.returncode == DONE and done.stderr == b"", name, done)
+            os.write(master, text + b"\x04")
+        ours, theirs = socket.socketpair()
+        with ours, theirs:
+            ours.sendall(text)
+            ours.shutdown(socket.SHUT_WR)
+            done = subprocess.run([CEDUO, "--check", "-"], stdin=theirs, capture_output=True, env=environment(), timeout=20 * SLOWER,
+                                  check=False)
+            expect(done.returncode == DONE and done.stderr == b"", done)
+        good("--check", "/dev/stdin", stdin=text)
+        f.write("s.yaml", text)
+        good("--script", "/dev/null", "s.yaml", cwd=f.path)
+        expect_in("/dev/null: holds no value", check(f, "/dev/null").err)
+        expect_in("standard input: holds no value", check(f, "-", stdin=b"").err)
+        expect_in("/dev/null: holds no part", ceduo("--merge", "/dev/null").err)
+        f.write("empty.yaml", b"")  # as large as those of the system, but it ends
+        expect_in("empty.yaml: holds no value", check(f, "empty.yaml").err)
+    os.close(master)
+    os.close(slave)
 
 
 def test_fifo():

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Saving in the terminal program: under another name, where it fails, and what is said of comments and copies."""
+import os
 import sys
 from pathlib import Path
 
@@ -66,6 +67,15 @@ def test_failed():
         expect("* fast" not in saved.title, saved.title)
         expect_equal(place.text(STUCK), FAST, "the file that could not be written")
         expect_in("per_ha: 1234", place.text("mine.yaml"))
+
+
+def test_fifo_name():
+    """A FIFO under the name given is asked about like any file, and not waited for."""
+    with Place() as place:
+        os.mkfifo(place.path / "fifo")
+        asked = place.play(EDIT + "key S Ctrl-U\ntype fifo\nkey Enter\ndump\nkey Esc w Enter Ctrl-U\ntype fifo\nkey Enter\ndump")
+        for screen in asked:
+            screen.has("there is such a file already")
 
 
 def test_failed_quit():
