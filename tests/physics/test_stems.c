@@ -1301,7 +1301,7 @@ static void a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope(void **st
     sweep_begin();
     for (uint64_t rock = 0; rock < 1000; rock++) {
         pieces.count = 0;
-        sweep_watched(rock, &(struct ceduo_watch){note_piece, stem_beside_pieces, &pieces});
+        sweep_watched(rock, &(struct ceduo_watch){.piece = note_piece, .stem = stem_beside_pieces, .context = &pieces});
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
             double above = height_above_ground(&pieces, s->x);
@@ -1840,7 +1840,7 @@ static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
         struct ceduo_way w;
         struct ceduo_crossing c;
         struct before before = {0};
-        assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){NULL, count_before, &before}, &w, &c),
+        assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_before, .context = &before}, &w, &c),
                          CEDUO_OK);
         assert_int_equal(w.stems_hit, before.all);
         assert_true(!c.reached || c.stems_hit == before.control);

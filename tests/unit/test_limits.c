@@ -565,7 +565,7 @@ static void little_is_asked_of_a_run(void **state)
     ceduo_run_free(run);
     struct ceduo_arrivals steps, once; /* room is taken twice over, where that fits */
     const double of_control[] = {site.control.x};
-    def.exact_bytes = 3 * sizeof(double) * 300;
+    def.exact_bytes = 4 * sizeof(double) * 300; /* speed, height, stops, and room to sort */
     def.cells = 1;
     def.cell_x = of_control;
     run = run_of(&def, 200);
@@ -674,7 +674,7 @@ static void a_pool_forgets_what_is_old(void **state)
     assert_int_equal(ceduo_pool_work(pool).reused, 1);
     site.belts[1].to = to;
     ceduo_pool_turn(pool, &site.scene);
-    assert_int_equal(ceduo_pool_work(pool).runs, 2 + CEDUO_POOL_SPARE);
+    assert_int_equal(ceduo_pool_work(pool).runs, 2 + MORE); /* made; those that are forgotten count */
     assert_non_null(ceduo_pool_find(pool, NULL));
     assert_non_null(ceduo_pool_find(pool, &site.option));
     for (int i = 1; i <= MORE; i++) {
