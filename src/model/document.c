@@ -40,12 +40,13 @@ static void push_state(struct document *d, const struct node *root, const char *
     d->at = d->count++;
 }
 
-/* History may grow to DOCUMENT_HISTORY_BYTES: beyond that the older half of it is forgotten. What memory it took is given
- * back only when the document closes, so the limit is on states, measured by what the arena has grown. */
+/* History may grow by DOCUMENT_HISTORY_BYTES: then the older half of it is forgotten. What memory it took is given back
+ * only when the document closes, so the limit is on states, measured by what the arena has grown since. */
 static void trim_history(struct document *d)
 {
-    if (d->file.arena.bytes < DOCUMENT_HISTORY_BYTES || d->count < 4)
+    if (d->file.arena.bytes - d->trimmed < DOCUMENT_HISTORY_BYTES || d->count < 4)
         return;
+    d->trimmed = d->file.arena.bytes;
     size_t drop = d->at / 2;
     memmove(d->states, d->states + drop, (d->count - drop) * sizeof *d->states);
     d->count -= drop;

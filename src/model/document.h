@@ -22,6 +22,7 @@ struct document {
     const struct node *raw;      /* the tree on disk, before references are followed; NULL for a new scene */
     struct document_state *states;
     size_t count, room, at;      /* states; the one shown */
+    size_t trimmed;              /* what the arena held when the oldest were last forgotten */
     size_t saved;                /* the one on disk; count + 1: none */
     char *path;                  /* where it is saved; NULL: nowhere yet */
     bool shipped;                /* the file belongs to the program: never written */
