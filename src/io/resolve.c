@@ -49,12 +49,18 @@ static const struct node *in_place_of(struct arena *arena, const struct node *fo
     return copy;
 }
 
-static const char *locate(struct arena *arena, const struct node *node, const char *folder, struct problems *problems)
+const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder)
 {
     const struct source *s = node->source;
     const char *path = ceduo_file_find(arena, node->text, s && s->is_option ? s->beside : s ? s->name : NULL, folder);
     if (!path && s && s->is_option)
         path = ceduo_file_find(arena, node->text, NULL, folder);
+    return path;
+}
+
+static const char *locate(struct arena *arena, const struct node *node, const char *folder, struct problems *problems)
+{
+    const char *path = ceduo_resolve_path(arena, node, folder);
     if (!path && arena->failed)
         ceduo_problem_memory(problems);
     else if (!path)

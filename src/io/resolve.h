@@ -12,6 +12,10 @@ const struct node *ceduo_resolve(struct arena *arena, const struct object *objec
 /* The same for all that a scene refers to. */
 const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems);
 
+/* The file that a node names, in the arena; NULL where there is none. A path is looked for beside the file that it was read
+ * from, what was set or typed beside the scene and then in the current folder. */
+const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder);
+
 /* Puts `value` at `path` below root, through references. `set` is the whole PATH=VALUE, for messages. */
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
                                      size_t path_length, const struct node *value, struct problems *problems);

@@ -201,7 +201,7 @@ static bool read_vertices(struct maker *m, struct points *p)
     if (!known(m, "slope.csv"))
         return false;
     const struct node *node = ceduo_node_get(ceduo_node_get(m->file->root, "slope"), "csv");
-    const char *path = ceduo_file_find(&m->file->arena, m->form.slope.csv, node->source->name, "slopes");
+    const char *path = ceduo_resolve_path(&m->file->arena, node, "slopes");
     if (!path && m->file->arena.failed)
         ceduo_problem_memory(m->problems);
     else if (!path)

@@ -536,20 +536,22 @@ bool ceduo_document_unsaved(const struct document *d)
 /* ---- saving ---- */
 
 /* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
- * there, otherwise whole. */
+ * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. NULL
+ * without memory. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
-    struct arena *arena = &d->file.arena;
-    const char *from = node->source && node->source->is_option ? node->source->beside : d->path;
-    const char *now = ceduo_file_find(arena, node->text, from, folder);
-    now = now ? now : ceduo_file_find(arena, node->text, NULL, folder);
-    const char *then = now ? ceduo_file_find(arena, node->text, to, folder) : NULL;
-    if (!now || (then && ceduo_file_same(now, then)))
+    const struct source *s = node->source;
+    if (s && !s->is_option && strcmp(s->name, to) == 0)
         return node;
-    char *whole = realpath(now, NULL);
-    const struct node *scalar = whole ? ceduo_node_scalar(arena, node->source, whole, false) : NULL;
+    struct arena found = {0};
+    const char *now = ceduo_resolve_path(&found, node, folder);
+    const char *then = now ? ceduo_file_find(&found, node->text, to, folder) : NULL;
+    bool stays = !found.failed && (!now || (then && ceduo_file_same(now, then)));
+    char *whole = found.failed || stays ? NULL : realpath(now, NULL);
+    const struct node *scalar = whole ? ceduo_node_scalar(&d->file.arena, s, whole, false) : NULL;
     free(whole);
-    return scalar ? ceduo_node_renamed(arena, scalar, node->key) : node;
+    ceduo_arena_free(&found);
+    return stays ? node : scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL;
 }
 
 /* All paths of an unresolved tree, for a scene that lies at `to`. */
@@ -597,7 +599,7 @@ static bool fill_text(struct document *d, const char *to, struct text *text, boo
 void ceduo_document_text(struct document *d, struct text *text)
 {
     bool anew;
-    if (!fill_text(d, NULL, text, &anew))
+    if (!fill_text(d, d->path ? d->path : d->recovery, text, &anew))
         text->failed = true;
 }
 

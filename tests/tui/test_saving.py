@@ -47,6 +47,22 @@ def test_folder_kept():
         expect_equal(place.text("sub/fastr.yaml"), FAST, "beside it")
 
 
+def test_references():
+    """S into another folder keeps every file that the scene refers to, and so does each s after it."""
+    with Place() as place:
+        start = FAST.index("    stand:\n      name: upper")
+        wood = FAST[start:FAST.index("  - from_m: 50")]
+        place.write("a/stands/wood.yaml", "ceduo: stand/1\n" + "".join(f"{line[6:]}\n" for line in wood.splitlines()[1:]))
+        place.write("a/scenes/s.yaml", FAST.replace(wood, "    stand: ../stands/wood.yaml   # kept: of May\n"))
+        (place.path / "b").mkdir()
+        whole = FAST.replace(wood, f"    stand: {place.path}/a/stands/wood.yaml   # kept: of May\n")
+        before, after = place.play("key 2\nwait idle\ndump\nkey S Ctrl-U\ntype b/t.yaml\nkey Enter\nkey 3\nfind rock.diameter_m\n"
+                                   "set 0.75\nkey s u s\nkey 2\nclear\nwait idle\ndump", "a/scenes/s.yaml")
+        expect_equal(place.text("b/t.yaml"), whole, "saved three times")
+        expect_equal(after.now, before.now, "its figures")
+        expect_equal(place.play("key 2\nwait idle\ndump", "b/t.yaml")[0].now, before.now, "the saved scene's figures")
+
+
 def stuck(place):
     """STUCK can be read, but the file that would take the place of what it leads to has too long a path, for root too."""
     deep = place.path.resolve()

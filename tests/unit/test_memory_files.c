@@ -30,7 +30,7 @@ static const char stand[] = "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0
 static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\nslope: {vertices_m: [[0, 1], 2]}\n"
                              "release: {x_m: [1]}\nsimulation: {law: lumpd, rocks: 1.5, seed: 'a'}\ncontrols: 1\n";
 
-static char folder[64], scene_path[128], faulty_path[128];
+static char folder[64], scene_path[128], faulty_path[128], elsewhere_path[128];
 
 static void put(const char *name, const char *text)
 {
@@ -47,6 +47,9 @@ static int set_up(void **state)
     setenv("XDG_STATE_HOME", folder, 1);
     snprintf(scene_path, sizeof scene_path, "%s/scene.yaml", folder);
     snprintf(faulty_path, sizeof faulty_path, "%s/faulty.yaml", folder);
+    snprintf(elsewhere_path, sizeof elsewhere_path, "%s/elsewhere", folder);
+    assert_int_equal(mkdir(elsewhere_path, 0700), 0);
+    snprintf(elsewhere_path, sizeof elsewhere_path, "%s/elsewhere/scene.yaml", folder);
     put("scene.yaml", scene);
     put("slope.yaml", slope);
     put("stand.yaml", stand);
@@ -245,7 +248,7 @@ static bool edit_document(void)
 }
 
 /* What was saved means the same, though without memory a stand may be written out that else names its file. */
-static bool save_document(void)
+static bool save_to(const char *path)
 {
     struct document d;
     struct scene_file file;
@@ -254,20 +257,30 @@ static bool save_document(void)
     if (!open_document(&d, &problems))
         return false;
     EDIT(ceduo_document_set(&d, "forest[1].stand.stools.spacing_m", "0.5", &problems));
-    bool good = ceduo_document_save(&d, scene_path, &anew);
+    bool good = ceduo_document_save(&d, path, &anew);
     if (!good) {
         assert_int_equal(errno, ENOMEM);
         relieve();
-        assert_true(ceduo_document_save(&d, scene_path, &anew));
+        assert_true(ceduo_document_save(&d, path, &anew));
     }
     ceduo_document_close(&d);
     relieve();
-    assert_true(ceduo_scene_read(&file, scene_path, NULL, 0, &problems));
+    assert_true(ceduo_scene_read(&file, path, NULL, 0, &problems));
     add_scene(&file);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     put("scene.yaml", scene);
     return good;
+}
+
+static bool save_document(void)
+{
+    return save_to(scene_path);
+}
+
+static bool save_elsewhere(void)
+{
+    return save_to(elsewhere_path);
 }
 
 /* ---- parts ---- */
@@ -328,6 +341,7 @@ static void documents_are_edited(void **state)
     (void)state;
     without_memory(edit_document);
     without_memory(save_document);
+    without_memory(save_elsewhere);
 }
 
 static void parts_and_folders(void **state)
