@@ -3,19 +3,28 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #define FLOW_MOST 100 /* columns of a mapping or list on one line */
 
 /* ---- scalars ---- */
 
+/* Whether some reader of YAML may take a text without quotes for a number, a date, a truth value or nothing. */
+static bool is_more_than_text(const char *s)
+{
+    static const char *const words[] = {"true", "false", "null", "yes", "no", "on", "off", "y", "n", ".nan", ".inf"};
+    const char *first = s + (*s == '-' || *s == '+');
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (strcasecmp(first, words[i]) == 0)
+            return true;
+    bool begins = first > s || *s == '.' || (*s >= '0' && *s <= '9');
+    return begins && s[strspn(s, "0123456789abcdefABCDEF_xo.+-")] == '\0'; /* 0x1F, 1_000, 1.2.3, 2024-01-31 */
+}
+
 static bool is_plain(const char *s)
 {
-    static const char *const words[] = {"true", "false", "null", "yes", "no", "on", "off", "~", "y", "n"};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        if (strcmp(s, words[i]) == 0)
-            return false;
     size_t n = strlen(s);
-    if (n == 0 || s[0] == ' ' || s[n - 1] == ' ')
+    if (n == 0 || s[0] == ' ' || s[n - 1] == ' ' || is_more_than_text(s))
         return false;
     for (size_t i = 0; i < n; i++) {
         char c = s[i];
@@ -26,19 +35,27 @@ static bool is_plain(const char *s)
     return !(s[0] == '-' && s[1] == ' ');
 }
 
+/* What no YAML holds as it is, or would read as the end of a line. */
+static bool needs_escape(uint32_t c)
+{
+    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x2028 || c == 0x2029 || c == 0xfeff || c == 0xfffe || c == 0xffff;
+}
+
 static void put_quoted(struct text *text, const char *s)
 {
     ceduo_text_char(text, '"');
-    for (; *s; s++) {
-        unsigned char c = (unsigned char)*s;
+    for (size_t n = strlen(s), length; n > 0; s += length, n -= length) {
+        uint32_t c = 0;
+        size_t known = ceduo_utf8_decode(s, n, &c);
+        length = known ? known : 1;
         if (c == '"' || c == '\\')
-            ceduo_text_format(text, "\\%c", c);
+            ceduo_text_format(text, "\\%c", (int)c);
         else if (c == '\n')
             ceduo_text_put(text, "\\n");
-        else if (c < 0x20 || c == 0x7f)
-            ceduo_text_format(text, "\\x%02x", c);
+        else if (known && needs_escape(c))
+            ceduo_text_format(text, c < 0x100 ? "\\x%02x" : "\\u%04x", c);
         else
-            ceduo_text_char(text, *s);
+            ceduo_text_add(text, s, length);
     }
     ceduo_text_char(text, '"');
 }
@@ -46,12 +63,12 @@ static void put_quoted(struct text *text, const char *s)
 void ceduo_emit_scalar(struct text *text, const char *value, bool quoted)
 {
     double number;
-    bool numeric = ceduo_number_read(value, &number) == CEDUO_NUMBER_GOOD;
-    if (quoted ? numeric || !is_plain(value) : !numeric && !is_plain(value) && strcmp(value, "true") != 0 &&
-                                                   strcmp(value, "false") != 0)
-        put_quoted(text, value);
-    else
+    bool typed = !quoted && (ceduo_number_read(value, &number) == CEDUO_NUMBER_GOOD || strcmp(value, "true") == 0 ||
+                             strcmp(value, "false") == 0);
+    if (typed || is_plain(value))
         ceduo_text_put(text, value);
+    else
+        put_quoted(text, value);
 }
 
 /* ---- trees ---- */
