@@ -287,10 +287,10 @@ static size_t distance(const char *a, const char *b)
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n)
 {
     const char *best = NULL;
-    size_t least = strlen(word) / 2 + 2;
+    size_t length = strlen(word), least = length < 3 ? length : length / 2 + 2; /* a letter at least must be the same */
     for (size_t i = 0; i < n; i++) {
         size_t d = distance(word, words[i]);
-        bool longer = strncmp(words[i], word, strlen(word)) == 0; /* dbh for dbh_m */
+        bool longer = length > 0 && strncmp(words[i], word, length) == 0; /* dbh for dbh_m */
         if (d < least || (longer && !best)) {
             least = d < least ? d : least;
             best = words[i];
