@@ -73,16 +73,20 @@ static void put_page(struct text *out, const struct arguments *a, const struct s
 static enum exit_status choose(const struct arguments *a, const struct scene_file *file, size_t *option)
 {
     const struct ceduo_scene *scene = &file->scene;
-    if (a->options_count != 1 && scene->options_count > 1) {
-        ceduo_batch_complain("ceduo", _("--find: the scene has several options; name one with --option"));
-        return EXIT_USAGE;
+    bool several = a->options_count == 0 && scene->options_count > 1;
+    *option = 0;
+    for (size_t i = 0; i < a->options_count; i++) {
+        size_t k = 0;
+        while (k < scene->options_count && strcmp(scene->options[k].name, a->options[i]) != 0)
+            k++;
+        if (k == scene->options_count)
+            return ceduo_batch_no_option(file, a->options[i]);
+        several |= i > 0 && k != *option;
+        *option = k;
     }
-    for (*option = 0; a->options_count > 0 && *option < scene->options_count; ++*option)
-        if (strcmp(scene->options[*option].name, a->options[0]) == 0)
-            return EXIT_DONE;
-    if (a->options_count == 0)
-        return EXIT_DONE;
-    return ceduo_batch_no_option(file, a->options[0]);
+    if (several)
+        ceduo_batch_complain("ceduo", _("--find: the scene has several options; name one with --option"));
+    return several ? EXIT_USAGE : EXIT_DONE;
 }
 
 enum exit_status ceduo_batch_find(const struct arguments *a)
