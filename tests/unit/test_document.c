@@ -5,11 +5,13 @@
 #include <stdint.h>
 /* cmocka wants the four above first */
 #include <cmocka.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "io/file.h"
@@ -232,6 +234,104 @@ static void options_belts_and_segments(void **state)
     ceduo_problems_free(&problems);
 }
 
+static void save(struct document *d, const char *to)
+{
+    bool anew;
+    assert_true(ceduo_document_save(d, to, &anew));
+    assert_false(ceduo_document_unsaved(d));
+}
+
+/* Back to the state on disk is saved, whichever way it is come to; any other state is not. */
+static void undo_leads_back_to_what_is_saved(void **state)
+{
+    (void)state;
+    struct document d;
+    open_scene(&d);
+    set(&d, "rock.diameter_m", "0.6");
+    save(&d, path);
+    set(&d, "rock.diameter_m", "0.7");
+    assert_true(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_undo(&d));
+    assert_false(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_undo(&d)); /* before what is on disk */
+    assert_true(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_redo(&d));
+    assert_false(ceduo_document_unsaved(&d));
+    set(&d, "rock.diameter_m", "0.8"); /* in the place of 0.7: what is saved lies before it */
+    assert_true(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_undo(&d));
+    assert_false(ceduo_document_unsaved(&d));
+    assert_true(d.file.scene.rock.diameter.mean == 0.6);
+    ceduo_document_close(&d);
+}
+
+/* An edit from before what is saved takes its place: no way leads back to it, though as many steps from the start. */
+static void a_branch_leaves_what_is_saved_behind(void **state)
+{
+    (void)state;
+    struct document d;
+    open_scene(&d);
+    set(&d, "rock.diameter_m", "0.6");
+    save(&d, path);
+    assert_true(ceduo_document_undo(&d));
+    set(&d, "rock.diameter_m", "0.7");
+    assert_true(ceduo_document_unsaved(&d));
+    assert_false(ceduo_document_redo(&d));
+    assert_true(ceduo_document_undo(&d));
+    assert_true(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_redo(&d));
+    set(&d, "rock.diameter_m", "0.8");
+    assert_true(ceduo_document_unsaved(&d));
+    save(&d, path); /* from now on this one is */
+    assert_true(ceduo_document_undo(&d));
+    assert_true(ceduo_document_unsaved(&d));
+    assert_true(ceduo_document_redo(&d));
+    assert_false(ceduo_document_unsaved(&d));
+    ceduo_document_close(&d);
+}
+
+static void set_millimetres(struct document *d, int mm)
+{
+    char value[16];
+    snprintf(value, sizeof value, "0.%03d", mm);
+    set(d, "rock.diameter_m", value);
+}
+
+/* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
+static void history_is_cut(void **state)
+{
+    (void)state;
+    for (int saved = 0; saved <= 11; saved++) { /* of 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
+        struct document d;
+        write_file("scene.yaml", scene);
+        open_scene(&d);
+        for (int i = 1; i <= 11; i++) {
+            if (i == 11) /* as if it took up all that history may */
+                d.file.arena.bytes += DOCUMENT_HISTORY_BYTES;
+            set_millimetres(&d, 100 + i);
+            if (i == saved)
+                save(&d, path);
+        }
+        for (int i = 11; i >= 5; i--) {
+            assert_true(d.file.scene.rock.diameter.mean == (100 + i) / 1000.);
+            assert_int_equal(ceduo_document_unsaved(&d), i != saved);
+            assert_int_equal(ceduo_document_undo(&d), i > 5);
+        }
+        for (int i = 6; i <= 11; i++)
+            assert_true(ceduo_document_redo(&d));
+        assert_false(ceduo_document_redo(&d));
+        for (int i = 12; i <= 20; i++) /* no more goes until as much again is taken up */
+            set_millimetres(&d, 100 + i);
+        for (int i = 19; i >= 5; i--) {
+            assert_true(ceduo_document_undo(&d));
+            assert_true(d.file.scene.rock.diameter.mean == (100 + i) / 1000.);
+            assert_int_equal(ceduo_document_unsaved(&d), i != saved);
+        }
+        assert_false(ceduo_document_undo(&d));
+        ceduo_document_close(&d);
+    }
+}
+
 static void a_changed_value_has_no_source(void **state)
 {
     (void)state;
@@ -258,6 +358,53 @@ static void a_changed_value_has_no_source(void **state)
     assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
     assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
     ceduo_document_close(&d);
+}
+
+/* A source that stands in another file stays there: what is saved of the stand says what it is not of. */
+static void a_changed_value_of_another_file_has_no_source(void **state)
+{
+    (void)state;
+    struct document d;
+    struct text with_source = {0};
+    ceduo_text_format(&with_source, "%ssource: {kind: assumed, text: a guess}\n", stand);
+    write_file("stand.yaml", with_source.bytes);
+    open_scene(&d);
+    const char *const of_it = "forest[0].stand.stools.spacing_m", *const changed = "forest[0].stand.stools.per_ha";
+    set(&d, changed, "2500");
+    assert_false(ceduo_scene_assumes_value(&d.file, changed));
+    save(&d, path);
+    assert_string_equal(read_file("stand.yaml"), with_source.bytes);
+    assert_non_null(strstr(read_file("scene.yaml"), "source: {kind: assumed, text: a guess, except: [stools.per_ha]}"));
+    ceduo_document_close(&d);
+    open_scene(&d);
+    assert_false(ceduo_scene_assumes_value(&d.file, changed));
+    assert_true(ceduo_scene_assumes_value(&d.file, of_it));
+    ceduo_document_close(&d);
+    ceduo_text_free(&with_source);
+}
+
+static void what_only_moves_keeps_its_source(void **state)
+{
+    (void)state;
+    struct document d;
+    struct problems problems = {0};
+    write_file("scene.yaml", "ceduo: scene/1\nsource: {kind: assumed, text: all}\nrock: {diameter_m: 0.5}\n"
+                             "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+                             "controls: [{x_m: 90}]\noptions: [{name: a, forest: [{from_m: 10, to_m: 40, stand: stand.yaml}]}, "
+                             "{name: b}]\n");
+    open_scene(&d);
+    assert_true(ceduo_document_copy_option(&d, 0, &problems));
+    assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
+    assert_true(ceduo_document_delete(&d, "options[1]", &problems));
+    assert_string_equal(d.file.scene.options[1].name, "a (2)");
+    assert_true(ceduo_scene_assumes_value(&d.file, "options[1].forest[0].to_m"));
+    assert_null(ceduo_document_node(&d, "source.except"));
+    set(&d, "options[1].forest[0].to_m", "45");
+    assert_false(ceduo_scene_assumes_value(&d.file, "options[1].forest[0].to_m"));
+    assert_non_null(ceduo_document_node(&d, "source.except"));
+    ceduo_document_forget(&d);
+    ceduo_document_close(&d);
+    ceduo_problems_free(&problems);
 }
 
 static void unsaved_work_is_found_again(void **state)
@@ -325,6 +472,60 @@ static void what_a_killed_save_left_is_taken_away(void **state)
     ceduo_document_close(&d);
 }
 
+/* The copy that is kept of unsaved work; NULL: there is none. */
+static const char *copy_of(const struct document *d)
+{
+    static char text[4096];
+    FILE *f = fopen(d->recovery, "r");
+    if (!f)
+        return NULL;
+    text[fread(text, 1, sizeof text - 1, f)] = '\0';
+    fclose(f);
+    return text;
+}
+
+static void expect_copy(const struct document *d, const char *diameter)
+{
+    char wanted[64];
+    const char *text = copy_of(d);
+    snprintf(wanted, sizeof wanted, "rock: {diameter_m: %s, ", diameter);
+    assert_non_null(text);
+    if (!strstr(text, wanted))
+        fail_msg("%s is missing in\n%s", wanted, text);
+}
+
+/* It holds what is shown, after an undo too, and is there just as long as that is not what is on disk. */
+static void the_copy_follows_undo(void **state)
+{
+    (void)state;
+    struct document d;
+    open_scene(&d);
+    assert_null(copy_of(&d));
+    set(&d, "rock.diameter_m", "0.6");
+    set(&d, "rock.diameter_m", "0.7");
+    expect_copy(&d, "0.7");
+    assert_true(ceduo_document_undo(&d));
+    expect_copy(&d, "0.6");
+    assert_true(ceduo_document_redo(&d));
+    expect_copy(&d, "0.7");
+    assert_true(ceduo_document_undo(&d) && ceduo_document_undo(&d));
+    assert_null(copy_of(&d));
+    assert_true(ceduo_document_redo(&d));
+    expect_copy(&d, "0.6");
+    save(&d, path);
+    assert_null(copy_of(&d));
+    assert_true(ceduo_document_redo(&d));
+    expect_copy(&d, "0.7");
+    assert_true(ceduo_document_undo(&d));
+    assert_null(copy_of(&d));
+    assert_true(ceduo_document_undo(&d)); /* what was on disk is unsaved now */
+    expect_copy(&d, "0.5");
+    set(&d, "rock.diameter_m", "0.8");
+    expect_copy(&d, "0.8");
+    ceduo_document_forget(&d);
+    ceduo_document_close(&d);
+}
+
 static void unsaved_work_belongs_to_the_name_saved_under(void **state)
 {
     (void)state;
@@ -365,6 +566,202 @@ static void a_file_changed_on_disk_is_noticed(void **state)
     ceduo_document_close(&d);
 }
 
+static void set_time(const char *file, time_t seconds, long nanoseconds)
+{
+    const struct timespec times[2] = {{.tv_nsec = UTIME_OMIT}, {.tv_sec = seconds, .tv_nsec = nanoseconds}};
+    assert_int_equal(utimensat(AT_FDCWD, file, times, 0), 0);
+}
+
+/* Its length, the second and the fraction of it in which it was written: each tells by itself. */
+static void a_file_of_the_same_length_is_noticed(void **state)
+{
+    (void)state;
+    struct document d;
+    char other[sizeof scene + 1];
+    strcpy(other, scene);
+    set_time(path, 1000000000, 500000000);
+    open_scene(&d);
+    memcpy(strstr(other, "0.5"), "0.9", 3);
+    write_file("scene.yaml", other);
+    set_time(path, 1000000000, 500000001);
+    assert_true(ceduo_document_changed_on_disk(&d));
+    set_time(path, 1000000001, 500000000);
+    assert_true(ceduo_document_changed_on_disk(&d));
+    strcat(other, "\n");
+    write_file("scene.yaml", other);
+    set_time(path, 1000000000, 500000000);
+    assert_true(ceduo_document_changed_on_disk(&d));
+    write_file("scene.yaml", scene);
+    set_time(path, 1000000000, 500000000);
+    assert_false(ceduo_document_changed_on_disk(&d));
+    assert_int_equal(unlink(path), 0);
+    assert_true(ceduo_document_changed_on_disk(&d));
+    ceduo_document_close(&d);
+}
+
+/* ---- saved elsewhere ---- */
+
+static void make_folder(const char *name)
+{
+    char whole[256];
+    snprintf(whole, sizeof whole, "%s/%s", folder, name);
+    assert_int_equal(mkdir(whole, 0700), 0);
+}
+
+/* A scene in a/scenes whose files lie in a/slopes and a/stands; b/stands has another stand of the same name. */
+static void scatter(const char *slope_reference)
+{
+    static const char *const folders[] = {"a", "a/scenes", "a/slopes", "a/stands", "a/more", "b", "b/scenes", "b/stands"};
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++)
+        make_folder(folders[i]);
+    char text[1024];
+    snprintf(text, sizeof text,
+             "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: %s\ncontrols: [{x_m: 90}]\nforest:\n"
+             "  - {from_m: 10, to_m: 30, stand: ../stands/wood.yaml}\n"
+             "  - {from_m: 40, to_m: 60, stand: {base: ../stands/wood.yaml, name: V}}\n"
+             "  - {from_m: 70, to_m: 80, stand: ads-1}\n",
+             slope_reference);
+    write_file("a/scenes/s.yaml", text);
+    write_file("a/slopes/line.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
+    write_file("a/slopes/line.yaml", "ceduo: slope/1\nvertices_m: [[0, 50], [40, 20], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n");
+    write_file("a/slopes/by-csv.yaml", "ceduo: slope/1\ncsv: line.csv\nsegments: [{rn: 0.3, rt: 0.8}]\n");
+    write_file("a/stands/wood.yaml", stand);
+    write_file("b/stands/wood.yaml", "ceduo: stand/1\ntrees: [{per_ha: 7, dbh_m: 0.2, height_m: 12}]\n");
+    snprintf(path, sizeof path, "%s/a/scenes/s.yaml", folder);
+}
+
+/* What the files lead to, whatever else was changed. */
+static void expect_files(const struct document *d)
+{
+    const struct ceduo_option *o = &d->file.scene.options[0];
+    assert_int_equal(d->file.scene.slope.vertices, 3);
+    assert_true(d->file.scene.slope.z[1] == -30);
+    assert_true(o->belts[0].stand.stools_per_ha == 2000 && o->belts[1].stand.stools_per_ha == 2000);
+    assert_string_equal(o->belts[1].name, "V");
+    assert_string_equal(o->belts[2].name, "ADS 1");
+}
+
+static void reopen(struct document *d, const char *at)
+{
+    ceduo_document_close(d);
+    strcpy(path, at);
+    open_scene(d);
+    expect_files(d);
+}
+
+static const char *const slopes[] = {"../slopes/line.yaml", "../slopes/line.csv",
+                                     "{csv: ../slopes/line.csv, segments: [{rn: 0.3, rt: 0.8}]}", "../slopes/by-csv.yaml"};
+
+static void references_lead_to_the_same_files_from_elsewhere(void **state)
+{
+    for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
+        struct document d;
+        char there[96], text[4096], wanted[256];
+        if (i > 0)
+            assert_true(tear_down(state) == 0 && set_up(state) == 0);
+        scatter(slopes[i]);
+        open_scene(&d);
+        snprintf(there, sizeof there, "%s/b/scenes/t.yaml", folder);
+        save(&d, there);
+        strcpy(text, read_file("b/scenes/t.yaml"));
+        assert_non_null(strstr(text, "# mine\n"));
+        assert_null(strstr(text, "../"));
+        assert_non_null(strstr(text, "stand: ads-1}")); /* the same from everywhere */
+        snprintf(wanted, sizeof wanted, "stand: {base: %s/a/stands/wood.yaml, name: V}", folder);
+        assert_non_null(strstr(text, wanted));
+        save(&d, there); /* once more, though what was read still says ../ */
+        assert_string_equal(read_file("b/scenes/t.yaml"), text);
+        set(&d, "rock.diameter_m", "0.75");
+        save(&d, there);
+        reopen(&d, there);
+        assert_true(d.file.scene.rock.diameter.mean == 0.75);
+        ceduo_document_close(&d);
+    }
+}
+
+/* Beside the old one they stay as they were written. */
+static void references_stay_where_they_lead_to_the_same(void **state)
+{
+    (void)state;
+    struct document d;
+    char there[96], text[4096];
+    scatter(slopes[0]);
+    open_scene(&d);
+    snprintf(there, sizeof there, "%s/a/more/t.yaml", folder);
+    save(&d, there);
+    strcpy(text, read_file("a/more/t.yaml"));
+    assert_string_equal(text, read_file("a/scenes/s.yaml"));
+    reopen(&d, there);
+    ceduo_document_close(&d);
+}
+
+/* The slope's file names the profile that lies beside it: written into the scene it is another name. */
+static void a_changed_slope_keeps_its_profile(void **state)
+{
+    (void)state;
+    struct document d;
+    char here[128];
+    scatter("../slopes/by-csv.yaml");
+    open_scene(&d);
+    set(&d, "slope.facets", "both");
+    strcpy(here, path);
+    save(&d, here);
+    reopen(&d, here);
+    assert_int_equal(d.file.scene.slope.facets, CEDUO_BOTH);
+    ceduo_document_close(&d);
+}
+
+/* A profile that is typed in is one beside the scene, as a stand is. */
+static void a_typed_profile_lies_beside_the_scene(void **state)
+{
+    (void)state;
+    struct document d;
+    char there[96];
+    scatter(slopes[2]);
+    write_file("a/slopes/low.csv", "distance,elevation\n0,40\n40,10\n80,5\n100,0\n");
+    write_file("a/stands/low.yaml", "ceduo: stand/1\ntrees: [{per_ha: 9, dbh_m: 0.2, height_m: 12}]\n");
+    open_scene(&d);
+    set(&d, "slope.csv", "../slopes/low.csv");
+    assert_int_equal(d.file.scene.slope.vertices, 4);
+    set(&d, "slope", "../slopes/line.csv");
+    assert_int_equal(d.file.scene.slope.vertices, 3);
+    set(&d, "slope", "{csv: ../slopes/low.csv, segments: [{rn: 0.3, rt: 0.8}]}");
+    set(&d, "forest[0].stand", "../stands/low.yaml");
+    snprintf(there, sizeof there, "%s/b/scenes/t.yaml", folder);
+    save(&d, there);
+    ceduo_document_close(&d);
+    strcpy(path, there);
+    open_scene(&d);
+    assert_int_equal(d.file.scene.slope.vertices, 4);
+    assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 9);
+    ceduo_document_close(&d);
+}
+
+/* Work on a scene that was saved elsewhere can be taken up again there. */
+static void the_copy_leads_to_the_same_files(void **state)
+{
+    (void)state;
+    struct document d;
+    struct problems problems = {0};
+    char there[96], text[4096];
+    scatter("../slopes/by-csv.yaml");
+    open_scene(&d);
+    snprintf(there, sizeof there, "%s/b/scenes/t.yaml", folder);
+    save(&d, there);
+    set(&d, "slope.facets", "both");
+    set(&d, "forest[0].stand.trees[0].per_ha", "50");
+    assert_non_null(copy_of(&d));
+    strcpy(text, copy_of(&d));
+    ceduo_document_forget(&d);
+    reopen(&d, there);
+    if (!ceduo_document_recover(&d, text, &problems))
+        fail_msg("%s", problems.text.bytes);
+    expect_files(&d);
+    assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
+    ceduo_document_forget(&d);
+    ceduo_document_close(&d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -374,11 +771,23 @@ int main(void)
         cmocka_unit_test_setup_teardown(undo_and_redo, set_up, tear_down),
         cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_value_of_another_file_has_no_source, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_a_killed_save_left_is_taken_away, set_up, tear_down),
         cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(undo_leads_back_to_what_is_saved, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_branch_leaves_what_is_saved_behind, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(history_is_cut, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_copy_follows_undo, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_file_of_the_same_length_is_noticed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(references_lead_to_the_same_files_from_elsewhere, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(references_stay_where_they_lead_to_the_same, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_slope_keeps_its_profile, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_typed_profile_lies_beside_the_scene, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_copy_leads_to_the_same_files, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
