@@ -1,0 +1,341 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Values of files: where their ranges end, texts that look like something else, words that are near to others. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants the four above first */
+#include <cmocka.h>
+#include <math.h>
+#include <regex.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/emit.h"
+#include "io/node.h"
+#include "io/scene_file.h"
+#include "io/schema.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+/* ---- ranges ---- */
+
+/* A scene in which every parameter has its place, but for those that exclude each other. */
+#define HEAD "ceduo: scene/1\nrelease: {vx_m_s: 1}\n"
+#define CURVE "{dbh_most_m: 0.1, dbh_rate_1_y: 0.1, height_most_m: 9, height_rate_1_y: 0.1}"
+#define STAND                                                                                                       \
+    "{stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}], "                 \
+    "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}], energy: {model: brauner}, "                                   \
+    "growth: {shoots: " CURVE ", trees: " CURVE "}, cutting: {rotation_years: 20, stay_per_ha: [10]}}"
+static const char *const scenes[] = {
+    HEAD "rock: {shape: block, axes_m: [1, 1, 1]}\ncontrols: [{x_m: 90}]\n"
+         "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+         "forest: [{from_m: 10, to_m: 80, stand: " STAND "}]\nminimum: {reserves_per_ha: 5}\n",
+    HEAD "rock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
+         "slope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100, material: talus}]}\n"
+         "options: [{name: a, forest: [{from_m: 10, to_m: 80, stand: " STAND "}]}]\n"};
+
+/* What is told of a scene with path=value; NULL where it has no place for that. To be freed. */
+static char *told_of(const char *scene, const char *path, const char *value)
+{
+    struct scene_file file;
+    struct problems problems = {0};
+    struct text set = {0};
+    char *told = NULL;
+    assert_true(ceduo_scene_read_text(&file, "scene", scene, &problems));
+    ceduo_text_format(&set, "%s=%s", path, value);
+    if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
+        ceduo_scene_bind(&file, &problems);
+        told = strdup(problems.text.bytes ? problems.text.bytes : "");
+    }
+    ceduo_text_free(&set);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    return told;
+}
+
+/* Whether a value lies in the range of what is at `place`; what else does not fit it is another matter. */
+static bool is_in_range(const char *path, const char *place, const char *value)
+{
+    char *told = told_of(scenes[0], path, value);
+    told = told ? told : told_of(scenes[1], path, value);
+    if (!told)
+        fail_msg("no scene here holds %s", path);
+    static const char *const words[] = {" is below ", " is not above ", " is above ", " is not below ", " the spread reaches "};
+    struct text start = {0};
+    ceduo_text_format(&start, ": %s: ", place);
+    const char *at = strstr(told, start.bytes);
+    bool in = true;
+    for (size_t i = 0; at && i < LENGTH(words); i++) {
+        const char *word = strstr(at, words[i]);
+        in &= !word || memchr(at, '\n', (size_t)(word - at));
+    }
+    ceduo_text_free(&start);
+    free(told);
+    return in;
+}
+
+static void expect_range(const char *path, const char *place, double value, bool in)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.17g", value);
+    if (is_in_range(path, place, text) != in)
+        fail_msg("%s = %s is %s", path, text, in ? "refused" : "taken");
+}
+
+static size_t fields, open_ends;
+
+/* The limits themselves, and the numbers next to them on both sides. */
+static void try_field(void *context, const char *path, const struct field *f)
+{
+    (void)context;
+    bool points = f->type == FIELD_POINTS, listed = f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS || points;
+    if (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT && !listed)
+        return;
+    struct text place = {0}, whole = {0};
+    for (; *path; path++) { /* in the first item of each list */
+        ceduo_text_char(&place, *path);
+        if (*path == '[')
+            ceduo_text_char(&place, '0');
+    }
+    ceduo_text_put(&place, listed ? "[0]" : "");
+    ceduo_text_format(&whole, "%s%s", place.bytes, points ? "[1]" : "");
+    bool count = f->type == FIELD_COUNT;
+    assert_true(isfinite(f->lo) && isfinite(f->hi) && f->lo < f->hi);
+    expect_range(whole.bytes, place.bytes, count ? f->lo - 1 : nextafter(f->lo, -INFINITY), false);
+    expect_range(whole.bytes, place.bytes, f->lo, !(f->flags & FIELD_ABOVE));
+    expect_range(whole.bytes, place.bytes, count ? f->lo + 1 : nextafter(f->lo, INFINITY), true);
+    expect_range(whole.bytes, place.bytes, count ? f->hi - 1 : nextafter(f->hi, -INFINITY), true);
+    expect_range(whole.bytes, place.bytes, f->hi, !(f->flags & FIELD_UNDER));
+    expect_range(whole.bytes, place.bytes, count ? f->hi + 2 : nextafter(f->hi, INFINITY), false); /* 2^53 + 1 is no double */
+    fields++;
+    open_ends += (f->flags & FIELD_UNDER) != 0;
+    ceduo_text_free(&whole);
+    ceduo_text_free(&place);
+}
+
+static void every_range_ends_where_its_table_says(void **state)
+{
+    (void)state;
+    fields = open_ends = 0;
+    ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
+    assert_true(fields > 60 && open_ends > 0); /* the table is walked */
+}
+
+/* Limits that are promised, whatever the table says: a right angle, shares, 2^53, sizes above nothing. */
+static void promised_limits(void **state)
+{
+    (void)state;
+    const struct {
+        const char *path, *value;
+        bool in;
+    } rows[] = {{"slope.segments[0].roughness_rad", "0", true},
+                {"slope.segments[0].roughness_rad", "1.5707963267948963", true},
+                {"slope.segments[0].roughness_rad", "1.5707963267948966", false}, /* the double next below pi/2 */
+                {"slope.segments[0].rn", "0", true},
+                {"slope.segments[0].rn", "-5e-324", false},
+                {"slope.segments[0].rt", "1", true},
+                {"slope.segments[0].rt", "1.0000000000000002", false},
+                {"simulation.seed", "0", true},
+                {"simulation.seed", "-1", false},
+                {"simulation.seed", "9007199254740992", true},
+                {"simulation.seed", "9007199254740993", false},
+                {"simulation.rocks", "0", false},
+                {"simulation.rocks", "1", true},
+                {"simulation.threshold_m", "0", false},
+                {"simulation.threshold_m", "5e-324", true},
+                {"controls[0].accepted_kJ", "0", true},
+                {"controls[0].accepted_kJ", "-5e-324", false},
+                {"forest[0].stand.trees[0].dbh_m", "0", false},
+                {"forest[0].stand.stools.spacing_m", "0", true}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        if (is_in_range(rows[i].path, rows[i].path, rows[i].value) != rows[i].in)
+            fail_msg("%s = %s", rows[i].path, rows[i].value);
+}
+
+/* What is drawn reaches to the mean and the half width, of a normal one to three standard deviations: just to the limit
+ * where that is inside. What is cut at 0 and 1 may reach beyond. */
+static void spreads_end_at_the_limits(void **state)
+{
+    (void)state;
+    const struct {
+        const char *path, *value;
+        bool in;
+    } rows[] = {{"release.height_m", "{mean: 1, spread: 1, kind: uniform}", true},
+                {"release.height_m", "{mean: 1, spread: 1.0000000000000002, kind: uniform}", false},
+                {"release.height_m", "{mean: 9999.5, spread: 0.5, kind: uniform}", true},
+                {"release.height_m", "{mean: 9999.5, spread: 0.50000000001, kind: uniform}", false},
+                {"release.height_m", "{mean: 3, spread: 1}", true},
+                {"release.height_m", "{mean: 3, spread: 1.0000000000000002}", false},
+                {"rock.axes_m[0]", "{mean: 0.5, spread: 0.5, kind: uniform}", false}, /* 0 itself is none */
+                {"rock.axes_m[0]", "{mean: 0.5, spread: 0.4999999999999999, kind: uniform}", true},
+                {"rock.axes_m[0]", "{mean: 999.5, spread: 0.5, kind: uniform}", true},
+                {"slope.segments[0].rn", "{mean: 0.9, spread: 0.5}", true},
+                {"slope.segments[0].rn.spread", "0", true}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        if (is_in_range(rows[i].path, rows[i].path, rows[i].value) != rows[i].in)
+            fail_msg("%s = %s", rows[i].path, rows[i].value);
+    assert_false(is_in_range("slope.segments[0].rn.spread", "slope.segments[0].rn.spread", "-5e-324"));
+}
+
+/* ---- texts ---- */
+
+/* The types of yaml.org, version 1.1, and the core schema of 1.2: what these match is no text without quotes. */
+static const char *const types[] = {
+    "^(~|null|Null|NULL|)$",
+    "^(y|Y|yes|Yes|YES|n|N|no|No|NO|true|True|TRUE|false|False|FALSE|on|On|ON|off|Off|OFF)$",
+    "^[-+]?0b[0-1_]+$",
+    "^[-+]?0o?[0-7_]+$",
+    "^[-+]?(0|[1-9][0-9_]*)$",
+    "^[-+]?0x[0-9a-fA-F_]+$",
+    "^[-+]?[1-9][0-9_]*(:[0-5]?[0-9])+$",
+    "^[-+]?([0-9][0-9_]*)?\\.[0-9.]*([eE][-+][0-9]+)?$",
+    "^[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+\\.[0-9_]*$",
+    "^[-+]?(\\.[0-9]+|[0-9]+(\\.[0-9]*)?)([eE][-+]?[0-9]+)?$",
+    "^[-+]?\\.(inf|Inf|INF)$",
+    "^\\.(nan|NaN|NAN)$",
+    "^[0-9][0-9][0-9][0-9]-[0-9][0-9]?-[0-9][0-9]?([Tt]|[ \t]|$)",
+    "^(<<|=)$",
+    "^[ \t]|[ \t]$", /* blanks at an end are no part of it */
+};
+
+static bool is_another_type(const char *text)
+{
+    static regex_t compiled[LENGTH(types)];
+    static bool ready;
+    for (size_t i = 0; i < LENGTH(types) && !ready; i++)
+        assert_int_equal(regcomp(&compiled[i], types[i], REG_EXTENDED | REG_NOSUB), 0);
+    ready = true;
+    for (size_t i = 0; i < LENGTH(types); i++)
+        if (regexec(&compiled[i], text, 0, NULL, 0) == 0)
+            return true;
+    return false;
+}
+
+/* A text that was in quotes is written so that it is one for every reader. */
+static void expect_text(const char *word)
+{
+    struct text text = {0};
+    struct arena arena = {0};
+    struct problems problems = {0};
+    ceduo_emit_scalar(&text, word, true);
+    if (is_another_type(word) && text.bytes[0] != '"')
+        fail_msg("'%s' is written %s, which is no text", word, text.bytes);
+    const struct source source = {.name = "test", .bytes = text.bytes, .length = text.length};
+    const struct node *back = ceduo_yaml_read(&arena, &source, &problems);
+    assert_true(back && back->kind == NODE_SCALAR);
+    assert_string_equal(back->text, word);
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+    ceduo_text_free(&text);
+}
+
+static void names_stay_texts(void **state)
+{
+    (void)state;
+    const char *const words[] = {
+        "", " ", "a ", " a", "\ta", "~", "null", "Null", "NULL", "y", "N", "yes", "Yes", "YES", "no", "No", "NO", "true", "True",
+        "TRUE", "false", "on", "On", "off", "OFF", "0x10", "-0x1F", "0b101", "0o17", "017", "+12", "1_000", "1e3", "1E+3", ".5",
+        "5.", "-.5e-3", ".", "..", "1.2.3", "1:30", "1:30.5", ".inf", "-.Inf", "+.INF", ".nan", ".NaN", "2024-01-31",
+        "2024-1-3 10:00", "<<", "=", "0", "-0"};
+    for (size_t i = 0; i < LENGTH(words); i++) {
+        assert_true(is_another_type(words[i]));
+        expect_text(words[i]);
+    }
+    /* and whatever else these characters make */
+    static const char letters[] = "0179.+-_:xXbBoOeEfFnNaAyY ~";
+    uint64_t bits = 1;
+    for (int i = 0; i < 200000; i++) {
+        char word[8] = "";
+        bits = bits * 6364136223846793005u + 1442695040888963407u;
+        for (size_t k = 0; k < 1 + (bits >> 20) % 6; k++)
+            word[k] = letters[(bits >> (24 + 6 * k)) % (sizeof letters - 1)];
+        expect_text(word);
+    }
+}
+
+/* Quotes stand only where they are needed: what is a text by itself is written as it was. */
+static void plain_names_stay_plain(void **state)
+{
+    (void)state;
+    const char *const words[] = {"ADS 1", "simple-coppice", "../stands/ads-1.yaml", "25 years", "10 m", "1st", "No wood",
+                                 "yesterday", "a", "nil", "x", "0.5 m", "1 2", "on the road", "profile_1.csv", "./s.yaml"};
+    for (size_t i = 0; i < LENGTH(words); i++)
+        for (int quoted = 0; quoted < 2; quoted++) {
+            struct text text = {0};
+            assert_false(is_another_type(words[i]));
+            ceduo_emit_scalar(&text, words[i], quoted);
+            assert_string_equal(text.bytes, words[i]);
+            ceduo_text_free(&text);
+        }
+    const char *const values[] = {"0.5", "-1", "1e3", ".5", "+.5", "true", "false"}; /* without quotes these are no texts */
+    for (size_t i = 0; i < LENGTH(values); i++) {
+        struct text text = {0};
+        ceduo_emit_scalar(&text, values[i], false);
+        assert_string_equal(text.bytes, values[i]);
+        ceduo_text_free(&text);
+    }
+}
+
+/* ---- near words ---- */
+
+static void the_nearest_word_is_meant(void **state)
+{
+    (void)state;
+    const struct {
+        const char *word, *wanted, *words[4];
+    } rows[] = {{"height_m", "height_m", {"dbh_m", "height_m"}},
+                {"heigth_m", "height_m", {"dbh_m", "height_m"}},  /* two letters exchanged */
+                {"heiht_m", "height_m", {"dbh_m", "height_m"}},   /* one left out */
+                {"heighht_m", "height_m", {"dbh_m", "height_m"}}, /* one twice */
+                {"hright_m", "height_m", {"dbh_m", "height_m"}},  /* another */
+                {"hrigt_m", "height_m", {"dbh_m", "height_m"}},   /* two faults */
+                {"lmuped", "lumped", {"lumped", "crsp"}},
+                {"csrp", "crsp", {"lumped", "crsp"}},
+                {"bat", "cat", {"dog", "cat", "car"}}, /* 1 and 2 away */
+                {"bat", "cat", {"dog", "car", "cat"}},
+                {"bat", "cat", {"cat", "hat"}}, /* the first of two */
+                {"bat", "hat", {"hat", "cat"}},
+                {"dbh", "dbh_m", {"per_ha", "dbh_m", "dbh_sd_m"}},
+                {"density", "density_kg_m3", {"mass_kg", "density_kg_m3"}}, /* the beginning of it, however much longer */
+                {"density", "density_kg_m3", {"density_kg_m3", "dexxxxx"}}, /* than one that is too far */
+                {"density", "intensity", {"density_kg_m3", "intensity"}},   /* but nearer ones go before it */
+                {"density", "intensity", {"intensity", "density_kg_m3"}},
+                {"d", "dbh_m", {"per_ha", "dbh_m"}},
+                /* half the letters and one more: the farthest */
+                {"abcdefgh", "abc", {"abc"}},
+                {"abcdefgh", NULL, {"ab"}},
+                {"abcdefgh", "xxxxxfgh", {"xxxxxfgh"}},
+                {"abcdefgh", NULL, {"xxxxxxgh"}},
+                {"abcdefg", "axxxxfg", {"axxxxfg"}},
+                {"abcdefg", NULL, {"xxxxxfg"}},
+                {"abc", "axx", {"axx"}},
+                {"abc", NULL, {"xxx"}},
+                /* of one or two letters one must be the same */
+                {"mu", NULL, {"rn", "rt"}},
+                {"rm", "rn", {"rn", "rt"}},
+                {"q", NULL, {"x", "z"}},
+                {"", NULL, {"lumped", "x"}}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        size_t n = 0;
+        while (n < 4 && rows[i].words[n])
+            n++;
+        const char *found = ceduo_text_nearest(rows[i].word, rows[i].words, n);
+        if ((found != NULL) != (rows[i].wanted != NULL) || (found && strcmp(found, rows[i].wanted) != 0))
+            fail_msg("'%s': %s for %s", rows[i].word, found ? found : "none", rows[i].wanted ? rows[i].wanted : "none");
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_range_ends_where_its_table_says),
+        cmocka_unit_test(promised_limits),
+        cmocka_unit_test(spreads_end_at_the_limits),
+        cmocka_unit_test(names_stay_texts),
+        cmocka_unit_test(plain_names_stay_plain),
+        cmocka_unit_test(the_nearest_word_is_meant),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
