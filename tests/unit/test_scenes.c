@@ -1,0 +1,400 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka wants the four above first */
+#include <cmocka.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/resolve.h"
+#include "io/scene_file.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+static char folder[64];
+
+static int set_up(void **state)
+{
+    (void)state;
+    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    char command[128];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    return system(command);
+}
+
+__attribute__((format(printf, 2, 3))) static void write_file(const char *name, const char *format, ...)
+{
+    char path[128];
+    struct text text = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&text, format, args);
+    va_end(args);
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_true(ceduo_file_write(path, text.bytes, text.length));
+    ceduo_text_free(&text);
+}
+
+/* Reads scene.yaml; what is wrong with it is put into `told`. */
+static bool read_scene(struct scene_file *file, char told[4096])
+{
+    char path[128];
+    struct problems problems = {0};
+    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    bool good = ceduo_scene_read(file, path, NULL, 0, &problems);
+    snprintf(told, 4096, "%s", problems.text.bytes ? problems.text.bytes : "");
+    ceduo_problems_free(&problems);
+    return good;
+}
+
+/* ---- bases ---- */
+
+#define REST                                                                                                       \
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n"                                              \
+    "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+
+/* Stands 0 to n, each of which starts from the next; each says one thing of its own. */
+static void write_chain(int n)
+{
+    for (int i = 0; i <= n; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "%d.yaml", i);
+        if (i < n)
+            write_file(name, "ceduo: stand/1\nbase: %d.yaml\ntrees: [{per_ha: %d, dbh_m: 0.2, height_m: 9}]\n", i + 1, 100 + i);
+        else
+            write_file(name, "ceduo: stand/1\nname: last\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+                             "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n");
+    }
+}
+
+/* Eight steps from a stand's file to the one that has no base, and eight from a stand in the scene; one more is told where
+ * it is taken. */
+static void bases_go_eight_files_deep(void **state)
+{
+    (void)state;
+    const char *const stands[] = {"0.yaml", "{base: 1.yaml, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}",
+                                  "{base: 1.yaml, name: own, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}"};
+    for (int n = 1; n <= 10; n++)
+        for (size_t i = 0; i < LENGTH(stands); i++) {
+            struct scene_file file;
+            char told[4096], place[160];
+            write_chain(n);
+            write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", stands[i]);
+            assert_int_equal(read_scene(&file, told), n <= 8);
+            if (n <= 8) {
+                const struct ceduo_belt *belt = &file.scene.options[0].belts[0];
+                assert_string_equal(belt->name, i == 2 ? "own" : "last");
+                assert_true(belt->stand.stools_per_ha == 2000 && belt->stand.trees[0].per_ha == 100);
+            } else {
+                snprintf(place, sizeof place,
+                         "%s/8.yaml:2:7: base: more than 8 files that start from one another: a loop?\n", folder);
+                if (strstr(told, place) != told)
+                    fail_msg("%s", told);
+            }
+            ceduo_scene_release(&file);
+        }
+}
+
+static void bases_in_a_circle_are_refused(void **state)
+{
+    (void)state;
+    for (int n = 1; n <= 9; n++)
+        for (int i = 0; i < 2; i++) {
+            struct scene_file file;
+            char told[4096];
+            write_chain(n);
+            char last[16];
+            snprintf(last, sizeof last, "%d.yaml", n);
+            write_file(last, "ceduo: stand/1\nbase: 0.yaml\n");
+            write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", i ? "{base: 0.yaml}" : "0.yaml");
+            assert_false(read_scene(&file, told));
+            assert_non_null(strstr(told, ":2:7: base: more than 8 files that start from one another: a loop?\n"));
+            assert_null(strstr(strstr(told, "a loop?") + 1, "a loop?"));
+            ceduo_scene_release(&file);
+        }
+}
+
+/* ---- grounds ---- */
+
+struct vertex {
+    double x, z;
+    const char *ground; /* of the segment that begins here */
+};
+
+/* Middles of the ranges in use with CRSP 3.0. */
+static void expect_ground(const struct ceduo_segment *s, const char *name)
+{
+    const struct {
+        const char *name;
+        double rn, rt;
+    } rows[] = {{"cliff", (0.33 + 0.37) / 2, (0.83 + 0.87) / 2},
+                {"talus", (0.30 + 0.33) / 2, (0.82 + 0.85) / 2},
+                {"colluvium", (0.28 + 0.30) / 2, (0.78 + 0.83) / 2}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        if (strcmp(rows[i].name, name) == 0) {
+            assert_true(fabs(s->rn.mean - rows[i].rn) < 1e-12 && fabs(s->rt.mean - rows[i].rt) < 1e-12);
+            return;
+        }
+    fail_msg("%s", name);
+}
+
+/* The profile (0, 50), (40, 20), (100, 0) at `x`, `z`, cut where its grounds meet: on the line, and each side its own. */
+static void expect_cut(double x, double z, const char *materials, const struct vertex *wanted, bool csv)
+{
+    struct scene_file file;
+    char told[4096];
+    write_file("line.csv", "distance,elevation\n%.17g,%.17g\n%.17g,%.17g\n%.17g,%.17g\n", x, z + 50, x + 40, z + 20, x + 100, z);
+    struct text profile = {0};
+    if (csv)
+        ceduo_text_put(&profile, "csv: line.csv");
+    else
+        ceduo_text_format(&profile, "vertices_m: [[%.17g, %.17g], [%.17g, %.17g], [%.17g, %.17g]]", x, z + 50, x + 40, z + 20,
+                          x + 100, z);
+    write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: %.17g}]\nslope: {%s, materials: [%s]}\n",
+               x + 90, profile.bytes, materials);
+    ceduo_text_free(&profile);
+    if (!read_scene(&file, told))
+        fail_msg("%s", told);
+    const struct ceduo_slope *s = &file.scene.slope;
+    size_t n = 0;
+    for (; wanted[n].ground; n++) {
+        assert_true(n < s->vertices);
+        if (!(s->x[n] == wanted[n].x) || !(fabs(s->z[n] - (wanted[n].z - 50)) < 1e-9))
+            fail_msg("vertex %zu at %.17g, %.17g", n, s->x[n], s->z[n]);
+        expect_ground(&s->segments[n], wanted[n].ground);
+    }
+    assert_int_equal(s->vertices, n + 1);
+    assert_true(s->x[n] == 100 && s->origin_x == x && s->origin_z == z + 50);
+    ceduo_scene_release(&file);
+}
+
+static void grounds_meet_anywhere(void **state)
+{
+    (void)state;
+    const struct {
+        double borders[4]; /* from the profile's begin; NAN: its end */
+        const char *grounds[3];
+        struct vertex wanted[6];
+    } rows[] = {
+        {{0, 10, 70, 100}, {"cliff", "talus", "colluvium"},
+         {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
+        {{0, 10, 20, 100}, {"cliff", "talus", "cliff"}, /* two in one segment */
+         {{0, 50, "cliff"}, {10, 42.5, "talus"}, {20, 35, "cliff"}, {40, 20, "cliff"}}},
+        {{0, 55, 85, 100}, {"talus", "colluvium", "talus"}, /* in the last one */
+         {{0, 50, "talus"}, {40, 20, "talus"}, {55, 15, "colluvium"}, {85, 5, "talus"}}},
+        {{0, 40, 70, 100}, {"cliff", "talus", "colluvium"}, /* at a vertex */
+         {{0, 50, "cliff"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
+        {{-30, 10, 70, 400}, {"cliff", "talus", "colluvium"}, /* beyond both ends */
+         {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
+        {{-30, -10, 100, 400}, {"cliff", "talus", "colluvium"}, /* outside: of no segment */
+         {{0, 50, "talus"}, {40, 20, "talus"}}},
+        {{0, 0.25, 99.75, 100}, {"cliff", "talus", "cliff"}, /* close to the ends */
+         {{0, 50, "cliff"}, {0.25, 49.8125, "talus"}, {40, 20, "talus"}, {99.75, 1. / 12, "cliff"}}}};
+    const double places[][2] = {{0, 0}, {480000, 0}, {480000.5, 4321.25}, {-120.25, -3000}, {500000000, 8000}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        for (size_t k = 0; k < LENGTH(places); k++) {
+            struct text materials = {0};
+            for (size_t j = 0; j < 3; j++)
+                ceduo_text_format(&materials, "%s{from_m: %.17g, to_m: %.17g, material: %s}", j ? ", " : "",
+                                  places[k][0] + rows[i].borders[j], places[k][0] + rows[i].borders[j + 1], rows[i].grounds[j]);
+            expect_cut(places[k][0], places[k][1], materials.bytes, rows[i].wanted, false);
+            expect_cut(places[k][0], places[k][1], materials.bytes, rows[i].wanted, true);
+            ceduo_text_free(&materials);
+        }
+}
+
+/* Gaps, overlaps and ends are told by the coordinates of the file. */
+static void grounds_that_do_not_meet_are_told(void **state)
+{
+    (void)state;
+    const struct {
+        double from[2], to[2];
+        const char *told; /* NULL: good */
+    } rows[] = {{{480000.5, 480050}, {480050, 480100.5}, NULL},
+                {{480000.50000000006, 480050}, {480050, 480100.5},
+                 "from_m: 480000.50000000006 leaves a gap or overlaps; it must begin at 480000.5"},
+                {{480000.5, 480050.00000000006}, {480050, 480100.5},
+                 "from_m: 480050.00000000006 leaves a gap or overlaps; it must begin at 480050"},
+                {{480000.5, 480049.99999999994}, {480050, 480100.5},
+                 "from_m: 480049.99999999994 leaves a gap or overlaps; it must begin at 480050"},
+                {{480000.5, 480050}, {480050, 480100.49999999994}, "to_m: 480100.49999999994 ends before the profile, at 480100.5"},
+                {{480000.5, 480050}, {480050, 480050}, "to_m: 480050 does not lie beyond from_m, 480050"}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct scene_file file;
+        char told[4096];
+        write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 480090}]\n"
+                   "slope: {vertices_m: [[480000.5, 64], [480100.5, 0]], materials: [{from_m: %.17g, to_m: %.17g, "
+                   "material: talus}, {from_m: %.17g, to_m: %.17g, material: cliff}]}\n",
+                   rows[i].from[0], rows[i].to[0], rows[i].from[1], rows[i].to[1]);
+        assert_int_equal(read_scene(&file, told), !rows[i].told);
+        if (rows[i].told && !strstr(told, rows[i].told))
+            fail_msg("%s", told);
+        ceduo_scene_release(&file);
+    }
+}
+
+/* ---- sources ---- */
+
+#define A "source: {kind: assumed, text: a}"
+#define M "source: {kind: measured, text: m}"
+static const char sourced[] = "ceduo: scene/1\n" M "\n"
+                              "rock: {diameter_m: {mean: 0.5, spread: 0.01, " A "}, density_kg_m3: 2600, " M "}\n"
+                              "release: {vx_m_s: 1, " A "}\n"
+                              "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+                              "controls: [{x_m: 90, accepted_kJ: 50, " A "}, {x_m: 80}]\n"
+                              "forest:\n"
+                              "  - {from_m: 10, to_m: 40, stand: stand.yaml}\n"
+                              "  - {from_m: 40, to_m: 70, stand: {base: stand.yaml, " A "}}\n";
+static const char stand[] = "ceduo: stand/1\n" M "\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+                            "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n"
+                            "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}, {per_ha: 6, dbh_m: 0.4, height_m: 15, " A "}]\n";
+
+/* The source of a mapping as it is written; "" where it has none. */
+static void expect_source(const struct scene_file *file, const char *map, const char *wanted, const char *set)
+{
+    const char *within;
+    size_t used;
+    struct text text = {0};
+    const struct node *node = ceduo_resolve_walk(file->root, map, &within, &used);
+    assert_int_equal(used, strlen(map));
+    node = ceduo_node_get(node, "source");
+    if (node)
+        ceduo_emit_flow(&text, node);
+    if (strcmp(text.bytes ? text.bytes : "", wanted) != 0)
+        fail_msg("after %s the source of '%s' is %s, not %s", set, map, text.bytes, wanted);
+    ceduo_text_free(&text);
+}
+
+/* The innermost source around a value that was changed is not of it any more, and no other is touched. */
+static void changed_values_leave_their_source(void **state)
+{
+    (void)state;
+    static const char *const maps[][2] = {{"", "m"}, {"rock", "m"}, {"rock.diameter_m", "a"}, {"release", "a"},
+                                          {"controls[0]", "a"}, {"controls[1]", NULL}, {"forest[0]", NULL},
+                                          {"forest[0].stand", "m"}, {"forest[0].stand.trees[0]", NULL},
+                                          {"forest[0].stand.trees[1]", "a"}, {"forest[1].stand", "a"}};
+    const struct {
+        const char *sets[2], *map, *source; /* which source is another then */
+    } rows[] = {
+        {{"controls[0].accepted_kJ=60"}, "controls[0]", "{kind: assumed, text: a, except: [accepted_kJ]}"},
+        {{"controls[0].accepted_kJ=60", "controls[0].accepted_kJ=70"}, "controls[0]",
+         "{kind: assumed, text: a, except: [accepted_kJ]}"},
+        {{"controls[0].accepted_kJ=60", "controls[0].x_m=85"}, "controls[0]",
+         "{kind: assumed, text: a, except: [accepted_kJ, x_m]}"},
+        {{"controls[0].measured_speed_m_s=9"}, "controls[0]",
+         "{kind: assumed, text: a, except: [measured_speed_m_s]}"}, /* a new one */
+        {{"controls[1].x_m=85"}, "", "{kind: measured, text: m, except: [controls]}"},
+        {{"controls[1].x_m=85", "controls[1].x_m=86"}, "", "{kind: measured, text: m, except: [controls]}"},
+        /* beside and under a source */
+        {{"rock.density_kg_m3=2700"}, "rock", "{kind: measured, text: m, except: [density_kg_m3]}"},
+        {{"rock.diameter_m.mean=0.6"}, "rock.diameter_m", "{kind: assumed, text: a, except: [mean]}"},
+        {{"rock.diameter_m.kind=uniform"}, "rock.diameter_m", "{kind: assumed, text: a, except: [kind]}"},
+        {{"release.vx_m_s.spread=0.1"}, "release", "{kind: assumed, text: a, except: [vx_m_s.spread]}"},
+        {{"release.vx_m_s=2", "release.vx_m_s.spread=0.1"}, "release",
+         "{kind: assumed, text: a, except: [vx_m_s, vx_m_s.spread]}"},
+        /* of a file, and of what starts from it */
+        {{"forest[0].stand.stools.per_ha=1000"}, "forest[0].stand", "{kind: measured, text: m, except: [stools.per_ha]}"},
+        {{"forest[0].stand.stools={per_ha: 1000, spacing_m: 0.4}"}, "forest[0].stand",
+         "{kind: measured, text: m, except: [stools]}"},
+        {{"forest[0].stand.species=acer"}, "forest[0].stand", "{kind: measured, text: m, except: [species]}"},
+        {{"forest[0].stand.trees[0].per_ha=50"}, "forest[0].stand", "{kind: measured, text: m, except: [trees]}"},
+        {{"forest[0].stand.trees[1].per_ha=5"}, "forest[0].stand.trees[1]", "{kind: assumed, text: a, except: [per_ha]}"},
+        {{"forest[1].stand.stools.per_ha=1000"}, "forest[1].stand", "{kind: assumed, text: a, except: [stools.per_ha]}"},
+        {{"forest[0].to_m=35"}, "", "{kind: measured, text: m, except: [forest]}"},
+        {{"slope.segments[0].rn=0.35"}, "", "{kind: measured, text: m, except: [slope.segments]}"},
+        /* the source itself is said anew, whole or in part */
+        {{"controls[0].source.text=b"}, "controls[0]", "{kind: assumed, text: b}"},
+        {{"controls[0].source.kind=measured"}, "controls[0]", "{kind: measured, text: a}"},
+        {{"controls[0].source={kind: measured}"}, "controls[0]", "{kind: measured}"},
+        {{"rock.diameter_m.source.text=b"}, "rock.diameter_m", "{kind: assumed, text: b}"},
+        {{"controls[0].accepted_kJ=60", "controls[0].source.text=b"}, "controls[0]",
+         "{kind: assumed, text: b, except: [accepted_kJ]}"},
+        {{"controls[0].accepted_kJ=60", "controls[0].source={kind: measured, text: b}"}, "controls[0]",
+         "{kind: measured, text: b}"},
+        {{"controls[0].source={kind: measured, text: b}", "controls[0].accepted_kJ=60"}, "controls[0]",
+         "{kind: measured, text: b, except: [accepted_kJ]}"},
+        {{"controls[0].source.except=[x_m]", "controls[0].accepted_kJ=60"}, "controls[0]",
+         "{kind: assumed, text: a, except: [x_m, accepted_kJ]}"},
+        {{"controls[1].source.kind=measured"}, "controls[1]", "{kind: measured}"},
+        /* nothing that a source is of */
+        {{"controls[0].accepted_kJ=50"}, NULL, NULL},
+        {{"controls[0].name=road"}, NULL, NULL},
+        {{"title=other"}, NULL, NULL},
+        {{"simulation.seed=7"}, NULL, NULL},
+        {{"simulation={seed: 7}"}, NULL, NULL},
+        {{"forest[0].stand.name=other"}, NULL, NULL},
+        {{"forest[0].stand.stools.per_ha=2000"}, NULL, NULL}};
+    write_file("stand.yaml", "%s", stand);
+    write_file("scene.yaml", "%s", sourced);
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct scene_file file;
+        struct problems problems = {0};
+        char told[4096], plain[64];
+        if (!read_scene(&file, told))
+            fail_msg("%s", told);
+        for (size_t k = 0; k < 2 && rows[i].sets[k]; k++)
+            assert_true(ceduo_scene_set(&file, "--set", rows[i].sets[k], &problems));
+        for (size_t k = 0; k < LENGTH(maps); k++) {
+            const char *map = maps[k][0], *text = maps[k][1];
+            bool here = rows[i].map && strcmp(rows[i].map, map) == 0;
+            snprintf(plain, sizeof plain, "{kind: %s, text: %s}", text && *text == 'm' ? "measured" : "assumed", text ? text : "");
+            expect_source(&file, map, here ? rows[i].source : text ? plain : "", rows[i].sets[0]);
+        }
+        if (!ceduo_scene_bind(&file, &problems))
+            fail_msg("%s", problems.text.bytes);
+        ceduo_problems_free(&problems);
+        ceduo_scene_release(&file);
+    }
+}
+
+/* A mapping that is put in whole comes without the source of the old one, and the one around it is not of it. */
+static void a_new_mapping_has_no_old_source(void **state)
+{
+    (void)state;
+    struct scene_file file;
+    struct problems problems = {0};
+    char told[4096];
+    write_file("stand.yaml", "%s", stand);
+    write_file("scene.yaml", "%s", sourced);
+    assert_true(read_scene(&file, told));
+    assert_true(ceduo_scene_set(&file, "--set", "rock.diameter_m=0.6", &problems));
+    expect_source(&file, "rock", "{kind: measured, text: m, except: [diameter_m]}", "rock.diameter_m");
+    assert_true(ceduo_scene_set(&file, "--set", "release={vx_m_s: 2}", &problems));
+    expect_source(&file, "release", "", "release");
+    expect_source(&file, "", "{kind: measured, text: m, except: [release]}", "release");
+    assert_true(ceduo_scene_set(&file, "--set", "forest[0].stand=stand.yaml", &problems));
+    assert_true(ceduo_scene_set(&file, "--set", "forest[1].stand={base: stand.yaml}", &problems));
+    expect_source(&file, "", "{kind: measured, text: m, except: [release, forest]}", "forest");
+    assert_true(ceduo_scene_set(&file, "--set", "controls=[{x_m: 85}]", &problems));
+    expect_source(&file, "controls[0]", "", "controls");
+    expect_source(&file, "", "{kind: measured, text: m, except: [release, forest, controls]}", "controls");
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(bases_go_eight_files_deep, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bases_in_a_circle_are_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(grounds_meet_anywhere, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(grounds_that_do_not_meet_are_told, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(changed_values_leave_their_source, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_new_mapping_has_no_old_source, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
