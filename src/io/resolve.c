@@ -44,7 +44,7 @@ static const struct node *in_place_of(struct arena *arena, const struct node *fo
     copy->key = place->key;
     copy->key_line = place->key_line;
     copy->key_column = place->key_column;
-    copy->written = place->written ? place->written : place;
+    copy->written = place;
     copy->followed = copy;
     return copy;
 }
@@ -52,8 +52,8 @@ static const struct node *in_place_of(struct arena *arena, const struct node *fo
 const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder)
 {
     const struct source *s = node->source;
-    const char *path = ceduo_file_find(arena, node->text, s && s->is_option ? s->beside : s ? s->name : NULL, folder);
-    if (!path && s && s->is_option)
+    const char *path = ceduo_file_find(arena, node->text, s->is_option ? s->beside : s->name, folder);
+    if (!path && s->is_option)
         path = ceduo_file_find(arena, node->text, NULL, folder);
     return path;
 }
@@ -124,8 +124,8 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
     const struct node *below = follow(r, object, base, depth + 1);
     if (!below)
         return broken(r, node);
-    if (below->kind != NODE_MAP)
-        return below;
+    if (below->kind != NODE_MAP) /* which is told where it is bound */
+        return in_place_of(r->arena, below, node);
     const struct node *merged = merge(r->arena, below, node);
     struct node *copy = merged ? ceduo_arena_take(r->arena, sizeof *copy) : NULL;
     if (!copy) {
@@ -447,7 +447,7 @@ static bool needs_no_source(const struct setter *s, const struct field *f, const
     struct node before = old ? *old : plain, now = *s->value;
     before.key = now.key = NULL;
     return strcmp(key, "source") == 0 || strcmp(key, "simulation") == 0 || (f && f->type <= FIELD_TEXT) ||
-           !now.source || !now.source->is_option || (old && ceduo_node_equal(&before, &now));
+           !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
 static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
