@@ -268,6 +268,14 @@ static enum ceduo_status release(struct worker *w, struct walker *walker, uint64
     return status;
 }
 
+/* A rock that cannot be drawn has no way: it is unfinished before every control. */
+static void note_undrawn(struct worker *w)
+{
+    w->block->ends[CEDUO_UNFINISHED]++;
+    for (size_t c = 0; c < w->run->controls; c++)
+        w->block->controls[c].unfinished++;
+}
+
 /* The next rock of the block at its release; false where none is left. */
 static bool next_rock(void *context, size_t lane)
 {
@@ -278,7 +286,7 @@ static bool next_rock(void *context, size_t lane)
         clear_samples(run, number);
         if (release(w, &w->walkers[lane], number) == CEDUO_OK)
             return true;
-        note_end(w, lane, CEDUO_UNFINISHED);
+        note_undrawn(w);
     }
     return false;
 }
