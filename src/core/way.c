@@ -70,7 +70,7 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
     way->stems_hit = w.stems_hit;
     way->stools_met = w.stools_met;
     way->stems_drawn = w.stems ? w.stems->drawn : 0;
-    if (w.stems && w.stems->no_memory)
+    if (f->stems.no_memory) /* be it for stems that the rock does not come to */
         return CEDUO_NO_MEMORY;
     return w.cancelled ? CEDUO_CANCELLED : CEDUO_OK;
 }
