@@ -42,7 +42,7 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
         return CEDUO_UNKNOWN;
     if (!(a->exceed_probability <= CEDUO_EXCEED_MOST))
         return CEDUO_FAIL;
-    double unfinished = a->released > 0 ? (double)a->unfinished / (double)a->released : 0;
+    double unfinished = (double)a->unfinished / (double)a->released;
     return a->exceed_probability + unfinished <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_UNKNOWN;
 }
 

@@ -101,7 +101,7 @@ static double brent_goal(double value, void *context)
 {
     struct brent *b = context;
     double goal = NAN;
-    if (!b->broken && look(b->hunt, value, &goal))
+    if (look(b->hunt, value, &goal))
         narrow(b->hunt, b->bracket, value);
     double above = goal - b->hunt->def->target;
     if (isfinite(above))
@@ -132,7 +132,8 @@ static void brent(struct hunt *h, struct bracket *b, double width, unsigned *lef
     double before = NAN;
     while (*left > 0 && width_of(b) > width) {
         --*left;
-        if (gsl_root_fsolver_iterate(&solver) != GSL_SUCCESS || context.broken)
+        gsl_root_fsolver_iterate(&solver); /* fails only where a function is not finite */
+        if (context.broken)
             break;
         if (fabs(solver.root - before) < width) {
             step_across(h, b, solver.root, width);

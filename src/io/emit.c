@@ -171,7 +171,7 @@ static const struct node *difference(struct arena *arena, const struct node *bas
         const struct node *entry = now->items[i], *old = ceduo_node_get(base, entry->key);
         if (old && ceduo_node_equal(old, entry))
             continue;
-        if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP) {
+        if (old && old->kind == NODE_MAP) { /* which it still is */
             const struct node *inner = difference(arena, old, entry);
             entry = inner ? inner : entry;
             if (!inner)
@@ -191,9 +191,6 @@ static const struct node *key_of(struct arena *arena, const struct node *value, 
 static const struct node *as_base(struct arena *arena, const struct node *now, const struct node *loaded)
 {
     const struct node *w = now->written;
-    const struct node *path = w->kind == NODE_SCALAR ? w : ceduo_node_get(w, "base");
-    if (!path || path->kind != NODE_SCALAR || !loaded || strcmp(path->text, "") == 0)
-        return NULL;
     const struct node *changes = difference(arena, loaded, now);
     if (!changes)
         return NULL;
@@ -203,7 +200,7 @@ static const struct node *as_base(struct arena *arena, const struct node *now, c
         if (!empty)
             return NULL;
         *empty = (struct node){.kind = NODE_MAP};
-        start = ceduo_node_with(arena, empty, "base", path);
+        start = ceduo_node_with(arena, empty, "base", w);
     }
     for (size_t i = 0; start && i < changes->n; i++)
         start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(now, changes->items[i]->key));
@@ -212,14 +209,14 @@ static const struct node *as_base(struct arena *arena, const struct node *now, c
 
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
 {
-    const struct node *was = node->followed;
-    if (node->written && was) {
-        bool same = was->n == node->n && was->kind == node->kind;
+    if (node->written) {
+        const struct node *was = node->followed;
+        bool same = was->n == node->n;
         for (size_t i = 0; same && i < was->n; i++)
             same = ceduo_node_equal(was->items[i], node->items[i]);
         if (same)
             return key_of(arena, node->written, node);
-        const struct node *base = node->key && strcmp(node->key, "stand") == 0 ? as_base(arena, node, was) : NULL;
+        const struct node *base = strcmp(node->key, "stand") == 0 ? as_base(arena, node, was) : NULL;
         if (base)
             return base;
     }
@@ -288,8 +285,6 @@ static bool patch(struct patcher *p, const struct node *old, const struct node *
 {
     if (old == now || (old->kind == NODE_SCALAR && now->kind == NODE_SCALAR && strcmp(old->text, now->text) == 0))
         return true;
-    if (old->source != p->source)
-        return false;
     if (old->kind == NODE_SCALAR)
         return patch_span(p, old, now);
     if (!same_shape(old, now))

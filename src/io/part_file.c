@@ -301,7 +301,7 @@ static void pack_string(struct bytes *b, const char *string, size_t n)
     uint64_t length = string ? n : UINT64_MAX;
     ceduo_bytes_count(b, &length);
     unsigned char *to = string ? ceduo_bytes_write(b, n) : NULL;
-    if (to && n > 0)
+    if (to)
         memcpy(to, string, n);
 }
 
@@ -366,7 +366,8 @@ static const char **unpack_words(struct arena *arena, struct bytes *b, size_t *n
     *n = 0;
     b->bad |= count > ceduo_bytes_left(b) / 8;
     const char **words = b->bad ? NULL : ceduo_arena_take(arena, ((size_t)count + 1) * sizeof *words);
-    for (uint64_t i = 0; words && i < count && !b->bad; i++) {
+    b->bad |= !words;
+    for (uint64_t i = 0; i < count && !b->bad; i++) {
         words[i] = unpack_word(arena, b);
         b->bad |= !words[i];
         *n = (size_t)i + 1;
@@ -411,5 +412,5 @@ bool ceduo_part_inputs_read(struct arena *arena, struct part_inputs *in, const u
     for (uint64_t i = 0; i < count && !b.bad; i++)
         unpack_file(arena, &b, &in->shelf);
     in->shelf.closed = true;
-    return in->path && !b.bad && !arena->failed && ceduo_bytes_left(&b) == 0;
+    return in->path && !b.bad && ceduo_bytes_left(&b) == 0; /* what has no memory is bad, too */
 }

@@ -39,7 +39,7 @@ static size_t step(const char *p, size_t n)
 static void show_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
     size_t from, to;
-    if (!s->bytes || !find_line(s, line, &from, &to) || to == from)
+    if (!find_line(s, line, &from, &to) || to == from)
         return;
     size_t first = column > LINE_MOST ? column - LINE_MOST / 2 : 1;
     size_t at = from, c = 1;

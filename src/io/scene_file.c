@@ -397,7 +397,6 @@ static void make_slope(struct maker *m)
     struct points p = {0};
     if (!known(m, "slope"))
         return;
-    size_t before = m->problems->met;
     bool profile = read_vertices(m, &p) && check_vertices(m, &p);
     m->file->scene.slope.facets = (enum ceduo_facets)m->form.slope.facets;
     bool segments = given(m, "slope", "segments"), materials = given(m, "slope", "materials");
@@ -411,7 +410,7 @@ static void make_slope(struct maker *m)
         make_materials(m);
     else
         make_talus(m);
-    if (m->problems->met == before && !m->problems->memory && ceduo_slope_check(&m->file->scene.slope) != CEDUO_OK)
+    if (!m->problems->memory && ceduo_slope_check(&m->file->scene.slope) != CEDUO_OK)
         complain(m, "slope", _("two vertices lie too close together for their distance from the first"));
 }
 
@@ -542,8 +541,7 @@ static void make_stand(struct maker *m, const char *path, const struct stand_for
                                               .stay_per_ha = f->stay.values}};
     if (!known(m, "%s", path)) /* what it starts from is not there */
         return;
-    if (f->growth.shoots_young < f->growth.shoots_old && known(m, "%s.growth.shoots_young", path) &&
-        known(m, "%s.growth.shoots_old", path))
+    if (f->growth.shoots_young < f->growth.shoots_old && known(m, "%s.growth.shoots_young", path))
         complain(m, path_of(m, "%s.growth.shoots_young", path), _("%s is below shoots_old, %s: shoots only become fewer"),
                  shown(f->growth.shoots_young, a), shown(f->growth.shoots_old, b));
     if (f->system == CEDUO_BARE && (f->shoots.n > 0 || f->trees.n > 0))
@@ -830,8 +828,7 @@ static void name_change(struct arena *arena, const struct source *source, const 
     struct problems head = {0};
     ceduo_problem(&head, set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
                   _("the scene is good without this change, but not with it:"));
-    if (problems->text.bytes)
-        ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
+    ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
     ceduo_text_free(&problems->text);
     problems->text = head.text;
     problems->memory |= head.memory || head.text.failed;

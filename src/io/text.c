@@ -143,7 +143,7 @@ size_t ceduo_text_columns(const char *string)
 static int shortest_digits(double value, char room[CEDUO_NUMBER_ROOM])
 {
     int digits = fabs(value) < DBL_MIN ? 1 : 15;
-    for (; digits <= 17; digits++) {
+    for (;; digits++) { /* 17 always do */
         snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
         if (strtod(room, NULL) == value)
             break;
@@ -161,7 +161,7 @@ static void write_plainly(char room[CEDUO_NUMBER_ROOM], int digits, int exponent
     char from[CEDUO_NUMBER_ROOM], *to = room;
     int n = 0;
     for (const char *p = room; *p != 'e' && n < digits; p++)
-        if (*p >= '0' && *p <= '9')
+        if (*p >= '0') /* neither sign nor dot */
             from[n++] = *p;
     if (*room == '-')
         to++;

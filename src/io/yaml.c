@@ -38,10 +38,10 @@ static size_t column_of(const struct reader *r, yaml_mark_t mark)
     } while (0)
 
 /* The place of byte `offset`: libyaml gives no mark for what is no UTF-8. */
-static yaml_mark_t mark_of_byte(const char *bytes, size_t length, size_t offset)
+static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
 {
     yaml_mark_t mark = {offset, 0, 0};
-    for (size_t i = 0; i < offset && i < length; i++) {
+    for (size_t i = 0; i < offset; i++) {
         if (bytes[i] == '\n') {
             mark.line++;
             mark.column = 0;
@@ -59,14 +59,14 @@ static yaml_mark_t within_text(const struct reader *r, yaml_mark_t mark)
     size_t length = r->source->length - r->skip;
     while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
         length--;
-    yaml_mark_t end = mark_of_byte(bytes, length, length);
+    yaml_mark_t end = mark_of_byte(bytes, length);
     return mark.line > end.line ? end : mark;
 }
 
 static char byte_at(const struct reader *r, yaml_mark_t mark)
 {
     const char *p = r->source->bytes + r->skip, *end = r->source->bytes + r->source->length;
-    for (size_t line = 0; line < mark.line && p < end; p++)
+    for (size_t line = 0; line < mark.line; p++)
         line += *p == '\n';
     for (size_t i = 0; i < mark.column && p < end; i++)
         do
@@ -87,9 +87,9 @@ static void syntax_problem(struct reader *r)
         const char *bytes = r->source->bytes + r->skip;
         size_t length = r->source->length - r->skip, from = 0, n;
         uint32_t code;
-        while (from < length && from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
+        while (from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
             from += n; /* libyaml may name a byte within the character */
-        yaml_mark_t at = mark_of_byte(bytes, length, from);
+        yaml_mark_t at = mark_of_byte(bytes, from);
         if (p->problem_value >= 0 && strstr(p->problem, "control"))
             STOP(r, at, _("a control character (\\x%02x); take it out"), (unsigned)p->problem_value);
         else
@@ -97,7 +97,7 @@ static void syntax_problem(struct reader *r)
         return;
     }
     yaml_mark_t at = within_text(r, p->problem_mark);
-    const char *what = p->problem ? p->problem : "malformed YAML";
+    const char *what = p->problem;
     if (strstr(what, "tab") || byte_at(r, at) == '\t')
         STOP(r, at, _("a tab; indent with spaces"));
     else if (strstr(what, "cannot start any token"))
@@ -337,11 +337,8 @@ static struct node *read_value(struct reader *r, const yaml_event_t *event, int 
     case YAML_MAPPING_START_EVENT:
         node = read_map(r, event, depth + 1);
         break;
-    case YAML_ALIAS_EVENT:
+    default: /* an alias: nothing else stands for a value */
         STOP(r, event->start_mark, _("an alias; write the value out"));
-        break;
-    default:
-        STOP(r, event->start_mark, _("malformed YAML"));
         break;
     }
     if (!node)
