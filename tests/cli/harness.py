@@ -6,6 +6,7 @@ The program is the one that the environment's CEDUO names, or ./ceduo of this so
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -14,6 +15,8 @@ import traceback
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # as in the background of a shell; the program would ignore it, too
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 ROOT = Path(__file__).resolve().parents[2]
 PROFILES = ROOT / "profiles"
