@@ -219,7 +219,7 @@ static void control_row(struct row *row, const struct ceduo_report *report, size
     row->group = NULL;
     number(row, "x_m", c->x_given);
     string(row, "name", c->name);
-    number(row, "accepted_kJ", c->accepted * KILO);
+    number(row, "accepted_kJ", ceduo_words_accepted(c));
     arrivals(row, &bare, &r->bare.arrivals[control]);
     index_cells(row, &index[control]);
     arrivals(row, &wooded, through);

@@ -109,7 +109,7 @@ static void control(struct json *j, const struct ceduo_result *r, size_t k, cons
     ceduo_json_open(j, NULL, '{');
     ceduo_json_number(j, "x_m", c->x_given);
     ceduo_json_string(j, "name", c->name);
-    ceduo_json_number(j, "accepted_kJ", c->accepted * KILO);
+    ceduo_json_number(j, "accepted_kJ", ceduo_words_accepted(c));
     arrivals(j, "bare", &r->bare.arrivals[k], false);
     ceduo_json_open(j, "index", '{');
     ceduo_json_number(j, "dissipated_kJ", index->dissipated * KILO);

@@ -217,7 +217,7 @@ static void put_place(struct page *p, const struct ceduo_control *c, size_t i)
     struct text where = {0};
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_format(&place, _(", bears %s kJ%s"), ceduo_number_shortest(c->accepted * KILO, room),
+        ceduo_text_format(&place, _(", bears %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
                           where.bytes && ceduo_scene_assumes_value(p->report->file, where.bytes) ? "*" : "");
     put_wrapped(p, "  ", 4, place.bytes ? place.bytes : "");
     ceduo_text_free(&where);
@@ -294,7 +294,7 @@ static void put_limit(struct page *p, const struct ceduo_control *c, const char 
     if (isnan(c->accepted))
         ceduo_text_put(&limit, otherwise);
     else
-        ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(c->accepted * KILO, room));
+        ceduo_text_format(&limit, "> %s kJ", ceduo_number_shortest(ceduo_words_accepted(c), room));
     if (columns_of(limit.bytes ? limit.bytes : "") >= (size_t)width) {
         double size = fabs(c->accepted);
         ceduo_text_free(&limit);

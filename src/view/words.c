@@ -29,6 +29,11 @@ const char *ceduo_words_law(enum ceduo_law law)
     return ceduo_law_names[law];
 }
 
+double ceduo_words_accepted(const struct ceduo_control *control)
+{
+    return control->accepted / 1000;
+}
+
 void ceduo_words_number(struct text *text, double value, int digits)
 {
     if (isnan(value)) {
