@@ -215,7 +215,7 @@ DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
 DEBIAN_BENCH := python3-numpy gnuplot-nox
 do-check-all: do-check
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
-	@+$(MAKE) --no-print-directory VARIANT=asan do-check
+	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
 

@@ -1900,6 +1900,9 @@ def test_list_profiles():
         env = {"XDG_DATA_HOME": str(f.path)}
         expect_in("mine.yaml", good("--list-profiles", env=env).out, "own profile")
         expect_equal(result("mine", "-n", 1, env=env, cwd="/")["title"], "my \x07 own")
+        done = ceduo("--batch", "mien", env=env, cwd="/")
+        expect(done.status == INPUT and re.search(
+            rf"did you mean 'mine'\? \(looked for here and in {f.path}/ceduo/scenes, .*{PROFILES.name}/scenes", done.err), done)
     expect_equal(result("paper-site", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
     expect_equal(result("paper-site.yaml", cwd="/")["title"], "Test site of Ciabocco et al. 2009")
 

@@ -331,6 +331,42 @@ def test_two_writers():
                 expect(seen >= (4 if named else 1), what, "no temporary file is ever seen: is the library loaded?")
 
 
+def test_calls_on():
+    """From some call on all fail: a status that tells, old file or new one whole; what could not be removed is no scene"""
+    with Place() as place:
+        for what, command, file in saves(place):
+            old = file.read_bytes() if file.exists() else b"old"
+            place.run(*command, fault="none")
+            new, at, reached = file.read_bytes(), 0, True
+            while reached:
+                at += 1
+                for p in place.work.iterdir():
+                    if p.name not in FILES:
+                        p.unlink()
+                file.write_bytes(old)
+                done, reached = place.run(*command, fault="call", at=at, on=True)
+                found = file.read_bytes()
+                expect(0 <= done.returncode <= 4 and found in (old, new), what, told(done, at), repr(found[:200]))
+                expect(what != "-o" or (done.returncode == DONE) == (found == new), what, told(done, at))
+                left = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
+                expect(not any(name.endswith(".yaml") for name in left), f"{left} would be taken for scenes")
+
+
+def test_calls_straight():
+    """What is no file is written as it is: where it cannot be opened, written or closed, status 4 says so"""
+    with Place() as place:
+        for on in (False, True):
+            at, reached, failed = 0, True, 0
+            while reached:
+                at += 1
+                done, reached = place.run(*BATCH, "-o", "/dev/null", fault="call", at=at, on=on)
+                expect(done.returncode == OUTPUT and b"/dev/null: Input/output error" in done.stderr or
+                       done.returncode == INPUT and b"cannot read it: Input/output error" in done.stderr or
+                       done.returncode == DONE and done.stderr == b"", told(done, at))
+                failed += done.returncode == OUTPUT
+            expect(failed >= 3, f"{failed} of {at - 1} calls fail the output: to open, to write and to close it")
+
+
 def test_short_writes():
     """Writes that take a byte at a time, or are interrupted, give the same bytes"""
     with Place() as place:

@@ -172,6 +172,22 @@ static void a_roll_on_the_flat_stops_by_friction(void **state)
     roll_stops(CEDUO_LAW_CRSP, .4, -5);
 }
 
+/* Friction 1/2 and gravity 1 take what speed 1 has over just 1 m: there is a control, where it arrives without energy. */
+static void a_roll_stops_just_at_the_control(void **state)
+{
+    (void)state;
+    for (double radius = 1; radius <= 2; radius++) { /* a roll is as long as the radius: its end, too, or within it */
+        straight(0, (struct line_ground){0, 1, .5}, radius, CEDUO_LAW_LUMPED);
+        scene.scene.simulation.gravity = 1;
+        line_scene_release(&scene, 1, 0, 1, 0, 0);
+        scene.control.x = 2;
+        scene.scene.controls_count = 1;
+        follow();
+        assert_int_equal(way.way.end, CEDUO_AT_REST);
+        assert_true(way.way.x == 2 && way.crossing.reached && way.crossing.vx == 0 && way.crossing.vz == 0);
+    }
+}
+
 static void roll_accelerates(enum ceduo_law law, double k, double rise, double mu)
 {
     straight(rise, (struct line_ground){.5, 1, mu}, .34, law);
@@ -784,6 +800,7 @@ int main(void)
         cmocka_unit_test(an_oblique_impact_on_the_flat),
         cmocka_unit_test(a_bounce_without_loss_is_given_up_and_said_so),
         cmocka_unit_test(a_release_that_leaves_the_ground_has_no_contact),
+        cmocka_unit_test(a_roll_stops_just_at_the_control),
         cmocka_unit_test(a_roll_on_the_flat_stops_by_friction),
         cmocka_unit_test(a_roll_down_a_slope),
         cmocka_unit_test(spin_and_speed_share_their_momentum_in_a_roll),

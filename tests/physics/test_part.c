@@ -204,6 +204,95 @@ static void wrong_parts_are_refused(void **state)
     free(binned.bytes);
 }
 
+/* A part's bytes, in whole numbers and doubles of eight. */
+static void put_double(struct saved *s, size_t at, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    for (size_t i = 0; i < 8; i++)
+        s->bytes[at + i] = (unsigned char)(bits >> 8 * i);
+}
+
+static void put_count(struct saved *s, size_t at, uint64_t value)
+{
+    for (size_t i = 0; i < 8; i++)
+        s->bytes[at + i] = (unsigned char)(value >> 8 * i);
+}
+
+/* Behind the head its first block: contacts, ends and stems, then moments of four numbers each, of the stops, and at the
+ * control of four quantities and of the stems hit before. */
+enum { AT_END = 8, AT_STOPS = 8 * 8 + 8 * (1 + CEDUO_ENDS + 3), AT_CONTROL = AT_STOPS + 4 * 8, AT_HITS = AT_CONTROL + 4 * 4 * 8 };
+
+static void figures_that_are_none_are_refused(void **state)
+{
+    (void)state;
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_run_def def = def_of(CEDUO_EXACT_BYTES, false);
+    struct saved first = part_of(def, 1, 2, 1), second = part_of(def, 2, 2, 1);
+    struct ceduo_run *run = run_of(def, 0);
+    const struct {
+        size_t at;
+        double value;
+    } rows[] = {{AT_CONTROL + 8, NAN},       {AT_CONTROL + 8, INFINITY}, {AT_CONTROL + 16, NAN},
+                {AT_CONTROL + 16, INFINITY}, {AT_CONTROL + 16, -1},      {AT_CONTROL + 24, NAN},
+                {AT_CONTROL + 24, INFINITY}, {AT_STOPS + 24, NAN}, /* without forest none is hit: plain zeros */
+                {AT_HITS + 8, -0.},          {AT_HITS + 16, 1},          {AT_HITS + 24, -0.}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        unsigned char was[8];
+        memcpy(was, first.bytes + rows[i].at, 8);
+        put_double(&first, rows[i].at, rows[i].value);
+        assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
+        memcpy(first.bytes + rows[i].at, was, 8);
+    }
+    assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_OK);
+    const uint64_t ends[] = {0, CEDUO_BLOCK_ROCKS, 6 * CEDUO_BLOCK_ROCKS, ROCKS + 1}; /* before the first rock, or behind the last */
+    for (size_t i = 0; i < LENGTH(ends); i++) {
+        put_count(&second, AT_END, ends[i]);
+        assert_int_equal(ceduo_run_adopt(run, second.bytes, second.n), CEDUO_BAD_PART);
+    }
+    put_count(&second, AT_END, ROCKS);
+    assert_int_equal(ceduo_run_adopt(run, second.bytes, second.n), CEDUO_OK);
+    ceduo_run_free(run);
+    free(first.bytes);
+    free(second.bytes);
+}
+
+/* Where samples are not kept the energies of the first rocks come last: no more of them than rocks that arrived. */
+static void more_energies_than_arrivals_are_refused(void **state)
+{
+    (void)state;
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_arrivals a = {.reached = 0};
+    struct saved s;
+    struct ceduo_run *from = NULL;
+    while (a.reached == 0 || a.reached == 8) { /* of eight rocks some */
+        ceduo_run_free(from);
+        site.scene.simulation.seed++;
+        struct ceduo_run_def part = def_of(64, true);
+        part.rocks_most = 8;
+        part.part = true;
+        from = run_of(part, 8);
+        assert_int_equal(ceduo_run_arrivals(from, 0, &a), CEDUO_OK);
+    }
+    struct ceduo_run_def def = def_of(64, true);
+    def.rocks_most = 8;
+    struct ceduo_run *to = run_of(def, 0);
+    assert_int_equal(ceduo_run_save(from, &s.bytes, &s.n), CEDUO_OK);
+    size_t at = s.n - 8 * (size_t)a.reached - 1; /* their bits */
+    unsigned lacks = ~(unsigned)s.bytes[at] & 0xff;
+    s.bytes = realloc(s.bytes, s.n + 8);
+    assert_non_null(s.bytes);
+    s.bytes[at] = (unsigned char)(s.bytes[at] | (lacks & -lacks)); /* one more of them */
+    put_double(&s, s.n, 1000);
+    assert_int_equal(ceduo_run_adopt(to, s.bytes, s.n + 8), CEDUO_BAD_PART);
+    s.bytes[at] = (unsigned char)(s.bytes[at] & ~(lacks & -lacks));
+    assert_int_equal(ceduo_run_adopt(to, s.bytes, s.n + 8), CEDUO_BAD_PART); /* too long */
+    assert_int_equal(ceduo_run_adopt(to, s.bytes, s.n), CEDUO_OK);
+    free(s.bytes);
+    ceduo_run_free(from);
+    ceduo_run_free(to);
+}
+
 /* Small numbers, from which the bytes to be hurt are drawn. */
 static uint64_t next_random(uint64_t *state)
 {
@@ -288,6 +377,8 @@ int main(void)
         cmocka_unit_test(the_order_of_the_sums_matters),
         cmocka_unit_test(steps_of_a_part_change_nothing),
         cmocka_unit_test(wrong_parts_are_refused),
+        cmocka_unit_test(figures_that_are_none_are_refused),
+        cmocka_unit_test(more_energies_than_arrivals_are_refused),
         cmocka_unit_test(hostile_bytes_do_no_harm),
         cmocka_unit_test(nothing_is_read_otherwise_than_written),
     };

@@ -157,6 +157,54 @@ static void a_changed_stand_starts_from_its_file(void **state)
     ceduo_document_close(&d);
 }
 
+/* What its file does not have at all is added to it as well. */
+static void a_stand_is_given_more(void **state)
+{
+    (void)state;
+    struct document d;
+    bool anew;
+    open_scene(&d);
+    set(&d, "forest[0].stand.species", "fagus-sylvatica");
+    assert_true(ceduo_document_save(&d, path, &anew));
+    assert_non_null(strstr(read_file("scene.yaml"), "stand: {base: stand.yaml, species: fagus-sylvatica}}   # below the rock\n"));
+    ceduo_document_close(&d);
+    open_scene(&d);
+    assert_int_equal(d.file.scene.options[0].belts[0].stand.species, ceduo_species_find("fagus-sylvatica"));
+    ceduo_document_close(&d);
+}
+
+/* A slope has no base: one that is changed is written out, and its file stays. */
+static void a_changed_slope_is_written_out(void **state)
+{
+    (void)state;
+    static const char slope[] = "ceduo: slope/1\nvertices_m: [[0, 50], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n"
+                                "source: {kind: assumed, text: by hand}\n";
+    struct document d;
+    bool anew;
+    write_file("slope.yaml", slope);
+    write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: slope.yaml # mine\ncontrols_m: [90]\n");
+    open_scene(&d);
+    size_t before = 0, now = 0;
+    for (const struct source_note *n = d.file.notes; n; n = n->before)
+        before++;
+    set(&d, "rock.diameter_m", "0.6"); /* the slope is as it was made before, and so is what is said of it */
+    for (const struct source_note *n = d.file.notes; n; n = n->before)
+        now++;
+    assert_int_equal(now, before);
+    assert_true(ceduo_scene_assumes_value(&d.file, "slope.vertices_m"));
+    set(&d, "slope.facets", "both");
+    assert_true(ceduo_document_save(&d, path, &anew));
+    assert_string_equal(read_file("slope.yaml"), slope);
+    const char *text = read_file("scene.yaml");
+    assert_non_null(strstr(text, "facets: both"));
+    assert_non_null(strstr(text, "vertices_m: [[0, 50], [100, 0]]"));
+    assert_null(strstr(text, "slope.yaml"));
+    ceduo_document_close(&d);
+    open_scene(&d);
+    assert_true(d.file.scene.slope.facets == CEDUO_BOTH && d.file.scene.slope.vertices == 2);
+    ceduo_document_close(&d);
+}
+
 static void what_is_wrong_changes_nothing(void **state)
 {
     (void)state;
@@ -431,6 +479,9 @@ static void unsaved_work_is_found_again(void **state)
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     free(text);
     free(file);
+    assert_false(ceduo_document_recover(&d, "[a, list]", &problems)); /* which is no scene */
+    assert_non_null(strstr(problems.text.bytes, "a mapping is wanted here, not a list"));
+    assert_true(d.file.scene.rock.diameter.mean == 0.5);
     ceduo_document_close(&d);
     ceduo_problems_free(&problems);
 }
@@ -767,6 +818,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(changed_values_keep_comments, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_changed_stand_starts_from_its_file, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_stand_is_given_more, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_slope_is_written_out, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, tear_down),
         cmocka_unit_test_setup_teardown(undo_and_redo, set_up, tear_down),
         cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),

@@ -16,6 +16,7 @@
 #include "core/envelope.h"
 #include "core/ground.h"
 #include "core/histogram.h"
+#include "core/wood.h"
 #include "physics/paper_site.h"
 
 /* ---- scenes that are refused ---- */
@@ -63,6 +64,66 @@ static void slopes_are_refused(void **state)
     expect_slope(&slope->x[4], slope->x[3], CEDUO_BAD_SLOPE);
     slope->vertices = 1;
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+}
+
+static void scenes_are_refused(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_scene *scene = &site.scene;
+    struct ceduo_control controls[2] = {site.control, site.control};
+    scene->controls = controls;
+    scene->controls_count = 2;
+    double end = scene->slope.x[scene->slope.vertices - 1];
+    const struct {
+        double *number, value;
+        enum ceduo_status wanted;
+        size_t where;
+    } rows[] = {{&scene->rock.diameter.mean, 0, CEDUO_BAD_ROCK, 9},
+                {&scene->release.x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.x.mean, NAN, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.x.mean, end, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.x.spread, 1, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.height.mean, -1, CEDUO_RELEASE_BELOW, 9},
+                {&scene->release.height.spread, 1, CEDUO_RELEASE_BELOW, 9},
+                {&controls[0].x, end + 1, CEDUO_CONTROL_OFF_SLOPE, 0},
+                {&controls[1].x, NAN, CEDUO_CONTROL_OFF_SLOPE, 1},
+                {&controls[1].x, 0, CEDUO_CONTROL_BEHIND, 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        size_t where = 9;
+        double was = *rows[i].number;
+        *rows[i].number = rows[i].value;
+        assert_int_equal(ceduo_scene_check(scene, &where), rows[i].wanted);
+        assert_int_equal(where, rows[i].where);
+        assert_int_equal(ceduo_scene_check(scene, NULL), rows[i].wanted);
+        *rows[i].number = was;
+        assert_int_equal(ceduo_scene_check(scene, NULL), CEDUO_OK);
+    }
+    assert_int_equal(ceduo_species_find("no-such-tree"), -1);
+}
+
+/* Of a rock that is none nothing is known, and none is flown. */
+static void no_rock_no_figures(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_way way;
+    site.control.measured_speed = 10;
+    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    site.scene.rock.diameter.mean = 0;
+    struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
+    assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated) && !stand.passes_threshold);
+    struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
+    assert_true(isnan(index.measured) && index.contact != CEDUO_PASS);
+    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    /* good itself, but too heavy when it is as large as the others */
+    site.scene.rock = ceduo_rock_def_default();
+    site.scene.rock.diameter.mean = 1e-90;
+    site.scene.rock.mass.mean = 1e200;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
 }
 
 static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status wanted)
@@ -342,6 +403,44 @@ static void alike_neighbours_are_one(void **state)
     assert_int_equal(segments_made(), 2);
 }
 
+/* A short segment that is turned from the line further than one may be is no part of it, be its end on it or not. */
+static void turned_segments_are_their_own(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    const double x[] = {0, 1e-6, 1.1e-6, 1000};
+    slope->vertices = 4;
+    for (size_t i = 0; i < 4; i++) {
+        slope->x[i] = x[i];
+        slope->segments[i] = slope->segments[0];
+    }
+    slope->z[0] = slope->z[1] = 0;
+    slope->z[3] = -500;
+    slope->z[2] = 1.5e-7 * 1e-7; /* turned by 1.5e-7 rad */
+    assert_int_equal(segments_made(), 3);
+    slope->z[2] = .5e-7 * 1e-7;
+    assert_int_equal(segments_made(), 2);
+}
+
+/* Stools so wide and so many that a table for all that a rock can be among would not fit into memory: there is a most. */
+static void tables_of_stools_have_an_end(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    const struct ceduo_simulation *simulation = &site.scene.simulation;
+    struct wood wood;
+    assert_true(ceduo_wood_init(&wood, simulation, &site.option, .68));
+    assert_true(wood.places >= 63 && wood.places < 1000);
+    ceduo_wood_release(&wood);
+    site.belts[0].stand.stools_per_ha = 1e6;
+    site.plots[0].shoots.per_ha = 1e10;
+    site.belts[0].stand.spacing = 20;
+    assert_true(ceduo_wood_init(&wood, simulation, &site.option, .68));
+    assert_int_equal(wood.places, ((size_t)1 << 24) - 1);
+    ceduo_wood_release(&wood);
+}
+
 /* A stand of whose growth something is not known stays as it is; and is never cut. */
 static void growth_is_known_or_not(void **state)
 {
@@ -520,6 +619,191 @@ static void runs_that_take_no_part(void **state)
     }
     free(bytes);
     ceduo_run_free(from);
+}
+
+/* Rocks of which some are drawn too light to compute with: these, and only these, are unfinished, at each control. */
+static void rocks_that_cannot_be_drawn(void **state)
+{
+    (void)state;
+    static const double cells[] = {50};
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 300;
+    site.scene.rock = ceduo_rock_def_default();
+    site.scene.rock.diameter.mean = .5;
+    site.scene.rock.mass = (struct ceduo_number){.mean = 3e-322, .spread = 2.9e-322, .kind = CEDUO_UNIFORM};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.cells = 1;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 300);
+    struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
+    uint64_t bad = 0, reached = 0;
+    for (uint64_t rock = 0; rock < 300; rock++) {
+        struct ceduo_way way;
+        struct ceduo_crossing crossing;
+        enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &way, &crossing);
+        assert_true(status == CEDUO_OK || status == CEDUO_BAD_ROCK);
+        bad += status == CEDUO_BAD_ROCK;
+        reached += status == CEDUO_OK && crossing.reached;
+    }
+    ceduo_follower_free(follower);
+    struct ceduo_ends e;
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    assert_true(bad > 50 && bad < 250);
+    assert_int_equal(e.count[CEDUO_UNFINISHED], bad);
+    assert_int_equal(a.unfinished, bad);
+    assert_int_equal(a.reached, reached);
+    ceduo_run_free(run);
+}
+
+/* One number of the release has a spread: a run flies its rocks as they are followed one by one. */
+static void each_spread_is_drawn(void **state)
+{
+    (void)state;
+    enum { ROCKS = 40 };
+    for (int i = 0; i < 5; i++) {
+        paper_site_init(&site);
+        site.scene.simulation.law = CEDUO_LAW_CRSP;
+        struct ceduo_release *r = &site.scene.release;
+        r->x.mean = r->height.mean = 3;
+        struct ceduo_number *const numbers[] = {&r->x, &r->height, &r->vx, &r->vz, &r->spin};
+        numbers[i]->spread = .5;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        struct ceduo_run *run = run_of(&def, ROCKS);
+        struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
+        double energies[ROCKS];
+        size_t n = ceduo_run_energies(run, 0, energies, ROCKS), reached = 0;
+        for (uint64_t rock = 0; rock < ROCKS; rock++) {
+            struct ceduo_way way;
+            struct ceduo_crossing c;
+            assert_int_equal(ceduo_follower_follow(follower, rock, NULL, &way, &c), CEDUO_OK);
+            if (!c.reached)
+                continue;
+            double speed = sqrt(c.vx * c.vx + c.vz * c.vz);
+            double energy = .5 * way.rock.mass * (speed * speed) + .5 * way.rock.moment * (c.spin * c.spin);
+            assert_true(reached < n && energies[reached++] == energy);
+        }
+        assert_true(reached == n && n > 5);
+        ceduo_follower_free(follower);
+        ceduo_run_free(run);
+    }
+}
+
+static void count_piece(void *context, const struct ceduo_piece *piece)
+{
+    (void)piece;
+    ++*(unsigned *)context;
+}
+
+static void count_stem(void *context, const struct ceduo_stem_passed *stem)
+{
+    (void)stem;
+    *(unsigned *)context += 1000000;
+}
+
+/* Whoever looks on, at pieces, at stems or at nothing, changes nothing. */
+static void looking_on_changes_nothing(void **state)
+{
+    (void)state;
+    unsigned seen;
+    const struct ceduo_watch watches[] = {{NULL, count_piece, count_stem, &seen},
+                                          {NULL, count_piece, NULL, &seen},
+                                          {NULL, NULL, count_stem, &seen},
+                                          {NULL, NULL, NULL, &seen}};
+    paper_site_init(&site);
+    site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* some are flown over */
+    for (uint64_t rock = 0; rock < 60; rock++) {
+        const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
+        struct ceduo_way alone, way;
+        assert_int_equal(ceduo_way_follow(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
+        for (int i = 0; i < 4; i++) {
+            seen = 0;
+            assert_int_equal(ceduo_way_follow(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
+            assert_true(way.x == alone.x && way.z == alone.z && way.end == alone.end && way.contacts == alone.contacts);
+            assert_true(way.stems_hit == alone.stems_hit && way.stems_drawn == alone.stems_drawn);
+            assert_int_equal(seen % 1000000 > 0, i < 2);
+            assert_true(seen / 1000000 >= (i % 2 == 0 ? alone.stems_hit : 0) && (i % 2 == 0 || seen < 1000000));
+        }
+    }
+}
+
+/* A rock that bounces in its place for ever is given up, unfinished before the control; the cells do not see it. */
+static void a_rock_without_end(void **state)
+{
+    (void)state;
+    static const double cells[] = {1, 50};
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    slope->vertices = 2;
+    slope->z[1] = slope->z[0];
+    slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5};
+    site.control.x = slope->x[1];
+    site.scene.release = (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0)};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.cells = 2;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 1);
+    struct ceduo_arrivals a;
+    struct ceduo_envelope e;
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    ceduo_run_envelope(run, 0, &e);
+    assert_true(a.unfinished == 1 && a.reached == 0 && e.passed == 0);
+    assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MOST);
+    ceduo_run_free(run);
+}
+
+/* Where samples are kept no more, differences come from the first so many rocks: their error is as that of all. */
+static void differences_of_the_first_rocks(void **state)
+{
+    (void)state;
+    enum { ROCKS = CEDUO_PAIRED_ROCKS + 70000 };
+    paper_site_init(&site);
+    site.scene.simulation.rocks = ROCKS;
+    site.scene.release.vx = (struct ceduo_number){.mean = 5, .spread = 2, .kind = CEDUO_UNIFORM};
+    site.control.x = 1;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.arrivals_only = true;
+    struct ceduo_scene slower = site.scene;
+    slower.release.vx.mean = 4;
+    struct ceduo_run_def other = def;
+    other.scene = &slower;
+    struct ceduo_run *exact[2] = {run_of(&def, ROCKS), run_of(&other, ROCKS)}, *binned[2];
+    def.exact_bytes = other.exact_bytes = (CEDUO_PAIRED_ROCKS + 40000) * 3 * sizeof(double);
+    binned[0] = run_of(&def, CEDUO_PAIRED_ROCKS + 30000); /* with samples until here */
+    assert_int_equal(ceduo_run_extend(binned[0], ROCKS), CEDUO_OK);
+    binned[1] = run_of(&other, ROCKS);
+    struct ceduo_difference all = ceduo_run_difference(exact[0], exact[1], 0), first = ceduo_run_difference(binned[0], binned[1], 0);
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_arrivals(binned[0], 0, &a), CEDUO_OK);
+    assert_true(!a.exact && a.reached == ROCKS);
+    assert_true(first.energy_per_released.mean == all.energy_per_released.mean && all.energy_per_released.mean > 0);
+    expect_near(first.energy_per_released.se, all.energy_per_released.se, .01);
+    for (int i = 0; i < 2; i++) {
+        ceduo_run_free(exact[i]);
+        ceduo_run_free(binned[i]);
+    }
+}
+
+/* Years that were not flown yet say nothing of what arrives. */
+static void years_before_they_are_flown(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 20;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run *run = run_of(&def, 20);
+    struct ceduo_flown bare;
+    struct ceduo_years *years;
+    assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, 0, 3, 1, &years), CEDUO_OK);
+    ceduo_years_assess(years, &site.scene, &bare);
+    struct ceduo_years_summary s = ceduo_years_sum(years, 0);
+    assert_true(s.years == 4 && s.flown == 0 && isnan(s.worst) && isnan(s.reach.mean) && isnan(s.exceed.mean));
+    assert_true(s.unprotected_contact == 0 && s.unprotected_energy == 0);
+    ceduo_years_free(years);
+    ceduo_flown_free(&bare);
+    ceduo_run_free(run);
 }
 
 static void little_is_asked_of_a_run(void **state)
@@ -760,10 +1044,35 @@ static void goals_without_end(void **state)
     }
 }
 
+static enum ceduo_status falls(void *context, double value, double *goal)
+{
+    const double *top = context;
+    *goal = *top - value;
+    return CEDUO_OK;
+}
+
+/* A tolerance that is met by the first step; and a range so large that halving does not come to an end: given up. */
+static void few_values_and_too_many(void **state)
+{
+    (void)state;
+    struct ceduo_found found;
+    double top = 10;
+    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = falls, .context = &top, .tolerance = .5};
+    assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+    assert_true(found.found && found.value >= 4.5 && found.value < 4.5 + 4 && found.side == CEDUO_SMALLEST);
+    assert_int_equal(found.evaluations, 3);
+    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = falls, .context = &top};
+    assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+    assert_true(found.found && found.value >= 5 && found.goal_at_value <= 5.5);
+    assert_true(found.evaluations > 55 && found.evaluations < 200);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_are_refused),
+        cmocka_unit_test(scenes_are_refused),
+        cmocka_unit_test(no_rock_no_figures),
         cmocka_unit_test(rocks_are_refused),
         cmocka_unit_test(intervals_of_few_values),
         cmocka_unit_test(distributions_of_few_values),
@@ -771,15 +1080,24 @@ int main(void)
         cmocka_unit_test(columns_are_refused),
         cmocka_unit_test(cells_take_any_value),
         cmocka_unit_test(alike_neighbours_are_one),
+        cmocka_unit_test(turned_segments_are_their_own),
+        cmocka_unit_test(tables_of_stools_have_an_end),
         cmocka_unit_test(growth_is_known_or_not),
         cmocka_unit_test(goals_without_end),
         cmocka_unit_test(belts_beside_the_way),
         cmocka_unit_test(keys_tell_what_rocks_meet),
         cmocka_unit_test(runs_that_take_no_part),
+        cmocka_unit_test(rocks_that_cannot_be_drawn),
+        cmocka_unit_test(each_spread_is_drawn),
+        cmocka_unit_test(looking_on_changes_nothing),
+        cmocka_unit_test(a_rock_without_end),
+        cmocka_unit_test(differences_of_the_first_rocks),
+        cmocka_unit_test(years_before_they_are_flown),
         cmocka_unit_test(little_is_asked_of_a_run),
         cmocka_unit_test(a_pool_forgets_what_is_old),
         cmocka_unit_test(pools_of_another_kind),
         cmocka_unit_test(a_search_ends_at_once),
+        cmocka_unit_test(few_values_and_too_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,8 @@
 /* Runs and what stands on them without memory. */
 #include "unit/failing.h"
 
+#include <math.h>
+
 #include "physics/paper_site.h"
 
 /* ---- runs ---- */
@@ -102,6 +104,35 @@ static bool fly_scalar_wood(void)
     return fly(def_of(true, CEDUO_EXACT_BYTES));
 }
 
+/* A profile so long that its segments are put into blocks. */
+static bool fly_long(void)
+{
+    enum { VERTICES = 40 };
+    static double x[VERTICES], z[VERTICES];
+    static struct ceduo_segment segments[VERTICES - 1];
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    for (size_t i = 0; i < VERTICES; i++) {
+        x[i] = 4 * (double)i;
+        z[i] = -3 * (double)i + (double)(i % 3);
+        if (i > 0)
+            segments[i - 1] = site.segments[2];
+    }
+    site.scene.slope = (struct ceduo_slope){.vertices = VERTICES, .x = x, .z = z, .segments = segments};
+    site.scene.simulation.rocks = 50;
+    site.scene.release.x.mean = 20;
+    site.scene.release.vx.mean = 3;
+    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
+    struct ceduo_run *run;
+    if (ceduo_run_create(&def, &run) != CEDUO_OK)
+        return false;
+    assert_int_equal(extend(run, 50), CEDUO_OK);
+    uint64_t contacts = ceduo_run_contacts(run);
+    assert_true(contacts > 50);
+    add(&contacts, sizeof contacts);
+    ceduo_run_free(run);
+    return true;
+}
+
 /* From samples to histograms on the way. */
 static bool fly_histograms(void)
 {
@@ -119,10 +150,10 @@ static bool join_parts(size_t exact_bytes)
     unsigned char *bytes = NULL;
     size_t n;
     bool good = ceduo_run_create(&def, &whole) == CEDUO_OK;
-    for (uint64_t i = 1; i <= 2 && good; i++) {
+    for (uint64_t i = 1; i <= 3 && good; i++) { /* of two blocks: one part has no rocks */
         uint64_t end;
         part.part = true;
-        ceduo_part_range(1500, i, 2, &part.first, &end);
+        ceduo_part_range(1500, i, 3, &part.first, &end);
         good = ceduo_run_create(&part, &run) == CEDUO_OK;
         if (!good)
             break;
@@ -158,10 +189,55 @@ static bool join_histograms(void)
 
 /* ---- what stands on runs ---- */
 
+static bool join_pools(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    site.scene.simulation.rocks = 30;
+    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES), part = def;
+    struct ceduo_pool *whole = NULL, *pool = NULL;
+    unsigned char *bytes = NULL;
+    size_t n;
+    part.part = true;
+    enum ceduo_status status = ceduo_pool_create(&part, &pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_save(pool, &bytes, &n); /* of no runs */
+    free(bytes);
+    bytes = NULL;
+    if (status == CEDUO_OK)
+        status = ceduo_pool_fill(pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_extend(pool, 30);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_save(pool, &bytes, &n);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_create(&def, &whole);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_fill(whole);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_adopt(whole, bytes, n);
+    if (status == CEDUO_OK) {
+        struct ceduo_work work = ceduo_pool_work(whole);
+        assert_int_equal(work.rocks, 60);
+        add(&work, sizeof work);
+    }
+    free(bytes);
+    ceduo_pool_free(pool);
+    ceduo_pool_free(whole);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
+}
+
 static bool pool_and_years(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     site.scene.simulation.rocks = 30;
+    struct ceduo_option options[2] = {site.option, {.name = NULL}};
+    site.scene.options = options;
+    site.scene.options_count = 2;
+    struct ceduo_stand *stand = &site.belts[0].stand; /* cut in the second of the years */
+    assert_true(ceduo_growth_of_species(stand->species, &stand->growth));
+    stand->cutting = (struct ceduo_cutting){.rotation = 20};
+    site.belts[0].cut_year = 2;
     struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
     struct ceduo_pool *pool;
     struct ceduo_result *result = NULL;
@@ -216,6 +292,43 @@ static bool blocks(void)
     return true;
 }
 
+/* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
+static bool follow_roll(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    site.scene.slope.vertices = 2;
+    site.x[1] = 160;
+    site.z[1] = site.z[0] - 80;
+    site.segments[0] = (struct ceduo_segment){ceduo_number(0), ceduo_number(1), NAN, 0, .1};
+    site.scene.release = (struct ceduo_release){ceduo_number(1), ceduo_number(0), ceduo_number(2), ceduo_number(-1), ceduo_number(0)};
+    for (int i = 0; i < 2; i++) {
+        struct ceduo_stand *stand = &site.belts[i].stand;
+        stand->stools_per_ha = 300;
+        stand->shoots[0].per_ha = i == 0 ? 300 : 300 * 2000;
+        stand->trees_count = 0;
+        stand->u = 1e-3; /* they hardly take anything */
+    }
+    struct ceduo_way way;
+    enum ceduo_status status = ceduo_way_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    if (status == CEDUO_OK) {
+        assert_true(way.end == CEDUO_LEFT_SLOPE && way.stems_hit > 100);
+        add(&way.stems_hit, sizeof way.stems_hit);
+    }
+    return status == CEDUO_OK;
+}
+
+static bool follow_one(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_way way;
+    enum ceduo_status status = ceduo_way_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    if (status == CEDUO_OK)
+        add(&way.x, sizeof way.x);
+    return status == CEDUO_OK;
+}
+
 static bool follow(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -261,8 +374,8 @@ static bool find(void)
 static void runs_go_on(void **state)
 {
     (void)state;
-    task *const tasks[] = {fly_bare, fly_scalar_wood, fly_histograms};
-    for (size_t i = 0; i < 3; i++)
+    task *const tasks[] = {fly_bare, fly_long, fly_scalar_wood, fly_histograms};
+    for (size_t i = 0; i < 4; i++)
         without_memory(tasks[i]);
 }
 
@@ -276,9 +389,12 @@ static void parts_are_joined(void **state)
 static void what_stands_on_runs(void **state)
 {
     (void)state;
+    without_memory(join_pools);
     without_memory(pool_and_years);
     without_memory(blocks);
     without_memory(follow);
+    without_memory(follow_one);
+    without_memory(follow_roll);
     without_memory(find);
 }
 

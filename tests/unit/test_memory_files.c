@@ -14,7 +14,7 @@
 
 static const char scene[] = "# my comment\n"
                             "ceduo: scene/1\n"
-                            "rock: {diameter_m: {mean: 0.5, spread: 0.1, source: {kind: assumed, text: a guess}}}\n"
+                            "rock: {diameter_m: {mean: 0.5, spread: 0.1, source: {kind: assumed, text: a guess, except: [spread]}}}\n"
                             "slope: slope.yaml\n"
                             "controls: [{x_m: 90, name: road, accepted_kJ: 50}]\n"
                             "forest:\n"
@@ -24,13 +24,17 @@ static const char scene[] = "# my comment\n"
 static const char slope[] = "ceduo: slope/1\ncsv: profile.csv\n"
                             "materials: [{from_m: 0, to_m: 30, material: cliff}, {from_m: 30, to_m: 100, material: talus}]\n";
 
-static const char stand[] = "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+static const char stand[] = "ceduo: stand/1\nname: wood\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
                             "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
 
 static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\nslope: {vertices_m: [[0, 1], 2]}\n"
-                             "release: {x_m: [1]}\nsimulation: {law: lumpd, rocks: 1.5, seed: 'a'}\ncontrols: 1\n";
+                             "release: {x_m: [1]}\nsimulation: {law: lumpd, rocks: 1.5, seed: 'a'}\ncontrols: 1\n"
+                             "forest: [{from_m: x}]\n";
 
-static char folder[64], scene_path[128], faulty_path[128], elsewhere_path[128];
+static const char by_csv[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
+
+static char folder[64], scene_path[128], faulty_path[128], csv_path[128], link_path[128], linked_path[128],
+    elsewhere_path[128];
 
 static void put(const char *name, const char *text)
 {
@@ -45,15 +49,26 @@ static int set_up(void **state)
     snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
     assert_non_null(mkdtemp(folder));
     setenv("XDG_STATE_HOME", folder, 1);
-    snprintf(scene_path, sizeof scene_path, "%s/scene.yaml", folder);
-    snprintf(faulty_path, sizeof faulty_path, "%s/faulty.yaml", folder);
-    snprintf(elsewhere_path, sizeof elsewhere_path, "%s/elsewhere", folder);
-    assert_int_equal(mkdir(elsewhere_path, 0700), 0);
-    snprintf(elsewhere_path, sizeof elsewhere_path, "%s/elsewhere/scene.yaml", folder);
+    setenv("XDG_DATA_HOME", folder, 1);
+    const struct {
+        char *path;
+        const char *name;
+        bool made; /* a folder */
+    } paths[] = {{scene_path, "scene.yaml", false},   {faulty_path, "faulty.yaml", false}, {csv_path, "csv.yaml", false},
+                 {linked_path, "ceduo", true},        {linked_path, "ceduo/scenes", true}, {link_path, "link", false},
+                 {linked_path, "linked", false},      {elsewhere_path, "elsewhere", true},
+                 {elsewhere_path, "elsewhere/scene.yaml", false}};
+    for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
+        snprintf(paths[i].path, sizeof scene_path, "%s/%s", folder, paths[i].name);
+        assert_true(!paths[i].made || mkdir(paths[i].path, 0700) == 0);
+    }
+    assert_int_equal(symlink("linked", link_path), 0);
     put("scene.yaml", scene);
     put("slope.yaml", slope);
     put("stand.yaml", stand);
     put("faulty.yaml", faulty);
+    put("csv.yaml", by_csv);
+    put("ceduo/scenes/mill.yaml", by_csv);
     put("profile.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
     return 0;
 }
@@ -127,17 +142,17 @@ static bool read_scene(void)
 {
     ceduo_text_lost(); /* of a task before */
     static const char *sets[] = {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10",
-                                 "release.vx_m_s={mean: 2, spread: 0.5}"};
+                                 "rock.diameter_m.mean=0.6", "release.vx_m_s={mean: 2, spread: 0.5}"};
     struct scene_file file;
     struct problems problems = {0};
     struct shelf shelf = {0};
     struct text text = {0};
-    bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 3, &problems);
+    bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 4, &problems);
     if (good) {
         uint64_t key = ceduo_part_key(&file, 10);
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
-        struct part_inputs in = {.path = scene_path, .sets = sets, .sets_count = 3, .shelf = shelf};
+        struct part_inputs in = {.path = scene_path, .sets = sets, .sets_count = 4, .shelf = shelf};
         good = good && !text.failed && add_inputs(&in) && !ceduo_text_lost();
         if (good)
             add_text(&text);
@@ -168,13 +183,28 @@ static bool read_text(void)
     return good;
 }
 
-/* What is wrong with a file, whole or with a word that not all is said. */
-static bool read_faulty(void)
+static bool read_csv(void)
+{
+    struct scene_file file;
+    struct problems problems = {0};
+    bool good = ceduo_scene_read(&file, csv_path, NULL, 0, &problems);
+    assert_true(good || problems.memory);
+    if (good) {
+        uint64_t key = ceduo_scene_key(&file.scene);
+        add(&key, sizeof key);
+    }
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    return good;
+}
+
+/* What is wrong, whole or with a word that not all is said. */
+static bool read_wrong(const char *path, const char *const *sets, size_t n)
 {
     ceduo_text_lost();
     struct scene_file file;
     struct problems problems = {0};
-    assert_false(ceduo_scene_read(&file, faulty_path, NULL, 0, &problems));
+    assert_false(ceduo_scene_read(&file, path, sets, n, &problems));
     ceduo_problems_close(&problems);
     bool good = !problems.memory;
     if (good)
@@ -182,6 +212,29 @@ static bool read_faulty(void)
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     return good && !ceduo_text_lost();
+}
+
+static bool read_faulty(void)
+{
+    return read_wrong(faulty_path, NULL, 0);
+}
+
+static bool read_missing(void)
+{
+    return read_wrong("mil", NULL, 0);
+}
+
+/* Good changes, of which one does not fit the rest. */
+static bool read_spoilt(void)
+{
+    static const char *const sets[] = {"rock.density_kg_m3=2500", "release.x_m=92", "simulation.seed=5"};
+    return read_wrong(scene_path, sets, 3);
+}
+
+static bool read_ambiguous(void)
+{
+    static const char *const sets[] = {"forest[wood].to_m=45"};
+    return read_wrong(scene_path, sets, 1);
 }
 
 /* ---- editing ---- */
@@ -313,6 +366,16 @@ static bool write_part(void)
 
 /* ---- folders ---- */
 
+/* Through a link to a file that is not there yet. */
+static bool write_link(void)
+{
+    unlink(linked_path);
+    bool good = ceduo_file_write(link_path, "text", 4);
+    assert_true(good || errno == ENOMEM);
+    assert_int_equal(access(linked_path, F_OK) == 0, good);
+    return good;
+}
+
 static bool list_profiles(void)
 {
     struct arena arena = {0};
@@ -333,7 +396,11 @@ static void scenes_are_read(void **state)
     (void)state;
     without_memory(read_scene);
     without_memory(read_text);
+    without_memory(read_csv);
     without_memory(read_faulty);
+    without_memory(read_missing);
+    without_memory(read_spoilt);
+    without_memory(read_ambiguous);
 }
 
 static void documents_are_edited(void **state)
@@ -349,6 +416,7 @@ static void parts_and_folders(void **state)
     (void)state;
     without_memory(write_part);
     without_memory(list_profiles);
+    without_memory(write_link);
 }
 
 int main(void)
