@@ -55,7 +55,7 @@ def test_references():
         place.write("a/stands/wood.yaml", "ceduo: stand/1\n" + "".join(f"{line[6:]}\n" for line in wood.splitlines()[1:]))
         place.write("a/scenes/s.yaml", FAST.replace(wood, "    stand: ../stands/wood.yaml   # kept: of May\n"))
         (place.path / "b").mkdir()
-        whole = FAST.replace(wood, f"    stand: {place.path}/a/stands/wood.yaml   # kept: of May\n")
+        whole = FAST.replace(wood, f"    stand: {place.path.resolve()}/a/stands/wood.yaml   # kept: of May\n")
         before, after = place.play("key 2\nwait idle\ndump\nkey S Ctrl-U\ntype b/t.yaml\nkey Enter\nkey 3\nfind rock.diameter_m\n"
                                    "set 0.75\nkey s u s\nkey 2\nclear\nwait idle\ndump", "a/scenes/s.yaml")
         expect_equal(place.text("b/t.yaml"), whole, "saved three times")
