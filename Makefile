@@ -113,7 +113,8 @@ TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
 SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
 
 # One line at the end: N passed, N failed.
-do-check: all
+do-check:
+	@+$(MAKE) --no-print-directory -j$(CORES) all
 	@rm -rf $(TAPS)
 	@+$(MAKE) --no-print-directory -j$(CORES) $(TAPS)
 	@+$(MAKE) --no-print-directory -j$(CORES) VARIANT=asan do-replay
@@ -132,6 +133,9 @@ $(UNIT:=.tap): %.tap: %
 
 $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
+
+# It compares what these print, too.
+$(T)/cli/test_net.py.tap: $(T)/tables $(BUILD)/man/completion
 
 $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:

@@ -27,8 +27,8 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
 
 /* A size of rock that costs more than this, in contacts and stems made up, is flown with fewer rocks: a splinter as large
  * as a house is more work than all the rest of a page. */
-#define EFFORT_MOST 20e6
-#define FIRST_ROCKS 16
+#define EFFORT_MOST 5e6
+#define FIRST_ROCKS 4
 
 /* How many rocks a size may have, by what the first of them cost. */
 static uint64_t affordable(const struct ceduo_run *run, uint64_t rocks)

@@ -10,7 +10,7 @@
 #include "random.h"
 
 /* What costs little is counted as a part of a stem: steps over others in a list, belts and strata that are passed over. */
-#define STEPS_OF_A_STEM 16
+#define STEPS_OF_A_STEM 4
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
 
 /* The number of an event, never 0: which stratum, which side, the how-manieth. The side is its last bit. */

@@ -304,7 +304,7 @@ static bool follow_roll(void)
     for (int i = 0; i < 2; i++) {
         struct ceduo_stand *stand = &site.belts[i].stand;
         stand->stools_per_ha = 300;
-        stand->shoots[0].per_ha = i == 0 ? 300 : 300 * 2000;
+        stand->shoots[0].per_ha = i == 0 ? 300 : 300 * 200;
         stand->trees_count = 0;
         stand->u = 1e-3; /* they hardly take anything */
     }
