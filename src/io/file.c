@@ -128,19 +128,18 @@ static bool is_standard(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-/* 0, or why this is not read: only files, pipes and terminals come to an end, and /dev/null. A program that starts this
- * one may give it a socket as standard input. */
-static int why_not(int fd, const struct stat *st, bool standard)
+/* 0, or why this is not read: only files, pipes and terminals come to an end, and /dev/null. A socket can only be standard
+ * input, as some programs give it. */
+static int why_not(int fd, const struct stat *st)
 {
     struct stat null;
     switch (st->st_mode & S_IFMT) {
     case S_IFREG:
     case S_IFIFO:
+    case S_IFSOCK:
         return 0;
     case S_IFDIR:
         return EISDIR;
-    case S_IFSOCK:
-        return standard ? 0 : NO_FILE;
     case S_IFCHR:
         return isatty(fd) || (stat("/dev/null", &null) == 0 && null.st_rdev == st->st_rdev) ? 0 : NO_FILE;
     default:
@@ -156,7 +155,7 @@ static int open_to_read(const char *path)
     struct stat st = {0};
     if (fd < 0 && errno == ENXIO) /* a socket, or a device that is not there */
         errno = NO_FILE;
-    int why = fd >= 0 && fstat(fd, &st) == 0 ? why_not(fd, &st, standard) : 0;
+    int why = fd >= 0 && fstat(fd, &st) == 0 ? why_not(fd, &st) : 0;
     if (why != 0) {
         if (!standard)
             close(fd);

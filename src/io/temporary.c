@@ -12,11 +12,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define MARK  ".ceduo-tmp-"
-#define TAIL  24 /* bytes of the longest number of a process, a hyphen and a count */
+#define MARK      ".ceduo-tmp-"
+#define TAIL      24 /* bytes of the longest number of a process, a hyphen and a count */
 #define NAME_MOST (NAME_MAX - sizeof MARK - TAIL)
-#define TRIES 100
-#define DIGITS "0123456789"
+#define TRIES     100
+#define DIGITS    "0123456789"
 
 /* Bytes of a path up to and with its last slash. */
 static size_t folder_length(const char *path)
@@ -71,8 +71,8 @@ static void remove_dead(const char *path)
     int fd = open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0)
         return;
-    if (flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &opened) == 0 && S_ISREG(opened.st_mode) && lstat(path, &there) == 0 &&
-        opened.st_dev == there.st_dev && opened.st_ino == there.st_ino)
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &opened) == 0 && S_ISREG(opened.st_mode) &&
+        lstat(path, &there) == 0 && opened.st_dev == there.st_dev && opened.st_ino == there.st_ino)
         unlink(path);
     close(fd);
 }
@@ -115,8 +115,8 @@ static int open_nameless(const struct temporary *t)
     char *folder = folder_of(t);
     int fd = folder && access("/proc/self/fd", X_OK) == 0 ? open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600) : -1;
     free(folder);
-    if (fd >= 0)
-        flock(fd, LOCK_EX | LOCK_NB); /* of one that others cannot see yet; where there are no locks they leave all alone */
+    if (fd >= 0) /* where there are no locks the others leave all alone */
+        flock(fd, LOCK_EX | LOCK_NB);
     return fd;
 }
 

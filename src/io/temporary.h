@@ -11,9 +11,9 @@
 struct temporary {
     int fd; /* to be filled */
     const char *target;
-    char *path;  /* the first `stem` bytes are those of all temporaries of this target */
+    char *path; /* the first `stem` bytes are those of all temporaries of this target */
     size_t stem;
-    bool named;  /* something lies there */
+    bool named; /* something lies there */
 };
 
 /* `target` is not a link, and must stay until the end. False with errno set; to be ended even then. */

@@ -105,7 +105,8 @@ char *ceduo_recovery_find(const char *path, char **file)
         unsigned long long number;
         long process;
         int used = 0;
-        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &number, &process, &used) != 2 || used == 0 || number != number_of(path))
+        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &number, &process, &used) != 2 || used == 0 ||
+            number != number_of(path))
             continue;
         if (e->d_name[used] != '\0') { /* its writer was killed, and it may be half of one */
             e->d_name[used] = '\0';

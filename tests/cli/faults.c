@@ -5,6 +5,7 @@
  *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call
  *   FAULT=stop    FAULT_AT=n  SIGSTOP just before that call; of both only the first thread's calls count: the others'
  *                             come in another order each time
+ *   FAULT=taken   FAULT_AT=1  the first file that is to be locked is locked by another, who then takes it away; 2: is gone already
  *   FAULT=short               every write takes one byte, or is interrupted
  *   FAULT=threads             no thread can be started
  * FAULT_NAMED: no file can be without a name, as on some file systems.
@@ -30,7 +31,7 @@ void *__libc_malloc(size_t n);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t n);
 
-static enum { NOTHING, MEMORY, CALL, KILL, STOP, SHORT, THREADS } fault;
+static enum { NOTHING, MEMORY, CALL, KILL, STOP, TAKEN, SHORT, THREADS } fault;
 static unsigned long fault_at;
 static bool fault_on;
 static const char *fault_from; /* NULL: everything counts */
@@ -39,9 +40,9 @@ static atomic_ulong count;
 
 __attribute__((constructor)) static void set_up(void)
 {
-    static const char *const names[] = {"", "memory", "call", "kill", "stop", "short", "threads"};
+    static const char *const names[] = {"", "memory", "call", "kill", "stop", "taken", "short", "threads"};
     const char *name = getenv("FAULT"), *at = getenv("FAULT_AT");
-    for (int i = 1; name && i < 7; i++)
+    for (int i = 1; name && i < 8; i++)
         if (strcmp(name, names[i]) == 0)
             fault = i;
     fault_at = at ? strtoul(at, NULL, 10) : 0;
@@ -143,6 +144,33 @@ ssize_t write(int fd, const void *bytes, size_t n)
     return fails() ? -1 : syscall(SYS_write, fd, bytes, n);
 }
 
+static char taken[4096]; /* what another program is about to take away */
+
+static void take_away(void)
+{
+    if (taken[0])
+        syscall(SYS_unlinkat, AT_FDCWD, taken, 0);
+    taken[0] = '\0';
+}
+
+/* Another program that tidies up comes between the making of a file and its lock. */
+int flock(int fd, int operation)
+{
+    if (fault == TAKEN && atomic_fetch_add(&count, 1) == 0) {
+        char link[64];
+        snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+        ssize_t n = readlink(link, taken, sizeof taken - 1);
+        taken[n < 0 ? 0 : n] = '\0';
+        mark();
+        if (fault_at == 1) {
+            errno = EWOULDBLOCK;
+            return -1;
+        }
+        take_away();
+    }
+    return (int)syscall(SYS_flock, fd, operation);
+}
+
 /* Without memory the disk is not what is looked at, and waiting for it takes most of the time. */
 int fsync(int fd)
 {
@@ -154,6 +182,7 @@ int fsync(int fd)
 int close(int fd)
 {
     bool bad = fails();
+    take_away();
     int done = (int)syscall(SYS_close, fd); /* it is closed even so */
     return bad ? -1 : done;
 }

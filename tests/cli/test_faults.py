@@ -367,6 +367,38 @@ def test_calls_straight():
             expect(failed >= 3, f"{failed} of {at - 1} calls fail the output: to open, to write and to close it")
 
 
+def test_taken_names():
+    """A temporary file that another program takes away at once, or whose name is taken: the next name, the file whole"""
+    with Place() as place:
+        wanted, _ = place.run(*BATCH, fault="none")
+        for at in (1, 2):
+            done, reached = place.run(*BATCH, "-o", "out.csv", fault="taken", at=at, named=True)
+            expect(reached and done.returncode == DONE and done.stderr == b"", told(done, at))
+            expect_equal((place.work / "out.csv").read_bytes(), wanted.stdout, f"the file, at {at}")
+            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), told(done, at))
+            (place.work / "out.csv").unlink()
+
+        def take():
+            for i in range(names):
+                os.mkdir(f"out.csv.ceduo-tmp-{os.getpid()}-{i}")
+
+        for named in (False, True):
+            for names in (3, 100):
+                done = subprocess.run([CEDUO, *map(str, BATCH), "-o", "out.csv"], cwd=place.work, preexec_fn=take, stderr=subprocess.PIPE,
+                                      env=place.with_fault(fault="none", named=named), stdout=subprocess.PIPE, check=False)
+                taken = [p for p in place.work.iterdir() if p.is_dir()]
+                others = sorted(p.name for p in place.work.iterdir() if not p.is_dir())
+                if names == 3:
+                    expect(done.returncode == DONE and done.stderr == b"", told(done, names))
+                    expect_equal((place.work / "out.csv").read_bytes(), wanted.stdout, "the file beside taken names")
+                    (place.work / "out.csv").unlink()
+                else:
+                    expect(done.returncode == OUTPUT and b"out.csv: File exists" in done.stderr, told(done, names))
+                expect_equal((len(taken), others), (names, sorted([*FILES, "out.csv"] if names == 3 else FILES)), told(done, names))
+                for path in taken:
+                    path.rmdir()
+
+
 def test_short_writes():
     """Writes that take a byte at a time, or are interrupted, give the same bytes"""
     with Place() as place:

@@ -599,6 +599,8 @@ def test_streams():
             done = subprocess.run([CEDUO, "--check", "-"], stdin=theirs, capture_output=True, env=environment(), timeout=20 * SLOWER,
                                   check=False)
             expect(done.returncode == DONE and done.stderr == b"", done)
+        done = subprocess.run(["sh", "-c", 'exec "$0" --check - <&-', CEDUO], capture_output=True, env=environment(), check=False)
+        expect_equal((done.returncode, done.stderr), (INPUT, b"standard input: cannot read it: Bad file descriptor\n"), "closed")
         good("--check", "/dev/stdin", stdin=text)
         f.write("s.yaml", text)
         good("--script", "/dev/null", "s.yaml", cwd=f.path)
