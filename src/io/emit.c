@@ -258,12 +258,12 @@ struct patcher {
     size_t done; /* bytes of the source that are written */
 };
 
-/* Puts `now` in the place of what stands between the marks of `old`. */
+/* Puts `now` in the place of what stands between the marks of `old`; where these are out of order it will not read back. */
 static bool patch_span(struct patcher *p, const struct node *old, const struct node *now)
 {
     size_t from = byte_of(p->source, old->line, old->column);
     size_t to = byte_of(p->source, old->end_line, old->end_column);
-    if (from < p->done || to < from)
+    if (from < p->done)
         return false;
     ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);
     put_flow(p->text, now);

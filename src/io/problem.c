@@ -75,7 +75,7 @@ static void put_message(struct text *out, const char *message)
     }
     while (head > 0 && ((unsigned char)message[head] & 0xc0) == 0x80)
         head--;
-    while (tail < n && ((unsigned char)message[tail] & 0xc0) == 0x80)
+    while (((unsigned char)message[tail] & 0xc0) == 0x80)
         tail++;
     ceduo_text_safe_n(out, message, head);
     ceduo_text_put(out, "\xe2\x80\xa6");

@@ -117,13 +117,19 @@ static void no_rock_no_figures(void **state)
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured) && index.contact != CEDUO_PASS);
     assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
-    assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
+        assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    }
     /* good itself, but too heavy when it is as large as the others */
     site.scene.rock = ceduo_rock_def_default();
     site.scene.rock.diameter.mean = 1e-90;
     site.scene.rock.mass.mean = 1e200;
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
-    assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
+        assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    }
 }
 
 static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status wanted)
