@@ -9,7 +9,7 @@
 #   make lint       cppcheck and clang-tidy
 #   make fuzz       libFuzzer, FUZZ_SECONDS=600 for each reader
 #   make net        what the program prints, against that of a commit before: BEFORE=v0.2 ONLY=plot
-#   make coverage   branches of src/core and src/io that no test takes, each with its reason: slow
+#   make coverage   branches of the library and src/io that no test takes, each with its reason: slow
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -42,8 +42,10 @@ ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=of
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
 LIBS = -lncursesw -ltinfo -lyaml -lgsl -lgslcblas -lm
 
-CORE := $(wildcard src/core/*.c)
-REST := $(filter-out src/cli/main.c,$(wildcard src/io/*.c src/model/*.c src/view/*.c src/tui/*.c src/cli/*.c))
+# The rooms of the library; the others stand on them.
+rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)))
+CORE := $(call rooms,base scene core study)
+REST := $(filter-out src/cli/main.c,$(call rooms,io model view tui cli))
 object = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY := $(BUILD)/libceduo.a
 PARTS := $(BUILD)/libparts.a

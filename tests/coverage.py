@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines and branches of src/core and src/io that the tests have gone through: tests/coverage.py BUILD
+"""Lines and branches of the rooms of PARTS that the tests have gone through: tests/coverage.py BUILD
 
 BUILD is the folder of a build with gcc's --coverage whose tests were run. A branch that none of them took has to be
 explained in tests/coverage.txt; one that is not is named and the status is 1. What is explained and taken all the same is
@@ -16,7 +16,7 @@ from collections import defaultdict
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-PARTS = ("src/core/", "src/io/")
+PARTS = ("src/base/", "src/scene/", "src/core/", "src/study/", "src/io/")
 REASONS = ROOT / "tests" / "coverage.txt"
 
 

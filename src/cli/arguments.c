@@ -11,7 +11,7 @@
 
 #include "ceduo/scene.h"
 #include "ceduo/years.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "io/part_file.h"
 
 #define THREADS_MOST 1024

@@ -11,7 +11,7 @@
 
 #include "interrupt.h"
 #include "io/file.h"
-#include "io/intl.h"
+#include "base/intl.h"
 
 #define HELD_MOST ((size_t)256 * 1024) /* bytes of results that wait in memory */
 

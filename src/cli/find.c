@@ -7,8 +7,8 @@
 #include "batch.h"
 #include "ceduo/version.h"
 #include "interrupt.h"
-#include "io/intl.h"
-#include "io/json.h"
+#include "base/intl.h"
+#include "base/json.h"
 #include "model/seek.h"
 
 static const char *side_of(const struct ceduo_found *found)

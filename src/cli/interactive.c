@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "batch.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "tui/script.h"
 #include "tui/terminal.h"
 

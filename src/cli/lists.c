@@ -3,7 +3,7 @@
 
 #include "batch.h"
 #include "io/file.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "io/node.h"
 #include "io/schema.h"
 

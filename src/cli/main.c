@@ -8,7 +8,7 @@
 #include "batch.h"
 #include "ceduo/version.h"
 #include "interactive.h"
-#include "io/intl.h"
+#include "base/intl.h"
 
 #ifndef CEDUO_LOCALEDIR
 #define CEDUO_LOCALEDIR "/usr/local/share/locale"

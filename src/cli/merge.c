@@ -8,7 +8,7 @@
 #include "ceduo/part.h"
 #include "ceduo/version.h"
 #include "interrupt.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "io/part_file.h"
 
 #define PART_BYTES_MOST (SIZE_MAX / 2) /* of a file; what memory holds is the bound */

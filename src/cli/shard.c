@@ -5,7 +5,7 @@
 #include "batch.h"
 #include "ceduo/part.h"
 #include "interrupt.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "io/part_file.h"
 
 /* The line of a part whose runs are done. */

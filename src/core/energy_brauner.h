@@ -3,7 +3,7 @@
 #define CEDUO_ENERGY_BRAUNER_H
 
 #include "ceduo/adc.h"
-#include "volume.h"
+#include "scene/volume.h"
 
 /* Eq. 3 of Ciabocco et al. 2009, after Brauner et al. 2005: W = V·U, the volume of the stem times the work of breaking,
  * wherever the stem is hit. */

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "bytes.h"
+#include "base/bytes.h"
 #include "ceduo/statistics.h"
 
 /* Counts of values >= 0 in bins of equal relative width, 1/16384 of an octave (6.1e-5), an octave's bins made when it is

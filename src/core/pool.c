@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "bytes.h"
+#include "run_pack.h"
 #include "ceduo/key.h"
 #include "ceduo/part.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "bytes.h"
+#include "run_pack.h"
 #include "ceduo/part.h"
 #include "envelope.h"
 #include "histogram.h"

@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "file.h"
-#include "intl.h"
+#include "base/intl.h"
 #include "schema.h"
 
 /* A line of the file, and a field of it. */

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "intl.h"
+#include "base/intl.h"
 #include "temporary.h"
 
 /* ---- reading ---- */

@@ -2,7 +2,7 @@
 #ifndef CEDUO_FILE_H
 #define CEDUO_FILE_H
 
-#include "arena.h"
+#include "base/arena.h"
 #include "problem.h"
 
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "arena.h"
+#include "base/arena.h"
 #include "problem.h"
 
 enum node_kind { NODE_SCALAR, NODE_MAP, NODE_LIST };

@@ -4,7 +4,7 @@
 
 #include "ceduo/material.h"
 #include "forms.h"
-#include "intl.h"
+#include "base/intl.h"
 
 #define HALF_PI 1.5707963267948966
 #define FAR 1e9 /* m: survey coordinates and more */

@@ -10,8 +10,8 @@
 #include "ceduo/key.h"
 #include "ceduo/part.h"
 #include "ceduo/version.h"
-#include "core/bytes.h"
-#include "json.h"
+#include "base/bytes.h"
+#include "base/json.h"
 
 /* ---- base64 ---- */
 

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "intl.h"
+#include "base/intl.h"
 
 #define LINE_MOST    100 /* columns of the source line that are shown */
 #define MESSAGE_MOST 1000 /* bytes: known keys take some hundred */

@@ -2,7 +2,7 @@
 #ifndef CEDUO_PROBLEM_H
 #define CEDUO_PROBLEM_H
 
-#include "text.h"
+#include "base/text.h"
 
 /* Where text came from: a file, standard input, an option of the command line. */
 struct source {

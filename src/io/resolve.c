@@ -7,7 +7,7 @@
 #include <strings.h>
 
 #include "file.h"
-#include "intl.h"
+#include "base/intl.h"
 
 #define BASES_MOST 8
 #define FILES_MOST 1000

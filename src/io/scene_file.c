@@ -11,7 +11,7 @@
 #include "csv_slope.h"
 #include "file.h"
 #include "forms.h"
-#include "intl.h"
+#include "base/intl.h"
 #include "resolve.h"
 
 /* Making a scene from its form: what is wrong is said at the node that it comes from. */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "ceduo/number.h"
-#include "intl.h"
+#include "base/intl.h"
 
 #define KEYS_SHOWN_MOST 32
 

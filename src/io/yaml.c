@@ -3,7 +3,7 @@
 #include <string.h>
 #include <yaml.h>
 
-#include "intl.h"
+#include "base/intl.h"
 #include "node.h"
 
 #define DEPTH_MOST 16

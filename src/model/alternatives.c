@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 
 #define CHANGES_MOST 8
 

@@ -10,7 +10,7 @@
 
 #include "io/emit.h"
 #include "io/file.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "io/resolve.h"
 #include "recovery.h"
 

@@ -7,7 +7,7 @@
 
 #include "ceduo/key.h"
 #include "ceduo/result.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "io/schema.h"
 #include "view/words.h"
 

@@ -10,7 +10,7 @@
 
 #include "io/emit.h"
 #include "io/forms.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "model/alternatives.h"
 #include "now.h"
 

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "io/intl.h"
-#include "io/text.h"
+#include "base/intl.h"
+#include "base/text.h"
 
 const struct action_row ceduo_actions[ACTION_COUNT] = {
 #define X(NAME, key, word, key2, word2, bar, help) {key, key2, word, word2, bar, help},

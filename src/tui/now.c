@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 
 #define KILO 1e-3
 

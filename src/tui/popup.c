@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 
 /* ---- making ---- */
 

@@ -9,7 +9,7 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/forms.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "model/seek.h"
 #include "popup.h"
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "io/file.h"
-#include "io/intl.h"
+#include "base/intl.h"
 
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {

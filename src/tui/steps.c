@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
 #define PIECES_MOST 20000

@@ -2,7 +2,7 @@
 #ifndef CEDUO_STEPS_H
 #define CEDUO_STEPS_H
 
-#include "io/text.h"
+#include "base/text.h"
 #include "view/outlook.h"
 
 /* The way of one rock, piece by piece: flights, and rolls along the ground. */

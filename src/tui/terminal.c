@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <wchar.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 
 /* ---- colours ---- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
 #include "app.h"
-#include "io/intl.h"
+#include "base/intl.h"
 
 /* The batch page of the option shown, as narrow as the pane. */
 static void fill_page(struct app *app, struct text *text, int width)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "app.h"
-#include "io/intl.h"
+#include "base/intl.h"
 
 static void build(struct app *app, struct form *form)
 {

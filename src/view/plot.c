@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 #include "plot_parts.h"
 
 typedef void draw_function(struct ceduo_canvas *canvas, const struct ceduo_area *area,

@@ -3,7 +3,7 @@
 #define CEDUO_PLOT_H
 
 #include "canvas.h"
-#include "io/text.h"
+#include "base/text.h"
 #include "ceduo/years.h"
 #include "outlook.h"
 

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "ceduo/assess.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "plot_parts.h"
 #include "words.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 #include "plot_parts.h"
 
 /* Energies at a control as horizontal bars. */

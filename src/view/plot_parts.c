@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 #include "words.h"
 
 /* ---- text ---- */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 #include "plot_parts.h"
 
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on

@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 #include "plot_parts.h"
 
 /* A stand from above, or the way of the selected rock through it. Places of a stand are drawn from a generator of its

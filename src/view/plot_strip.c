@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/intl.h"
+#include "base/intl.h"
 #include "plot_parts.h"
 
 /* Strips along the slope. */

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "ceduo/version.h"
-#include "io/json.h"
+#include "base/json.h"
 #include "report.h"
 
 #define KILO 1e-3

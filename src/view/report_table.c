@@ -6,7 +6,7 @@
 #include <wchar.h>
 
 #include "io/forms.h"
-#include "io/intl.h"
+#include "base/intl.h"
 #include "report.h"
 
 #define KILO 1e-3

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "io/forms.h"
-#include "io/intl.h"
+#include "base/intl.h"
 
 typedef void say_function(void *context, const char *sentence);
 

@@ -3,7 +3,7 @@
 #define CEDUO_WORDS_H
 
 #include "ceduo/result.h"
-#include "io/text.h"
+#include "base/text.h"
 
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 

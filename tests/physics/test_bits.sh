@@ -3,6 +3,7 @@
 # The same bits with 1, 2 and 16 threads and at -O2, -O0 and -O3, with clang too where there is one.
 cd "$(dirname "$0")/../.." || exit 1
 dir=$(mktemp -d)
+library=$(echo src/base/*.c src/scene/*.c src/core/*.c src/study/*.c)
 trap 'rm -rf "$dir"' EXIT
 n=0
 compile() { # name compiler flags; what is made of the core: its sources, or the library that is built already
@@ -22,10 +23,10 @@ check() { # name threads
 }
 case ${BUILD:-none} in
 *release) usual=$BUILD/libceduo.a ;;
-*) usual=$(echo src/core/*.c) ;;
+*) usual=$library ;;
 esac
-for level in O0 O3; do compile $level "${CC:-gcc}" -$level src/core/*.c & done
-if command -v clang >/dev/null; then compile clang clang -O2 src/core/*.c 2>/dev/null & fi
+for level in O0 O3; do compile $level "${CC:-gcc}" -$level $library & done
+if command -v clang >/dev/null; then compile clang clang -O2 $library 2>/dev/null & fi
 compile O2 "${CC:-gcc}" -O2 $usual
 wait
 for level in O2 O0 O3; do [ -x "$dir/$level" ] || echo "not ok - cannot compile at -$level"; done

@@ -5,6 +5,7 @@
 #   test_constants.sh [each]        each: one constant after the other, a minute
 cd "$(dirname "$0")/../.." || exit 1
 dir=$(mktemp -d)
+library=$(echo src/base/*.c src/scene/*.c src/core/*.c src/study/*.c)
 trap 'rm -rf "$dir"' EXIT
 flags="-std=c17 -D_GNU_SOURCE -Werror -O1 -ffp-contract=off -pthread -Iinclude -Isrc -Itests"
 n=0
@@ -17,7 +18,7 @@ run() { # statistics into a file
     ${CC:-gcc} -pthread -o "$dir/constants" "$dir"/now/*.o -lgsl -lgslcblas -lm && "$dir/constants" >"$1"
 }
 mkdir "$dir/now" "$dir/usual"
-compile "" src/core/*.c tests/physics/constants.c tests/physics/line_scene.c tests/physics/paper_site.c && run "$dir/first"
+compile "" $library tests/physics/constants.c tests/physics/line_scene.c tests/physics/paper_site.c && run "$dir/first"
 cp "$dir"/now/*.o "$dir/usual"
 [ -s "$dir/first" ] || echo "not ok - nothing to compare"
 check() { # what, defines, sources that have them

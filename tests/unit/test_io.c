@@ -24,7 +24,7 @@
 #include "ceduo/part.h"
 #include "io/emit.h"
 #include "io/file.h"
-#include "io/json.h"
+#include "base/json.h"
 #include "io/node.h"
 #include "io/part_file.h"
 #include "io/resolve.h"

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
-#include "core/bytes.h"
+#include "base/bytes.h"
 #include "core/envelope.h"
 #include "core/ground.h"
 #include "core/histogram.h"

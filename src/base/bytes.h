@@ -6,8 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ceduo/status.h"
-
 /* Numbers as bytes, little end first, whatever the machine. One function for both ways, so that what is written and
  * what is read cannot differ in their order. Starts as {0} to write, {.reads = true, .from, .length} to read. */
 struct bytes {
@@ -36,9 +34,5 @@ bool ceduo_bytes_column(struct bytes *b, double *column, size_t n, uint64_t *the
 
 /* The numbers of a second column that are there where those of the first are. */
 bool ceduo_bytes_column_as(struct bytes *b, const double *first, double *column, size_t n);
-
-/* A run as it is saved. CEDUO_NO_MEMORY or CEDUO_OK. */
-struct ceduo_run;
-enum ceduo_status ceduo_run_pack(const struct ceduo_run *run, struct bytes *b);
 
 #endif

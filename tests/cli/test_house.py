@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The rooms of the house: who may know whom, what the library may reach for, what it exports."""
+import os
+import re
+import subprocess
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / os.environ.get("BUILD", "build/release")
+
+# Each room knows itself and those named; base knows nobody. include/ceduo belongs to scene, core and study.
+KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene core", "io": "base scene core study",
+         "view": "base scene core study io", "model": "base scene core study io view",
+         "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
+LIBRARY = ("base", "scene", "core", "study")
+SCIENCE = ("scene", "core")  # reaches for nothing outside
+OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort)$")
+CIRCLES = {"src/tui: app - now", "src/view: plot - plot_parts"}  # that still stand
+SANITIZERS = re.compile(r"__(asan|odr|tsan|ubsan)")
+
+
+def room_of(path):
+    return path.parts[1] if path.parts[0] == "src" else "include"
+
+
+def includes(path):
+    """Files of the project that `path` includes, relative to ROOT."""
+    for name in re.findall(r'^#include "([^"]+)"', (ROOT / path).read_text(), re.M):
+        beside, found = path.parent / name, None
+        for candidate in (beside, Path("src") / name, Path("include") / name):
+            if (ROOT / candidate).is_file():
+                found = candidate
+                break
+        yield found or Path("src") / name
+
+
+def sources():
+    return sorted(p.relative_to(ROOT) for folder in ("src", "include") for p in (ROOT / folder).rglob("*.[ch]"))
+
+
+def who_knows_whom():
+    bad = []
+    for path in sources():
+        room = room_of(path)
+        allowed = {"include", *(["scene"] if room == "include" else [room, *KNOWS[room].split()])}
+        bad += [f"{path} includes {other}" for other in includes(path) if room_of(other) not in allowed]
+        if room == "base":
+            bad += [f"{path} includes {other}" for other in includes(path) if room_of(other) == "include"]
+    return bad
+
+
+def circles():
+    """A .c file and its header are one; no way leads from one along includes back to it."""
+    knows = defaultdict(set)
+    for path in sources():
+        knows[path.with_suffix("")] |= {other.with_suffix("") for other in includes(path)} - {path.with_suffix("")}
+    bad, done = [], set()
+
+    def visit(node, way):
+        if node in way:
+            circle = way[way.index(node):]
+            first = circle.index(min(circle))
+            text = " - ".join(p.name for p in circle[first:] + circle[:first])
+            bad.append(f"{circle[0].parent}: {text}")
+        elif node not in done:
+            for other in sorted(knows[node]):
+                visit(other, way + [node])
+            done.add(node)
+
+    for node in sorted(knows):
+        visit(node, [])
+    return sorted(set(bad) ^ CIRCLES)
+
+
+def symbols(what, *files):
+    done = subprocess.run(["nm", *what, *map(str, files)], stdout=subprocess.PIPE, check=True, text=True)
+    return [line.split() for line in done.stdout.splitlines() if line.split() and not line.endswith(":")]
+
+
+def reached_for():
+    bad = []
+    for room in SCIENCE:
+        for source in sorted((ROOT / "src" / room).glob("*.c")):
+            found = {words[-1] for words in symbols(["-u"], BUILD / "src" / room / f"{source.stem}.o")}
+            bad += [f"src/{room}/{source.name}: {name}" for name in sorted(found) if OUTSIDE.match(name)]
+    return bad
+
+
+def exported():
+    names = {words[2] for words in symbols(["-g", "--defined-only"], BUILD / "libceduo.a") if len(words) == 3}
+    return sorted(name for name in names if not name.startswith("ceduo_") and not SANITIZERS.match(name))
+
+
+def knows_curses():
+    return [str(path) for path in sources() if path.stem != "terminal" and
+            re.search(r"#include <(ncurses|curses)", (ROOT / path).read_text())]
+
+
+def main():
+    tests = [("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
+             ("scene and core reach for nothing outside", reached_for),
+             ("every exported symbol begins with ceduo_", exported), ("one file alone knows curses", knows_curses)]
+    failed = 0
+    for number, (name, test) in enumerate(tests, 1):
+        bad = test()
+        failed += bool(bad)
+        print(f"{'not ok' if bad else 'ok'} {number} - {name}")
+        for line in bad:
+            print(f"# {line}")
+    print(f"1..{len(tests)}")
+    sys.exit(failed > 0)
+
+
+if __name__ == "__main__":
+    main()
