@@ -40,7 +40,7 @@ CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: a fused multiply-add would give other bits on other machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
-LIBS = -lncursesw -ltinfo -lyaml -lgsl -lgslcblas -lm
+LIBS = -lncursesw -ltinfo -lyaml -lunistring -lgsl -lgslcblas -lm
 
 # The rooms of the library; the others stand on them.
 rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)))
@@ -83,7 +83,7 @@ $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev librandom123-dev libcmocka-dev mandoc python3 tmux zsh \
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc python3 tmux zsh \
 	locales parallel
 
 deps:

@@ -4,6 +4,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#include "utf8.h"
+
 static void put_string(struct text *text, const char *string)
 {
     size_t n = strlen(string);

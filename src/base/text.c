@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "utf8.h"
+
 static _Thread_local bool lost;
 
 bool ceduo_text_lost(void)
@@ -81,31 +83,6 @@ void ceduo_text_free(struct text *text)
     *text = (struct text){0};
 }
 
-size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code)
-{
-    const unsigned char *u = (const unsigned char *)p;
-    if (n == 0)
-        return 0;
-    if (u[0] < 0x80) {
-        *code = u[0];
-        return 1;
-    }
-    size_t length = u[0] >= 0xf0 ? 4 : u[0] >= 0xe0 ? 3 : 2;
-    if (u[0] < 0xc2 || u[0] > 0xf4 || n < length)
-        return 0;
-    uint32_t c = u[0] & (0xffu >> (length + 1));
-    for (size_t i = 1; i < length; i++) {
-        if ((u[i] & 0xc0) != 0x80)
-            return 0;
-        c = c << 6 | (u[i] & 0x3f);
-    }
-    static const uint32_t least[5] = {0, 0, 0x80, 0x800, 0x10000};
-    if (c < least[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000))
-        return 0;
-    *code = c;
-    return length;
-}
-
 void ceduo_text_safe_n(struct text *text, const char *string, size_t n)
 {
     for (size_t i = 0; i < n;) {
@@ -128,14 +105,6 @@ void ceduo_text_safe_n(struct text *text, const char *string, size_t n)
 void ceduo_text_safe(struct text *text, const char *string)
 {
     ceduo_text_safe_n(text, string, strlen(string));
-}
-
-size_t ceduo_text_columns(const char *string)
-{
-    size_t columns = 0;
-    for (; *string; string++)
-        columns += ((unsigned char)*string & 0xc0) != 0x80;
-    return columns;
 }
 
 /* The fewest digits that read back, in the form 1.234e+05 in `room`. A number that has one of 15 digits or fewer is

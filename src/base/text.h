@@ -30,12 +30,6 @@ void ceduo_text_free(struct text *text);
 void ceduo_text_safe(struct text *text, const char *string);
 void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
 
-/* Columns that a string takes on a terminal: its code points, each counted as one. */
-size_t ceduo_text_columns(const char *string);
-
-/* Bytes of the UTF-8 sequence at p (1…4), 0 where it is none; `*code` is its code point. */
-size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code);
-
 /* The shortest decimal that reads back as the same number; "null" where it is not finite. */
 #define CEDUO_NUMBER_ROOM 32
 const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "emit.h"
+#include "base/utf8.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -248,7 +249,7 @@ static size_t byte_of(const struct source *s, uint32_t line, uint32_t column)
     for (uint32_t c = 1; c < column && at < s->length; c++)
         do
             at++;
-        while (at < s->length && ((unsigned char)s->bytes[at] & 0xc0) == 0x80);
+        while (at < s->length && ceduo_utf8_inside(s->bytes[at]));
     return at;
 }
 

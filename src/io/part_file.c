@@ -12,6 +12,7 @@
 #include "ceduo/version.h"
 #include "base/bytes.h"
 #include "base/json.h"
+#include "base/utf8.h"
 
 /* ---- base64 ---- */
 
@@ -146,21 +147,6 @@ static bool take_seconds(struct cursor *c, double *value)
     return ceduo_number_read(digits, value) == CEDUO_NUMBER_GOOD && *value >= 0;
 }
 
-static void put_utf8(struct text *text, uint32_t code)
-{
-    if (code < 0x80) {
-        ceduo_text_char(text, (char)code);
-        return;
-    }
-    if (code >= 0x800) {
-        ceduo_text_char(text, (char)(0xe0 | code >> 12));
-        ceduo_text_char(text, (char)(0x80 | (code >> 6 & 0x3f)));
-    } else {
-        ceduo_text_char(text, (char)(0xc0 | code >> 6));
-    }
-    ceduo_text_char(text, (char)(0x80 | (code & 0x3f)));
-}
-
 /* A string after its quote, with the escapes that json.c writes. */
 static char *take_string(struct arena *arena, struct cursor *c)
 {
@@ -174,8 +160,10 @@ static char *take_string(struct arena *arena, struct cursor *c)
         }
         c->at++;
         if (take(c, "u")) {
-            good = take_hex(c, 4, &code) && code > 0;
-            put_utf8(&text, (uint32_t)code);
+            char bytes[4];
+            size_t n = take_hex(c, 4, &code) && code > 0 ? ceduo_utf8_encode((uint32_t)code, bytes) : 0;
+            good = n > 0;
+            ceduo_text_add(&text, bytes, n);
         } else if (c->at < c->end) {
             ceduo_text_char(&text, *c->at++);
         }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/intl.h"
+#include "base/utf8.h"
 
 #define LINE_MOST    100 /* columns of the source line that are shown */
 #define MESSAGE_MOST 1000 /* bytes: known keys take some hundred */
@@ -54,7 +55,7 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
             ceduo_text_char(out, ' ');
         else
             ceduo_text_safe_n(out, s->bytes + at, n);
-        for (size_t w = c < column && out->bytes ? ceduo_text_columns(out->bytes + before) : 0; w > 0; w--)
+        for (size_t w = c < column && out->bytes ? ceduo_utf8_width(out->bytes + before) : 0; w > 0; w--)
             ceduo_text_char(&caret, ' ');
         at += n;
     }
@@ -73,9 +74,9 @@ static void put_message(struct text *out, const char *message)
         ceduo_text_safe_n(out, message, n);
         return;
     }
-    while (head > 0 && ((unsigned char)message[head] & 0xc0) == 0x80)
+    while (head > 0 && ceduo_utf8_inside(message[head]))
         head--;
-    while (((unsigned char)message[tail] & 0xc0) == 0x80)
+    while (ceduo_utf8_inside(message[tail]))
         tail++;
     ceduo_text_safe_n(out, message, head);
     ceduo_text_put(out, "\xe2\x80\xa6");

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "temporary.h"
+#include "base/utf8.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -30,7 +31,7 @@ static bool make_stem(struct temporary *t, const char *target)
 {
     size_t folder = folder_length(target), n = strlen(target + folder);
     if (n > NAME_MOST)
-        for (n = NAME_MOST; ((unsigned char)target[folder + n] & 0xc0) == 0x80; n--) /* a character is not cut */
+        for (n = NAME_MOST; ceduo_utf8_inside(target[folder + n]); n--) /* a character is not cut */
             ;
     *t = (struct temporary){.fd = -1, .target = target, .stem = folder + n};
     if (!(t->path = malloc(t->stem + sizeof MARK + TAIL)))

@@ -4,6 +4,7 @@
 #include <yaml.h>
 
 #include "base/intl.h"
+#include "base/utf8.h"
 #include "node.h"
 
 #define DEPTH_MOST 16
@@ -45,7 +46,7 @@ static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
         if (bytes[i] == '\n') {
             mark.line++;
             mark.column = 0;
-        } else if (((unsigned char)bytes[i] & 0xc0) != 0x80) {
+        } else if (!ceduo_utf8_inside(bytes[i])) {
             mark.column++;
         }
     }
@@ -71,7 +72,7 @@ static char byte_at(const struct reader *r, yaml_mark_t mark)
     for (size_t i = 0; i < mark.column && p < end; i++)
         do
             p++;
-        while (p < end && ((unsigned char)*p & 0xc0) == 0x80);
+        while (p < end && ceduo_utf8_inside(*p));
     return p < end ? *p : '\0';
 }
 
@@ -376,7 +377,7 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
 {
     struct reader r = {.arena = arena, .source = source, .problems = problems, .skip = skip};
     for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark takes no column */
-        r.skip_column += ((unsigned char)source->bytes[i] & 0xc0) != 0x80;
+        r.skip_column += !ceduo_utf8_inside(source->bytes[i]);
     if (!yaml_parser_initialize(&r.parser)) {
         ceduo_problem_memory(problems);
         return NULL;

@@ -11,6 +11,7 @@
 #include "io/emit.h"
 #include "io/forms.h"
 #include "base/intl.h"
+#include "base/utf8.h"
 #include "model/alternatives.h"
 #include "now.h"
 
@@ -885,7 +886,7 @@ void ceduo_app_click(struct app *app, int x, int y)
         return;
     if (y == 0) {
         for (int v = 0, at = 0; v < VIEWS; v++) {
-            int n = (int)ceduo_text_columns(_(ceduo_views[v]->name)) + 4;
+            int n = (int)ceduo_utf8_width(_(ceduo_views[v]->name)) + 4;
             if (x >= at && x < at + n)
                 show_view(app, (enum view_number)v);
             at += n;
@@ -980,14 +981,14 @@ static void draw_title(struct app *app)
     for (int v = 0; v < VIEWS; v++) {
         bool here = v == (int)app->view;
         ceduo_app_label(app, x, 0, here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, " %d %s ", v + 1, _(ceduo_views[v]->name));
-        x += (int)ceduo_text_columns(_(ceduo_views[v]->name)) + 4;
+        x += (int)ceduo_utf8_width(_(ceduo_views[v]->name)) + 4;
     }
     struct text title = {0};
     ceduo_text_format(&title, "%s", ceduo_document_unsaved(&app->document) ? "* " : "");
     ceduo_text_safe(&title, app->document.file.scene.title);
     int room = app->width - x - 1;
     if (title.bytes && room > 4) {
-        int columns = (int)ceduo_text_columns(title.bytes);
+        int columns = (int)ceduo_utf8_width(title.bytes);
         ceduo_form_cut(app->canvas, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
                        title.bytes);
     }
@@ -1006,7 +1007,7 @@ static void draw_explanation(struct app *app)
         ceduo_form_explain(&app->document, cell, &text);
     }
     ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
-    bool two_lines = safe.bytes && app->message[0] && (int)ceduo_text_columns(safe.bytes) > app->width;
+    bool two_lines = safe.bytes && app->message[0] && (int)ceduo_utf8_width(safe.bytes) > app->width;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
     if (two_lines)
         ceduo_app_text(app, lines, role, safe.bytes, 0);
@@ -1018,7 +1019,7 @@ static void draw_explanation(struct app *app)
 
 static int bar_width(const struct action_row *a)
 {
-    return (int)ceduo_text_columns(a->word) + (int)ceduo_text_columns(_(a->help)) + 3;
+    return (int)ceduo_utf8_width(a->word) + (int)ceduo_utf8_width(_(a->help)) + 3;
 }
 
 static void draw_bar(struct app *app)
@@ -1041,7 +1042,7 @@ static void draw_bar(struct app *app)
             continue;
         room -= a->bar == 1 ? n : 0;
         ceduo_app_label(app, x, app->height - 1, CEDUO_ROLE_TITLE, "%s", a->word);
-        ceduo_app_label(app, x + (int)ceduo_text_columns(a->word) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", help);
+        ceduo_app_label(app, x + (int)ceduo_utf8_width(a->word) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", help);
         x += n;
     }
 }

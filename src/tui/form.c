@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/intl.h"
+#include "base/utf8.h"
 
 #define LABEL       18 /* columns of a line's label */
 #define COLUMN_MOST 22 /* of a table's column */
@@ -252,7 +253,7 @@ void ceduo_form_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ce
     char cut[512];
     if (span <= 0)
         return;
-    bool whole = ceduo_text_columns(text) <= (size_t)span;
+    bool whole = ceduo_utf8_width(text) <= (size_t)span;
     size_t n = bytes_of(text, whole ? (size_t)span : (size_t)span - 1);
     n = n < sizeof cut - 4 ? n : bytes_of(text, 100);
     memcpy(cut, text, n);
@@ -271,7 +272,7 @@ static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, i
     snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
     const char *text = cursor && edit ? edit : shown;
     if (cursor && edit) { /* the end of what is typed stays in sight */
-        size_t columns = ceduo_text_columns(text);
+        size_t columns = ceduo_utf8_width(text);
         while (span > 1 && columns > (size_t)span - 1) {
             text++;
             while (((unsigned char)*text & 0xc0) == 0x80)
@@ -285,7 +286,7 @@ static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, i
     ceduo_form_cut(canvas, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
             text);
     if (cursor && edit)
-        ceduo_canvas_label(canvas, left + from + (int)ceduo_text_columns(text), y, CEDUO_ROLE_CURSOR, "_");
+        ceduo_canvas_label(canvas, left + from + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
 }
 
 static void draw_row(const struct form *form, size_t i, struct ceduo_canvas *canvas, int left, int y, int width,

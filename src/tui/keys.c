@@ -5,6 +5,7 @@
 
 #include "base/intl.h"
 #include "base/text.h"
+#include "base/utf8.h"
 
 const struct action_row ceduo_actions[ACTION_COUNT] = {
 #define X(NAME, key, word, key2, word2, bar, help) {key, key2, word, word2, bar, help},

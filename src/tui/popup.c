@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/intl.h"
+#include "base/utf8.h"
 
 /* ---- making ---- */
 
@@ -209,7 +210,7 @@ static void draw_more(struct app *app, struct ceduo_area r, bool above, bool bel
     const char *words[] = {_(" more above "), _(" more below ")};
     for (int i = 0; i < 2; i++)
         if (i == 0 ? above : below)
-            ceduo_app_label(app, r.left + r.width - 2 - (int)ceduo_text_columns(words[i]), i == 0 ? r.top : r.top + r.height - 1,
+            ceduo_app_label(app, r.left + r.width - 2 - (int)ceduo_utf8_width(words[i]), i == 0 ? r.top : r.top + r.height - 1,
                             CEDUO_ROLE_TITLE, "%s", words[i]);
 }
 
@@ -273,13 +274,13 @@ static void draw_fields(struct app *app, struct popup *p)
         struct ceduo_area label = {r.left + 2, y, 31, 1}, value = {x, y, r.width - 36, 1};
         ceduo_app_text(app, label, CEDUO_ROLE_DIM, p->labels[i], 0);
         const char *text = p->fields[i].text;
-        while ((int)ceduo_text_columns(text) > value.width - 1) /* the end stays in sight */
+        while ((int)ceduo_utf8_width(text) > value.width - 1) /* the end stays in sight */
             do
                 text++;
             while (((unsigned char)*text & 0xc0) == 0x80);
         ceduo_canvas_label(app->canvas, value.left, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
         if (i == p->at)
-            ceduo_canvas_label(app->canvas, value.left + (int)ceduo_text_columns(text), y, CEDUO_ROLE_CURSOR, "_");
+            ceduo_canvas_label(app->canvas, value.left + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
     }
     struct ceduo_area foot = {r.left + 2, r.top + r.height - 2, r.width - 4, 1};
     if (p->message[0])

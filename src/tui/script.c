@@ -8,6 +8,7 @@
 
 #include "io/file.h"
 #include "base/intl.h"
+#include "base/utf8.h"
 
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {

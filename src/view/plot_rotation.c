@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/intl.h"
+#include "base/utf8.h"
 #include "plot_parts.h"
 
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on
@@ -94,7 +95,7 @@ static void draw_lights(const struct rotation *r, int row)
 static void draw_cuts(const struct rotation *r, int row)
 {
     const char *word = _("cut");
-    int room = (int)ceduo_text_columns(word) + 2, next = r->area->left + r->area->width;
+    int room = (int)ceduo_utf8_width(word) + 2, next = r->area->left + r->area->width;
     for (size_t i = r->years->count; i-- > 0;) {
         int column = r->years->years[i].cut ? column_of(r, r->x[i]) : -1;
         if (column < 0)

@@ -10,7 +10,7 @@ compile() { # name compiler flags; what is made of the core: its sources, or the
     name=$1 cc=$2 level=$3
     shift 3
     "$cc" -std=c17 -D_GNU_SOURCE -ffp-contract=off "$level" -pthread -Iinclude -Isrc -Itests -o "$dir/$name" \
-        tests/physics/bits.c tests/physics/paper_site.c "$@" -lgsl -lgslcblas -lm
+        tests/physics/bits.c tests/physics/paper_site.c "$@" -lunistring -lgsl -lgslcblas -lm
 }
 check() { # name threads
     n=$((n + 1))

@@ -15,7 +15,7 @@ compile() { # flags, sources: objects in $dir/now
     for c in "$@"; do ${CC:-gcc} $flags $extra -c -o "$dir/now/$(basename "$c" .c).o" "$c" || return 1; done
 }
 run() { # statistics into a file
-    ${CC:-gcc} -pthread -o "$dir/constants" "$dir"/now/*.o -lgsl -lgslcblas -lm && "$dir/constants" >"$1"
+    ${CC:-gcc} -pthread -o "$dir/constants" "$dir"/now/*.o -lunistring -lgsl -lgslcblas -lm && "$dir/constants" >"$1"
 }
 mkdir "$dir/now" "$dir/usual"
 compile "" $library tests/physics/constants.c tests/physics/line_scene.c tests/physics/paper_site.c && run "$dir/first"

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "utf8.h"
+
+#include <string.h>
+#include <unilbrk.h>
+#include <unistr.h>
+#include <uniwidth.h>
+
+#define WORD_MOST 4096 /* bytes of a word in which a place to break it is looked for: more than any terminal is wide */
+
+static const uint8_t *bytes_of(const char *string)
+{
+    return (const uint8_t *)string;
+}
+
+size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code)
+{
+    ucs4_t c = 0;
+    int length = n > 0 ? u8_mbtoucr(&c, bytes_of(p), n) : 0;
+    if (length <= 0)
+        return 0;
+    *code = c;
+    return (size_t)length;
+}
+
+size_t ceduo_utf8_encode(uint32_t code, char to[4])
+{
+    int length = u8_uctomb((uint8_t *)to, code, 4);
+    return length > 0 ? (size_t)length : 0;
+}
+
+/* One character, and its columns. */
+static size_t step(const char *p, size_t *columns)
+{
+    uint32_t code;
+    size_t length = ceduo_utf8_decode(p, strnlen(p, 4), &code);
+    *columns = length > 0 ? ceduo_utf8_columns(code) : 1;
+    return length > 0 ? length : 1;
+}
+
+size_t ceduo_utf8_step(const char *p)
+{
+    size_t columns;
+    return step(p, &columns);
+}
+
+const char *ceduo_utf8_back(const char *start, const char *at)
+{
+    const uint8_t *before = u8_prev(&(ucs4_t){0}, bytes_of(at), bytes_of(start));
+    return before ? (const char *)before : at > start ? at - 1 : start;
+}
+
+size_t ceduo_utf8_columns(uint32_t code)
+{
+    int width = uc_width(code, "UTF-8");
+    return width < 0 ? 1 : (size_t)width;
+}
+
+size_t ceduo_utf8_width_of(const char *string, size_t n)
+{
+    size_t width = 0, columns;
+    for (const char *end = string + n; string < end && *string; width += columns)
+        string += step(string, &columns);
+    return width;
+}
+
+size_t ceduo_utf8_width(const char *string)
+{
+    return ceduo_utf8_width_of(string, strlen(string));
+}
+
+size_t ceduo_utf8_cut(const char *string, size_t columns)
+{
+    size_t n = 0, one;
+    for (size_t length; string[n] && (length = step(string + n, &one), one <= columns); n += length)
+        columns -= one;
+    return n;
+}
+
+const char *ceduo_utf8_end(const char *string, size_t columns)
+{
+    size_t width = ceduo_utf8_width(string), one;
+    for (; width > columns; width -= one)
+        string += step(string, &one);
+    return string;
+}
+
+/* Bytes of the first `n` after which a word may be broken; n where nothing else is better. */
+static size_t word_part(const char *word, size_t n)
+{
+    char breaks[WORD_MOST];
+    size_t length = strcspn(word, " \n");
+    length = length < WORD_MOST ? length : WORD_MOST;
+    u8_possible_linebreaks(bytes_of(word), length, "UTF-8", breaks);
+    for (size_t at = n < length ? n : length - 1; at > 0; at--)
+        if (breaks[at] == UC_BREAK_POSSIBLE)
+            return at;
+    return n;
+}
+
+size_t ceduo_utf8_wrap(const char *text, size_t columns, const char **next)
+{
+    size_t n = strcspn(text, "\n"), fits = ceduo_utf8_cut(text, columns);
+    if (fits < n) {
+        n = fits;
+        while (n > 0 && text[n] != ' ')
+            n--;
+        if (n == 0)
+            n = word_part(text, fits > 0 ? fits : ceduo_utf8_step(text));
+    }
+    *next = text + n + (text[n] == ' ' || text[n] == '\n');
+    return n;
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Characters, columns and lines. What is right stands in RFC 3629, in Unicode's widths and in UAX 14. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <string.h>
+
+#include "base/utf8.h"
+
+static void decoding(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bytes;
+        size_t length;
+        uint32_t code;
+    } cases[] = {
+        {"a", 1, 'a'}, {"\xc3\xa0", 2, 0xe0}, {"\xe2\x80\xa6", 3, 0x2026}, {"\xf0\x9f\x8c\xb3", 4, 0x1f333},
+        {"\x80", 0, 0}, {"\xc3", 0, 0}, {"\xc3(", 0, 0}, {"\xc0\xaf", 0, 0}, {"\xe0\x80\xaf", 0, 0}, /* overlong */
+        {"\xed\xa0\x80", 0, 0}, {"\xf4\x90\x80\x80", 0, 0}, {"\xff", 0, 0}, /* a surrogate; beyond the last; never */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        uint32_t code = 0;
+        char back[4];
+        assert_int_equal(ceduo_utf8_decode(cases[i].bytes, strlen(cases[i].bytes), &code), cases[i].length);
+        assert_int_equal(code, cases[i].code);
+        if (cases[i].length > 0) {
+            assert_int_equal(ceduo_utf8_encode(code, back), cases[i].length);
+            assert_memory_equal(back, cases[i].bytes, cases[i].length);
+        }
+    }
+    uint32_t code;
+    assert_int_equal(ceduo_utf8_decode("\xc3\xa0", 1, &code), 0); /* its second byte is not there */
+    assert_int_equal(ceduo_utf8_decode("", 0, &code), 0);
+    char to[4];
+    assert_int_equal(ceduo_utf8_encode(0xd800, to), 0);
+}
+
+static void columns(void **state)
+{
+    (void)state;
+    assert_int_equal(ceduo_utf8_width("citt\xc3\xa0"), 5);
+    assert_int_equal(ceduo_utf8_width("e\xcc\x80"), 1);         /* e and a grave accent on it */
+    assert_int_equal(ceduo_utf8_width("\xe6\x9c\xa8"), 2);      /* a Chinese tree */
+    assert_int_equal(ceduo_utf8_width("\xf0\x9f\x8c\xb3"), 2);  /* a tree */
+    assert_int_equal(ceduo_utf8_width("a\xff\x1b"), 3);         /* a byte that is no character, a control */
+    assert_int_equal(ceduo_utf8_cut("\xe6\x9c\xa8\xe6\x9c\xa8", 3), 3);
+    assert_int_equal(ceduo_utf8_cut("e\xcc\x80x", 1), 3);
+    assert_string_equal(ceduo_utf8_end("citt\xc3\xa0", 2), "t\xc3\xa0");
+    assert_string_equal(ceduo_utf8_end("\xe6\x9c\xa8\xe6\x9c\xa8", 3), "\xe6\x9c\xa8");
+    const char *text = "a\xc3\xa0\xff";
+    assert_ptr_equal(ceduo_utf8_back(text, text + 4), text + 3);
+    assert_ptr_equal(ceduo_utf8_back(text, text + 3), text + 1);
+    assert_ptr_equal(ceduo_utf8_back(text, text), text);
+    assert_int_equal(ceduo_utf8_step("\xc3\xa0x"), 2);
+    assert_int_equal(ceduo_utf8_step("\xc3x"), 1);
+}
+
+static void lines_are(const char *text, size_t width, const char *const *wanted)
+{
+    for (; *text; wanted++) {
+        const char *next;
+        size_t n = ceduo_utf8_wrap(text, width, &next);
+        assert_non_null(*wanted);
+        assert_int_equal(n, strlen(*wanted));
+        assert_memory_equal(text, *wanted, n);
+        assert_true(next > text);
+        text = next;
+    }
+    assert_null(*wanted);
+}
+
+static void lines(void **state)
+{
+    (void)state;
+    lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
+    lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
+    lines_are("one\ntwo", 20, (const char *[]){"one", "two", NULL});
+    lines_are("of 984\xe2\x80\x93" "995 kJ/m3", 8, (const char *[]){"of", "984\xe2\x80\x93" "995", "kJ/m3", NULL});
+    lines_are("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
+    lines_are("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
+    lines_are("\xe6\x9c\xa8\xe6\x9c\xa8", 1, (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* never none at all */
+    lines_are("a\xff\xff" "b c", 3, (const char *[]){"a\xff\xff", "b c", NULL});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(decoding), cmocka_unit_test(columns), cmocka_unit_test(lines)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
