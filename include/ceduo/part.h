@@ -17,16 +17,12 @@
  * there are more parts than blocks. */
 void ceduo_part_range(uint64_t rocks, uint64_t part, uint64_t parts, uint64_t *first, uint64_t *end);
 
-/* Its bytes, for the caller to free. CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_run_save(const struct ceduo_run *run, unsigned char **bytes, size_t *n);
-
-/* Goes on with what was saved. The bytes may come from anywhere: every count in them is checked before it is used.
- * CEDUO_BAD_PART where they are not whole, not of such a run, or do not begin where it stands: the run is as it was.
- * CEDUO_NO_MEMORY: it is only to be freed. */
-enum ceduo_status ceduo_run_adopt(struct ceduo_run *run, const unsigned char *bytes, size_t n);
-
-/* The same for all runs of a pool that ceduo_pool_fill() has filled. After an error the pool is only to be freed. */
+/* The bytes of all runs of a pool that ceduo_pool_fill() has filled, for the caller to free. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_pool_save(const struct ceduo_pool *pool, unsigned char **bytes, size_t *n);
+
+/* Continues a pool's runs with what was saved. The bytes may come from anywhere: every count in them is checked before it
+ * is used. CEDUO_BAD_PART where they are not whole, not of such runs, or do not begin where these stand. After an error the
+ * pool is only to be freed. */
 enum ceduo_status ceduo_pool_adopt(struct ceduo_pool *pool, const unsigned char *bytes, size_t n);
 
 /* A number that other bytes hardly have: against what gets lost or changed on the way, not against malice. */

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "ceduo/contact.h"
+#include "impact.h"
 
 /* Pfeiffer & Higgins 1990; CRSP 3.0 (Pfeiffer et al. 1993). The speeds are 20, 30 and 250 ft/s. */
 #define CRSP_A 6.096
@@ -25,7 +25,7 @@ static inline double crsp_scaling(double rn, double rt, double vn)
     return rt / (s * s + 1);
 }
 
-static inline struct ceduo_impact law_crsp(struct ceduo_impact in, const struct ceduo_ground_point *at)
+static inline struct impact law_crsp(struct impact in, const struct ground_point *at)
 {
     double roll = in.spin * at->radius; /* speed of the rock's rim */
     double f = crsp_friction(at->rt, in.vt - roll);
@@ -33,7 +33,7 @@ static inline struct ceduo_impact law_crsp(struct ceduo_impact in, const struct 
     double vt = sqrt((at->k * (roll * roll) + in.vt * in.vt) * (f * sf) / (1 + at->k));
     double s = in.vn / CRSP_K;
     vt = copysign(vt, in.vt != 0 ? in.vt : in.spin);
-    return (struct ceduo_impact){.vn = at->rn * in.vn / (1 + s * s), .vt = vt, .spin = vt / at->radius};
+    return (struct impact){.vn = at->rn * in.vn / (1 + s * s), .vt = vt, .spin = vt / at->radius};
 }
 
 #endif

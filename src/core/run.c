@@ -1126,17 +1126,6 @@ enum ceduo_status ceduo_run_pack(const struct ceduo_run *run, struct bytes *b)
     return good && !b->no_memory ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-enum ceduo_status ceduo_run_save(const struct ceduo_run *run, unsigned char **bytes, size_t *n)
-{
-    struct bytes b = {0};
-    enum ceduo_status status = ceduo_run_pack(run, &b);
-    if (status != CEDUO_OK)
-        free(b.to);
-    *bytes = status == CEDUO_OK ? b.to : NULL;
-    *n = b.length;
-    return status;
-}
-
 /* Reads the blocks of a part into `block`, one after the other. Merges them where `merges`; otherwise checks them and
  * adds up what reached each control, and the stops. */
 static bool read_blocks(struct ceduo_run *run, struct bytes *b, const struct part_head *head, struct block *block,

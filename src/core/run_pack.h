@@ -5,7 +5,10 @@
 #include "base/bytes.h"
 #include "ceduo/run.h"
 
-/* A run as it is saved. CEDUO_NO_MEMORY or CEDUO_OK. */
+/* Adds a run as it is saved. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_run_pack(const struct ceduo_run *run, struct bytes *b);
+
+/* Continues a run with what was saved. CEDUO_BAD_PART: the run is as it was. CEDUO_NO_MEMORY: it is only to be freed. */
+enum ceduo_status ceduo_run_adopt(struct ceduo_run *run, const unsigned char *bytes, size_t n);
 
 #endif

@@ -328,10 +328,10 @@ HOT double largest_facet(const struct walker *w, size_t j)
     return s->roughness_m > 0 ? atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
 }
 
-HOT struct ceduo_ground_point ground_point(const struct walker *w, size_t j)
+HOT struct ground_point ground_point(const struct walker *w, size_t j)
 {
     const struct ground_segment *s = &w->g->segments[j];
-    struct ceduo_ground_point p = {
+    struct ground_point p = {
         .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn};
     if (w->g->rn_varies)
         p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
@@ -383,11 +383,11 @@ HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct 
     const struct ground_segment *s = &w->g->segments[at->segment];
     double sine, cosine;
     strike_facet(w, at->segment, *v, facet, &sine, &cosine);
-    struct ceduo_ground_point point = ground_point(w, at->segment);
+    struct ground_point point = ground_point(w, at->segment);
     double inward = v->along * sine - v->off * cosine;
-    struct ceduo_impact in = {
+    struct impact in = {
         .vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
-    struct ceduo_impact out;
+    struct impact out;
     switch (law) {
 #define X(NAME, name)            \
     case CEDUO_LAW_##NAME:       \
@@ -932,7 +932,7 @@ bool ceduo_walk_go_off(struct walker *w, struct course *c, enum ceduo_end *end)
 
 void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle)
 {
-    struct ceduo_ground_point p = ground_point(w, segment);
+    struct ground_point p = ground_point(w, segment);
     *rn = p.rn;
     *rt = p.rt;
     *largest_angle = largest_facet(w, segment);

@@ -18,7 +18,7 @@ struct worker {
     int pipe[2];
     atomic_bool cancel;
     /* under the lock */
-    bool quit, requested, busy, failed;
+    bool quit, requested, busy, failed, asked_before;
     struct ceduo_scene scene; /* asked for last */
     size_t shown;
     bool wants_years;
@@ -26,7 +26,7 @@ struct worker {
     struct ceduo_years *years;
     size_t years_option;
     struct ceduo_outlook *outlook;
-    uint64_t rocks, runs, rocks_flown;
+    uint64_t rocks;
     double asked, seconds;
     /* the thread's own: what is kept from request to request */
     struct flight_plan *plan;
@@ -165,13 +165,6 @@ static enum ceduo_status publish(struct worker *w, struct ceduo_outlook **outloo
     return CEDUO_OK;
 }
 
-static void count_rocks(struct worker *w, uint64_t rocks)
-{
-    pthread_mutex_lock(&w->lock);
-    w->rocks_flown += rocks;
-    pthread_mutex_unlock(&w->lock);
-}
-
 /* Makes the run of one forest as long as `rocks`. */
 static enum ceduo_status fly_forest(struct worker *w, const struct ceduo_option *option, uint64_t rocks)
 {
@@ -183,10 +176,7 @@ static enum ceduo_status fly_forest(struct worker *w, const struct ceduo_option 
         status = ceduo_pool_run(plan->pictures, option, &pictures);
     if (status != CEDUO_OK)
         return status;
-    uint64_t before = ceduo_run_rocks(run);
-    status = ceduo_run_extend(run, rocks);
-    count_rocks(w, ceduo_run_rocks(run) - before);
-    return status;
+    return ceduo_run_extend(run, rocks);
 }
 
 /* The years of the option shown, coarse first. */
@@ -274,7 +264,6 @@ static void *work(void *argument)
         size_t shown = w->shown;
         bool years = w->wants_years;
         w->requested = false;
-        w->runs++;
         atomic_store(&w->cancel, false);
         pthread_mutex_unlock(&w->lock);
         bool good = fly(w, &scene, shown, years);
@@ -348,11 +337,12 @@ void ceduo_worker_request(struct worker *w, const struct ceduo_scene *scene, siz
 {
     uint64_t key = years ? ceduo_worker_years_key(scene, shown) : ceduo_worker_key(scene);
     pthread_mutex_lock(&w->lock);
-    if (key != w->key || w->runs == 0) { /* otherwise nothing that the rocks meet has changed */
+    if (key != w->key || !w->asked_before) { /* otherwise nothing that the rocks meet has changed */
         w->scene = *scene;
         w->shown = shown;
         w->wants_years = years;
         w->key = key;
+        w->asked_before = true;
         w->requested = w->busy = true;
         w->failed = false;
         w->asked = now();
@@ -396,13 +386,5 @@ void ceduo_worker_wait(struct worker *w)
     pthread_mutex_lock(&w->lock);
     while (w->busy)
         pthread_cond_wait(&w->changed, &w->lock);
-    pthread_mutex_unlock(&w->lock);
-}
-
-void ceduo_worker_counts(struct worker *w, uint64_t *runs, uint64_t *rocks)
-{
-    pthread_mutex_lock(&w->lock);
-    *runs = w->runs;
-    *rocks = w->rocks_flown;
     pthread_mutex_unlock(&w->lock);
 }

@@ -51,7 +51,4 @@ struct worker_news ceduo_worker_news(struct worker *worker);
 /* Waits until nothing is under way. */
 void ceduo_worker_wait(struct worker *worker);
 
-/* How many runs were started, and rocks flown, since the worker was made. */
-void ceduo_worker_counts(struct worker *worker, uint64_t *runs, uint64_t *rocks);
-
 #endif

@@ -88,16 +88,6 @@ static enum ceduo_status trace(struct ceduo_follower *follower, const struct ced
     return tracer.failed ? CEDUO_NO_MEMORY : status;
 }
 
-enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                     struct ceduo_trail *trail)
-{
-    *trail = (struct ceduo_trail){0};
-    struct ceduo_follower *follower = ceduo_follower_create(scene, option);
-    enum ceduo_status status = follower ? trace(follower, scene, rock, NULL, trail) : CEDUO_NO_MEMORY;
-    ceduo_follower_free(follower);
-    return status;
-}
-
 void ceduo_trail_free(struct ceduo_trail *trail)
 {
     free(trail->x);

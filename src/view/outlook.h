@@ -77,10 +77,6 @@ void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
 const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *outlook, const struct ceduo_scene *scene,
                                               size_t option);
 
-/* The way of one rock through the forest of `option` (NULL: none), the one that a run flies under this number.
- * CEDUO_NO_MEMORY or CEDUO_OK; free the trail in any case. */
-enum ceduo_status ceduo_trail_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                     struct ceduo_trail *trail);
 void ceduo_trail_free(struct ceduo_trail *trail);
 
 #endif

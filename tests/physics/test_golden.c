@@ -9,6 +9,8 @@
 
 #include <math.h>
 
+#include "core/law_crsp.h"
+#include "core/law_lumped.h"
 #include "line_scene.h"
 #include "paper_site.h"
 
@@ -111,17 +113,17 @@ static void impacts_of_pfeiffer_and_higgins(void **state)
     };
     for (size_t i = 0; i < LENGTH(rows); i++) {
         const struct impact_row *r = &rows[i];
-        struct ceduo_ground_point at = {.rn = r->rn, .rt = r->rt, .radius = 0.34, .k = r->k};
-        struct ceduo_impact in = {.vn = r->vn, .vt = r->vt, .spin = r->spin};
-        struct ceduo_impact out = ceduo_contact(CEDUO_LAW_CRSP, in, &at);
-        expect_decimals(ceduo_crsp_friction(r->rt, r->vt - r->spin * 0.34), r->f, 6);
-        expect_decimals(ceduo_crsp_scaling(r->rn, r->rt, r->vn), r->sf, 6);
+        struct ground_point at = {.rn = r->rn, .rt = r->rt, .radius = 0.34, .k = r->k};
+        struct impact in = {.vn = r->vn, .vt = r->vt, .spin = r->spin};
+        struct impact out = law_crsp(in, &at);
+        expect_decimals(crsp_friction(r->rt, r->vt - r->spin * 0.34), r->f, 6);
+        expect_decimals(crsp_scaling(r->rn, r->rt, r->vn), r->sf, 6);
         expect_decimals(out.vn, r->vn_out, 6);
         expect_decimals(out.vt, r->vt_out, 6);
         expect_decimals(out.spin, r->spin_out, 6);
         in.vt = -in.vt; /* the mirror image */
         in.spin = -in.spin;
-        struct ceduo_impact mirror = ceduo_contact(CEDUO_LAW_CRSP, in, &at);
+        struct impact mirror = law_crsp(in, &at);
         assert_true(mirror.vn == out.vn && mirror.vt == -out.vt && mirror.spin == -out.spin);
     }
 }
@@ -129,27 +131,27 @@ static void impacts_of_pfeiffer_and_higgins(void **state)
 static void impacts_at_the_limits_of_crsp(void **state)
 {
     (void)state;
-    assert_true(ceduo_crsp_scaling(0, 0.8, 0) == 0.8);
-    assert_true(ceduo_crsp_scaling(0, 0.8, 1e-9) == 0);
-    struct ceduo_ground_point at = {.rn = 0.3, .rt = 0.8, .radius = 0.5, .k = 0.4};
-    struct ceduo_impact out = ceduo_contact(CEDUO_LAW_CRSP, (struct ceduo_impact){1, 0, -10}, &at);
+    assert_true(crsp_scaling(0, 0.8, 0) == 0.8);
+    assert_true(crsp_scaling(0, 0.8, 1e-9) == 0);
+    struct ground_point at = {.rn = 0.3, .rt = 0.8, .radius = 0.5, .k = 0.4};
+    struct impact out = law_crsp((struct impact){1, 0, -10}, &at);
     assert_true(out.vt < 0 && out.spin < 0); /* without speed the spin says where to */
-    out = ceduo_contact(CEDUO_LAW_CRSP, (struct ceduo_impact){1, -2, 10}, &at);
+    out = law_crsp((struct impact){1, -2, 10}, &at);
     assert_true(out.vt < 0);
-    out = ceduo_contact(CEDUO_LAW_CRSP, (struct ceduo_impact){9.144, 0, 0}, &at); /* 30 ft/s */
+    out = law_crsp((struct impact){9.144, 0, 0}, &at); /* 30 ft/s */
     expect_exact(out.vn, 0.3 * 9.144 / 2);
 }
 
 static void impacts_of_the_lumped_law(void **state)
 {
     (void)state;
-    struct ceduo_ground_point at = {.rn = 0.31, .rt = 0.83, .radius = 0.34, .k = 0.4};
-    struct ceduo_impact out = ceduo_contact(CEDUO_LAW_LUMPED, (struct ceduo_impact){5, -10, 7}, &at);
+    struct ground_point at = {.rn = 0.31, .rt = 0.83, .radius = 0.34, .k = 0.4};
+    struct impact out = law_lumped((struct impact){5, -10, 7}, &at);
     expect_exact(out.vn, 1.55);
     expect_exact(out.vt, -8.3);
     assert_true(out.spin == 0);
     at.scale_rn = true;
-    out = ceduo_contact(CEDUO_LAW_LUMPED, (struct ceduo_impact){5, 10, 0}, &at);
+    out = law_lumped((struct impact){5, 10, 0}, &at);
     expect_decimals(out.vn, 1.193228, 6); /* as in Pfeiffer & Higgins 1990 */
     expect_exact(out.vt, 8.3);
 }

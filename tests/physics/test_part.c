@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/run_pack.h"
 #include "paper_site.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
@@ -60,7 +61,7 @@ static struct saved part_of(struct ceduo_run_def def, uint64_t part, uint64_t pa
     for (unsigned i = 1; i <= steps; i++)
         assert_int_equal(ceduo_run_extend(run, def.first + (end - def.first) * i / steps), CEDUO_OK);
     assert_int_equal(ceduo_run_rocks(run), end);
-    assert_int_equal(ceduo_run_save(run, &s.bytes, &s.n), CEDUO_OK);
+    assert_int_equal(paper_run_save(run, &s.bytes, &s.n), CEDUO_OK);
     ceduo_run_free(run);
     return s;
 }
@@ -277,7 +278,7 @@ static void more_energies_than_arrivals_are_refused(void **state)
     struct ceduo_run_def def = def_of(64, true);
     def.rocks_most = 8;
     struct ceduo_run *to = run_of(def, 0);
-    assert_int_equal(ceduo_run_save(from, &s.bytes, &s.n), CEDUO_OK);
+    assert_int_equal(paper_run_save(from, &s.bytes, &s.n), CEDUO_OK);
     size_t at = s.n - 8 * (size_t)a.reached - 1; /* their bits */
     unsigned lacks = ~(unsigned)s.bytes[at] & 0xff;
     s.bytes = realloc(s.bytes, s.n + 8);
@@ -348,13 +349,13 @@ static void nothing_is_read_otherwise_than_written(void **state)
         struct ceduo_run *flown = run_of(part, def.rocks_most);
         struct saved s, again;
         unsigned adopted = 0;
-        assert_int_equal(ceduo_run_save(flown, &s.bytes, &s.n), CEDUO_OK);
+        assert_int_equal(paper_run_save(flown, &s.bytes, &s.n), CEDUO_OK);
         for (size_t i = 0; i < 2 * s.n; i++) {
             const unsigned char was = s.bytes[i / 2];
             s.bytes[i / 2] = was ^ (i % 2 == 0 ? 1 : 0xff);
             struct ceduo_run *run = run_of(def, 0);
             if (ceduo_run_adopt(run, s.bytes, s.n) == CEDUO_OK) {
-                assert_int_equal(ceduo_run_save(run, &again.bytes, &again.n), CEDUO_OK);
+                assert_int_equal(paper_run_save(run, &again.bytes, &again.n), CEDUO_OK);
                 assert_int_equal(again.n, s.n);
                 assert_memory_equal(again.bytes, s.bytes, s.n);
                 free(again.bytes);

@@ -16,6 +16,7 @@
 #include "core/envelope.h"
 #include "core/ground.h"
 #include "core/histogram.h"
+#include "core/run_pack.h"
 #include "core/wood.h"
 #include "physics/paper_site.h"
 
@@ -611,7 +612,7 @@ static void runs_that_take_no_part(void **state)
     struct ceduo_run *from = run_of(&part, 1024), *to;
     unsigned char *bytes;
     size_t n;
-    assert_int_equal(ceduo_run_save(from, &bytes, &n), CEDUO_OK);
+    assert_int_equal(paper_run_save(from, &bytes, &n), CEDUO_OK);
     to = run_of(&def, 0);
     assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_OK);
     ceduo_run_free(to);

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "core/run_pack.h"
 #include "physics/paper_site.h"
 
 /* ---- runs ---- */
@@ -158,7 +159,7 @@ static bool join_parts(size_t exact_bytes)
         if (!good)
             break;
         assert_int_equal(extend(run, end), CEDUO_OK);
-        good = ceduo_run_save(run, &bytes, &n) == CEDUO_OK;
+        good = paper_run_save(run, &bytes, &n) == CEDUO_OK;
         if (!good)
             assert_null(bytes);
         ceduo_run_free(run);

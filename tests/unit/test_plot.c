@@ -1576,12 +1576,14 @@ static void trails_follow_the_rocks(void **state)
     (void)state;
     static struct site s;
     wooded_site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trails = 20});
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
-        struct ceduo_trail t;
+        const struct ceduo_trail t = (option ? o->wooded[0] : o->bare)->trails[i / 2];
         struct ceduo_way way;
-        assert_int_equal(ceduo_trail_follow(&s.scene, option, i / 2, &t), CEDUO_OK);
         assert_int_equal(ceduo_way_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
         hit += way.stems_hit;
         assert_true(t.n >= 2);
@@ -1590,9 +1592,10 @@ static void trails_follow_the_rocks(void **state)
         for (size_t k = 0; k < t.n; k++)
             if (t.x[k] >= 0 && t.x[k] <= 100)
                 assert_true(t.z[k] > ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
-        ceduo_trail_free(&t);
     }
     assert_true(hit > 0);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
 }
 
 /* A rock thrown far: every point of its trail and the middle of every chord lies on the parabola. */
@@ -1603,15 +1606,18 @@ static void flights_are_sampled_finely(void **state)
     site_init(&s);
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    struct ceduo_trail t;
-    assert_int_equal(ceduo_trail_follow(&s.scene, NULL, 0, &t), CEDUO_OK);
+    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trails = 1});
+    const struct ceduo_trail t = o->bare->trails[0];
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
         double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
         assert_true(fabs(z - (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds) < 0.06); /* a step is 0.05 m */
     }
     assert_true(checked > 3);
-    ceduo_trail_free(&t);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
 }
 
 /* ---- the command line ---- */
