@@ -9,7 +9,6 @@
 #include "ceduo/result.h"
 #include "base/intl.h"
 #include "io/schema.h"
-#include "view/words.h"
 
 /* One search under way. */
 struct search {

@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "ceduo/years.h"
-#include "view/outlook.h"
+#include "study/outlook.h"
 
 /* One thread in the background that flies rocks over a snapshot of the scene: coarse first, then finer by itself until
  * the errors are small. A new request cancels what it makes stale; one that asks for the same run changes nothing. */

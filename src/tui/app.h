@@ -8,7 +8,7 @@
 #include "model/worker.h"
 #include "steps.h"
 #include "view/canvas.h"
-#include "view/outlook.h"
+#include "study/outlook.h"
 #include "view/plot.h"
 #include "view/report.h"
 

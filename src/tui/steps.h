@@ -3,7 +3,7 @@
 #define CEDUO_STEPS_H
 
 #include "base/text.h"
-#include "view/outlook.h"
+#include "study/outlook.h"
 
 /* The way of one rock, piece by piece: flights, and rolls along the ground. */
 struct steps {

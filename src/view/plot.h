@@ -5,7 +5,7 @@
 #include "canvas.h"
 #include "base/text.h"
 #include "ceduo/years.h"
-#include "outlook.h"
+#include "study/outlook.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
  * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */

@@ -13,7 +13,7 @@ BUILD = ROOT / os.environ.get("BUILD", "build/release")
 
 # Each room knows itself and those named; base knows nobody. include/ceduo belongs to scene, core and study.
 KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene core", "io": "base scene core study",
-         "view": "base scene core study io", "model": "base scene core study io view",
+         "view": "base scene core study io", "model": "base scene core study io",
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
 LIBRARY = ("base", "scene", "core", "study")
 SCIENCE = ("scene", "core")  # reaches for nothing outside

@@ -16,6 +16,7 @@ struct ceduo_trail {
     size_t n;
     double *x, *z; /* m */
 };
+void ceduo_trail_free(struct ceduo_trail *trail);
 
 /* Energies of rocks that reached a control, in the order of the rocks. */
 struct ceduo_energies {
@@ -76,7 +77,5 @@ void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
  * yet. */
 const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *outlook, const struct ceduo_scene *scene,
                                               size_t option);
-
-void ceduo_trail_free(struct ceduo_trail *trail);
 
 #endif
