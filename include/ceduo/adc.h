@@ -6,12 +6,17 @@
 
 /* The forms of the Average Distance between Contacts. AUTO is the rule of Ciabocco et al. 2009: rock smaller than the
  * spacing of the shoots → gsteiger-stems, otherwise interception; without stools gsteiger-stems. */
+#define CEDUO_RULES(X)                                                                                                     \
+    X(RULE_AUTO, "auto")                                                                                                   \
+    X(GSTEIGER_STOOLS, "gsteiger-stools") /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */                  \
+    X(GSTEIGER_STEMS, "gsteiger-stems")   /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */                \
+    X(INTERCEPTION, "interception")       /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */            \
+    X(CROFTON, "crofton") /* A/[Nc(B + mean shoot d + P/pi) + sum N(B + d) of trees]: stools met (Cauchy, Crofton) */
+
 enum ceduo_rule {
-    CEDUO_RULE_AUTO,
-    CEDUO_GSTEIGER_STOOLS, /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */
-    CEDUO_GSTEIGER_STEMS,  /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */
-    CEDUO_INTERCEPTION,    /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */
-    CEDUO_CROFTON          /* A/[Nc(B + mean shoot d + P/pi) + sum N(B + d) of trees]: stools met (Cauchy, Crofton) */
+#define X(NAME, word) CEDUO_##NAME,
+    CEDUO_RULES(X)
+#undef X
 };
 
 /* Metres between contacts in each form; infinite in a stand without stems. */

@@ -4,7 +4,15 @@
 
 #include <stdbool.h>
 
-enum ceduo_spread_kind { CEDUO_NORMAL, CEDUO_UNIFORM };
+#define CEDUO_SPREAD_KINDS(X) \
+    X(NORMAL, "normal")       \
+    X(UNIFORM, "uniform")
+
+enum ceduo_spread_kind {
+#define X(NAME, word) CEDUO_##NAME,
+    CEDUO_SPREAD_KINDS(X)
+#undef X
+};
 
 /* A number that may differ from rock to rock. `spread` is the standard deviation of a normal law, which is cut at three
  * of them, or the half-width of a uniform one; 0: every rock has `mean`. */

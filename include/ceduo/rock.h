@@ -5,7 +5,17 @@
 #include "number.h"
 #include "status.h"
 
-enum ceduo_shape { CEDUO_SPHERE, CEDUO_CYLINDER, CEDUO_ELLIPSOID, CEDUO_BLOCK };
+#define CEDUO_SHAPES(X)       \
+    X(SPHERE, "sphere")       \
+    X(CYLINDER, "cylinder")   \
+    X(ELLIPSOID, "ellipsoid") \
+    X(BLOCK, "block")
+
+enum ceduo_shape {
+#define X(NAME, word) CEDUO_##NAME,
+    CEDUO_SHAPES(X)
+#undef X
+};
 
 /* A rock as a user describes it. Sizes that were not given have mean NaN. A sphere is given by one of diameter, volume
  * or mass (with density), a cylinder by diameter and height, an ellipsoid or a block by three axes. Where the sizes are

@@ -8,7 +8,15 @@
 #include "status.h"
 
 /* Which way the ground's small facets are turned: always against the rock, or to both sides. */
-enum ceduo_facets { CEDUO_AGAINST, CEDUO_BOTH };
+#define CEDUO_FACETS(X)   \
+    X(AGAINST, "against") \
+    X(BOTH, "both")
+
+enum ceduo_facets {
+#define X(NAME, word) CEDUO_##NAME,
+    CEDUO_FACETS(X)
+#undef X
+};
 
 #define CEDUO_FRICTION_DEFAULT 0.5 /* assumed */
 

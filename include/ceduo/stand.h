@@ -5,13 +5,19 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Silvicultural systems. */
+#define CEDUO_SYSTEMS(X)                              \
+    X(SIMPLE_COPPICE, "simple-coppice")               \
+    X(COPPICE_WITH_STANDARDS, "coppice-with-standards") \
+    X(SELECTION_COPPICE, "selection-coppice")         \
+    X(LARGE_RESERVES, "large-reserves")               \
+    X(HIGH_FOREST, "high-forest")                     \
+    X(BARE, "bare")
+
 enum ceduo_system {
-    CEDUO_SIMPLE_COPPICE,
-    CEDUO_COPPICE_WITH_STANDARDS,
-    CEDUO_SELECTION_COPPICE,
-    CEDUO_LARGE_RESERVES,
-    CEDUO_HIGH_FOREST,
-    CEDUO_BARE
+#define X(NAME, word) CEDUO_##NAME,
+    CEDUO_SYSTEMS(X)
+#undef X
 };
 
 /* The laws of what a contact with a stem takes from a rock. A new law is a file like src/core/energy_dorren.h and a line

@@ -76,10 +76,6 @@ struct scene_form {
     double rocks_per_year, reserves_minimum;
 };
 
-/* Words of the files for what the core counts. */
-extern const char *const ceduo_shape_names[], *const ceduo_facets_names[], *const ceduo_system_names[],
-    *const ceduo_energy_names[], *const ceduo_law_names[], *const ceduo_rule_names[], *const ceduo_contact_model_names[];
-
 /* The defaults of a scene. */
 void ceduo_scene_form_init(void *form);
 

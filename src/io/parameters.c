@@ -9,40 +9,6 @@
 #define HALF_PI 1.5707963267948966
 #define FAR 1e9 /* m: survey coordinates and more */
 
-/* ---- words ---- */
-
-const char *const ceduo_shape_names[] = {"sphere", "cylinder", "ellipsoid", "block"};
-const char *const ceduo_facets_names[] = {"against", "both"};
-const char *const ceduo_system_names[] = {"simple-coppice", "coppice-with-standards", "selection-coppice",
-                                          "large-reserves", "high-forest", "bare"};
-const char *const ceduo_energy_names[] = {
-#define X(NAME, name) #name,
-    CEDUO_ENERGY_MODELS(X)
-#undef X
-};
-const char *const ceduo_law_names[] = {
-#define X(NAME, name) #name,
-    CEDUO_LAWS(X)
-#undef X
-};
-const char *const ceduo_rule_names[] = {"auto", "gsteiger-stools", "gsteiger-stems", "interception", "crofton"};
-const char *const ceduo_contact_model_names[] = {"index", "poisson", "stems"};
-
-static const struct choices shapes = {ceduo_shape_names, 4}, facets = {ceduo_facets_names, 2},
-                            systems = {ceduo_system_names, 6}, energies = {ceduo_energy_names, sizeof ceduo_energy_names / sizeof ceduo_energy_names[0]},
-                            laws = {ceduo_law_names, CEDUO_LAW_COUNT}, rules = {ceduo_rule_names, 5},
-                            contact_models = {ceduo_contact_model_names, 3};
-
-/* Names that the core keeps in tables of its own, in its order; a test holds them together. */
-static const char *const species_names[] = {
-    "ostrya-carpinifolia", "carpinus-betulus", "fraxinus-ornus", "quercus-cerris", "quercus-pubescens", "quercus-ilex",
-    "fagus-sylvatica",     "castanea-sativa",  "acer",           "robinia-pseudoacacia", "picea-abies"};
-static const struct choices species = {species_names, sizeof species_names / sizeof species_names[0]};
-
-static const char *const material_names[] = {"cliff",      "pavement", "talus",        "thin-colluvium", "colluvium",
-                                             "bedrock-v4", "talus-v4", "soft-soil-v4", "pavement-v4"};
-static const struct choices materials = {material_names, sizeof material_names / sizeof material_names[0]};
-
 /* ---- shorthand for rows ---- */
 
 #define AT(type, member) offsetof(struct type, member)
@@ -58,7 +24,7 @@ static const struct choices materials = {material_names, sizeof material_names /
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
-    WORD("shape", AT(rock_form, shape), 0, "sphere", N_("shape of the rock"), &shapes),
+    WORD("shape", AT(rock_form, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
     NUM("diameter_m", FIELD_SPREAD, AT(rock_form, diameter), "m", 1, 0, 1000, FIELD_ABOVE, NULL,
         N_("diameter of a sphere or cylinder")),
     NUM("height_m", FIELD_SPREAD, AT(rock_form, height), "m", 1, 0, 1000, FIELD_ABOVE, NULL,
@@ -140,7 +106,7 @@ static const struct field material_fields[] = {
         N_("where the ground begins")),
     NUM("to_m", FIELD_NUMBER, AT(material_form, to), "m", 1, -FAR, FAR, FIELD_REQUIRED, NULL,
         N_("where it ends")),
-    WORD("material", AT(material_form, material), FIELD_REQUIRED, NULL, N_("a ground of the library"), &materials),
+    WORD("material", AT(material_form, material), FIELD_REQUIRED, NULL, N_("a ground of the library"), &ceduo_material_words),
 };
 
 static void material_init(void *item)
@@ -154,7 +120,7 @@ static const struct object material_object =
 static const struct field slope_fields[] = {
     OTHER("ceduo", FIELD_TAG, 0, FIELD_REQUIRED, "slope/1", N_("what kind of file this is"), NULL),
     OTHER("name", FIELD_TEXT, AT(slope_form, name), 0, NULL, N_("name of the slope"), NULL),
-    WORD("facets", AT(slope_form, facets), 0, "against", N_("which way the ground's small facets are turned"), &facets),
+    WORD("facets", AT(slope_form, facets), 0, "against", N_("which way the ground's small facets are turned"), &ceduo_facets_words),
     NUM("vertices_m", FIELD_POINTS, AT(slope_form, vertices), "m", 1, -FAR, FAR, 0, NULL,
         N_("the profile: pairs [x, z], x rising")),
     OTHER("segments", FIELD_LIST, AT(slope_form, segments), 0, NULL,
@@ -205,7 +171,7 @@ static const struct field stools_fields[] = {
 static const struct object stools_object = OBJECT("stools", struct stand_form, stools_fields, NULL, NULL);
 
 static const struct field energy_fields[] = {
-    WORD("model", AT(stand_form, energy), 0, "brauner", N_("what a contact with a stem takes"), &energies),
+    WORD("model", AT(stand_form, energy), 0, "brauner", N_("what a contact with a stem takes"), &ceduo_energy_words),
     NUM("u_J_m3", FIELD_NUMBER, AT(stand_form, u), "J/m3", 1, 0, 1e7, FIELD_ABOVE, NULL,
         N_("brauner: work of breaking; without it the species', beech's where that is unknown")),
     NUM("fracture_ratio", FIELD_NUMBER, AT(stand_form, fracture_ratio), "", 1, 0, 10, FIELD_ABOVE, "1.5",
@@ -252,9 +218,9 @@ static const struct field stand_fields[] = {
     OTHER("name", FIELD_TEXT, AT(stand_form, name), 0, NULL, N_("name of the stand"), NULL),
     OTHER("base", FIELD_FILE, AT(stand_form, base), 0, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL),
-    WORD("system", AT(stand_form, system), 0, NULL, N_("silvicultural system; without it as the stems say"), &systems),
+    WORD("system", AT(stand_form, system), 0, NULL, N_("silvicultural system; without it as the stems say"), &ceduo_system_words),
     WORD("species", AT(stand_form, species), 0, NULL, N_("main species: volume of its stems and work of breaking"),
-         &species),
+         &ceduo_species_words),
     OTHER("stools", FIELD_GROUP, 0, 0, NULL, N_("stools"), &stools_object),
     OTHER("shoots", FIELD_LIST, AT(stand_form, shoots), 0, NULL, N_("cohorts of shoots on the stools"), &stems_object),
     OTHER("trees", FIELD_LIST, AT(stand_form, trees), 0, NULL, N_("classes of single trees: standards, reserves"),
@@ -332,15 +298,15 @@ static const struct object control_object =
     OBJECT("control", struct control_form, control_fields, control_init, NULL);
 
 static const struct field simulation_fields[] = {
-    WORD("law", AT(simulation_form, law), 0, "lumped", N_("law of an impact on the ground"), &laws),
+    WORD("law", AT(simulation_form, law), 0, "lumped", N_("law of an impact on the ground"), &ceduo_law_words),
     NUM("rocks", FIELD_COUNT, AT(simulation_form, rocks), "", 1, 1, CEDUO_ROCKS_MOST, 0, "1000",
         N_("rocks simulated")),
     NUM("seed", FIELD_COUNT, AT(simulation_form, seed), "", 1, 0, 9007199254740992.0, 0, "1",
         N_("seed of the random numbers")),
     WORD("contact_model", AT(simulation_form, contact_model), 0, "stems",
          N_("how rocks meet stems: each by itself, as a Poisson process at the rule's rate, or not (index)"),
-         &contact_models),
-    WORD("rule", AT(simulation_form, rule), 0, "auto", N_("form of the ADC; auto is the paper's rule"), &rules),
+         &ceduo_contact_model_words),
+    WORD("rule", AT(simulation_form, rule), 0, "auto", N_("form of the ADC; auto is the paper's rule"), &ceduo_rule_words),
     NUM("threshold_m", FIELD_NUMBER, AT(simulation_form, threshold), "m", 1, 0, 1e6, FIELD_ABOVE, "30",
         N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
     NUM("gravity_m_s2", FIELD_NUMBER, AT(simulation_form, gravity), "m/s2", 1, 0, 1000, FIELD_ABOVE, "9.81",

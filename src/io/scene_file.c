@@ -154,7 +154,7 @@ static void check_rock(struct maker *m)
     static const char *const cylinder[] = {"diameter_m", "height_m", NULL}, *const axes[] = {"axes_m", NULL};
     size_t before = m->problems->met;
     enum ceduo_shape shape = (enum ceduo_shape)m->form.rock.shape;
-    const char *name = ceduo_shape_names[shape];
+    const char *name = ceduo_shape_words.names[shape];
     const char *const *wanted = shape == CEDUO_CYLINDER ? cylinder : axes;
     if (!known(m, "rock.shape"))
         return;
@@ -283,10 +283,8 @@ static void make_segments(struct maker *m)
         s->segments[i] = ((struct ceduo_segment *)given_segments->items)[given_segments->n == 1 ? 0 : i];
 }
 
-static struct ceduo_segment segment_of(int material)
+static struct ceduo_segment segment_of(const struct ceduo_material *row)
 {
-    size_t count;
-    const struct ceduo_material *row = &ceduo_materials(&count)[material];
     return (struct ceduo_segment){.rn = ceduo_number(row->rn),
                                   .rt = ceduo_number(row->rt),
                                   .roughness_m = NAN,
@@ -336,7 +334,8 @@ static void make_materials(struct maker *m)
 {
     struct ceduo_slope *s = &m->file->scene.slope;
     const struct material_form *rows = m->form.slope.materials.items;
-    size_t n = m->form.slope.materials.n;
+    size_t n = m->form.slope.materials.n, count;
+    const struct ceduo_material *library = ceduo_materials(&count);
     for (size_t i = 1; i < n; i++)
         split_at(s, rows[i].from - m->origin);
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
@@ -346,7 +345,7 @@ static void make_materials(struct maker *m)
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
         while (row + 1 < n && s->x[j] >= rows[row + 1].from - m->origin)
             row++;
-        s->segments[j] = segment_of(rows[row].material);
+        s->segments[j] = segment_of(&library[rows[row].material]);
     }
 }
 
@@ -357,7 +356,7 @@ static void make_talus(struct maker *m)
     assume(m, "slope", _("talus everywhere, its roughness and friction too"));
     s->segments = take(m, s->vertices - 1, sizeof *s->segments);
     for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
-        s->segments[j] = segment_of(2);
+        s->segments[j] = segment_of(ceduo_material_talus());
 }
 
 /* The slope as it was made before, where its part of the document is the same one: an edit elsewhere costs nothing,

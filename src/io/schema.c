@@ -227,11 +227,11 @@ static void bind_choice(struct binder *b, const struct field *f, const struct no
 {
     if (!want_scalar(b, node, _("a word")))
         return;
-    for (size_t i = 0; i < f->choices->n; i++)
-        if (strcmp(f->choices->names[i], node->text) == 0) {
-            *to = (int)i;
-            return;
-        }
+    int found = ceduo_choice_find(f->choices, node->text);
+    if (found >= 0) {
+        *to = found;
+        return;
+    }
     struct text list = {0};
     for (size_t i = 0; i < f->choices->n; i++)
         ceduo_text_format(&list, "%s%s", i ? ", " : "", f->choices->names[i]);

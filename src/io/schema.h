@@ -3,6 +3,7 @@
 #define CEDUO_SCHEMA_H
 
 #include "node.h"
+#include "scene/words.h"
 
 #define CEDUO_ITEMS_MOST 1000 /* controls; options; belts: each is computed and printed by itself */
 
@@ -47,11 +48,6 @@ enum field_flag {
     FIELD_UNDER = 4,  /* hi itself is outside */
     FIELD_DEFAULTS = 16, /* a spread may leave its mean out */
     FIELD_FOLLOWS = 8 /* a group that may be a path to a file holding it */
-};
-
-struct choices {
-    const char *const *names;
-    size_t n;
 };
 
 struct object;

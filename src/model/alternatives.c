@@ -61,12 +61,8 @@ static void fill_in(struct changes *c, const char *key, const char *value)
 /* The shape of the rock that a word names; the present one where it names none. */
 static enum ceduo_shape shape_of(const struct document *d, const char *word)
 {
-    const struct object *rock = ceduo_schema_field(ceduo_schema_scene(), "rock")->object;
-    const struct choices *shapes = ceduo_schema_field(rock, "shape")->choices;
-    for (size_t i = 0; i < shapes->n; i++)
-        if (strcmp(shapes->names[i], word) == 0)
-            return (enum ceduo_shape)i;
-    return d->file.scene.rock.shape;
+    int found = ceduo_choice_find(&ceduo_shape_words, word);
+    return found >= 0 ? (enum ceduo_shape)found : d->file.scene.rock.shape;
 }
 
 /* Length, width and height of the rock as it is; its volume is that of a box of these times a number of its shape. */

@@ -9,7 +9,6 @@
 #include <time.h>
 
 #include "io/emit.h"
-#include "io/forms.h"
 #include "base/intl.h"
 #include "base/utf8.h"
 #include "model/alternatives.h"

@@ -381,10 +381,8 @@ static double step_of(double value, const struct field *f)
 static bool step_word(const struct form_cell *cell, int direction, struct text *value)
 {
     const struct choices *c = cell->field->choices;
-    size_t at = 0;
-    while (at < c->n && strcmp(c->names[at], cell->text) != 0)
-        at++;
-    at = at >= c->n ? 0 : direction > 0 ? (at + 1) % c->n : (at + c->n - 1) % c->n;
+    int now = ceduo_choice_find(c, cell->text);
+    size_t at = now < 0 ? 0 : ((size_t)now + (direction > 0 ? 1 : c->n - 1)) % c->n;
     ceduo_text_put(value, c->names[at]);
     return true;
 }

@@ -8,8 +8,8 @@
 
 #include "io/emit.h"
 #include "io/file.h"
-#include "io/forms.h"
 #include "base/intl.h"
+#include "ceduo/material.h"
 #include "model/seek.h"
 #include "popup.h"
 
@@ -49,16 +49,15 @@ void ceduo_popup_help(struct app *app)
 /* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
 static const char *how_common(const char *name)
 {
-    static const struct {
-        const char *start, *text;
-    } rows[] = {{"simple-coppice", N_("87 050 ha, 43.4 % of Marche: with reserves")},
-                {"coppice-with-standards", N_("13 250 ha, 6.6 % of Marche: with standards")},
-                {"selection-coppice", N_("350 ha, 0.2 % of Marche: selection system")},
-                {"large-reserves", N_("30 275 ha, 15.1 % of Marche: a lot of reserves")},
-                {"high-forest", N_("28 550 ha, 14.2 % of Marche: natural high forest")}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        if (strncmp(name, rows[i].start, strlen(rows[i].start)) == 0)
-            return _(rows[i].text);
+    static const char *const texts[] = {
+        [CEDUO_SIMPLE_COPPICE] = N_("87 050 ha, 43.4 % of Marche: with reserves"),
+        [CEDUO_COPPICE_WITH_STANDARDS] = N_("13 250 ha, 6.6 % of Marche: with standards"),
+        [CEDUO_SELECTION_COPPICE] = N_("350 ha, 0.2 % of Marche: selection system"),
+        [CEDUO_LARGE_RESERVES] = N_("30 275 ha, 15.1 % of Marche: a lot of reserves"),
+        [CEDUO_HIGH_FOREST] = N_("28 550 ha, 14.2 % of Marche: natural high forest")};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        if (strncmp(name, ceduo_system_words.names[i], strlen(ceduo_system_words.names[i])) == 0)
+            return _(texts[i]);
     return "";
 }
 
@@ -286,7 +285,7 @@ static bool filled_new(struct app *app, struct popup *p)
     else
         good = typed_vertices(profile, &yaml, &first, &last);
     ceduo_text_format(&yaml, ", materials: [{from_m: %.10g, to_m: %.10g, material: %s}]}\n", first, last,
-                      material.bytes ? material.bytes : "talus");
+                      material.bytes ? material.bytes : ceduo_material_talus()->name);
     ceduo_text_format(&yaml, "controls: [{x_m: %s", p->fields[NEW_CONTROL].text);
     if (p->fields[NEW_ACCEPTED].text[0])
         ceduo_text_format(&yaml, ", accepted_kJ: %s", p->fields[NEW_ACCEPTED].text);
@@ -324,7 +323,7 @@ void ceduo_popup_new(struct app *app)
                                "x z, x z, … Everything can be changed later."));
     ceduo_popup_field(p, _("title"), _("My slope"));
     ceduo_popup_field(p, _("profile (CSV file or points)"), "0 60, 20 35, 60 20, 100 12");
-    ceduo_popup_field(p, _("ground: talus, colluvium, cliff"), "talus");
+    ceduo_popup_field(p, _("ground: talus, colluvium, cliff"), ceduo_material_talus()->name);
     ceduo_popup_field(p, _("rock: diameter, m"), "0.6");
     ceduo_popup_field(p, _("counted at x, m"), "90");
     ceduo_popup_field(p, _("that bears, kJ (may be empty)"), "50");

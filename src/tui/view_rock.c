@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 3: the rock, how it starts, and how it is computed. */
 #include "app.h"
-#include "io/forms.h"
 #include "base/intl.h"
 
 static void add(struct app *app, struct form *form, const char *group, const char *key, const char *label)

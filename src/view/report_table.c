@@ -5,8 +5,8 @@
 #include <string.h>
 #include <wchar.h>
 
-#include "io/forms.h"
 #include "base/intl.h"
+#include "scene/words.h"
 #include "report.h"
 
 #define KILO 1e-3
@@ -190,7 +190,7 @@ static void put_slope(struct page *p)
     ceduo_words_number(&line, high - low, 4);
     ceduo_text_format(&line, ngettext(" m high, %zu segment; law %s, facets %s%s", " m high, %zu segments; law %s, facets %s%s",
                                       slope->vertices - 1),
-                      slope->vertices - 1, ceduo_words_law(s->simulation.law), ceduo_facets_names[slope->facets], assumed_mark(p, "slope"));
+                      slope->vertices - 1, ceduo_words_law(s->simulation.law), ceduo_facets_words.names[slope->facets], assumed_mark(p, "slope"));
     put_wrapped(p, _("Slope    "), 9, line.bytes ? line.bytes : "");
     ceduo_text_free(&line);
 }

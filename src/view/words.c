@@ -3,14 +3,14 @@
 
 #include <math.h>
 
-#include "io/forms.h"
 #include "base/intl.h"
+#include "scene/words.h"
 
 typedef void say_function(void *context, const char *sentence);
 
 const char *ceduo_words_rule(enum ceduo_rule rule)
 {
-    return ceduo_rule_names[rule];
+    return ceduo_rule_words.names[rule];
 }
 
 const char *ceduo_words_light(enum ceduo_light light)
@@ -21,12 +21,12 @@ const char *ceduo_words_light(enum ceduo_light light)
 
 const char *ceduo_words_shape(enum ceduo_shape shape)
 {
-    return ceduo_shape_names[shape];
+    return ceduo_shape_words.names[shape];
 }
 
 const char *ceduo_words_law(enum ceduo_law law)
 {
-    return ceduo_law_names[law];
+    return ceduo_law_words.names[law];
 }
 
 double ceduo_words_accepted(const struct ceduo_control *control)

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SCENE_WORDS_H
+#define CEDUO_SCENE_WORDS_H
+
+#include <stddef.h>
+
+/* The words of the files for what the scene counts: an enum, or a row of a library. Word i stands for value i. */
+struct choices {
+    const char *const *names;
+    size_t n;
+};
+
+extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_words, ceduo_energy_words, ceduo_law_words,
+    ceduo_rule_words, ceduo_contact_model_words, ceduo_spread_words, ceduo_species_words, ceduo_material_words;
+
+/* The value that a word stands for, -1 where it is none of them. */
+int ceduo_choice_find(const struct choices *choices, const char *word);
+
+#endif
