@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of other sizes: how a rock is scaled, which sizes are shown in which order, and that they fly with the mass
  * that is shown. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 
@@ -190,10 +185,12 @@ static void blocks_fly_with_their_own_mass(void **state)
         drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
         size_up(b);
         for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-            assert_true(b[i].released == BLOCKS_FLOWN && b[i].reached == BLOCKS_FLOWN && b[i].reach_probability == 1);
+            EXPECT(b[i].released, ==, BLOCKS_FLOWN);
+            EXPECT(b[i].reached, ==, BLOCKS_FLOWN);
+            EXPECT(b[i].reach_probability, ==, 1);
             bool exceeds = b[i].volume > 1.1 * volumes[bears];
             assert_int_equal(b[i].exceeded, exceeds ? BLOCKS_FLOWN : 0);
-            assert_true(b[i].exceed_probability == (exceeds ? 1 : 0));
+            EXPECT(b[i].exceed_probability, ==, (exceeds ? 1 : 0));
         }
     }
 }

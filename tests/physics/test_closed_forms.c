@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ways and statistics whose results are known in closed form or from published tables. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,7 +44,9 @@ static void free_fall(void **state)
     const struct ceduo_piece *p = &way.pieces[0];
     expect_near(p->seconds, sqrt(2 * 20 / G), 1e-15);
     expect_near(p->vz1, -sqrt(2 * G * 20), 1e-15);
-    assert_true(p->x1 == 500 && p->z1 == 0 && p->vx1 == 0);
+    EXPECT(p->x1, ==, 500);
+    EXPECT(p->z1, ==, 0);
+    EXPECT(p->vx1, ==, 0);
 }
 
 static void projectiles_on_a_slope(void **state)
@@ -77,7 +74,8 @@ static void a_control_sees_the_flight_over_it(void **state)
     scene.control.x = 8;
     scene.scene.controls_count = 1;
     follow();
-    assert_true(way.crossing.reached && way.crossing.vx == 10);
+    assert_true(way.crossing.reached);
+    EXPECT(way.crossing.vx, ==, 10);
     expect_near(way.crossing.vz, -G * .8, 1e-15);
     expect_near(way.crossing.height, 50 + 4 - G * .32, 1e-14);
     line_scene_release(&scene, 0, 0, -.1, 0, 0); /* goes the other way */
@@ -98,14 +96,16 @@ static void a_vertical_drop_rebounds_to_rn2_h(void **state)
     double h = 10;
     size_t i = 1;
     while ((h *= rn * rn) > radius) {
-        assert_true(i < way.count);
+        EXPECT(i, <, way.count);
         const struct ceduo_piece *p = &way.pieces[i++];
         assert_false(p->rolls);
         expect_near(p->vz * p->vz / (2 * G), h, 1e-13);
     }
     assert_int_equal(i, way.count); /* the next one is lower than R */
     assert_int_equal(way.way.end, CEDUO_AT_REST);
-    assert_true(way.way.x == 500 && way.way.z == 0 && way.way.contacts == i);
+    EXPECT(way.way.x, ==, 500);
+    EXPECT(way.way.z, ==, 0);
+    EXPECT(way.way.contacts, ==, i);
 }
 
 static void an_oblique_impact_on_the_flat(void **state)
@@ -115,11 +115,16 @@ static void an_oblique_impact_on_the_flat(void **state)
     line_scene_release(&scene, 500, 0, 2, -4, 0);
     follow();
     const struct ceduo_piece *p = &way.pieces[0];
-    assert_true(!p->rolls && p->x == 500 && p->vx == 1 && p->vz == 2 && p->contacts == 1);
+    assert_false(p->rolls);
+    EXPECT(p->x, ==, 500);
+    EXPECT(p->vx, ==, 1);
+    EXPECT(p->vz, ==, 2);
+    EXPECT(p->contacts, ==, 1);
     expect_near(p->x1, 500 + 4 / G, 1e-15);
     line_scene_release(&scene, 500, 0, -2, -4, 0);
     follow();
-    assert_true(way.pieces[0].vx == -1 && way.pieces[0].vz == 2);
+    EXPECT(way.pieces[0].vx, ==, -1);
+    EXPECT(way.pieces[0].vz, ==, 2);
 }
 
 static void a_bounce_without_loss_is_given_up_and_said_so(void **state)
@@ -128,11 +133,14 @@ static void a_bounce_without_loss_is_given_up_and_said_so(void **state)
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 500, 1, 0, 0, 0);
     follow();
-    assert_true(way.way.end == CEDUO_UNFINISHED && way.way.contacts == CEDUO_CONTACTS_MOST && way.way.x == 500);
+    EXPECT(way.way.end, ==, CEDUO_UNFINISHED);
+    EXPECT(way.way.contacts, ==, CEDUO_CONTACTS_MOST);
+    EXPECT(way.way.x, ==, 500);
     straight(0, (struct line_ground){0, 1, 0}, 1e-4, CEDUO_LAW_CRSP); /* rolls, 100 m in 10^6 radii */
     line_scene_release(&scene, 500, 0, 1, 0, 1e4);
     follow();
-    assert_true(way.way.end == CEDUO_UNFINISHED && way.way.contacts == CEDUO_CONTACTS_MOST);
+    EXPECT(way.way.end, ==, CEDUO_UNFINISHED);
+    EXPECT(way.way.contacts, ==, CEDUO_CONTACTS_MOST);
     expect_near(way.way.x, 600, 1e-9);
 }
 
@@ -143,7 +151,11 @@ static void a_release_that_leaves_the_ground_has_no_contact(void **state)
     line_scene_release(&scene, 500, 0, 2, 4, 0);
     follow();
     const struct ceduo_piece *p = &way.pieces[0];
-    assert_true(p->contacts == 0 && p->vx == 2 && p->vz == 4 && p[1].vx == 1 && p[1].contacts == 1);
+    EXPECT(p->contacts, ==, 0);
+    EXPECT(p->vx, ==, 2);
+    EXPECT(p->vz, ==, 4);
+    EXPECT(p[1].vx, ==, 1);
+    EXPECT(p[1].contacts, ==, 1);
     expect_near(p[1].vz, 2, 1e-15);
 }
 
@@ -156,7 +168,7 @@ static void roll_stops(enum ceduo_law law, double k, double v0)
     line_scene_release(&scene, 500, 0, v0, 0, v0 / .34);
     follow();
     expect_near(fabs(way.way.x - 500), (1 + k) * v0 * v0 / (2 * G * mu), 1e-12);
-    assert_true((way.way.x > 500) == (v0 > 0));
+    EXPECT((way.way.x > 500), ==, (v0 > 0));
     assert_int_equal(way.way.end, CEDUO_AT_REST);
     for (size_t i = 0; i < way.count; i++)
         assert_true(way.pieces[i].rolls);
@@ -184,7 +196,10 @@ static void a_roll_stops_just_at_the_control(void **state)
         scene.scene.controls_count = 1;
         follow();
         assert_int_equal(way.way.end, CEDUO_AT_REST);
-        assert_true(way.way.x == 2 && way.crossing.reached && way.crossing.vx == 0 && way.crossing.vz == 0);
+        EXPECT(way.way.x, ==, 2);
+        assert_true(way.crossing.reached);
+        EXPECT(way.crossing.vx, ==, 0);
+        EXPECT(way.crossing.vz, ==, 0);
     }
 }
 
@@ -195,7 +210,7 @@ static void roll_accelerates(enum ceduo_law law, double k, double rise, double m
     follow();
     double c = 1 / sqrt(1 + rise * rise), a = G * (fabs(rise) - mu) * c / (1 + k);
     assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
-    assert_true(way.way.x == (rise < 0 ? 1000 : 0));
+    EXPECT(way.way.x, ==, (rise < 0 ? 1000 : 0));
     for (size_t i = 0; i < way.count; i++) {
         const struct ceduo_piece *p = &way.pieces[i];
         assert_true(p->rolls);
@@ -245,7 +260,7 @@ static void a_contact_in_a_roll_costs_the_same_for_any_rn(void **state)
                 assert_true(p->rolls);
                 expect_near(p->vx * p->vx + p->vz * p->vz, rt * (rt + (1 - rt) / 1.2) * u2, 1e-9);
             }
-            assert_true(way.count >= 40);
+            EXPECT(way.count, >=, 40);
         }
 }
 
@@ -260,10 +275,11 @@ static void without_tangential_restitution_each_roll_begins_downhill(void **stat
             follow();
             for (size_t j = 0; j < way.count; j++) {
                 assert_true(way.pieces[j].rolls);
-                assert_true(dir * way.pieces[j].vx <= 0 && dir * way.pieces[j].vx1 < 0);
+                EXPECT(dir * way.pieces[j].vx, <=, 0);
+                EXPECT(dir * way.pieces[j].vx1, <, 0);
             }
             double radii = 500 * sqrt(1 + pow(.025 * slope, 2));
-            assert_true(fabs((double)way.way.contacts - radii) <= 1 + 1e-9);
+            EXPECT_NEAR((double)way.way.contacts, radii, 1 + 1e-9);
         }
 }
 
@@ -274,7 +290,8 @@ static void a_concave_vertex_takes_the_part_into_the_ground(void **state)
     line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, 1.5, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, .5, 0, 2, 0, 0);
     follow();
-    assert_true(way.pieces[0].vx1 == 2 && way.pieces[0].x1 == 1);
+    EXPECT(way.pieces[0].vx1, ==, 2);
+    EXPECT(way.pieces[0].x1, ==, 1);
     expect_near(hypot(way.pieces[1].vx, way.pieces[1].vz), 1.6, 1e-15);
     expect_near(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
 }
@@ -287,8 +304,10 @@ static void over_a_convex_vertex_it_rolls_or_flies(void **state)
         line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, .5, CEDUO_LAW_LUMPED);
         line_scene_release(&scene, 9.9, 0, fast ? 3 : .3, 0, 0);
         follow();
-        assert_true(way.pieces[0].rolls && way.pieces[0].x1 == 10);
-        assert_true(way.pieces[1].rolls == !fast && way.pieces[1].x == 10);
+        assert_true(way.pieces[0].rolls);
+        EXPECT(way.pieces[0].x1, ==, 10);
+        EXPECT(way.pieces[1].rolls, ==, !fast);
+        EXPECT(way.pieces[1].x, ==, 10);
         double v = hypot(way.pieces[1].vx, way.pieces[1].vz); /* nothing is lost */
         expect_near(v, fast ? 3 : .3, 1e-15);
         if (fast) /* z = -g t2/2 meets z = -x/2 */
@@ -306,11 +325,14 @@ static void at_rest_it_goes_where_it_is_steeper_than_friction(void **state)
             straight(.3 * dir, (struct line_ground){.5, .5, .31}, .34, (enum ceduo_law)law);
             line_scene_release(&scene, 500, 0, 0, 0, 0);
             follow();
-            assert_true(way.way.end == CEDUO_AT_REST && way.way.x == 500 && way.way.contacts == 1);
+            EXPECT(way.way.end, ==, CEDUO_AT_REST);
+            EXPECT(way.way.x, ==, 500);
+            EXPECT(way.way.contacts, ==, 1);
             straight(.3 * dir, (struct line_ground){.5, .5, .29}, .34, (enum ceduo_law)law);
             line_scene_release(&scene, 500, 0, 0, 0, 0);
             follow();
-            assert_true(way.way.end == CEDUO_LEFT_SLOPE && way.way.x == (dir < 0 ? 1000 : 0));
+            EXPECT(way.way.end, ==, CEDUO_LEFT_SLOPE);
+            EXPECT(way.way.x, ==, (dir < 0 ? 1000 : 0));
         }
 }
 
@@ -321,7 +343,7 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
     line_scene_release(&scene, 1.8, 0, 0, 0, 0);
     follow();
     assert_int_equal(way.way.end, CEDUO_AT_REST);
-    assert_true((way.way.x == 1.8) == stays);
+    EXPECT((way.way.x == 1.8), ==, stays);
 }
 
 static void at_rest_it_stays_in_a_pit_within_its_radius(void **state)
@@ -336,12 +358,12 @@ static void at_rest_it_stays_in_a_pit_within_its_radius(void **state)
     line_scene_init(&scene, 4, x, z, (struct line_ground){.2, .5, .01}, .5, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 1.8, 0, 0, 0, 0);
     follow();
-    assert_true(way.way.x != 1.8);
+    EXPECT(way.way.x, !=, 1.8);
     const double gentle[] = {0, -1, -1 + .3, -5}; /* the far side holds by its friction: not steeper than it */
     line_scene_init(&scene, 4, x, gentle, (struct line_ground){.2, .5, .2}, .5, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 1.8, 0, 0, 0, 0);
     follow();
-    assert_true(way.way.x != 1.8);
+    EXPECT(way.way.x, !=, 1.8);
 }
 
 /* ---- vertices and ends ---- */
@@ -362,14 +384,16 @@ static void a_release_on_a_vertex_is_on_the_right(void **state)
     for (int dir = -1; dir <= 1; dir++) {
         line_scene_release(&scene, 1, 0, dir * 4, -8, 0);
         follow();
-        assert_true(way.pieces[0].vz == 2 && way.pieces[0].vx == dir);
+        EXPECT(way.pieces[0].vz, ==, 2);
+        EXPECT(way.pieces[0].vx, ==, dir);
     }
     line_scene_release(&scene, 1, 4, 0, 0, 0); /* dropped on it */
     follow();
-    assert_true(way.pieces[0].vz1 == -8 && way.pieces[1].vz == 2);
+    EXPECT(way.pieces[0].vz1, ==, -8);
+    EXPECT(way.pieces[1].vz, ==, 2);
     line_scene_release(&scene, 0, 0, 0, -8, 0); /* the first vertex */
     follow();
-    assert_true(way.pieces[0].vz == 4);
+    EXPECT(way.pieces[0].vz, ==, 4);
 }
 
 static void a_flight_exactly_through_a_vertex_is_on_the_segment_ahead(void **state)
@@ -378,11 +402,16 @@ static void a_flight_exactly_through_a_vertex_is_on_the_segment_ahead(void **sta
     two_grounds(.01);
     line_scene_release(&scene, 0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
     follow();
-    assert_true(way.pieces[0].x1 == 1 && way.pieces[0].z1 == 0 && way.pieces[0].vz1 == -4);
-    assert_true(way.pieces[1].vz == 1 && way.pieces[1].vx == .5);
+    EXPECT(way.pieces[0].x1, ==, 1);
+    EXPECT(way.pieces[0].z1, ==, 0);
+    EXPECT(way.pieces[0].vz1, ==, -4);
+    EXPECT(way.pieces[1].vz, ==, 1);
+    EXPECT(way.pieces[1].vx, ==, .5);
     line_scene_release(&scene, 2, 1, -2, 0, 0); /* and from the other side */
     follow();
-    assert_true(way.pieces[0].x1 == 1 && way.pieces[1].vz == 2 && way.pieces[1].vx == -1);
+    EXPECT(way.pieces[0].x1, ==, 1);
+    EXPECT(way.pieces[1].vz, ==, 2);
+    EXPECT(way.pieces[1].vx, ==, -1);
 }
 
 static void a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along(void **state)
@@ -391,7 +420,9 @@ static void a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along(void **
     two_grounds(.5);
     line_scene_release(&scene, .5, 0, 1, 0, 0);
     follow();
-    assert_true(way.pieces[0].rolls && way.pieces[0].x1 == 1 && way.pieces[0].vx == .5);
+    assert_true(way.pieces[0].rolls);
+    EXPECT(way.pieces[0].x1, ==, 1);
+    EXPECT(way.pieces[0].vx, ==, .5);
     for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 once more at x = 1, 1/4 from there on */
         const struct ceduo_piece *p = &way.pieces[i];
         assert_true(p->contacts != 2 || (p->vx == .25 && p->x == 1));
@@ -407,11 +438,15 @@ static void the_way_ends_at_either_end_of_the_slope(void **state)
         double x = dir < 0 ? 1 : 999, end = dir < 0 ? 0 : 1000;
         line_scene_release(&scene, x, 10, dir * 50, 0, 0); /* flies out */
         follow();
-        assert_true(way.way.end == CEDUO_LEFT_SLOPE && way.way.x == end && way.way.contacts == 0);
+        EXPECT(way.way.end, ==, CEDUO_LEFT_SLOPE);
+        EXPECT(way.way.x, ==, end);
+        EXPECT(way.way.contacts, ==, 0);
         expect_near(way.way.z, 10 - G / 2 / 2500, 1e-15);
         line_scene_release(&scene, x, 0, dir * 3, 0, 0); /* rolls out */
         follow();
-        assert_true(way.way.end == CEDUO_LEFT_SLOPE && way.way.x == end && way.way.z == 0);
+        EXPECT(way.way.end, ==, CEDUO_LEFT_SLOPE);
+        EXPECT(way.way.x, ==, end);
+        EXPECT(way.way.z, ==, 0);
         assert_true(way.pieces[way.count - 1].rolls);
         line_scene_release(&scene, x, 0, dir * 1.4, 0, 0); /* stops within the last metre: v2 < 2 g mu */
         follow();
@@ -430,7 +465,8 @@ static void a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards(void 
     scene.scene.controls_count = 1;
     follow();
     assert_int_equal(way.way.end, CEDUO_AT_REST);
-    assert_true(way.way.x <= 20.001 && way.way.x > 10);
+    EXPECT(way.way.x, <=, 20.001);
+    EXPECT(way.way.x, >, 10);
 }
 
 /* ---- units of length and place ---- */
@@ -497,10 +533,12 @@ static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **
         struct ceduo_crossing before = way.crossing;
         assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
         assert_true(same_pieces(&way, &other, 4, 2));
-        assert_true(before.reached == other.crossing.reached && before.height * 4 == other.crossing.height &&
-                    before.vx * 2 == other.crossing.vx && before.vz * 2 == other.crossing.vz);
+        EXPECT(before.reached, ==, other.crossing.reached);
+        EXPECT(before.height * 4, ==, other.crossing.height);
+        EXPECT(before.vx * 2, ==, other.crossing.vx);
+        EXPECT(before.vz * 2, ==, other.crossing.vz);
     }
-    assert_true(bounces > 10000);
+    EXPECT(bounces, >, 10000);
 }
 
 /* ---- probabilities ---- */
@@ -520,7 +558,8 @@ static void intervals_of_wilson(void **state)
     for (size_t i = 0; i < LENGTH(rows); i++) {
         double lo, hi;
         ceduo_wilson(rows[i].hits, rows[i].n, &lo, &hi);
-        assert_true(fabs(lo - rows[i].lo) <= .5e-4 + 1e-12 && fabs(hi - rows[i].hi) <= .5e-4 + 1e-12);
+        EXPECT_NEAR(lo, rows[i].lo, .5e-4 + 1e-12);
+        EXPECT_NEAR(hi, rows[i].hi, .5e-4 + 1e-12);
         assert_true(rows[i].hits > 0 || lo == 0);
         assert_true(rows[i].hits < rows[i].n || hi == 1);
         /* each bound p solves (hits/n - p)2 = z2 p(1 - p)/n */
@@ -532,9 +571,11 @@ static void intervals_of_wilson(void **state)
     }
     double lo, hi;
     ceduo_wilson(0, 0, &lo, &hi);
-    assert_true(lo == 0 && hi == 1);
+    EXPECT(lo, ==, 0);
+    EXPECT(hi, ==, 1);
     ceduo_wilson(0, 999, &lo, &hi);
-    assert_true(hi < .004 && hi > .0038); /* "below 0.4 %" */
+    EXPECT(hi, <, .004);
+    EXPECT(hi, >, .0038); /* "below 0.4 %" */
 }
 
 /* Student 1908; the quantiles of 97.5 % as any table has them. */
@@ -546,11 +587,12 @@ static void widths_of_few(void **state)
         double t;
     } rows[] = {{2, 12.706}, {3, 4.303}, {10, 2.262}, {31, 2.042}, {121, 1.980}, {10000000, 1.960}};
     for (size_t i = 0; i < LENGTH(rows); i++)
-        assert_true(fabs(ceduo_half_width(2, rows[i].n) - 2 * rows[i].t) <= 1e-3);
-    assert_true(isnan(ceduo_half_width(1, 1)) && isnan(ceduo_half_width(1, 0)));
+        EXPECT_NEAR(ceduo_half_width(2, rows[i].n), 2 * rows[i].t, 1e-3);
+    assert_true(isnan(ceduo_half_width(1, 1)));
+    assert_true(isnan(ceduo_half_width(1, 0)));
     expect_near(ceduo_half_width_of_share(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
-    assert_true(fabs(ceduo_half_width_of_share(0, 0, 20) - .1611) <= .5e-4); /* Newcombe 1998, Table I */
-    assert_true(fabs(ceduo_half_width_of_share(1, 0, 29) - .1170) <= .5e-4);
+    EXPECT_NEAR(ceduo_half_width_of_share(0, 0, 20), .1611, .5e-4); /* Newcombe 1998, Table I */
+    EXPECT_NEAR(ceduo_half_width_of_share(1, 0, 29), .1170, .5e-4);
 }
 
 static void ranks_of_quantiles(void **state)
@@ -639,15 +681,21 @@ static void a_distribution_of_exact_values(void **state)
         qsort(sorted, n, sizeof *sorted, by_value);
         ceduo_quantile_interval(n, .95, &lo, &hi);
         struct ceduo_distribution d = ceduo_distribution_exact(values, n, &m);
-        assert_true(d.p50 == sorted[(n + 1) / 2 - 1] && d.max == sorted[n - 1] && d.mean == m.mean);
-        assert_true(d.p95 == sorted[ceduo_quantile_rank(n, .95) - 1] &&
-                    d.p99 == sorted[ceduo_quantile_rank(n, .99) - 1]);
+        EXPECT(d.p50, ==, sorted[(n + 1) / 2 - 1]);
+        EXPECT(d.max, ==, sorted[n - 1]);
+        EXPECT(d.mean, ==, m.mean);
+        EXPECT(d.p95, ==, sorted[ceduo_quantile_rank(n, .95) - 1]);
+        EXPECT(d.p99, ==, sorted[ceduo_quantile_rank(n, .99) - 1]);
         assert_true(lo > 0 ? d.p95_lo == sorted[lo - 1] : isnan(d.p95_lo));
         assert_true(hi <= n ? d.p95_hi == sorted[hi - 1] : isnan(d.p95_hi));
         assert_true(n > 1 ? d.sd == ceduo_moments_sd(&m) && d.se == ceduo_moments_se(&m) : isnan(d.sd) && isnan(d.se));
     }
     struct ceduo_distribution none = ceduo_distribution_none();
-    assert_true(isnan(none.mean) && isnan(none.p50) && isnan(none.p95) && isnan(none.p99) && isnan(none.max));
+    assert_true(isnan(none.mean));
+    assert_true(isnan(none.p50));
+    assert_true(isnan(none.p95));
+    assert_true(isnan(none.p99));
+    assert_true(isnan(none.max));
 }
 
 static void moments_added_and_merged(void **state)
@@ -678,7 +726,7 @@ static void moments_added_and_merged(void **state)
         struct ceduo_moments none = {0};
         ceduo_moments_merge(&all, &none);
         assert_int_equal(all.n, n);
-        assert_true(all.max == largest);
+        EXPECT(all.max, ==, largest);
         expect_near(all.mean, (double)mean, 1e-14);
         expect_near(all.m2, (double)squares, 1e-9);
         expect_near(ceduo_moments_sd(&all), (double)sqrtl(squares / (long double)(n - 1)), 1e-9);
@@ -687,7 +735,10 @@ static void moments_added_and_merged(void **state)
     struct ceduo_moments one = {0};
     assert_true(isnan(ceduo_moments_sd(&one)));
     ceduo_moments_add(&one, 4);
-    assert_true(isnan(ceduo_moments_sd(&one)) && isnan(ceduo_moments_se(&one)) && one.mean == 4 && one.max == 4);
+    assert_true(isnan(ceduo_moments_sd(&one)));
+    assert_true(isnan(ceduo_moments_se(&one)));
+    EXPECT(one.mean, ==, 4);
+    EXPECT(one.max, ==, 4);
 }
 
 /* ---- numbers that differ from rock to rock ---- */
@@ -734,11 +785,14 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
     double variance = 1 + (a * density(a) - b * density(b)) / p - shift * shift;
     double expected = mean + sd * shift, width = sd * sqrt(variance);
     struct seen even = draw_many(n, lo, hi, 200000), random = draw_many(n, lo, hi, 0);
-    assert_true(fabs(even.mean - expected) < 1e-5 * sd && fabs(even.sd - width) < 1e-4 * sd);
-    assert_true(fabs(random.mean - expected) < 4 * width / 1e3); /* 4 standard errors of 10^6 */
-    assert_true(fabs(random.sd - width) < 4 * width / 1e3);      /* its own are smaller: no long tails */
-    assert_true(even.lowest >= mean + a * sd - 1e-15 && even.lowest < mean + (a + .05) * sd);
-    assert_true(even.highest <= mean + b * sd + 1e-15 && even.highest > mean + (b - .05) * sd);
+    EXPECT_NEAR(even.mean, expected, 1e-5 * sd);
+    EXPECT_NEAR(even.sd, width, 1e-4 * sd);
+    EXPECT_NEAR(random.mean, expected, 4 * width / 1e3); /* 4 standard errors of 10^6 */
+    EXPECT_NEAR(random.sd, width, 4 * width / 1e3);      /* its own are smaller: no long tails */
+    EXPECT(even.lowest, >=, mean + a * sd - 1e-15);
+    EXPECT(even.lowest, <, mean + (a + .05) * sd);
+    EXPECT(even.highest, <=, mean + b * sd + 1e-15);
+    EXPECT(even.highest, >, mean + (b - .05) * sd);
 }
 
 static void a_normal_spread_is_cut(void **state)
@@ -749,7 +803,8 @@ static void a_normal_spread_is_cut(void **state)
     expect_cut_normal(.05, .1, 0, 1);
     expect_cut_normal(.5, .5, 0, 1);
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_NORMAL};
-    assert_true(ceduo_number_lowest(n) == .5 && ceduo_number_highest(n) == 3.5);
+    EXPECT(ceduo_number_lowest(n), ==, .5);
+    EXPECT(ceduo_number_highest(n), ==, 3.5);
     expect_near(ceduo_number_draw(n, .5, -INFINITY, INFINITY), 2, 1e-14);
 }
 
@@ -757,13 +812,21 @@ static void a_uniform_spread(void **state)
 {
     (void)state;
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
-    assert_true(ceduo_number_lowest(n) == 1.5 && ceduo_number_highest(n) == 2.5);
+    EXPECT(ceduo_number_lowest(n), ==, 1.5);
+    EXPECT(ceduo_number_highest(n), ==, 2.5);
     struct seen all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
-    assert_true(fabs(all.mean - 2) < 4 * .5 / sqrt(3) / 1e3 && fabs(all.sd - .5 / sqrt(3)) < 1e-3);
-    assert_true(all.lowest >= 1.5 && all.highest <= 2.5 && all.lowest < 1.501 && all.highest > 2.499);
-    assert_true(fabs(cut.mean - 1.75) < 4 * .25 / sqrt(3) / 1e3 && cut.highest <= 2 && cut.lowest >= 1.5);
+    EXPECT_NEAR(all.mean, 2, 4 * .5 / sqrt(3) / 1e3);
+    EXPECT_NEAR(all.sd, .5 / sqrt(3), 1e-3);
+    EXPECT(all.lowest, >=, 1.5);
+    EXPECT(all.highest, <=, 2.5);
+    EXPECT(all.lowest, <, 1.501);
+    EXPECT(all.highest, >, 2.499);
+    EXPECT_NEAR(cut.mean, 1.75, 4 * .25 / sqrt(3) / 1e3);
+    EXPECT(cut.highest, <=, 2);
+    EXPECT(cut.lowest, >=, 1.5);
     struct ceduo_number fixed = ceduo_number(.3);
-    assert_true(ceduo_number_draw(fixed, .01, 0, 1) == .3 && ceduo_number_lowest(fixed) == .3);
+    EXPECT(ceduo_number_draw(fixed, .01, 0, 1), ==, .3);
+    EXPECT(ceduo_number_lowest(fixed), ==, .3);
 }
 
 /* ---- facet draws ---- */
@@ -775,19 +838,22 @@ static void facet_draws_are_even_and_depend_on_all_they_should(void **state)
     double sum = 0, squares = 0, product = 0, last = .5;
     for (uint64_t i = 0; i < n; i++) {
         double u = ceduo_way_facet_draw(1, i / 20, i % 20);
-        assert_true(u >= 0 && u < 1);
+        EXPECT(u, >=, 0);
+        EXPECT(u, <, 1);
         sum += u;
         squares += u * u;
         product += (u - .5) * (last - .5);
         last = u;
     }
     double count = (double)n, se = sqrt(1 / 12. / count);
-    assert_true(fabs(sum / count - .5) < 4 * se);
-    assert_true(fabs(squares / count - 1 / 3.) < 4 * sqrt(4 / 45. / count));
-    assert_true(fabs(product / count) < 4 / 12. / sqrt(count));
+    EXPECT_NEAR(sum / count, .5, 4 * se);
+    EXPECT_NEAR(squares / count, 1 / 3., 4 * sqrt(4 / 45. / count));
+    EXPECT(fabs(product / count), <, 4 / 12. / sqrt(count));
     double u = ceduo_way_facet_draw(1, 2, 3);
-    assert_true(u == ceduo_way_facet_draw(1, 2, 3) && u != ceduo_way_facet_draw(2, 2, 3));
-    assert_true(u != ceduo_way_facet_draw(1, 3, 3) && u != ceduo_way_facet_draw(1, 2, 2));
+    EXPECT(u, ==, ceduo_way_facet_draw(1, 2, 3));
+    EXPECT(u, !=, ceduo_way_facet_draw(2, 2, 3));
+    EXPECT(u, !=, ceduo_way_facet_draw(1, 3, 3));
+    EXPECT(u, !=, ceduo_way_facet_draw(1, 2, 2));
 }
 
 int main(void)

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The inverse search: what it finds, the goal says of it when it is asked forward. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 
@@ -26,9 +21,9 @@ struct asked {
 static enum ceduo_status ask(void *context, double value, double *goal)
 {
     struct asked *a = context;
-    assert_true(a->count < MOST);
+    EXPECT(a->count, <, MOST);
     for (unsigned i = 0; i < a->count; i++)
-        assert_true(a->values[i] != value); /* no value twice */
+        EXPECT(a->values[i], !=, value); /* no value twice */
     a->values[a->count++] = value;
     *goal = a->goal(a, value);
     return CEDUO_OK;
@@ -48,10 +43,14 @@ static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool 
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
     assert_int_equal(found.evaluations, a->count);
     if (found.found) {
-        assert_true(passes(a, target, found.value) && found.goal_at_value == a->goal(a, found.value));
-        assert_true(found.value >= lo && found.value <= hi && (!whole || found.value == floor(found.value)));
+        assert_true(passes(a, target, found.value));
+        EXPECT(found.goal_at_value, ==, a->goal(a, found.value));
+        EXPECT(found.value, >=, lo);
+        EXPECT(found.value, <=, hi);
+        assert_true((!whole || found.value == floor(found.value)));
     } else {
-        assert_true(isnan(found.value) && isnan(found.goal_at_value));
+        assert_true(isnan(found.value));
+        assert_true(isnan(found.goal_at_value));
     }
     return found;
 }
@@ -105,13 +104,18 @@ static void reserves_for_30_m(void **state)
         struct asked a = {.goal = adc_of_reserves, .p = {.20, rocks[i].b}};
         assert_false(passes(&a, 30, 60));
         struct ceduo_found found = find(&a, 0, 5000, true, 30); /* infinite at 0 */
-        assert_true(found.found && found.monotone && !found.whole_range && found.side == CEDUO_SMALLEST);
-        assert_true(found.value == rocks[i].needed);
-        assert_true(was_asked(&a, rocks[i].needed - 1) && !passes(&a, 30, rocks[i].needed - 1));
-        assert_true(found.evaluations < 20);
+        assert_true(found.found);
+        assert_true(found.monotone);
+        assert_false(found.whole_range);
+        EXPECT(found.side, ==, CEDUO_SMALLEST);
+        EXPECT(found.value, ==, rocks[i].needed);
+        assert_true(was_asked(&a, rocks[i].needed - 1));
+        assert_false(passes(&a, 30, rocks[i].needed - 1));
+        EXPECT(found.evaluations, <, 20);
         found = find(&a, 0, 5000, false, 30);
-        assert_true(found.found && found.monotone);
-        assert_true(fabs(found.value - 1e4 / (30 * (rocks[i].b + .2))) <= 5000 * 1e-9);
+        assert_true(found.found);
+        assert_true(found.monotone);
+        EXPECT_NEAR(found.value, 1e4 / (30 * (rocks[i].b + .2)), 5000 * 1e-9);
         expect_edge(&a, &found, 30, 5000 * 1e-9);
     }
 }
@@ -169,7 +173,8 @@ static void inverse_and_forward_agree(void **state)
         assert_int_equal(found.found, at_lo || at_hi);
         assert_int_equal(found.whole_range, at_lo && at_hi);
         if (at_lo && at_hi) {
-            assert_true(found.value == lo && found.side == CEDUO_SMALLEST);
+            EXPECT(found.value, ==, lo);
+            EXPECT(found.side, ==, CEDUO_SMALLEST);
         } else if (found.found) {
             assert_int_equal(found.side, at_hi ? CEDUO_SMALLEST : CEDUO_LARGEST);
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
@@ -178,7 +183,7 @@ static void inverse_and_forward_agree(void **state)
         }
         most = found.evaluations > most ? found.evaluations : most;
     }
-    assert_true(crossings > GOALS / 2);
+    EXPECT(crossings, >, GOALS / 2);
     print_message("%u crossings: %.1f evaluations each, %u at most\n", crossings, (double)sum / crossings, most);
 }
 
@@ -198,13 +203,17 @@ static void smooth_goals_need_few_evaluations(void **state)
     (void)state;
     struct asked a = {.goal = line, .p = {3}};
     struct ceduo_found found = find(&a, 0, 1, false, 1);
-    assert_true(fabs(found.value - 1. / 3) < 1e-9 && found.side == CEDUO_LARGEST && found.evaluations < 8);
+    EXPECT_NEAR(found.value, 1. / 3, 1e-9);
+    EXPECT(found.side, ==, CEDUO_LARGEST);
+    EXPECT(found.evaluations, <, 8);
     a = (struct asked){.goal = parabola, .p = {0, 1}};
     found = find_with(&a, 0, 10, false, 2, 1e-13);
-    assert_true(fabs(found.value - sqrt(2)) < 1e-12 && found.evaluations < 16);
+    EXPECT_NEAR(found.value, sqrt(2), 1e-12);
+    EXPECT(found.evaluations, <, 16);
     expect_edge(&a, &found, 2, 1e-12);
     found = find_with(&a, 0, 10, false, 2, .1); /* no better than asked for */
-    assert_true(fabs(found.value - sqrt(2)) < 1 && found.evaluations < 10);
+    EXPECT_NEAR(found.value, sqrt(2), 1);
+    EXPECT(found.evaluations, <, 10);
 }
 
 /* ---- steps, jumps ---- */
@@ -224,17 +233,22 @@ static void steps_and_jumps(void **state)
     (void)state;
     struct asked a = {.goal = steps, .p = {.37, -2}};
     struct ceduo_found found = find(&a, 0, 100, false, -10); /* floor(.37 v) >= 5 */
-    assert_true(found.found && found.monotone && fabs(found.value - 5 / .37) < 1e-7);
+    assert_true(found.found);
+    assert_true(found.monotone);
+    EXPECT_NEAR(found.value, 5 / .37, 1e-7);
     expect_edge(&a, &found, -10, 1e-7);
     found = find(&a, 0, 100, true, -10);
-    assert_true(found.value == 14 && was_asked(&a, 13));
+    EXPECT(found.value, ==, 14);
+    assert_true(was_asked(&a, 13));
     a = (struct asked){.goal = cliff, .p = {.123456}};
     found = find(&a, 0, 1, false, 1e-6);
-    assert_true(found.side == CEDUO_LARGEST && found.value < .123456);
+    EXPECT(found.side, ==, CEDUO_LARGEST);
+    EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-6, 1e-9);
-    assert_true(found.evaluations <= 55);
+    EXPECT(found.evaluations, <=, 55);
     found = find(&a, 0, 1, false, 1e-9); /* the whole lower step is on the target */
-    assert_true(found.found && found.value < .123456);
+    assert_true(found.found);
+    EXPECT(found.value, <, .123456);
     expect_edge(&a, &found, 1e-9, 1e-9);
 }
 
@@ -243,11 +257,17 @@ static void large_whole_numbers(void **state)
     (void)state;
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 0, 1e12, true, -123456789012);
-    assert_true(found.value == 123456789012 && was_asked(&a, 123456789011) && found.evaluations < 45);
+    EXPECT(found.value, ==, 123456789012);
+    assert_true(was_asked(&a, 123456789011));
+    EXPECT(found.evaluations, <, 45);
     found = find(&a, .5, 3.5, true, -2.5); /* 1…3 */
-    assert_true(found.value == 3 && was_asked(&a, 2) && found.evaluations <= 3);
+    EXPECT(found.value, ==, 3);
+    assert_true(was_asked(&a, 2));
+    EXPECT(found.evaluations, <=, 3);
     found = find(&a, 2.2, 2.8, true, 0);
-    assert_true(!found.found && found.evaluations == 0 && isnan(found.nearest));
+    assert_false(found.found);
+    EXPECT(found.evaluations, ==, 0);
+    assert_true(isnan(found.nearest));
 }
 
 /* ---- goals that turn ---- */
@@ -258,12 +278,16 @@ static void a_pass_between_ends_that_fail(void **state)
     struct asked a = {.goal = parabola, .p = {60, 1}};
     for (int whole = 0; whole < 2; whole++) {
         struct ceduo_found found = find(&a, 0, 100, whole, 402);
-        assert_true(found.found && !found.monotone && !found.whole_range && found.side == CEDUO_SMALLEST);
-        assert_true(fabs(found.value - (whole ? 40 : 60 - sqrt(402))) < 1e-7);
+        assert_true(found.found);
+        assert_false(found.monotone);
+        assert_false(found.whole_range);
+        EXPECT(found.side, ==, CEDUO_SMALLEST);
+        EXPECT_NEAR(found.value, (whole ? 40 : 60 - sqrt(402)), 1e-7);
         expect_edge(&a, &found, 402, whole ? 1 : 1e-7);
     }
     struct ceduo_found found = find(&a, 0, 60, true, 2500); /* of one side only there is nothing to see of the turn */
-    assert_true(found.monotone && found.value == 10);
+    assert_true(found.monotone);
+    EXPECT(found.value, ==, 10);
 }
 
 static void a_fail_between_ends_that_pass(void **state)
@@ -272,8 +296,11 @@ static void a_fail_between_ends_that_pass(void **state)
     struct asked a = {.goal = parabola, .p = {40, -1}};
     for (int whole = 0; whole < 2; whole++) {
         struct ceduo_found found = find(&a, 0, 100, whole, -402);
-        assert_true(found.found && !found.monotone && !found.whole_range && found.side == CEDUO_SMALLEST);
-        assert_true(fabs(found.value - (whole ? 61 : 40 + sqrt(402))) < 1e-7);
+        assert_true(found.found);
+        assert_false(found.monotone);
+        assert_false(found.whole_range);
+        EXPECT(found.side, ==, CEDUO_SMALLEST);
+        EXPECT_NEAR(found.value, (whole ? 61 : 40 + sqrt(402)), 1e-7);
         expect_edge(&a, &found, -402, whole ? 1 : 1e-7);
     }
 }
@@ -297,10 +324,17 @@ static void nothing_passes(void **state)
     (void)state;
     struct asked a = {.goal = parabola, .p = {35, 1}};
     struct ceduo_found found = find(&a, 0, 90, false, -1); /* seen: every 10 */
-    assert_true(!found.found && !found.monotone && !found.whole_range && found.evaluations == 2 + CEDUO_FIND_SCAN);
-    assert_true(found.nearest == 30 && found.goal_at_nearest == 25); /* 40 is as near */
+    assert_false(found.found);
+    assert_false(found.monotone);
+    assert_false(found.whole_range);
+    EXPECT(found.evaluations, ==, 2 + CEDUO_FIND_SCAN);
+    EXPECT(found.nearest, ==, 30);
+    EXPECT(found.goal_at_nearest, ==, 25); /* 40 is as near */
     found = find(&a, 0, 3, true, 3);
-    assert_true(!found.found && found.monotone && found.evaluations == 4 && found.nearest == 3);
+    assert_false(found.found);
+    assert_true(found.monotone);
+    EXPECT(found.evaluations, ==, 4);
+    EXPECT(found.nearest, ==, 3);
     found = find(&a, 0, 90, false, NAN);
     assert_false(found.found);
 }
@@ -310,12 +344,21 @@ static void everything_passes(void **state)
     (void)state;
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 5, 90, false, 0);
-    assert_true(found.found && found.whole_range && found.monotone && found.value == 5 && found.side == CEDUO_SMALLEST);
-    assert_true(found.nearest == 90 && found.goal_at_nearest == -90);
+    assert_true(found.found);
+    assert_true(found.whole_range);
+    assert_true(found.monotone);
+    EXPECT(found.value, ==, 5);
+    EXPECT(found.side, ==, CEDUO_SMALLEST);
+    EXPECT(found.nearest, ==, 90);
+    EXPECT(found.goal_at_nearest, ==, -90);
     found = find(&a, 7, 7, false, 0);
-    assert_true(found.found && found.whole_range && found.value == 7 && found.evaluations == 1);
+    assert_true(found.found);
+    assert_true(found.whole_range);
+    EXPECT(found.value, ==, 7);
+    EXPECT(found.evaluations, ==, 1);
     found = find(&a, 5, 90, true, INFINITY);
-    assert_true(found.whole_range && found.value == 5);
+    assert_true(found.whole_range);
+    EXPECT(found.value, ==, 5);
 }
 
 /* ---- goals that are not finite ---- */
@@ -332,18 +375,28 @@ static void goals_that_are_not_finite(void **state)
     for (size_t i = 0; i < LENGTH(bad); i++) {
         struct asked a = {.goal = broken_below, .p = {20.5, bad[i]}};
         struct ceduo_found found = find(&a, 0, 100, false, 50);
-        assert_true(found.found && found.monotone == (i == 0));
-        assert_true(fabs(found.value - 50) < 1e-7 && found.side == CEDUO_SMALLEST);
+        assert_true(found.found);
+        EXPECT(found.monotone, ==, (i == 0));
+        EXPECT_NEAR(found.value, 50, 1e-7);
+        EXPECT(found.side, ==, CEDUO_SMALLEST);
         expect_edge(&a, &found, 50, 1e-7);
         found = find(&a, 0, 100, false, 90); /* passes from where it is a number on; -inf from 0 on */
-        assert_true(found.found && found.whole_range == (i == 2) && fabs(found.value - (i == 2 ? 0 : 20.5)) < 1e-7);
+        assert_true(found.found);
+        EXPECT(found.whole_range, ==, (i == 2));
+        EXPECT_NEAR(found.value, (i == 2 ? 0 : 20.5), 1e-7);
     }
     struct asked a = {.goal = broken_below, .p = {1e9, INFINITY}};
     struct ceduo_found found = find(&a, 3, 100, false, 50);
-    assert_true(!found.found && found.monotone && found.nearest == 3 && found.goal_at_nearest == INFINITY);
+    assert_false(found.found);
+    assert_true(found.monotone);
+    EXPECT(found.nearest, ==, 3);
+    EXPECT(found.goal_at_nearest, ==, INFINITY);
     a.p[1] = NAN;
     found = find(&a, 3, 100, false, INFINITY);
-    assert_true(!found.found && !found.monotone && isnan(found.nearest) && isnan(found.goal_at_nearest));
+    assert_false(found.found);
+    assert_false(found.monotone);
+    assert_true(isnan(found.nearest));
+    assert_true(isnan(found.goal_at_nearest));
 }
 
 /* Waves, steps, and where p[3] says so infinite or no number at all. */
@@ -372,7 +425,8 @@ static void any_goal_at_all(void **state)
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
         count[found.found]++;
     }
-    assert_true(count[false] > GOALS / 10 && count[true] > GOALS / 10);
+    EXPECT(count[false], >, GOALS / 10);
+    EXPECT(count[true], >, GOALS / 10);
 }
 
 /* ---- ends before its end ---- */
@@ -405,7 +459,10 @@ static void it_ends_where_the_goal_fails_or_it_is_cancelled(void **state)
         count = 0;
         def.whole = whole;
         assert_int_equal(ceduo_find(&def, &found), CEDUO_NO_MEMORY);
-        assert_true(!found.found && found.evaluations == 4 && isnan(found.value) && found.nearest == 0);
+        assert_false(found.found);
+        EXPECT(found.evaluations, ==, 4);
+        assert_true(isnan(found.value));
+        EXPECT(found.nearest, ==, 0);
     }
     struct {
         atomic_bool cancel;
@@ -415,7 +472,9 @@ static void it_ends_where_the_goal_fails_or_it_is_cancelled(void **state)
     def.context = &cancelled;
     def.cancel = &cancelled.cancel;
     assert_int_equal(ceduo_find(&def, &found), CEDUO_CANCELLED);
-    assert_true(!found.found && found.evaluations == 5 && cancelled.count == 5);
+    assert_false(found.found);
+    EXPECT(found.evaluations, ==, 5);
+    EXPECT(cancelled.count, ==, 5);
 }
 
 int main(void)

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a single hit is: a stem that is as high as the rock flies over it is none, and of stems of many diameters each
  * takes by its own, so that all together take what was given for the mean of them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 
@@ -47,7 +42,7 @@ static struct passed {
 static void note_stem(void *context, const struct ceduo_stem_passed *stem)
 {
     struct passed *to = context;
-    assert_true(to->count < STEMS_MOST);
+    EXPECT(to->count, <, STEMS_MOST);
     to->stems[to->count++] = *stem;
 }
 
@@ -75,7 +70,8 @@ static void expect_mean_of_all_stems(bool shoots)
         for (size_t i = 0; i < passed.count; i++) {
             const struct ceduo_stem_passed *s = &passed.stems[i];
             double wanted = given * s->dbh * s->dbh / (.25 * .25 + sd * sd);
-            assert_true(s->hit && s->shoot == shoots);
+            assert_true(s->hit);
+            EXPECT(s->shoot, ==, shoots);
             if (!(fabs(s->taken - wanted) <= 1e-12 * wanted))
                 fail_msg("a stem of %g m takes %.17g J, not %.17g", s->dbh, s->taken, wanted);
             double off = (s->taken - given) / (2 * radius + s->dbh);
@@ -87,8 +83,9 @@ static void expect_mean_of_all_stems(bool shoots)
     double mean = sum / n, se = sqrt((squares / n - mean * mean) / n);
     double one_percent = .01 * given / (2 * radius + .25);
     print_message("# %.0f stems, off by %.3g ± %.2g of V·U\n", n, .01 * mean / one_percent, .01 * se / one_percent);
-    assert_true(n > 1e5 && se < one_percent);
-    assert_true(fabs(mean) <= 4 * se);
+    EXPECT(n, >, 1e5);
+    EXPECT(se, <, one_percent);
+    EXPECT(fabs(mean), <=, 4 * se);
 }
 
 static void stems_of_many_diameters_take_their_given_volume_on_the_mean(void **state)
@@ -106,7 +103,7 @@ static struct ceduo_stem_passed stem_of_height(uint64_t rock, size_t i, double h
     uint64_t hits = 0;
     kind.height = height;
     follow(rock);
-    assert_true(i < passed.count);
+    EXPECT(i, <, passed.count);
     for (size_t k = 0; k < passed.count; k++)
         hits += passed.stems[k].hit;
     assert_int_equal(passed.way.stems_hit, hits);
@@ -124,13 +121,19 @@ static void a_stem_as_high_as_the_rock_flies_is_not_hit(void **state)
             line_scene_release(&scene, 0, 30, 40, 0, 0);
             for (size_t i = 0; i < 5; i++) {
                 struct ceduo_stem_passed low = stem_of_height(rock, i, 1);
-                assert_true(!low.hit && low.clearance > 1);
+                assert_false(low.hit);
+                EXPECT(low.clearance, >, 1);
                 struct ceduo_stem_passed at = stem_of_height(rock, i, low.clearance);
-                assert_true(at.x == low.x && at.clearance == low.clearance && at.clearance == at.height);
-                assert_true(!at.hit && at.taken == 0);
+                EXPECT(at.x, ==, low.x);
+                EXPECT(at.clearance, ==, low.clearance);
+                EXPECT(at.clearance, ==, at.height);
+                assert_false(at.hit);
+                EXPECT(at.taken, ==, 0);
                 struct ceduo_stem_passed higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
-                assert_true(higher.x == low.x && higher.clearance == low.clearance);
-                assert_true(higher.hit && higher.taken > 0);
+                EXPECT(higher.x, ==, low.x);
+                EXPECT(higher.clearance, ==, low.clearance);
+                assert_true(higher.hit);
+                EXPECT(higher.taken, >, 0);
             }
         }
 }

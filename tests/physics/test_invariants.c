@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What holds on any ground: looked for over many random scenes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include "invariants.h"
 
@@ -27,9 +22,12 @@ static void invariants_hold_over_random_scenes(void **state)
                   SCENES, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
                   (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
                   (uintmax_t)t.pieces, (uintmax_t)t.flights, (uintmax_t)t.impacts, (uintmax_t)t.crossed);
-    assert_true(t.flights > 10 * SCENES / 2 && t.impacts > SCENES); /* the scenes are worth looking at */
-    assert_true(t.ends[CEDUO_AT_REST] > SCENES / 10 && t.ends[CEDUO_LEFT_SLOPE] > SCENES / 10);
-    assert_true(t.crossed > SCENES / 10 && t.cracks <= SCENES / 20000);
+    EXPECT(t.flights, >, 10 * SCENES / 2);
+    EXPECT(t.impacts, >, SCENES); /* the scenes are worth looking at */
+    EXPECT(t.ends[CEDUO_AT_REST], >, SCENES / 10);
+    EXPECT(t.ends[CEDUO_LEFT_SLOPE], >, SCENES / 10);
+    EXPECT(t.crossed, >, SCENES / 10);
+    EXPECT(t.cracks, <=, SCENES / 20000);
 }
 
 int main(void)

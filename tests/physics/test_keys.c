@@ -2,12 +2,7 @@
 /* Keys of scenes, forests and years: every field of what they stand for is changed alone. Where it decides, the key
  * must change, or old figures would stand under new values; where it does not, the key must stay, or the same rocks would
  * fly twice. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,7 +70,7 @@ static void change(void *at, enum kind kind)
         break;
     case COUNT:
         memcpy(&count, at, sizeof count);
-        assert_true(count > 0);
+        EXPECT(count, >, 0);
         count--;
         memcpy(at, &count, sizeof count);
         break;
@@ -119,7 +114,7 @@ static void walk_spread(enum about about, struct ceduo_number *n, const char *na
 static void expect_whole(const struct field *fields, size_t n, size_t size)
 {
     bool seen[SIZE_MOST] = {false};
-    assert_true(size <= SIZE_MOST);
+    EXPECT(size, <=, SIZE_MOST);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < fields[i].size; k++) {
             if (seen[fields[i].offset + k])
@@ -149,7 +144,7 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
             expect_decides(about, before, f->name, "", f->decides & about);
         }
         memcpy(structure, was, size);
-        assert_true(key_of(about) == before);
+        EXPECT(key_of(about), ==, before);
     }
 }
 
@@ -338,13 +333,13 @@ static void a_value_in_another_place_makes_another_scene(void **state)
     uint64_t key = key_of(FLIGHT);
     site.scene.release.vx = ceduo_number(-1);
     site.scene.release.vz = ceduo_number(2);
-    assert_true(key_of(FLIGHT) != key);
+    EXPECT(key_of(FLIGHT), !=, key);
     site.segments[0].roughness_m = .25;
     site.segments[0].roughness_rad = NAN;
     key = key_of(FLIGHT);
     site.segments[0].roughness_m = NAN;
     site.segments[0].roughness_rad = .25;
-    assert_true(key_of(FLIGHT) != key);
+    EXPECT(key_of(FLIGHT), !=, key);
 }
 
 static void whatever_decides_about_stems_makes_another_forest(void **state)
@@ -380,7 +375,7 @@ static void stems_of_another_sort_make_another_forest(void **state)
     stand->shoots = both; /* what were trees are now shoots of the stools */
     stand->shoots_count = 2;
     stand->trees_count = 0;
-    assert_true(key_of(STEMS) != key);
+    EXPECT(key_of(STEMS), !=, key);
     open_site();
     stand->trees_count = 0;
     shoots->volume = 1.5; /* a hit takes 1.5 J, or 1.5 times what dorren says */
@@ -388,14 +383,14 @@ static void stems_of_another_sort_make_another_forest(void **state)
     key = key_of(STEMS);
     stand->energy = CEDUO_DORREN;
     stand->fracture_ratio = 1.5;
-    assert_true(key_of(DORREN) != key);
+    EXPECT(key_of(DORREN), !=, key);
     open_site();
     shoots->dbh_sd = .02;
     shoots->volume = NAN; /* each stem has the volume that its species has at its diameter, */
     key = key_of(DBHS);
     enum ceduo_volume_from from;
     shoots->volume = ceduo_stem_volume(stand, shoots, &from);
-    assert_true(key_of(DBHS) != key); /* or all the given one on the mean */
+    EXPECT(key_of(DBHS), !=, key); /* or all the given one on the mean */
 }
 
 static void whatever_decides_about_growth_makes_other_years(void **state)

@@ -2,12 +2,7 @@
 /* Lights where a figure is exactly its limit: an ADC below the threshold passes and one that equals it does not; a gap
  * as long as the threshold, a share of 0.05 and an energy that is accepted pass. Every equality is one of doubles, and the
  * next double beyond it decides otherwise. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,13 +51,16 @@ static void an_adc_as_long_as_the_threshold_fails(void **state)
         plant_trees(worst == 0 ? 400 : 1000, worst == 0 ? 1000 : 400);
         site.scene.simulation.threshold = 25; /* 10^4/400 */
         struct ceduo_index at = assess();
-        assert_true(at.worst_adc == 25 && at.longest_gap == 0);
-        assert_true(at.contact == CEDUO_FAIL && !at.contact_passes);
+        EXPECT(at.worst_adc, ==, 25);
+        EXPECT(at.longest_gap, ==, 0);
+        EXPECT(at.contact, ==, CEDUO_FAIL);
+        assert_false(at.contact_passes);
         assert_false(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
         assert_true(ceduo_assess_stand(&site.scene, &site.belts[1 - worst]).passes_threshold);
         site.scene.simulation.threshold = next_above(25);
         at = assess();
-        assert_true(at.contact == CEDUO_PASS && at.contact_passes);
+        EXPECT(at.contact, ==, CEDUO_PASS);
+        assert_true(at.contact_passes);
         assert_true(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
     }
 }
@@ -78,7 +76,7 @@ static void a_gap_as_long_as_the_threshold_passes(void **state)
         for (int longer = 0; longer < 2; longer++) {
             const double *ends = longer ? beyond[i] : at_limit[i];
             plant_trees(1000, 1000);
-            assert_true(site.scene.simulation.threshold == 30);
+            EXPECT(site.scene.simulation.threshold, ==, 30);
             for (size_t b = 0; b < 2; b++) {
                 site.belts[b].from = ends[2 * b];
                 site.belts[b].to = ends[2 * b + 1];
@@ -99,12 +97,12 @@ static void a_chance_of_a_tenth_to_run_free_is_the_most_that_passes(void **state
     for (enum ceduo_light light = CEDUO_FAIL; light != CEDUO_PASS; threshold = next_above(threshold)) {
         site.scene.simulation.threshold = threshold;
         struct ceduo_index at = assess();
-        assert_true(fabs(at.worst_free_run - .1) < 5e-16);
+        EXPECT_NEAR(at.worst_free_run, .1, 5e-16);
         assert_int_equal(at.free_run, at.worst_free_run <= .1 ? CEDUO_PASS : CEDUO_FAIL);
         light = at.free_run;
     }
-    assert_true(site.scene.simulation.threshold > 25 * log(10) * (1 - 5e-16));
-    assert_true(fabs(assess().worst_free_run - .1) < 3e-17);
+    EXPECT(site.scene.simulation.threshold, >, 25 * log(10) * (1 - 5e-16));
+    EXPECT_NEAR(assess().worst_free_run, .1, 3e-17);
 }
 
 /* Where the stems could take exactly what a rock has, nothing is left, but nothing was cut off either. */
@@ -114,11 +112,14 @@ static void energy_that_is_just_used_up_is_not_exhausted(void **state)
     paper_site_init(&site);
     double taken = assess().dissipated;
     struct ceduo_index at = ceduo_assess_index(&site.scene, &site.option, &site.control, taken);
-    assert_true(at.residual == 0 && !at.exhausted);
+    EXPECT(at.residual, ==, 0);
+    assert_false(at.exhausted);
     at = ceduo_assess_index(&site.scene, &site.option, &site.control, next_below(taken));
-    assert_true(at.residual == 0 && at.exhausted);
+    EXPECT(at.residual, ==, 0);
+    assert_true(at.exhausted);
     at = ceduo_assess_index(&site.scene, &site.option, &site.control, next_above(taken));
-    assert_true(at.residual > 0 && !at.exhausted);
+    EXPECT(at.residual, >, 0);
+    assert_false(at.exhausted);
 }
 
 /* ---- rocks ---- */
@@ -171,7 +172,9 @@ static struct ceduo_arrivals arrive(double accepted)
     drop(accepted);
     struct ceduo_run *run = fly(NULL);
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    assert_true(a.reached == 20 && a.energy.mean == 25 && a.energy.max == 25);
+    EXPECT(a.reached, ==, 20);
+    EXPECT(a.energy.mean, ==, 25);
+    EXPECT(a.energy.max, ==, 25);
     ceduo_run_free(run);
     return a;
 }
@@ -180,10 +183,12 @@ static void a_rock_with_the_accepted_energy_does_not_exceed_it(void **state)
 {
     (void)state;
     struct ceduo_arrivals a = arrive(25);
-    assert_true(a.exceeded == 0 && a.exceed_probability == 0);
+    EXPECT(a.exceeded, ==, 0);
+    EXPECT(a.exceed_probability, ==, 0);
     assert_int_equal(ceduo_energy_light(&a), CEDUO_PASS);
     a = arrive(next_below(25));
-    assert_true(a.exceeded == 20 && a.exceed_probability == 1);
+    EXPECT(a.exceeded, ==, 20);
+    EXPECT(a.exceed_probability, ==, 1);
     assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
 }
 
@@ -198,8 +203,10 @@ static void a_difference_counts_no_rock_with_the_accepted_energy(void **state)
     drop(25);
     struct ceduo_run *through = fly(&wood), *bare = fly(NULL);
     struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
-    assert_true(d.reach_probability.mean < 0 && d.reach_probability.se > 0);
-    assert_true(d.exceed_probability.mean == 0 && d.exceed_probability.se == 0);
+    EXPECT(d.reach_probability.mean, <, 0);
+    EXPECT(d.reach_probability.se, >, 0);
+    EXPECT(d.exceed_probability.mean, ==, 0);
+    EXPECT(d.exceed_probability.se, ==, 0);
     ceduo_run_free(through);
     ceduo_run_free(bare);
 }
@@ -229,7 +236,8 @@ static void one_rock_of_twenty_may_exceed(void **state)
             assert_int_equal(ceduo_run_energies(run, 0, energies, 20), 20);
             ceduo_run_free(run);
             qsort(energies, 20, sizeof *energies, by_value);
-            assert_true(energies[17] < energies[18] && energies[18] < energies[19]);
+            EXPECT(energies[17], <, energies[18]);
+            EXPECT(energies[18], <, energies[19]);
             site.control.accepted = more ? next_below(energies[18]) : energies[18];
             assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
             assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs in parts: joined they are one run, bit for bit; and bytes that are no part change nothing. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +83,7 @@ static void expect_same(const struct ceduo_run *a, const struct ceduo_run *b)
     assert_int_equal(ceduo_run_arrivals(a, 0, &x), CEDUO_OK);
     assert_int_equal(ceduo_run_arrivals(b, 0, &y), CEDUO_OK);
     assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact));
-    assert_true(x.exact == y.exact);
+    EXPECT(x.exact, ==, y.exact);
     assert_int_equal(ceduo_run_ends(a, &e), CEDUO_OK);
     assert_int_equal(ceduo_run_ends(b, &f), CEDUO_OK);
     assert_memory_equal(&e, &f, sizeof e);
@@ -111,7 +106,8 @@ static void parts_cover_the_rocks(void **state)
             for (uint64_t i = 1; i <= parts; i++) {
                 ceduo_part_range(rocks[r], i, parts, &first, &end);
                 assert_int_equal(first, at);
-                assert_true(end >= first && (end % CEDUO_BLOCK_ROCKS == 0 || end == rocks[r]));
+                EXPECT(end, >=, first);
+                assert_true(end % CEDUO_BLOCK_ROCKS == 0 || end == rocks[r]);
                 at = end;
             }
             assert_int_equal(at, rocks[r]);
@@ -131,7 +127,9 @@ static void joined_is_one_run(void **state)
             struct ceduo_run *bare = run_of(bare_def, ROCKS), *wooded = run_of(def, ROCKS);
             struct ceduo_arrivals a;
             assert_int_equal(ceduo_run_arrivals(wooded, 0, &a), CEDUO_OK);
-            assert_true(a.exact == (x == 0) && a.reached > 100 && a.reached < ROCKS);
+            EXPECT(a.exact, ==, (x == 0));
+            EXPECT(a.reached, >, 100);
+            EXPECT(a.reached, <, ROCKS);
             for (size_t p = 0; p < LENGTH(parts); p++) {
                 struct ceduo_run *again = joined(def, parts[p]), *bare_again = joined(bare_def, parts[p]);
                 expect_same(again, wooded);
@@ -159,7 +157,8 @@ static void the_order_of_the_sums_matters(void **state)
         ceduo_moments_add(&all, energies[i]);
     }
     ceduo_moments_merge(&halves[0], &halves[1]);
-    assert_true(halves[0].n == all.n && (halves[0].m2 != all.m2 || halves[0].mean != all.mean));
+    EXPECT(halves[0].n, ==, all.n);
+    assert_true(halves[0].m2 != all.m2 || halves[0].mean != all.mean);
     free(energies);
     ceduo_run_free(run);
 }
@@ -333,7 +332,7 @@ static void hostile_bytes_do_no_harm(void **state)
         free(copy);
         free(s.bytes);
     }
-    assert_true(refused > 300);
+    EXPECT(refused, >, 300);
 }
 
 /* Each byte of a part of few rocks changed, in two ways: what is adopted even so is no other part than those bytes. */
@@ -364,7 +363,7 @@ static void nothing_is_read_otherwise_than_written(void **state)
             ceduo_run_free(run);
             s.bytes[i / 2] = was;
         }
-        assert_true(adopted > 100); /* the figures themselves may be any */
+        EXPECT(adopted, >, 100); /* the figures themselves may be any */
         free(s.bytes);
         ceduo_run_free(flown);
     }

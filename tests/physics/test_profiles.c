@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Long profiles: what makes them fast changes nothing. Neighbours on one line are one segment inside the core, flights
  * pass blocks of segments, rolls whole segments; each against the same without it. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +22,9 @@ static struct ceduo_slope new_slope(size_t vertices)
     s.x = malloc(vertices * sizeof *s.x);
     s.z = malloc(vertices * sizeof *s.z);
     s.segments = malloc(vertices * sizeof *s.segments);
-    assert_true(s.x && s.z && s.segments);
+    assert_true(s.x);
+    assert_true(s.z);
+    assert_true(s.segments);
     return s;
 }
 
@@ -88,15 +85,22 @@ static void init_site(enum ceduo_law law)
 static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_scene *b)
 {
     struct ceduo_follower *f = ceduo_follower_create(a, NULL), *g = ceduo_follower_create(b, NULL);
-    assert_true(f && g);
+    assert_true(f);
+    assert_true(g);
     for (uint64_t rock = 0; rock < ROCKS; rock++) {
         struct ceduo_way v = {0}, w = {0};
         struct ceduo_crossing c = {0}, d = {0};
         assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
         assert_int_equal(ceduo_follower_follow(g, rock, NULL, &w, &d), CEDUO_OK);
-        assert_true(v.end == w.end && v.contacts == w.contacts && v.x == w.x && v.z == w.z);
-        assert_true(c.reached == d.reached && c.vx == d.vx && c.vz == d.vz && c.spin == d.spin);
-        assert_true(fabs(c.height - d.height) <= 1e-12); /* over a ground that was rounded when it was cut */
+        EXPECT(v.end, ==, w.end);
+        EXPECT(v.contacts, ==, w.contacts);
+        EXPECT(v.x, ==, w.x);
+        EXPECT(v.z, ==, w.z);
+        EXPECT(c.reached, ==, d.reached);
+        EXPECT(c.vx, ==, d.vx);
+        EXPECT(c.vz, ==, d.vz);
+        EXPECT(c.spin, ==, d.spin);
+        EXPECT_NEAR(c.height, d.height, 1e-12); /* over a ground that was rounded when it was cut */
     }
     ceduo_follower_free(f);
     ceduo_follower_free(g);
@@ -126,9 +130,12 @@ static void a_cut_slope_gives_the_same_ways_and_statistics(void **state)
         scene.slope = fine;
         expect_same_ways(&site.scene, &scene);
         struct ceduo_arrivals a = arrivals(&site.scene), b = arrivals(&scene);
-        assert_true(a.reached == b.reached && a.speed.mean == b.speed.mean && a.speed.se == b.speed.se);
-        assert_true(a.energy.mean == b.energy.mean && a.energy.p95 == b.energy.p95);
-        assert_true(fabs(a.height.mean - b.height.mean) <= 1e-12);
+        EXPECT(a.reached, ==, b.reached);
+        EXPECT(a.speed.mean, ==, b.speed.mean);
+        EXPECT(a.speed.se, ==, b.speed.se);
+        EXPECT(a.energy.mean, ==, b.energy.mean);
+        EXPECT(a.energy.p95, ==, b.energy.p95);
+        EXPECT_NEAR(a.height.mean, b.height.mean, 1e-12);
         free_slope(&fine);
     }
 }
@@ -187,7 +194,7 @@ static void small_breaks_stay(void **state)
     init_site(CEDUO_LAW_LUMPED);
     struct ceduo_slope fine = cut(&site.scene.slope, 10000);
     move_vertices(&fine, 1e-9, 5);
-    assert_true(segments_inside(&fine) > 9000);
+    EXPECT(segments_inside(&fine), >, 9000);
     free_slope(&fine);
     struct ceduo_slope sliver = new_slope(4);
     memcpy(sliver.x, (double[4]){0, 50, nextafter(50, 51), 100}, sizeof(double[4]));
@@ -232,7 +239,8 @@ static void flights_land_as_without_blocks(void **state)
     for (size_t n = 0; n < 40; n++) {
         struct ceduo_slope slope = rough_slope((size_t)line_log_uniform(&r, 17, 20000), line_log_uniform(&r, 1e-3, 1), n);
         struct ground g;
-        assert_true(ceduo_ground_init(&g, &slope, CEDUO_GRAVITY, .34, false) && g.top > 0);
+        assert_true(ceduo_ground_init(&g, &slope, CEDUO_GRAVITY, .34, false));
+        EXPECT(g.top, >, 0);
         struct ground plain = g;
         plain.top = 0;
         double end = g.x[g.n];
@@ -250,14 +258,18 @@ static void flights_land_as_without_blocks(void **state)
             if (!above && f.vz * g.segments[j].c - f.vx * g.segments[j].s <= 0) /* into the ground */
                 f.vz = f.vx * g.segments[j].m + 1e-3 * speed;
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            assert_true(a.t == b.t && a.x == b.x && a.z == b.z && a.segment == b.segment && a.left == b.left);
+            EXPECT(a.t, ==, b.t);
+            EXPECT(a.x, ==, b.x);
+            EXPECT(a.z, ==, b.z);
+            EXPECT(a.segment, ==, b.segment);
+            EXPECT(a.left, ==, b.left);
             far += a.segment > j + 100 || a.segment + 100 < j;
         }
         ceduo_ground_release(&g);
         free_slope(&slope);
     }
     print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
-    assert_true(far > 1000); /* blocks were passed */
+    EXPECT(far, >, 1000); /* blocks were passed */
 }
 
 /* Ground with teeth whose tips lie on one line but for rounding: each is as high as a flight along this line is there
@@ -294,7 +306,8 @@ static void flights_along_teeth_touch_the_same_with_blocks(void **state)
         double fall = line_uniform(&r, -2, 2), top = line_uniform(&r, -10, 10), speed = line_uniform(&r, 1, 50);
         struct ceduo_slope slope = toothed_slope(305, &r, fall, top);
         struct ground g;
-        assert_true(ceduo_ground_init(&g, &slope, 1e-30, .34, false) && g.top > 0);
+        assert_true(ceduo_ground_init(&g, &slope, 1e-30, .34, false));
+        EXPECT(g.top, >, 0);
         struct ground plain = g;
         plain.top = 0;
         for (int dir = -1; dir <= 1; dir += 2) {
@@ -306,14 +319,19 @@ static void flights_along_teeth_touch_the_same_with_blocks(void **state)
                                .segment = dir > 0 ? 0 : g.n - 1,
                                .on_ground = false};
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            assert_true(a.t == b.t && a.x == b.x && a.z == b.z && a.segment == b.segment && a.left == b.left);
+            EXPECT(a.t, ==, b.t);
+            EXPECT(a.x, ==, b.x);
+            EXPECT(a.z, ==, b.z);
+            EXPECT(a.segment, ==, b.segment);
+            EXPECT(a.left, ==, b.left);
             touched += !b.left;
         }
         ceduo_ground_release(&g);
         free_slope(&slope);
     }
     print_message("%ju of 4000 flights touch a tooth\n", (uintmax_t)touched);
-    assert_true(touched > 1000 && touched < 3950);
+    EXPECT(touched, >, 1000);
+    EXPECT(touched, <, 3950);
 }
 
 /* ---- rolls over whole segments ---- */
@@ -356,8 +374,8 @@ static void rolls_are_the_same_whoever_looks_on(void **state)
     }
     print_message("%ju rocks, %ju the same to 1e-6, %ju to other bits\n", (uintmax_t)all, (uintmax_t)same,
                   (uintmax_t)rolled);
-    assert_true((double)same > .98 * (double)all); /* rounding grows from contact to contact */
-    assert_true(rolled > 0);                       /* something was passed as a whole */
+    EXPECT((double)same, >, .98 * (double)all); /* rounding grows from contact to contact */
+    EXPECT(rolled, >, 0);                       /* something was passed as a whole */
 }
 
 int main(void)

@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stands through the years: against their closed forms, and what must hold in any stand. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <string.h>
@@ -83,7 +78,9 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
     assert_memory_equal(&a->spacing, &b->spacing, sizeof a->spacing);
     assert_memory_equal(&a->u, &b->u, sizeof a->u);
     assert_memory_equal(&a->fracture_ratio, &b->fracture_ratio, sizeof a->fracture_ratio);
-    assert_true(a->system == b->system && a->species == b->species && a->energy == b->energy);
+    EXPECT(a->system, ==, b->system);
+    EXPECT(a->species, ==, b->species);
+    EXPECT(a->energy, ==, b->energy);
 }
 
 /* ---- before the first cut ---- */
@@ -96,7 +93,8 @@ static void year_0_is_the_stand_as_filed(void **state)
     s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
     struct ceduo_grown_stand grown = at(&s, 3, 0);
     expect_same_stand(&grown.stand, &s.stand);
-    assert_true(grown.stand.growth.sdi_most == 0 && grown.stand.cutting.rotation == 0);
+    EXPECT(grown.stand.growth.sdi_most, ==, 0);
+    EXPECT(grown.stand.cutting.rotation, ==, 0);
     ceduo_grown_stand_release(&grown);
     assert_null(grown.stems);
     init(&s);
@@ -130,8 +128,10 @@ static void an_inventory_grows_along_its_curves(void **state)
         expect_near(shoot->per_ha, 7500 * (3 + 13 * exp(-(a + t) / 5)) / (3 + 13 * exp(-a / 5)), 1e-13);
         expect_near(tree->dbh, .45 * (1 - exp(-.014 * (b + t))), 1e-13);
         expect_near(tree->height, 12 * (1 - exp(-.03 * (b + t))) / (1 - exp(-.03 * b)), 1e-13);
-        assert_true(tree->per_ha == 60 && isnan(tree->volume) && tree->dbh_sd == 0);
-        assert_true(grown.stand.stools_per_ha == 2500);
+        EXPECT(tree->per_ha, ==, 60);
+        assert_true(isnan(tree->volume));
+        EXPECT(tree->dbh_sd, ==, 0);
+        EXPECT(grown.stand.stools_per_ha, ==, 2500);
         ceduo_grown_stand_release(&grown);
     }
 }
@@ -148,7 +148,8 @@ static void a_given_age_stands_over_that_of_the_curve(void **state)
     expect_near(grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14);
     expect_near(grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14);
     expect_near(grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14);
-    assert_true(grown.stand.shoots[0].age == 18 && grown.stand.trees[0].age == 80);
+    EXPECT(grown.stand.shoots[0].age, ==, 18);
+    EXPECT(grown.stand.trees[0].age, ==, 80);
     ceduo_grown_stand_release(&grown);
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
     s.shoots[0].age = 0; /* nothing has a dbh at 0: as if not given */
@@ -175,8 +176,12 @@ static void next_to_nothing_grows_as_a_new_stem(void **state)
         expect_near(shoot->height, 14 * (1 - exp(-.35)), 1e-13);
         expect_near(tree->dbh, .45 * (1 - exp(-.14)), 1e-13);
         expect_near(tree->height, 20 * (1 - exp(-.3)), 1e-13);
-        assert_true(isnan(shoot->volume) && isnan(tree->volume) && shoot->age == 10 && tree->age == 10);
-        assert_true(tree->per_ha == 60 && shoot->per_ha < 7500);
+        assert_true(isnan(shoot->volume));
+        assert_true(isnan(tree->volume));
+        EXPECT(shoot->age, ==, 10);
+        EXPECT(tree->age, ==, 10);
+        EXPECT(tree->per_ha, ==, 60);
+        EXPECT(shoot->per_ha, <, 7500);
         ceduo_grown_stand_release(&grown);
     }
 }
@@ -203,7 +208,7 @@ static void a_stratum_without_a_curve_stays(void **state)
     assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* what stays has no size */
     struct ceduo_grown_stand grown = at(&s, 5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
-    assert_true(grown.stand.shoots[0].dbh > .05);
+    EXPECT(grown.stand.shoots[0].dbh, >, .05);
     ceduo_grown_stand_release(&grown);
     s.stand.cutting.stay_count = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
@@ -221,7 +226,8 @@ static void never_less_than_one_shoot_a_stool(void **state)
     for (unsigned t = 1; t < 60; t++) {
         struct ceduo_grown_stand grown = at(&s, INFINITY, t);
         double sum = ceduo_stand_shoots(&grown.stand);
-        assert_true(sum >= 2500 && sum <= 3000);
+        EXPECT(sum, >=, 2500);
+        EXPECT(sum, <=, 3000);
         reached |= sum < 2500 * (1 + 1e-12);
         ceduo_grown_stand_release(&grown);
     }
@@ -240,13 +246,15 @@ static void the_years_of_cuts(void **state)
                         first[] = {0, 7, 7, 30, 24, 20, 0, 24, 0, 0};
     for (size_t i = 0; i < LENGTH(given); i++)
         assert_int_equal(ceduo_first_cut(stand, given[i]), (unsigned)first[i]);
-    assert_true(ceduo_first_cut(stand, INFINITY) == CEDUO_NEVER && ceduo_first_cut(stand, 1e12) == CEDUO_NEVER);
+    EXPECT(ceduo_first_cut(stand, INFINITY), ==, CEDUO_NEVER);
+    EXPECT(ceduo_first_cut(stand, 1e12), ==, CEDUO_NEVER);
     assert_false(ceduo_is_cut_year(stand, INFINITY, CEDUO_NEVER));
     for (unsigned year = 0; year < 120; year++)
-        assert_true(ceduo_is_cut_year(stand, -5, year) == (year % 25 == 20));
+        EXPECT(ceduo_is_cut_year(stand, -5, year), ==, (year % 25 == 20));
     assert_false(ceduo_is_cut_year(stand, 30, 5)); /* the first is the first */
     s.stand.cutting.rotation = 0;
-    assert_true(ceduo_first_cut(stand, 0) == CEDUO_NEVER && !ceduo_is_cut_year(stand, 0, 0));
+    EXPECT(ceduo_first_cut(stand, 0), ==, CEDUO_NEVER);
+    assert_false(ceduo_is_cut_year(stand, 0, 0));
 }
 
 static void by_default_it_is_cut_when_it_is_old_enough(void **state)
@@ -289,15 +297,19 @@ static void a_simple_coppice_after_its_cuts(void **state)
             double age = 25 * (j + 1) + tau;
             expect_near(g->trees[j].dbh, .45 * (1 - exp(-.014 * age)), 1e-14);
             expect_near(g->trees[j].height, 20 * (1 - exp(-.03 * age)), 1e-14);
-            assert_true(g->trees[j].per_ha == 30 && g->trees[j].age == age && isnan(g->trees[j].volume));
+            EXPECT(g->trees[j].per_ha, ==, 30);
+            EXPECT(g->trees[j].age, ==, age);
+            assert_true(isnan(g->trees[j].volume));
         }
         assert_int_equal(g->shoots_count, tau > 0);
-        assert_true(g->stools_per_ha == (tau > 0 ? 2500 : 0) && g->spacing == .35);
+        EXPECT(g->stools_per_ha, ==, (tau > 0 ? 2500 : 0));
+        EXPECT(g->spacing, ==, .35);
         if (tau > 0) {
             expect_near(g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14);
             expect_near(g->shoots[0].height, 14 * (1 - exp(-.035 * tau)), 1e-14);
             expect_near(g->shoots[0].per_ha, 2500 * (3 + 13 * exp(-.2 * tau)), 1e-14);
-            assert_true(g->shoots[0].dbh_sd == 0 && isnan(g->shoots[0].volume));
+            EXPECT(g->shoots[0].dbh_sd, ==, 0);
+            assert_true(isnan(g->shoots[0].volume));
         }
         ceduo_grown_stand_release(&grown);
     }
@@ -316,19 +328,21 @@ static void a_selection_coppice_always_has_shoots(void **state)
         struct ceduo_grown_stand grown = at(&s, 0, year);
         const struct ceduo_stand *g = &grown.stand;
         unsigned tau = year % 13, missing = tau == 0;
-        assert_true(g->shoots_count == 3 - missing && g->stools_per_ha == 2500);
+        EXPECT(g->shoots_count, ==, 3 - missing);
+        EXPECT(g->stools_per_ha, ==, 2500);
         for (unsigned i = 0; i < 3 - missing; i++) {
             double age = 13 * (i + missing) + tau;
             expect_near(g->shoots[i].dbh, .16 * (1 - exp(-.022 * age)), 1e-14);
             expect_near(g->shoots[i].per_ha, 2500 * (2 + (16. / 3 - 2) * exp(-age / 5)), 1e-14);
         }
-        assert_true(g->trees_count == 1 && g->trees[0].age == 26 + tau);
+        EXPECT(g->trees_count, ==, 1);
+        EXPECT(g->trees[0].age, ==, 26 + tau);
         ceduo_grown_stand_release(&grown);
     }
     s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
     struct ceduo_grown_stand grown = at(&s, 0, 13);
     expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
-    assert_true(ceduo_stand_shoots(&grown.stand) >= 2500);
+    EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
     ceduo_grown_stand_release(&grown);
 }
 
@@ -338,7 +352,9 @@ static void a_cut_in_year_0_is_done(void **state)
     struct sample s;
     init(&s);
     struct ceduo_grown_stand now = at(&s, 0, 0), later = at(&s, 0, 25), rhythm = at(&s, -50, 0);
-    assert_true(now.stand.shoots_count == 0 && now.stand.stools_per_ha == 0 && now.stand.trees_count == 2);
+    EXPECT(now.stand.shoots_count, ==, 0);
+    EXPECT(now.stand.stools_per_ha, ==, 0);
+    EXPECT(now.stand.trees_count, ==, 2);
     expect_same_stand(&now.stand, &later.stand);
     expect_same_stand(&now.stand, &rhythm.stand);
     ceduo_grown_stand_release(&now);
@@ -346,7 +362,9 @@ static void a_cut_in_year_0_is_done(void **state)
     ceduo_grown_stand_release(&rhythm);
     s.stand.cutting.stay_count = 0; /* nothing is left */
     now = at(&s, 0, 0);
-    assert_true(ceduo_stand_is_bare(&now.stand) && !now.stems && ceduo_stand_sdi(&now.stand) == 0);
+    assert_true(ceduo_stand_is_bare(&now.stand));
+    assert_false(now.stems);
+    EXPECT(ceduo_stand_sdi(&now.stand), ==, 0);
     ceduo_grown_stand_release(&now);
 }
 
@@ -408,17 +426,20 @@ static void shoots_are_thinned_to_the_density(void **state)
         thinned += most < n;
         ceduo_grown_stand_release(&grown);
     }
-    assert_true(thinned > 5 && thinned < 20);
+    EXPECT(thinned, >, 5);
+    EXPECT(thinned, <, 20);
     init(&s);
     s.stand.growth.sdi_most = 600;
     struct ceduo_grown_stand grown = at(&s, 0, 24);
-    assert_true(grown.stand.trees[0].per_ha == 30 && grown.stand.trees[1].per_ha == 30);
+    EXPECT(grown.stand.trees[0].per_ha, ==, 30);
+    EXPECT(grown.stand.trees[1].per_ha, ==, 30);
     expect_near(index_by_hand(&grown.stand), 600, 1e-12);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.sdi_most = 10; /* the trees alone are more */
     grown = at(&s, 0, 24);
     expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
-    assert_true(grown.stand.trees[0].per_ha == 30 && index_by_hand(&grown.stand) > 10);
+    EXPECT(grown.stand.trees[0].per_ha, ==, 30);
+    EXPECT(index_by_hand(&grown.stand), >, 10);
     ceduo_grown_stand_release(&grown);
 }
 
@@ -481,9 +502,11 @@ static void no_stand_gains_stems_by_growing(void **state)
             double shoots = ceduo_stand_shoots(&grown.stand), sum = shoots + ceduo_stand_trees(&grown.stand);
             if (sum > before * (1 + 1e-12) && !has_new_shoots(&s.stand, first_cut, year))
                 fail_msg("stand %d, year %u: %.17g stems after %.17g", i, year, sum, before);
-            assert_true(shoots >= grown.stand.stools_per_ha);
-            for (size_t j = 0; j < grown.stand.shoots_count; j++)
-                assert_true(grown.stand.shoots[j].per_ha > 0 && grown.stand.shoots[j].dbh > 0);
+            EXPECT(shoots, >=, grown.stand.stools_per_ha);
+            for (size_t j = 0; j < grown.stand.shoots_count; j++) {
+                EXPECT(grown.stand.shoots[j].per_ha, >, 0);
+                EXPECT(grown.stand.shoots[j].dbh, >, 0);
+            }
             before = sum;
             ceduo_grown_stand_release(&grown);
         }
@@ -503,13 +526,14 @@ static void no_computed_stand_is_too_dense(void **state)
             double sdi = index_by_hand(&grown.stand), shoots = ceduo_stand_shoots(&grown.stand);
             thinned += fabs(sdi - most) < 1e-9 * most;
             if (sdi > most * (1 + 1e-9)) {
-                assert_true(shoots <= grown.stand.stools_per_ha * (1 + 1e-12));
+                EXPECT(shoots, <=, grown.stand.stools_per_ha * (1 + 1e-12));
                 at_least++;
             }
             ceduo_grown_stand_release(&grown);
         }
     }
-    assert_true(thinned > 1000 && at_least > 1000);
+    EXPECT(thinned, >, 1000);
+    EXPECT(at_least, >, 1000);
 }
 
 static void a_rotation_later_it_is_the_same_stand(void **state)
@@ -539,13 +563,19 @@ static void growth_by_species(void **state)
     assert_false(ceduo_growth_of_species(-1, &g));
     assert_false(ceduo_growth_of_species(ceduo_species_find("picea-abies"), &g));
     assert_false(ceduo_growth_of_species(1000, &g));
-    assert_true(g.sdi_most == 7);
+    EXPECT(g.sdi_most, ==, 7);
     assert_true(ceduo_growth_of_species(ceduo_species_find("castanea-sativa"), &g));
-    assert_true(g.shoots.dbh_most == .26 && g.shoots.dbh_rate == .035);
-    assert_true(g.shoots.height_most == 20 && g.shoots.height_rate == .06);
-    assert_true(g.trees.dbh_most == .45 && g.trees.dbh_rate == .014);
-    assert_true(g.trees.height_most == 20 && g.trees.height_rate == .03);
-    assert_true(g.shoots_young == 16 && g.shoots_old == 3 && g.sdi_most == 1000);
+    EXPECT(g.shoots.dbh_most, ==, .26);
+    EXPECT(g.shoots.dbh_rate, ==, .035);
+    EXPECT(g.shoots.height_most, ==, 20);
+    EXPECT(g.shoots.height_rate, ==, .06);
+    EXPECT(g.trees.dbh_most, ==, .45);
+    EXPECT(g.trees.dbh_rate, ==, .014);
+    EXPECT(g.trees.height_most, ==, 20);
+    EXPECT(g.trees.height_rate, ==, .03);
+    EXPECT(g.shoots_young, ==, 16);
+    EXPECT(g.shoots_old, ==, 3);
+    EXPECT(g.sdi_most, ==, 1000);
     unsigned known = 0;
     size_t count;
     ceduo_species_list(&count);
@@ -579,7 +609,10 @@ static void just_cut_only_the_selection_coppice_protects(void **state)
     double b = adc_just_cut("coppice with standards", 1500, (struct ceduo_cutting){25, 1, 4, standards}, .35, 3);
     double c = adc_just_cut("selection coppice", 1200, (struct ceduo_cutting){13, 3, 1, selection}, .30, 6);
     double d = adc_just_cut("coppice with large reserves", 1500, (struct ceduo_cutting){25, 1, 2, large}, .35, 3);
-    assert_true(a > 30 && b > 30 && d > 30 && c < 30);
+    EXPECT(a, >, 30);
+    EXPECT(b, >, 30);
+    EXPECT(d, >, 30);
+    EXPECT(c, <, 30);
     double d1 = .45 * (1 - exp(-.35)), d2 = .45 * (1 - exp(-.7));
     expect_near(a, 1e4 / (30 * (2 * B + d1 + d2)), 1e-13);
     expect_near(d, 1e4 / (125 * (2 * B + d1 + d2)), 1e-13);

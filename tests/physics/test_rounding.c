@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The four rounding modes of IEEE 754: what has a closed form comes out the same to 1e-12, statistics within their
  * error. How far single ways part: tests/bench/bench_rounding.c. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -84,8 +79,10 @@ static void the_first_contacts_on_the_slope_of_table_3(void **state)
     scene.segments[0].rt.mean = .87;
     line_scene_release(&scene, 5, 1, 1, 0, 0);
     follow(&scene, FE_TONEAREST, &near);
-    assert_true(fabs(near.pieces[0].x1 - 5.6993) < 1e-4 && fabs(near.pieces[0].z1 - 114.6014) < 1e-4);
-    assert_true(fabs(near.pieces[1].x1 - 6.5113) < 1e-4 && fabs(near.pieces[1].z1 - 112.9774) < 1e-4);
+    EXPECT_NEAR(near.pieces[0].x1, 5.6993, 1e-4);
+    EXPECT_NEAR(near.pieces[0].z1, 114.6014, 1e-4);
+    EXPECT_NEAR(near.pieces[1].x1, 6.5113, 1e-4);
+    EXPECT_NEAR(near.pieces[1].z1, 112.9774, 1e-4);
     for (size_t m = 1; m < LENGTH(modes); m++) {
         follow(&scene, modes[m], &way);
         for (size_t i = 0; i < 3; i++) {
@@ -144,7 +141,7 @@ static void statistics_agree_within_their_error(void **state)
             expect_within("speed", a.speed.mean, near.speed.mean, near.speed.se);
             expect_within("energy", a.energy.mean, near.energy.mean, near.energy.se);
             expect_within("height", a.height.mean, near.height.mean, near.height.se);
-            assert_true(a.speed.mean != near.speed.mean); /* the mode was another one indeed */
+            EXPECT(a.speed.mean, !=, near.speed.mean); /* the mode was another one indeed */
         }
         expect_within("contacts", moved / contacts0, 0, .01);
     }

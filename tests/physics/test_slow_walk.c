@@ -5,12 +5,7 @@
  * 1e-13 of their size, differs from itself as much, at the same contact; or where the rock's energy had fallen below the
  * rounding of its height, so that a double cannot tell whether it climbs over the next vertex, or where nothing but
  * rounding says which way it rolls (Rt = 0 leaves no speed along the ground). Few may need any of that. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -340,9 +335,9 @@ static void expect_agreement(const struct tally *t, const char *what)
         "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
         what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
         (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
-    assert_true(t->same + t->excused + t->still + t->aimless == t->rocks);
-    assert_true((double)t->same >= .99 * (double)t->rocks);
-    assert_true((double)t->first_apart <= .001 * (double)t->rocks);
+    EXPECT(t->same + t->excused + t->still + t->aimless, ==, t->rocks);
+    EXPECT((double)t->same, >=, .99 * (double)t->rocks);
+    EXPECT((double)t->first_apart, <=, .001 * (double)t->rocks);
 }
 
 static void eight_combinations_on_the_slope_of_table_3(void **state)

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs of many rocks: their means beside those of independent implementations, and that nothing but the scene moves
  * them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -95,7 +90,9 @@ static void means_of_the_combinations_beside_table_5(void **state)
         expect_mean("share that passes", 100 * p, 100 * sqrt(p * (1 - p) / n), c->pass, c->pass_se, c->pass_digit);
         if (i == 0)
             expect_mean("sd of speed", a.speed.sd, a.speed.sd / sqrt(2 * n), 4.78, 4.78 / sqrt(2e6), .01);
-        assert_true(a.released == c->rocks && a.unfinished == 0 && a.exact);
+        EXPECT(a.released, ==, c->rocks);
+        EXPECT(a.unfinished, ==, 0);
+        assert_true(a.exact);
         ceduo_run_free(run);
     }
 }
@@ -106,8 +103,9 @@ static void almost_nothing_passes_crsp_with_angles_to_both_sides(void **state)
     choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
     struct ceduo_run *run = run_scene(&site.scene, 20000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    assert_true(a.reached <= 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
-    assert_true(a.reach_lo <= 1e-5 && a.reach_hi >= 1e-5);
+    EXPECT(a.reached, <=, 3); /* 1 in 10^5: more than 3 of 20 000 has a chance of 6e-5 */
+    EXPECT(a.reach_lo, <=, 1e-5);
+    EXPECT(a.reach_hi, >=, 1e-5);
     ceduo_run_free(run);
 }
 
@@ -126,32 +124,42 @@ static void figures_of_an_arrival_fit_together(void **state)
         largest = fmax(largest, energies[i]);
         exceeded += energies[i] > 50e3;
     }
-    assert_true(fabs(a.energy.mean / (sum / (double)n) - 1) < 1e-12 && fabs(a.energy.max / largest - 1) < 1e-15);
+    EXPECT_NEAR(a.energy.mean / (sum / (double)n), 1, 1e-12);
+    EXPECT_NEAR(a.energy.max / largest, 1, 1e-15);
     assert_int_equal(exceeded, a.exceeded);
-    assert_true(a.exceed_probability == (double)a.exceeded / 5000);
-    assert_true(fabs(a.energy_per_released / (sum / 5000) - 1) < 1e-12);
+    EXPECT(a.exceed_probability, ==, (double)a.exceeded / 5000);
+    EXPECT_NEAR(a.energy_per_released / (sum / 5000), 1, 1e-12);
     double squares = 0;
     for (size_t i = 0; i < n; i++)
         squares += energies[i] * energies[i];
     double variance = (squares - sum * sum / 5000) / 4999;
-    assert_true(fabs(a.energy_per_released_se / sqrt(variance / 5000) - 1) < 1e-9);
+    EXPECT_NEAR(a.energy_per_released_se / sqrt(variance / 5000), 1, 1e-9);
     double lo, hi;
     ceduo_wilson(a.reached, 5000, &lo, &hi);
-    assert_true(a.reach_lo == lo && a.reach_hi == hi);
+    EXPECT(a.reach_lo, ==, lo);
+    EXPECT(a.reach_hi, ==, hi);
     ceduo_wilson(a.exceeded, 5000, &lo, &hi);
-    assert_true(a.exceed_lo == lo && a.exceed_hi == hi);
-    assert_true(a.energy.p50 <= a.energy.p95_lo && a.energy.p95_lo <= a.energy.p95 && a.energy.p95 <= a.energy.p95_hi &&
-                a.energy.p95 <= a.energy.p99 && a.energy.p99 <= a.energy.max);
-    assert_true(a.translation.mean == a.energy.mean); /* lumped: no spin */
+    EXPECT(a.exceed_lo, ==, lo);
+    EXPECT(a.exceed_hi, ==, hi);
+    EXPECT(a.energy.p50, <=, a.energy.p95_lo);
+    EXPECT(a.energy.p95_lo, <=, a.energy.p95);
+    EXPECT(a.energy.p95, <=, a.energy.p95_hi);
+    EXPECT(a.energy.p95, <=, a.energy.p99);
+    EXPECT(a.energy.p99, <=, a.energy.max);
+    EXPECT(a.translation.mean, ==, a.energy.mean); /* lumped: no spin */
     uint64_t reached;
     double mean, se;
     ceduo_run_energy(run, 0, &reached, &mean, &se);
-    assert_true(reached == a.reached && mean == a.energy.mean && se == a.energy.se);
+    EXPECT(reached, ==, a.reached);
+    EXPECT(mean, ==, a.energy.mean);
+    EXPECT(se, ==, a.energy.se);
     struct ceduo_ends ends;
     assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
     assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
     assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
-    assert_true(ends.stop_p50 <= ends.stop_p95 && ends.stop_p95 <= ends.stop_max && ends.stop_max == ends.stop_x.max);
+    EXPECT(ends.stop_p50, <=, ends.stop_p95);
+    EXPECT(ends.stop_p95, <=, ends.stop_max);
+    EXPECT(ends.stop_max, ==, ends.stop_x.max);
     ceduo_run_free(run);
 }
 
@@ -177,9 +185,11 @@ static void a_run_flies_the_rocks_that_can_be_followed(void **state)
     struct ceduo_arrivals a = arrivals_of(run, 0);
     assert_int_equal(ceduo_run_contacts(run), contacts);
     assert_int_equal(a.reached, energy.n);
-    assert_true(fabs(a.energy.mean / energy.mean - 1) < 1e-12 && fabs(a.energy.max / energy.max - 1) < 1e-15);
-    assert_true(a.speed.max == speed.max && a.height.max == height.max);
-    assert_true(fabs(a.height.mean / height.mean - 1) < 1e-12);
+    EXPECT_NEAR(a.energy.mean / energy.mean, 1, 1e-12);
+    EXPECT_NEAR(a.energy.max / energy.max, 1, 1e-15);
+    EXPECT(a.speed.max, ==, speed.max);
+    EXPECT(a.height.max, ==, height.max);
+    EXPECT_NEAR(a.height.mean / height.mean, 1, 1e-12);
     ceduo_run_free(run);
 }
 
@@ -189,7 +199,7 @@ static void expect_same_run(const struct ceduo_run *a, const struct ceduo_run *b
 {
     struct ceduo_arrivals x = arrivals_of(a, 0), y = arrivals_of(b, 0);
     assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
-    assert_true(x.exact == y.exact);
+    EXPECT(x.exact, ==, y.exact);
     struct ceduo_ends p, q;
     assert_int_equal(ceduo_run_ends(a, &p), CEDUO_OK);
     assert_int_equal(ceduo_run_ends(b, &q), CEDUO_OK);
@@ -269,7 +279,7 @@ static void other_seeds_are_other_rocks(void **state)
     site.scene.simulation.seed = 2;
     struct ceduo_run *two = run_scene(&site.scene, 50000, 2);
     struct ceduo_arrivals b = arrivals_of(two, 0);
-    assert_true(a.speed.mean != b.speed.mean);
+    EXPECT(a.speed.mean, !=, b.speed.mean);
     expect_mean("mean speed", a.speed.mean, a.speed.se, b.speed.mean, b.speed.se, 0);
     ceduo_run_free(one);
     ceduo_run_free(two);
@@ -285,7 +295,10 @@ static void expect_within(double value, double expected, double relative)
 
 static void expect_distribution_within(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
 {
-    assert_true(a->mean == b->mean && a->sd == b->sd && a->se == b->se && a->max == b->max);
+    EXPECT(a->mean, ==, b->mean);
+    EXPECT(a->sd, ==, b->sd);
+    EXPECT(a->se, ==, b->se);
+    EXPECT(a->max, ==, b->max);
     expect_within(a->p50, b->p50, 1e-4);
     expect_within(a->p95, b->p95, 1e-4);
     expect_within(a->p95_lo, b->p95_lo, 1e-4);
@@ -308,7 +321,8 @@ static void percentiles_of_histograms_are_those_of_all_samples(void **state)
         assert_true(arrivals_of(some, 0).exact);
         assert_int_equal(ceduo_run_extend(some, 50000), CEDUO_OK);
         struct ceduo_arrivals a = arrivals_of(some, 0), b = arrivals_of(all, 0);
-        assert_true(!a.exact && b.exact);
+        assert_false(a.exact);
+        assert_true(b.exact);
         expect_distribution_within(&a.speed, &b.speed);
         expect_distribution_within(&a.energy, &b.energy);
         expect_distribution_within(&a.translation, &b.translation);
@@ -320,7 +334,7 @@ static void percentiles_of_histograms_are_those_of_all_samples(void **state)
         assert_int_equal(ceduo_run_ends(all, &q), CEDUO_OK);
         expect_within(p.stop_p50, q.stop_p50, 1e-4);
         expect_within(p.stop_p95, q.stop_p95, 1e-4);
-        assert_true(p.stop_max == q.stop_max);
+        EXPECT(p.stop_max, ==, q.stop_max);
         ceduo_run_free(some);
         ceduo_run_free(all);
     }
@@ -338,7 +352,9 @@ static void cut_slope(struct ceduo_slope *to, size_t parts)
     to->x = malloc((n + 1) * sizeof *to->x);
     to->z = malloc((n + 1) * sizeof *to->z);
     to->segments = malloc(n * sizeof *to->segments);
-    assert_true(to->x && to->z && to->segments);
+    assert_true(to->x);
+    assert_true(to->z);
+    assert_true(to->segments);
     for (size_t i = 0; i <= n; i++) {
         size_t j = i / parts, k = j + 1 < from->vertices ? j + 1 : j;
         double part = (double)(i % parts) / (double)parts;
@@ -396,7 +412,10 @@ static void cutting_segments_into_collinear_pieces_moves_no_statistic(void **sta
 
 static void expect_spread(const struct ceduo_spread_of_cell *s)
 {
-    assert_true(s->p5 >= 0 && s->p5 <= s->p50 && s->p50 <= s->p95 && s->p95 <= s->max);
+    EXPECT(s->p5, >=, 0);
+    EXPECT(s->p5, <=, s->p50);
+    EXPECT(s->p50, <=, s->p95);
+    EXPECT(s->p95, <=, s->max);
 }
 
 static void envelopes_agree_with_the_control_at_the_same_place(void **state)
@@ -411,7 +430,7 @@ static void envelopes_agree_with_the_control_at_the_same_place(void **state)
     for (size_t i = 0; i < LENGTH(cells); i++) {
         struct ceduo_envelope e;
         ceduo_run_envelope(run, i, &e);
-        assert_true(e.passed <= before); /* it goes down here */
+        EXPECT(e.passed, <=, before); /* it goes down here */
         before = e.passed;
         expect_spread(&e.speed);
         expect_spread(&e.height);
@@ -425,7 +444,9 @@ static void envelopes_agree_with_the_control_at_the_same_place(void **state)
         expect_within(e.speed.p50, a.speed.p50, 1. / 64);
         expect_within(e.speed.p95, a.speed.p95, 1. / 64);
         expect_within(e.height.p95, a.height.p95, 1. / 64);
-        assert_true(e.energy.max == a.energy.max && e.speed.max == a.speed.max && e.height.max == a.height.max);
+        EXPECT(e.energy.max, ==, a.energy.max);
+        EXPECT(e.speed.max, ==, a.speed.max);
+        EXPECT(e.height.max, ==, a.height.max);
     }
     ceduo_run_free(run);
 }
@@ -460,7 +481,9 @@ static void a_raised_flag_ends_the_run_which_can_go_on_later(void **state)
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED);
     uint64_t done = ceduo_run_rocks(run);
-    assert_true(c.calls >= 1 && done >= c.last && done < 600000);
+    EXPECT(c.calls, >=, 1);
+    EXPECT(done, >=, c.last);
+    EXPECT(done, <, 600000);
     assert_int_equal(arrivals_of(run, 0).released, done);
     assert_int_equal(ceduo_run_extend(run, 600000), CEDUO_CANCELLED); /* still raised */
     assert_int_equal(ceduo_run_rocks(run), done);
@@ -534,7 +557,8 @@ static void releases_and_rocks_are_drawn_as_they_are_spread(void **state)
     struct ceduo_run *run = run_scene(s, 5000, 2), *again = run_scene(s, 5000, 16);
     expect_same_run(run, again, 0);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    assert_true(a.reached > 4000 && a.translation.mean < a.energy.mean);
+    EXPECT(a.reached, >, 4000);
+    EXPECT(a.translation.mean, <, a.energy.mean);
     ceduo_run_free(run);
     ceduo_run_free(again);
 }
@@ -606,7 +630,7 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
     double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;
     expect_mean("cut Rn", f.rn.mean, ceduo_moments_se(&f.rn), .95 + .2 * shift, 0, 0);
-    assert_true(f.rn.max <= 1 + 1e-15);
+    EXPECT(f.rn.max, <=, 1 + 1e-15);
 }
 
 static void a_spread_of_nothing_changes_nothing(void **state)
@@ -648,15 +672,24 @@ static void a_control_that_nobody_reaches(void **state)
             def.exact_bytes = bytes[e];
             struct ceduo_run *run = run_of(&def, 999);
             struct ceduo_arrivals a = arrivals_of(run, 0);
-            assert_true(a.reached == 0 && a.reach_probability == 0 && a.reach_lo == 0);
-            assert_true(a.reach_hi > .0038 && a.reach_hi < .004 && a.exceed_hi == a.reach_hi);
-            assert_true(nothing_known(&a.speed) && nothing_known(&a.energy) && nothing_known(&a.translation) &&
-                        nothing_known(&a.height));
-            assert_true(a.energy_per_released == 0 && a.energy_per_released_se == 0);
+            EXPECT(a.reached, ==, 0);
+            EXPECT(a.reach_probability, ==, 0);
+            EXPECT(a.reach_lo, ==, 0);
+            EXPECT(a.reach_hi, >, .0038);
+            EXPECT(a.reach_hi, <, .004);
+            EXPECT(a.exceed_hi, ==, a.reach_hi);
+            assert_true(nothing_known(&a.speed));
+            assert_true(nothing_known(&a.energy));
+            assert_true(nothing_known(&a.translation));
+            assert_true(nothing_known(&a.height));
+            EXPECT(a.energy_per_released, ==, 0);
+            EXPECT(a.energy_per_released_se, ==, 0);
             uint64_t reached;
             double mean, se, energy;
             ceduo_run_energy(run, 0, &reached, &mean, &se);
-            assert_true(reached == 0 && isnan(mean) && isnan(se));
+            EXPECT(reached, ==, 0);
+            assert_true(isnan(mean));
+            assert_true(isnan(se));
             assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
             ceduo_run_free(run);
         }
@@ -669,7 +702,10 @@ static void a_control_without_an_accepted_energy(void **state)
     site.control.accepted = NAN;
     struct ceduo_run *run = run_scene(&site.scene, 999, 1);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    assert_true(a.exceeded == 0 && isnan(a.exceed_probability) && isnan(a.exceed_lo) && isnan(a.exceed_hi));
+    EXPECT(a.exceeded, ==, 0);
+    assert_true(isnan(a.exceed_probability));
+    assert_true(isnan(a.exceed_lo));
+    assert_true(isnan(a.exceed_hi));
     ceduo_run_free(run);
 }
 
@@ -684,11 +720,16 @@ static void unfinished_rocks_count_for_the_upper_bound(void **state)
     flat.scene.controls_count = 1;
     struct ceduo_run *run = run_scene(&flat.scene, 5, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    assert_true(a.unfinished == 5 && a.reached == 0 && a.reach_hi == 1 && a.reach_lo == 0 && a.exceed_hi == 1);
+    EXPECT(a.unfinished, ==, 5);
+    EXPECT(a.reached, ==, 0);
+    EXPECT(a.reach_hi, ==, 1);
+    EXPECT(a.reach_lo, ==, 0);
+    EXPECT(a.exceed_hi, ==, 1);
     struct ceduo_ends ends;
     assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
     assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
-    assert_true(isnan(ends.stop_p50) && isnan(ends.stop_max));
+    assert_true(isnan(ends.stop_p50));
+    assert_true(isnan(ends.stop_max));
     ceduo_run_free(run);
 }
 

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rocks among stems: what they meet and lose beside closed forms (Cauchy, Crofton, Poisson), beside a full map in the
  * plane, and beside the test site of Ciabocco, Boccia and Ripa 2009. Every figure is written as a comment of the TAP. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_linalg.h>
@@ -554,7 +549,7 @@ static void gaps_between_trees_are_exponential_and_offsets_uniform(void **state)
     sweep_begin();
     for (uint64_t rock = 0; rock < 7000; rock++) {
         sweep_rock(rock);
-        assert_true(sweep.count > GAPS);
+        EXPECT(sweep.count, >, GAPS);
         for (size_t i = 0; i < GAPS; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
             sample_add(&gaps, s->x - (i > 0 ? s[-1].x : 0));
@@ -583,7 +578,7 @@ static void the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton(void **s
     }
     sweep_end();
     expect_share("nothing met of those centred in 10 m", free_runs, rocks, exp(-10 / 2.16747));
-    assert_true(fabs(exp(-10 / 2.16747) - .00992) < .5e-5);
+    EXPECT_NEAR(exp(-10 / 2.16747), .00992, .5e-5);
 }
 
 /* ---- contacts as a Poisson process ---- */
@@ -794,8 +789,8 @@ static void clumping_changes_the_spread_but_not_the_mean(void **state)
     expect_variance("variance on 50 m, single stems", &single, mean);
     expect_variance("variance on 50 m, stools of 6", &clumped,
                     mean + 50 * per_metre(1000, pairs_of_ring(6, spacing, B + d)));
-    assert_true(spread_variance(&clumped) >
-                spread_variance(&single) + 10 * hypot(spread_variance_se(&single), spread_variance_se(&clumped)));
+    EXPECT(spread_variance(&clumped), >,
+           spread_variance(&single) + 10 * hypot(spread_variance_se(&single), spread_variance_se(&clumped)));
 }
 
 /* ---- beside a full map ---- */
@@ -870,7 +865,7 @@ static void sweep_maps(struct swept *to, uint64_t maps, unsigned long seed)
     gsl_rng_set(rng, seed);
     for (uint64_t map = 0; map < maps; map++) {
         size_t n = plane_map_sweep(&plane.line.option, B, plane.line.scene.release.x.mean, rng, stems, STEMS_MOST);
-        assert_true(n <= STEMS_MOST);
+        EXPECT(n, <=, STEMS_MOST);
         swept_add(to, stems, n);
     }
     gsl_rng_free(rng);
@@ -1108,10 +1103,10 @@ static void dorrens_hits_take_the_share_of_their_eccentricity(void **state)
     sweep_end();
     double mean = mean_printed_share();
     expect_exact("mean share", ceduo_dorren_mean_share(), mean, 1e-6);
-    assert_true(fabs(mean - .558) < .0005);
+    EXPECT_NEAR(mean, .558, .0005);
     expect_mean("share of trees", &trees, mean);
     expect_mean("share of shoots", &shoots, mean);
-    assert_true(trees.n + shoots.n > 1e6);
+    EXPECT(trees.n + shoots.n, >, 1e6);
 }
 
 /* A stem's hit between two pieces of the way, and what it does to the speed. */
@@ -1149,7 +1144,10 @@ static void at_hit(void *context, const struct ceduo_stem_passed *stem)
     struct scaling *s = context;
     double v2 = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1;
     expect_exact("energy before", stem->before, (s->mass * v2 + s->moment * last_spin(s) * last_spin(s)) / 2, 1e-12);
-    assert_true(stem->hit && stem->taken >= 0 && stem->taken <= stem->before && stem->x == s->last.x1);
+    assert_true(stem->hit);
+    EXPECT(stem->taken, >=, 0);
+    EXPECT(stem->taken, <=, stem->before);
+    EXPECT(stem->x, ==, s->last.x1);
     s->left = 1 - stem->taken / stem->before;
     s->hits++;
 }
@@ -1177,7 +1175,9 @@ static void a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy(void **sta
             stopped += sweep.way.end == CEDUO_STOPPED_BY_STEMS;
         }
         sweep_end();
-        assert_true(s.hits > 10000 && s.checked >= s.hits - 2000 && stopped > 100);
+        EXPECT(s.hits, >, 10000);
+        EXPECT(s.checked, >=, s.hits - 2000);
+        EXPECT(stopped, >, 100);
         assert_int_equal(s.hits - s.checked, stopped);
     }
 }
@@ -1205,7 +1205,8 @@ static void a_control_where_a_stem_stands_is_passed_before_the_hit(void **state)
             struct ceduo_crossing c;
             cross_at(stem.x, rolls);
             assert_int_equal(ceduo_way_follow(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
-            assert_true(c.reached && c.stems_hit == i);
+            assert_true(c.reached);
+            EXPECT(c.stems_hit, ==, i);
             expect_exact("energy at the control", way.rock.mass / 2 * (c.vx * c.vx + c.vz * c.vz), stem.before, 1e-12);
         }
     }
@@ -1264,7 +1265,7 @@ struct pieces {
 static void note_piece(void *context, const struct ceduo_piece *piece)
 {
     struct pieces *p = context;
-    assert_true(p->count < PIECES_MOST);
+    EXPECT(p->count, <, PIECES_MOST);
     p->piece[p->count++] = *piece;
 }
 
@@ -1280,7 +1281,8 @@ static double height_above_ground(const struct pieces *p, double x)
     while (i + 1 < p->count && x > p->piece[i].x1)
         i++;
     const struct ceduo_piece *f = &p->piece[i];
-    assert_true(x >= f->x && x <= f->x1);
+    EXPECT(x, >=, f->x);
+    EXPECT(x, <=, f->x1);
     if (f->rolls)
         return 0;
     double t = (x - f->x) / f->vx, z = f->z + f->vz * t - CEDUO_GRAVITY / 2 * t * t;
@@ -1312,7 +1314,8 @@ static void a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope(void **st
         }
     }
     sweep_end();
-    assert_true(hits > 10000 && over > 10000);
+    EXPECT(hits, >, 10000);
+    EXPECT(over, >, 10000);
 }
 
 /* ---- ground that is covered twice, and the release ---- */
@@ -1374,7 +1377,10 @@ static void ground_that_is_covered_twice_holds_its_stems_once(void **state)
         struct cover c = {from, from, 0, 1};
         sweep_watched(rock, &(struct ceduo_watch){.piece = cover_piece, .stem = cover_stem, .context = &c});
         assert_int_equal(sweep.way.end, CEDUO_AT_REST);
-        assert_true(c.turns > 10 && c.lo > 200 && c.lo < 320 && c.hi > 500);
+        EXPECT(c.turns, >, 10);
+        EXPECT(c.lo, >, 200);
+        EXPECT(c.lo, <, 320);
+        EXPECT(c.hi, >, 500);
         size_t behind = 0;
         for (size_t i = 0; i < sweep.count; i++)
             behind += sweep.stems[i].x < from;
@@ -1486,7 +1492,7 @@ static void the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first
         for (size_t i = 1; i < n; i++)
             astride += ahead[i - 1].x < RELEASE && ahead[i].x >= RELEASE && ahead[i - 1].stool == ahead[i].stool;
     }
-    assert_true(astride > 40); /* some were there */
+    EXPECT(astride, >, 40); /* some were there */
 }
 
 /* Far ahead and back again: many other stools lie between the two hits of one astride of the release. */
@@ -1546,10 +1552,12 @@ static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
     for (size_t i = 0; i < stops->n; i++)
         sum += stops->values[i];
     expect_exact("mean place of the stopped", ends.stop_x.mean, sum / (double)stops->n, 1e-12);
-    assert_true(ends.stop_max == stops->values[stops->n - 1]); /* they are sorted */
-    assert_true(ends.stop_p50 == stops->values[(stops->n + 1) / 2 - 1]);
+    EXPECT(ends.stop_max, ==, stops->values[stops->n - 1]); /* they are sorted */
+    EXPECT(ends.stop_p50, ==, stops->values[(stops->n + 1) / 2 - 1]);
     struct ceduo_stem_counts counts = ceduo_run_stems(run);
-    assert_true(counts.hit == stops->n && counts.met == stops->n && counts.drawn >= counts.hit);
+    EXPECT(counts.hit, ==, stops->n);
+    EXPECT(counts.met, ==, stops->n);
+    EXPECT(counts.drawn, >=, counts.hit);
     ceduo_run_free(run);
 }
 
@@ -1678,7 +1686,8 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
 {
     struct pair_moments m = {0};
     struct ceduo_follower *f = ceduo_follower_create(&site.scene, a), *g = ceduo_follower_create(&site.scene, b);
-    assert_true(f && g);
+    assert_true(f);
+    assert_true(g);
     for (uint64_t rock = 0; rock < rocks; rock++) {
         bool p, q;
         double e = energy_of_rock(f, rock, &p), h = energy_of_rock(g, rock, &q);
@@ -1723,7 +1732,7 @@ static void differences_have_the_error_of_differences_rock_by_rock(void **state)
         expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released,
                     b.energy_per_released);
         double apart = hypot(a.energy_per_released_se, b.energy_per_released_se);
-        assert_true(d.energy_per_released.se < (other ? 1 : .5) * apart);
+        EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
         ceduo_run_free(base);
         ceduo_run_free(run);
     }
@@ -1746,20 +1755,20 @@ static void differences_without_all_samples_are_the_same(void **state)
         struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        assert_true(a.exact == (i == 0));
+        EXPECT(a.exact, ==, (i == 0));
         d[i] = ceduo_run_difference(run, base, 0);
         ceduo_run_free(base);
         ceduo_run_free(run);
-        assert_true(d[i].energy_per_released.mean == d[0].energy_per_released.mean &&
-                    d[i].reach_probability.mean == d[0].reach_probability.mean &&
-                    d[i].exceed_probability.mean == d[0].exceed_probability.mean);
+        EXPECT(d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean);
+        EXPECT(d[i].reach_probability.mean, ==, d[0].reach_probability.mean);
+        EXPECT(d[i].exceed_probability.mean, ==, d[0].exceed_probability.mean);
     }
     /* energies of all rocks are kept, though not all samples */
-    assert_true(same_pair(&d[1].energy_per_released, &d[0].energy_per_released) &&
-                same_pair(&d[1].reach_probability, &d[0].reach_probability) &&
-                same_pair(&d[1].exceed_probability, &d[0].exceed_probability));
+    assert_true(same_pair(&d[1].energy_per_released, &d[0].energy_per_released));
+    assert_true(same_pair(&d[1].reach_probability, &d[0].reach_probability));
+    assert_true(same_pair(&d[1].exceed_probability, &d[0].exceed_probability));
     /* of half of them: the spread is known a little worse */
-    assert_true(fabs(d[2].energy_per_released.se / d[0].energy_per_released.se - 1) < .1);
+    EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
 }
 
 static void expect_same_bits(const struct ceduo_run *a, const struct ceduo_run *b)
@@ -1808,7 +1817,8 @@ static void the_same_bits_among_stems_with_any_number_of_threads_and_steps(void 
         f = ceduo_run_difference(steps, base, 0);
         assert_memory_equal(&d, &f, sizeof d);
         f = ceduo_run_difference(one, one, 0);
-        assert_true(f.energy_per_released.mean == 0 && f.energy_per_released.se == 0);
+        EXPECT(f.energy_per_released.mean, ==, 0);
+        EXPECT(f.energy_per_released.se, ==, 0);
         ceduo_run_free(steps);
         ceduo_run_free(one);
         ceduo_run_free(base);
@@ -1855,7 +1865,9 @@ static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
     ceduo_follower_free(f);
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    assert_true(sum.drawn == counts.drawn && sum.hit == counts.hit && sum.met == counts.met);
+    EXPECT(sum.drawn, ==, counts.drawn);
+    EXPECT(sum.hit, ==, counts.hit);
+    EXPECT(sum.met, ==, counts.met);
     assert_int_equal(a.reached, energy.n);
     expect_exact("mean energy", a.energy.mean, energy.mean, 1e-12);
     expect_exact("mean contacts", a.contacts, hits.mean, 1e-12);
@@ -1879,7 +1891,8 @@ static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
     site.belts[0].from = -5; /* stools before the release reach over it */
     struct ceduo_follower *f = ceduo_follower_create(&site.scene, &site.option);
     struct ceduo_follower *bare = ceduo_follower_create(&site.scene, NULL);
-    assert_true(f && bare);
+    assert_true(f);
+    assert_true(bare);
     for (uint64_t rock = 0; rock < rocks; rock++) {
         struct ceduo_way v, w;
         struct ceduo_crossing c, d;
@@ -1901,7 +1914,7 @@ static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
     ceduo_follower_free(f);
     ceduo_follower_free(bare);
     print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
-    assert_true(same > rocks * 98 / 100); /* some turn elsewhere by rounding */
+    EXPECT(same, >, rocks * 98 / 100); /* some turn elsewhere by rounding */
     expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));
     expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));
 }
@@ -1928,9 +1941,9 @@ static void options_with_the_same_stems_share_a_run(void **state)
     struct ceduo_work work = ceduo_pool_work(pool);
     assert_int_equal(work.runs, 3);   /* without forest, the paper's, the shorter */
     assert_int_equal(work.reused, 5); /* of 4 options, each with its forest and without, 8 in all */
-    assert_true(ceduo_pool_find(pool, &options[1]) == ceduo_pool_find(pool, &options[0]));
-    assert_true(ceduo_pool_find(pool, &options[2]) != ceduo_pool_find(pool, &options[0]));
-    assert_true(ceduo_pool_find(pool, &options[3]) == ceduo_pool_find(pool, NULL));
+    assert_ptr_equal(ceduo_pool_find(pool, &options[1]), ceduo_pool_find(pool, &options[0]));
+    assert_ptr_not_equal(ceduo_pool_find(pool, &options[2]), ceduo_pool_find(pool, &options[0]));
+    assert_ptr_equal(ceduo_pool_find(pool, &options[3]), ceduo_pool_find(pool, NULL));
     assert_int_equal(ceduo_pool_extend(pool, 1000), CEDUO_OK);
     work = ceduo_pool_work(pool);
     assert_int_equal(work.rocks, 3000);

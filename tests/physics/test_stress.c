@@ -8,12 +8,7 @@
  * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
  * infinity, which times 0 is NaN, and a comparison with that is a contact. (Reading a scene may compare with NaN: that is
  * how it says that a number is not given.) */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -61,10 +56,16 @@ static struct ceduo_way expect_the_same_again(const struct line_scene *s, uint64
     struct result a, b;
     follow(s, rock, &a);
     follow(s, rock, &b);
-    assert_true(a.way.end == b.way.end && a.way.contacts == b.way.contacts && a.way.x == b.way.x && a.way.z == b.way.z);
+    EXPECT(a.way.end, ==, b.way.end);
+    EXPECT(a.way.contacts, ==, b.way.contacts);
+    EXPECT(a.way.x, ==, b.way.x);
+    EXPECT(a.way.z, ==, b.way.z);
     const struct ceduo_crossing *c = &a.crossing, *d = &b.crossing;
-    assert_true(c->reached == d->reached && c->vx == d->vx && c->vz == d->vz && c->spin == d->spin &&
-                c->height == d->height);
+    EXPECT(c->reached, ==, d->reached);
+    EXPECT(c->vx, ==, d->vx);
+    EXPECT(c->vz, ==, d->vz);
+    EXPECT(c->spin, ==, d->spin);
+    EXPECT(c->height, ==, d->height);
     return a.way;
 }
 
@@ -78,8 +79,12 @@ static void expect_distribution(const struct ceduo_distribution *d, uint64_t n)
 {
     if (n == 0)
         return;
-    assert_true(isfinite(d->mean) && isfinite(d->max) && d->mean >= 0 && d->mean <= d->max * (1 + 1e-12));
-    assert_true(d->p50 <= d->p95 && d->p95 <= d->max);
+    assert_true(isfinite(d->mean));
+    assert_true(isfinite(d->max));
+    EXPECT(d->mean, >=, 0);
+    EXPECT(d->mean, <=, d->max * (1 + 1e-12));
+    EXPECT(d->p50, <=, d->p95);
+    EXPECT(d->p95, <=, d->max);
     assert_true(n == 1 || (isfinite(d->se) && d->se >= 0));
 }
 
@@ -111,8 +116,11 @@ static void expect_counts(const struct line_scene *s)
     for (size_t i = 0; i < n; i++) {
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, i, &a), CEDUO_OK);
-        assert_true(a.released == run_rocks && a.reached <= before && a.exceeded <= a.reached);
-        assert_true(a.unfinished <= ends.count[CEDUO_UNFINISHED] && a.reached + a.unfinished <= run_rocks);
+        EXPECT(a.released, ==, run_rocks);
+        EXPECT(a.reached, <=, before);
+        EXPECT(a.exceeded, <=, a.reached);
+        EXPECT(a.unfinished, <=, ends.count[CEDUO_UNFINISHED]);
+        EXPECT(a.reached + a.unfinished, <=, run_rocks);
         expect_distribution(&a.speed, a.reached);
         expect_distribution(&a.energy, a.reached);
         expect_distribution(&a.height, a.reached);
@@ -148,8 +156,8 @@ static void random_scenes(void **state)
                   (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],
                   (uintmax_t)t.ends[CEDUO_UNFINISHED], (uintmax_t)t.lasting, (uintmax_t)t.cracks, (uintmax_t)t.contacts,
                   (uintmax_t)parted);
-    assert_true(parted <= 2 + scenes / 1000);
-    assert_true(t.cracks <= 2 + scenes / 20000);
+    EXPECT(parted, <=, 2 + scenes / 1000);
+    EXPECT(t.cracks, <=, 2 + scenes / 20000);
 }
 
 /* ---- nasty scenes ---- */
@@ -394,8 +402,9 @@ static void rebounds_without_end(void **state)
     release(5, 2, 0, 0);
     struct result r;
     follow(&s, 0, &r);
-    assert_true(r.way.end == CEDUO_UNFINISHED && r.way.contacts == CEDUO_CONTACTS_MOST);
-    assert_true(r.way.x == 5);
+    EXPECT(r.way.end, ==, CEDUO_UNFINISHED);
+    EXPECT(r.way.contacts, ==, CEDUO_CONTACTS_MOST);
+    EXPECT(r.way.x, ==, 5);
 }
 
 /* Random scenes in which a rock goes to and fro in a crack of 12 or 42 micrometres, or on its bottom with Rn = 1, where the law
@@ -410,10 +419,11 @@ static void cracks(void **state)
         line_scene_random(&scene, numbers[i], LASTING_EVERY);
         invariants_expect(&scene, numbers[i], &t);
     }
-    assert_true(t.cracks == LENGTH(numbers) && t.ends[CEDUO_UNFINISHED] == LENGTH(numbers));
+    EXPECT(t.cracks, ==, LENGTH(numbers));
+    EXPECT(t.ends[CEDUO_UNFINISHED], ==, LENGTH(numbers));
     line_scene_random(&scene, 3596987, LASTING_EVERY); /* one of 60 nm, in which it rests on the wall */
     invariants_expect(&scene, 3596987, &t);
-    assert_true(t.last.end == CEDUO_AT_REST);
+    EXPECT(t.last.end, ==, CEDUO_AT_REST);
 }
 
 static void pits(void **state)
@@ -461,7 +471,9 @@ static void a_million_segments(void **state)
     struct line_random random = {.state = 6};
     double *x = malloc(vertices * sizeof *x), *z = malloc(vertices * sizeof *z);
     struct ceduo_segment *segments = malloc(vertices * sizeof *segments);
-    assert_true(x && z && segments);
+    assert_true(x);
+    assert_true(z);
+    assert_true(segments);
     const double few_x[] = {0, 500}, few_z[] = {0, -300};
     profile(2, few_x, few_z, earth, .3);
     release(1, .5, 2, 0);

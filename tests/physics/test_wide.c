@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wide kernels give the same bits as the scalar one, in every figure of a run. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -97,11 +92,12 @@ static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *
     struct ceduo_run_def short_def = *def;
     short_def.arrivals_only = true;
     struct ceduo_run *run = run_of(short_def, kernel, ceduo_run_rocks(whole), ceduo_run_rocks(whole));
-    assert_true(ceduo_run_contacts(run) <= ceduo_run_contacts(whole));
+    EXPECT(ceduo_run_contacts(run), <=, ceduo_run_contacts(whole));
     compare_places(scene, whole, run, def);
     struct ceduo_ends ends;
     assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
-    assert_true(ends.count[CEDUO_LEFT_SLOPE] == 0 && isnan(ends.stop_max));
+    EXPECT(ends.count[CEDUO_LEFT_SLOPE], ==, 0);
+    assert_true(isnan(ends.stop_max));
     uint64_t saved = ceduo_run_contacts(whole) - ceduo_run_contacts(run);
     ceduo_run_free(run);
     return saved;
@@ -234,8 +230,9 @@ static void random_scenes(void **state)
     }
     print_message("%ju scenes, %ju contacts, of which %ju lie behind the last control and cell\n", (uintmax_t)scenes,
                   (uintmax_t)contacts, (uintmax_t)saved);
-    assert_true(saved > contacts / 100);
-    assert_true(scenes > SCENES * 9 / 10 && contacts > 1000 * SCENES);
+    EXPECT(saved, >, contacts / 100);
+    EXPECT(scenes, >, SCENES * 9 / 10);
+    EXPECT(contacts, >, 1000 * SCENES);
 }
 
 /* ---- scenes of their own ---- */
@@ -298,7 +295,7 @@ static void a_long_profile(void **state)
         line.control = (struct ceduo_control){.x = x[LONG_VERTICES / 2], .accepted = 1e3, .measured_speed = NAN};
         line.scene.controls_count = 1;
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
-        assert_true(expect_same("long profile", &def, 100, 400) > 5000);
+        EXPECT(expect_same("long profile", &def, 100, 400), >, 5000);
     }
 }
 

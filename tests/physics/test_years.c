@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An option year by year: beside the same stands grown, flown and assessed one by one. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <string.h>
@@ -156,8 +151,11 @@ static void expect_same_distribution(const struct ceduo_distribution *a, const s
 
 static void expect_same_arrivals(const struct ceduo_arrivals *a, const struct ceduo_arrivals *b)
 {
-    assert_true(a->released == b->released && a->reached == b->reached && a->exceeded == b->exceeded &&
-                a->unfinished == b->unfinished && a->exact == b->exact);
+    EXPECT(a->released, ==, b->released);
+    EXPECT(a->reached, ==, b->reached);
+    EXPECT(a->exceeded, ==, b->exceeded);
+    EXPECT(a->unfinished, ==, b->unfinished);
+    EXPECT(a->exact, ==, b->exact);
     expect_same("reach", a->reach_probability, b->reach_probability);
     expect_same("reach_lo", a->reach_lo, b->reach_lo);
     expect_same("reach_hi", a->reach_hi, b->reach_hi);
@@ -193,8 +191,11 @@ static void expect_same_index(const struct ceduo_index *a, const struct ceduo_in
     expect_same("worst free run", a->worst_free_run, b->worst_free_run);
     expect_same("residual", a->residual, b->residual);
     expect_same("measured", a->measured, b->measured);
-    assert_true(a->contact_passes == b->contact_passes && a->exhausted == b->exhausted && a->contact == b->contact &&
-                a->free_run == b->free_run && a->energy == b->energy);
+    EXPECT(a->contact_passes, ==, b->contact_passes);
+    EXPECT(a->exhausted, ==, b->exhausted);
+    EXPECT(a->contact, ==, b->contact);
+    EXPECT(a->free_run, ==, b->free_run);
+    EXPECT(a->energy, ==, b->energy);
 }
 
 static void expect_same_stand(const struct ceduo_stand_result *a, const struct ceduo_stand_result *b)
@@ -209,14 +210,17 @@ static void expect_same_stand(const struct ceduo_stand_result *a, const struct c
     expect_same("contacts", a->contacts, b->contacts);
     expect_same("energy", a->energy_per_contact, b->energy_per_contact);
     expect_same("dissipated", a->dissipated, b->dissipated);
-    assert_true(a->bare == b->bare && (a->bare || a->rule == b->rule) && a->passes_threshold == b->passes_threshold &&
-                a->warnings == b->warnings);
+    EXPECT(a->bare, ==, b->bare);
+    assert_true(a->bare || a->rule == b->rule);
+    EXPECT(a->passes_threshold, ==, b->passes_threshold);
+    EXPECT(a->warnings, ==, b->warnings);
 }
 
 static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year *b)
 {
-    assert_true(a->cut == b->cut && a->option.belts_count == b->option.belts_count &&
-                a->wooded.rocks == b->wooded.rocks);
+    EXPECT(a->cut, ==, b->cut);
+    EXPECT(a->option.belts_count, ==, b->option.belts_count);
+    EXPECT(a->wooded.rocks, ==, b->wooded.rocks);
     for (size_t i = 0; i < a->option.belts_count; i++)
         expect_same_stand(&a->stands[i], &b->stands[i]);
     for (size_t c = 0; c < CONTROLS; c++) {
@@ -242,15 +246,17 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *
         belts[i] = wood.belts[i];
         belts[i].stand = stands[i].stand;
         bool felled = ceduo_is_cut_year(&wood.belts[i].stand, wood.belts[i].cut_year, y->year);
-        assert_true(y->felled[i] == felled);
+        EXPECT(y->felled[i], ==, felled);
         cut |= felled;
     }
-    assert_true(y->cut == cut && y->option.belts_count == BELTS);
+    EXPECT(y->cut, ==, cut);
+    EXPECT(y->option.belts_count, ==, BELTS);
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
     struct ceduo_run *run = run_of(&option, ROCKS);
     struct ceduo_flown direct;
     assert_int_equal(ceduo_flown_read(run, CONTROLS, &direct), CEDUO_OK);
-    assert_true(y->wooded.rocks == ROCKS && direct.rocks == ROCKS);
+    EXPECT(y->wooded.rocks, ==, ROCKS);
+    EXPECT(direct.rocks, ==, ROCKS);
     expect_same_ends(&y->wooded.ends, &direct.ends);
     for (int i = 0; i < BELTS; i++) {
         struct ceduo_stand_result stand = ceduo_assess_stand(scene, &belts[i]);
@@ -375,7 +381,9 @@ static void a_wood_is_flown_once(void **state)
     struct ceduo_flown bare = bare_of(100);
     assert_int_equal(ceduo_years_fly(years, pool, &bare, 100), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
-    assert_true(work.runs == 7 + ROTATION && work.runs + work.reused == 41 && work.rocks == 100 * work.runs);
+    EXPECT(work.runs, ==, 7 + ROTATION);
+    EXPECT(work.runs + work.reused, ==, 41);
+    EXPECT(work.rocks, ==, 100 * work.runs);
     for (size_t i = 7; i + ROTATION < years->count; i++)
         expect_same_year(&years->years[i], &years->years[i + ROTATION]);
     ceduo_flown_free(&bare);
@@ -409,9 +417,12 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
         free_run += years->years[i].controls[c].free_run == CEDUO_FAIL;
         light += years->years[i].controls[c].energy == CEDUO_FAIL;
     }
-    assert_true(s.years == years->count && s.flown == years->count && s.worst_year == worst_year);
-    assert_true(s.unprotected_contact == contact && s.unprotected_free_run == free_run &&
-                s.unprotected_energy == light);
+    EXPECT(s.years, ==, years->count);
+    EXPECT(s.flown, ==, years->count);
+    EXPECT(s.worst_year, ==, worst_year);
+    EXPECT(s.unprotected_contact, ==, contact);
+    EXPECT(s.unprotected_free_run, ==, free_run);
+    EXPECT(s.unprotected_energy, ==, light);
     expect_same("worst", s.worst, worst);
     const double pairs[][2] = {{s.reach.mean, reach},   {s.reach.se, reach_se},
                                {s.exceed.mean, exceed}, {s.exceed.se, exceed_se},
@@ -450,16 +461,16 @@ static void metres_felled(void **state)
     }
     for (unsigned first = 9; first < 20; first++) {
         struct ceduo_years *years = grown(first, first + 3 * ROTATION - 1, 1);
-        assert_true(ceduo_years_felled(years) == 3 * whole);
+        EXPECT(ceduo_years_felled(years), ==, 3 * whole);
         double by_hand = 0;
         for (size_t i = 0; i < years->count; i++)
             for (int k = 0; k < BELTS; k++)
                 by_hand += years->years[i].option.belts[k].stand.stools_per_ha == 0 ? wood.belts[k].to - wood.belts[k].from : 0;
-        assert_true(by_hand == 3 * whole); /* just cut no stool stands */
+        EXPECT(by_hand, ==, 3 * whole); /* just cut no stool stands */
         ceduo_years_free(years);
     }
     struct ceduo_years *years = grown(5, 6, 1);
-    assert_true(ceduo_years_felled(years) == wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
+    EXPECT(ceduo_years_felled(years), ==, wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
     ceduo_years_free(years);
 }
 
@@ -477,15 +488,23 @@ static void by_the_index_alone(void **state)
     unsigned worst_year = 0;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
-        assert_true(y->wooded.rocks == 0 && y->controls[1].energy == CEDUO_UNKNOWN);
+        EXPECT(y->wooded.rocks, ==, 0);
+        EXPECT(y->controls[1].energy, ==, CEDUO_UNKNOWN);
         if (y->controls[1].worst_adc > worst) {
             worst = y->controls[1].worst_adc;
             worst_year = y->year;
         }
     }
     struct ceduo_years_summary s = ceduo_years_sum(years, 1);
-    assert_true(s.years == 16 && s.flown == 0 && s.worst_year == worst_year && s.worst == worst && worst_year == 4);
-    assert_true(isnan(s.reach.mean) && isnan(s.exceed.mean) && isnan(s.passes_per_year) && s.unprotected_energy == 0);
+    EXPECT(s.years, ==, 16);
+    EXPECT(s.flown, ==, 0);
+    EXPECT(s.worst_year, ==, worst_year);
+    EXPECT(s.worst, ==, worst);
+    EXPECT(worst_year, ==, 4);
+    assert_true(isnan(s.reach.mean));
+    assert_true(isnan(s.exceed.mean));
+    assert_true(isnan(s.passes_per_year));
+    EXPECT(s.unprotected_energy, ==, 0);
     ceduo_flown_free(&bare);
     ceduo_pool_free(pool);
     ceduo_years_free(years);
@@ -506,7 +525,8 @@ static void no_forest_is_the_bare_run(void **state)
             expect_same_arrivals(&a, &bare.arrivals[c]);
         }
     }
-    assert_true(ceduo_years_felled(years) == 0 && ceduo_years_usual(&wood.site.scene) == 10);
+    EXPECT(ceduo_years_felled(years), ==, 0);
+    EXPECT(ceduo_years_usual(&wood.site.scene), ==, 10);
     ceduo_years_free(years);
     ceduo_flown_free(&bare);
     ceduo_years_free(NULL);
@@ -523,7 +543,8 @@ static void nothing_is_hit_in_a_bare_year(void **state)
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
     double contacts = y->wooded.arrivals[1].contacts;
     ceduo_years_free(years);
-    assert_true(cut && contacts == 0); /* known, not unknown */
+    assert_true(cut);
+    EXPECT(contacts, ==, 0); /* known, not unknown */
 }
 
 static void usual_years(void **state)
@@ -576,7 +597,7 @@ static void it_can_be_cancelled_and_goes_on(void **state)
         enum ceduo_status status = ceduo_years_fly(years, pool, &bare, ROCKS);
         assert_int_equal(status, after < 9 ? CEDUO_CANCELLED : CEDUO_OK);
         for (size_t i = 0; i < years->count; i++) {
-            assert_true(years->years[i].wooded.rocks == (i < after ? ROCKS : 0));
+            EXPECT(years->years[i].wooded.rocks, ==, (i < after ? ROCKS : 0));
             if (i < after)
                 expect_same_year(&years->years[i], &whole->years[i]);
         }

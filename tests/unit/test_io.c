@@ -25,6 +25,7 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "base/json.h"
+#include "base/utf8.h"
 #include "io/node.h"
 #include "io/part_file.h"
 #include "io/resolve.h"
