@@ -13,8 +13,8 @@ static const char *words_of(const struct argument_row *row)
     words[0] = '\0';
     const char *from = strcmp(row->name, "plot") == 0 ? CEDUO_PLOT_NAMES : row->value;
     if (strcmp(row->name, "goal") == 0)
-        for (int i = GOAL_ADC; i <= GOAL_EXCEED; i++)
-            snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", i > 0 ? " " : "", ceduo_goal_names[i]);
+        for (int i = 0; i < CEDUO_GOALS; i++)
+            snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", i > 0 ? " " : "", ceduo_goals[i].word);
     else if (from && strpbrk(from, "|,"))
         for (size_t n = 0; *from && n + 1 < sizeof words; from++) {
             if (*from != ',')

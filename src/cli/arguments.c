@@ -252,8 +252,6 @@ static void set_mode(struct arguments *a, enum mode mode)
         a->mode = mode;
 }
 
-const char *const ceduo_goal_names[] = {"adc", "free-run", "energy", "exceed"};
-
 /* "A:B" or "A:B:STEP", whole years. */
 static enum exit_status read_years(struct arguments *a, const char *value)
 {
@@ -313,21 +311,21 @@ static enum exit_status read_find(struct arguments *a, char *value)
 
 static enum exit_status read_goal(struct arguments *a, char *value)
 {
-    char *equals = strchr(value, '=');
-    if (equals)
-        *equals = '\0';
-    int i = word_of(value, ceduo_goal_names, 4);
-    if (i < 0)
-        return usage(_("--goal: '%s' is unknown; one of adc, free-run, energy, exceed"), value);
-    a->goal = (enum find_goal)i;
+    enum ceduo_goal_reading reading = ceduo_goal_read(value, &a->goal, &a->goal_value);
+    const char *number = value + strlen(value) + 1;
     a->goal_given = true;
-    if (equals && ceduo_number_read(equals + 1, &a->goal_value) != CEDUO_NUMBER_GOOD)
-        return usage(_("--goal: '%s' is no number"), equals + 1);
-    if (equals && !(a->goal_value >= 0))
-        return usage(_("--goal: %s is below 0"), equals + 1);
-    if (equals && (a->goal == GOAL_FREE_RUN || a->goal == GOAL_EXCEED) && a->goal_value > 1)
-        return usage(_("--goal: %s is no share; write 0 to 1, as 0.05 for 5 %%"), equals + 1);
-    return EXIT_DONE;
+    switch (reading) {
+    case CEDUO_GOAL_UNKNOWN:
+        return usage(_("--goal: '%s' is unknown; one of adc, free-run, energy, exceed"), value);
+    case CEDUO_GOAL_NO_NUMBER:
+        return usage(_("--goal: '%s' is no number"), number);
+    case CEDUO_GOAL_NEGATIVE:
+        return usage(_("--goal: %s is below 0"), number);
+    case CEDUO_GOAL_NO_SHARE:
+        return usage(_("--goal: %s is no share; write 0 to 1, as 0.05 for 5 %%"), number);
+    default:
+        return EXIT_DONE;
+    }
 }
 
 /* "I/N" */
@@ -536,7 +534,7 @@ static enum exit_status check_together(struct arguments *a)
         return usage(_("--find wants a --goal: adc, free-run, energy=KJ or exceed"));
     if (a->goal_given && a->mode != MODE_FIND)
         return usage(_("--goal goes with --find"));
-    if (a->mode == MODE_FIND && a->goal == GOAL_ENERGY && isnan(a->goal_value))
+    if (a->mode == MODE_FIND && ceduo_goals[a->goal].needs_value && isnan(a->goal_value))
         return usage(_("--goal energy wants the mean energy in kJ: energy=50"));
     if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0))
         return usage(_("--find goes with neither --plot, --years nor --tolerance"));

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "study/goal.h"
 #include "view/plot.h"
 #include "view/report.h"
 
@@ -12,9 +13,6 @@
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
 enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_HELP, MODE_VERSION };
-
-/* What --find is to reach at the worst control. */
-enum find_goal { GOAL_ADC, GOAL_FREE_RUN, GOAL_ENERGY, GOAL_EXCEED };
 
 struct arguments {
     enum mode mode;
@@ -42,7 +40,7 @@ struct arguments {
     unsigned year_first, year_last, year_step;
     const char *find;   /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
-    enum find_goal goal;
+    enum ceduo_goal goal;
     bool goal_given;
     double goal_value;  /* NaN: the light's own limit */
     uint64_t shard, shards; /* only this part of so many, from 1; 0: all */
@@ -51,7 +49,6 @@ struct arguments {
 
 /* EXIT_DONE, or EXIT_USAGE with the reason on standard error. */
 enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
-extern const char *const ceduo_goal_names[];
 
 void ceduo_arguments_free(struct arguments *arguments);
 

@@ -25,7 +25,7 @@ static void put_json(struct text *out, const struct arguments *a, const struct s
     ceduo_json_string(j, "scene", s->file->path);
     ceduo_json_string(j, "path", s->path);
     ceduo_json_string(j, "option", s->file->scene.options[s->option].name);
-    ceduo_json_string(j, "goal", ceduo_goal_names[a->goal]);
+    ceduo_json_string(j, "goal", ceduo_goals[a->goal].word);
     ceduo_json_number(j, "target", s->target);
     ceduo_json_number(j, "lo", s->lo);
     ceduo_json_number(j, "hi", s->hi);
@@ -48,7 +48,7 @@ static void put_json(struct text *out, const struct arguments *a, const struct s
 static void put_csv(struct text *out, const struct arguments *a, const struct seek *s, const struct ceduo_found *f)
 {
     char room[CEDUO_NUMBER_ROOM];
-    const char *const texts[] = {s->file->path, s->path, s->file->scene.options[s->option].name, ceduo_goal_names[a->goal]};
+    const char *const texts[] = {s->file->path, s->path, s->file->scene.options[s->option].name, ceduo_goals[a->goal].word};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         ceduo_text_csv(out, texts[i]);
         ceduo_text_char(out, ',');
@@ -107,7 +107,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
             struct seek seek = {.file = &file,
                                 .path = a->find,
                                 .option = option,
-                                .goal = (enum seek_goal)a->goal,
+                                .goal = a->goal,
                                 .target = a->goal_value,
                                 .lo = a->find_lo,
                                 .hi = a->find_hi,

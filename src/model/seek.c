@@ -116,7 +116,7 @@ static double goal_of_rocks(const struct search *s, const struct ceduo_option *o
     *status = ceduo_run_arrivals(wooded ? wooded : bare, c, &a);
     if (*status != CEDUO_OK)
         return NAN;
-    if (s->seek->goal == SEEK_EXCEED)
+    if (s->seek->goal == CEDUO_GOAL_EXCEED)
         return a.exceed_probability;
     if (a.reached == 0)
         return 0;
@@ -150,28 +150,16 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     const struct ceduo_scene *scene = &s->seek->file->scene;
     const struct ceduo_option *option = &scene->options[s->seek->option];
     *goal = -INFINITY;
-    if (s->seek->goal == SEEK_ENERGY || s->seek->goal == SEEK_EXCEED)
+    if (s->seek->goal == CEDUO_GOAL_ENERGY || s->seek->goal == CEDUO_GOAL_EXCEED)
         return fly(s, option, goal);
     for (size_t c = 0; c < scene->controls_count; c++) {
         struct ceduo_index index = ceduo_assess_index(scene, option, &scene->controls[c], NAN);
-        *goal = fmax(*goal, s->seek->goal == SEEK_ADC ? index.worst_adc : index.worst_free_run);
+        *goal = fmax(*goal, s->seek->goal == CEDUO_GOAL_ADC ? index.worst_adc : index.worst_free_run);
     }
     return CEDUO_OK;
 }
 
 /* ---- the search ---- */
-
-static double limit_of(const struct seek *s)
-{
-    switch (s->goal) {
-    case SEEK_ADC:
-        return s->file->scene.simulation.threshold;
-    case SEEK_FREE_RUN:
-        return CEDUO_FREE_RUN_MOST;
-    default:
-        return CEDUO_EXCEED_MOST;
-    }
-}
 
 static const struct source goal_source = {.name = "--goal", .is_option = true};
 
@@ -184,7 +172,7 @@ static bool is_askable(const struct seek *s, struct problems *problems)
         ceduo_problem(problems, &path_source, 0, 0, _("%s is no number"), s->path);
         return false;
     }
-    bool needs_accepted = s->goal == SEEK_EXCEED;
+    bool needs_accepted = s->goal == CEDUO_GOAL_EXCEED;
     for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
         if (isnan(s->file->scene.controls[c].accepted)) {
             ceduo_problem(problems, &goal_source, 0, 0, _("exceed: controls[%zu] does not say what it bears; add accepted_kJ"),
@@ -201,13 +189,13 @@ static bool is_askable(const struct seek *s, struct problems *problems)
 enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struct problems *problems)
 {
     struct search s = {.seek = seek, .problems = problems, .root = seek->file->root};
-    seek->target = isnan(seek->target) ? limit_of(seek) : seek->target;
+    seek->target = isnan(seek->target) ? ceduo_goal_limit(seek->goal, &seek->file->scene.simulation) : seek->target;
     if (!is_askable(seek, problems))
         return CEDUO_BAD_SLOPE;
     struct ceduo_find_def def = {.lo = seek->lo,
                                  .hi = seek->hi,
                                  .whole = is_whole(field_at(seek->path)),
-                                 .target = seek->goal == SEEK_ADC ? nextafter(seek->target, 0) : seek->target,
+                                 .target = ceduo_goals[seek->goal].below ? nextafter(seek->target, 0) : seek->target,
                                  .goal = goal_at,
                                  .context = &s,
                                  .tolerance = 1e-4,
@@ -231,15 +219,14 @@ static void put_value(struct text *text, double value)
 
 static void put_goal(const struct seek *s, double goal, struct text *text)
 {
-    static const char *const names[] = {N_("ADC"), N_("chance of a free run"), N_("mean energy"),
-                                        N_("share with too much energy")};
-    ceduo_text_format(text, "%s ", _(names[s->goal]));
-    if (s->goal == SEEK_FREE_RUN || s->goal == SEEK_EXCEED)
+    const struct ceduo_goal_row *row = &ceduo_goals[s->goal];
+    ceduo_text_format(text, "%s ", _(row->name));
+    if (ceduo_goal_is_share(s->goal))
         ceduo_text_format(text, "%.3g %%", goal * 100);
     else if (isinf(goal))
         ceduo_text_put(text, _("without end"));
     else
-        ceduo_text_format(text, s->goal == SEEK_ADC ? "%.4g m" : "%.4g kJ", goal);
+        ceduo_text_format(text, "%.4g %s", goal, row->unit);
 }
 
 void ceduo_seek_say(const struct seek *s, const struct ceduo_found *f, struct text *text)
@@ -268,11 +255,9 @@ void ceduo_seek_say(const struct seek *s, const struct ceduo_found *f, struct te
             put_goal(s, f->goal_at_nearest, text);
         }
     }
-    ceduo_text_put(text, s->goal == SEEK_ADC ? _(" (below ") : _(" (at most "));
-    if (s->goal == SEEK_FREE_RUN || s->goal == SEEK_EXCEED)
-        ceduo_text_format(text, "%g %%", s->target * 100);
-    else
-        ceduo_text_format(text, s->goal == SEEK_ADC ? "%g m" : "%g kJ", s->target);
+    ceduo_text_put(text, ceduo_goals[s->goal].below ? _(" (below ") : _(" (at most "));
+    ceduo_text_format(text, "%g %s", ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target,
+                      ceduo_goals[s->goal].unit);
     ceduo_text_put(text, _(" is wanted), option '"));
     ceduo_text_safe(text, s->file->scene.options[s->option].name);
     ceduo_text_put(text, _("', worst control\n"));

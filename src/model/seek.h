@@ -4,18 +4,17 @@
 
 #include "ceduo/find.h"
 #include "io/scene_file.h"
+#include "study/goal.h"
 
 /* The value of one parameter of a scene for which one option reaches a goal at its worst control: reserves per ha, a
  * rotation, the length of a belt … The same rocks fly for every value, so that the answer is one number and not another
  * the next time. */
 
-enum seek_goal { SEEK_ADC, SEEK_FREE_RUN, SEEK_ENERGY, SEEK_EXCEED };
-
 struct seek {
     struct scene_file *file; /* read; it is as before in the end */
     const char *path;        /* of the parameter, as for --set */
     size_t option;           /* looked at */
-    enum seek_goal goal;
+    enum ceduo_goal goal;
     double target; /* m, share, kJ, share; NaN: the light's limit, and set to it */
     double lo, hi; /* in the file's units */
     uint64_t rocks;

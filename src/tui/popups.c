@@ -458,25 +458,15 @@ void ceduo_popup_search(struct app *app)
 
 enum { FIND_GOAL, FIND_LO, FIND_HI };
 
-/* "adc", "energy=50", "exceed=0.1": which goal, and its value. */
 static bool read_goal(struct app *app, char *text, struct seek *seek)
 {
-    static const char *const names[] = {"adc", "free-run", "energy", "exceed"};
-    char *equals = strchr(text, '=');
-    if (equals)
-        *equals++ = '\0';
-    int i = 0;
-    while (i < 4 && strcmp(text, names[i]) != 0)
-        i++;
-    seek->goal = (enum seek_goal)i;
-    seek->target = NAN;
-    bool good = i < 4 && (!equals || (ceduo_number_read(equals, &seek->target) == CEDUO_NUMBER_GOOD && seek->target >= 0));
-    if (!good)
-        ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
-    else if (i == SEEK_ENERGY && !equals)
-        ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
-    else if ((i == SEEK_FREE_RUN || i == SEEK_EXCEED) && seek->target > 1)
+    enum ceduo_goal_reading reading = ceduo_goal_read(text, &seek->goal, &seek->target);
+    if (reading == CEDUO_GOAL_NO_SHARE)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
+    else if (reading != CEDUO_GOAL_GOOD)
+        ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
+    else if (ceduo_goals[seek->goal].needs_value && isnan(seek->target))
+        ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
     else
         return true;
     return false;

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "goal.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "base/text.h"
+#include "ceduo/assess.h"
+
+const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
+    [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, false, "the ADC of the worst belt; by default the threshold of the scene"},
+    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false, false,
+                             "the chance of a free run in the worst belt; by default 0.1"},
+    [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false, true,
+                           "the mean energy of the rocks that arrive through the forest, which must be given; with the "
+                           "contact model index what the index leaves of the mean without forest"},
+    [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, false,
+                           "the share of the released that arrive through the forest with more than the place bears; by "
+                           "default 0.05"}};
+
+bool ceduo_goal_is_share(enum ceduo_goal goal)
+{
+    return ceduo_goals[goal].unit[0] == '%';
+}
+
+double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation)
+{
+    const double limits[CEDUO_GOALS] = {simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST};
+    return limits[goal];
+}
+
+enum ceduo_goal_reading ceduo_goal_read(char *text, enum ceduo_goal *goal, double *value)
+{
+    char *equals = strchr(text, '=');
+    if (equals)
+        *equals++ = '\0';
+    int i = 0;
+    while (i < CEDUO_GOALS && strcmp(text, ceduo_goals[i].word) != 0)
+        i++;
+    if (i == CEDUO_GOALS)
+        return CEDUO_GOAL_UNKNOWN;
+    *goal = (enum ceduo_goal)i;
+    *value = NAN;
+    if (equals && ceduo_number_read(equals, value) != CEDUO_NUMBER_GOOD)
+        return CEDUO_GOAL_NO_NUMBER;
+    if (*value < 0)
+        return CEDUO_GOAL_NEGATIVE;
+    return ceduo_goal_is_share(*goal) && *value > 1 ? CEDUO_GOAL_NO_SHARE : CEDUO_GOAL_GOOD;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_GOAL_H
+#define CEDUO_GOAL_H
+
+#include "ceduo/scene.h"
+
+/* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
+ * value in ceduo_seek(). */
+enum ceduo_goal { CEDUO_GOAL_ADC, CEDUO_GOAL_FREE_RUN, CEDUO_GOAL_ENERGY, CEDUO_GOAL_EXCEED, CEDUO_GOALS };
+
+struct ceduo_goal_row {
+    const char *word;    /* on the command line */
+    const char *name;    /* in sentences */
+    const char *unit;    /* of its value; "%": a share, 0…1 */
+    bool below;          /* reached below the value; otherwise at most at it */
+    bool needs_value;    /* no light sets a limit */
+    const char *meaning; /* for the manual */
+};
+
+extern const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS];
+
+/* Whether the value is a share. */
+bool ceduo_goal_is_share(enum ceduo_goal goal);
+
+/* The limit of the light that the goal belongs to; NaN where there is none. */
+double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation);
+
+enum ceduo_goal_reading { CEDUO_GOAL_GOOD, CEDUO_GOAL_UNKNOWN, CEDUO_GOAL_NO_NUMBER, CEDUO_GOAL_NEGATIVE, CEDUO_GOAL_NO_SHARE };
+
+/* Reads "energy=50": `*value` is NaN without a value. `text` is cut at the sign. */
+enum ceduo_goal_reading ceduo_goal_read(char *text, enum ceduo_goal *goal, double *value);
+
+#endif
