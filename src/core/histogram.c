@@ -120,6 +120,27 @@ void ceduo_histogram_clear(struct histogram *h)
     memset(h, 0, sizeof *h);
 }
 
+bool ceduo_histograms_reserve(struct histogram *into, const struct histogram *from, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!ceduo_histogram_reserve(&into[i], &from[i]))
+            return false;
+    return true;
+}
+
+void ceduo_histograms_merge(struct histogram *into, const struct histogram *from, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        ceduo_histogram_merge(&into[i], &from[i]);
+}
+
+void ceduo_histograms_free(struct histogram *all, size_t n)
+{
+    for (size_t i = 0; all && i < n; i++)
+        ceduo_histogram_clear(&all[i]);
+    free(all);
+}
+
 double ceduo_histogram_value(const struct histogram *h, uint64_t rank)
 {
     uint64_t before = h->zeros;

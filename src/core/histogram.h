@@ -31,6 +31,11 @@ bool ceduo_histogram_pack(struct histogram *h, struct bytes *b, uint64_t most);
 
 void ceduo_histogram_clear(struct histogram *h);
 
+/* The same for n of them: reserve them all, then merge them; free the array too, which may be NULL. */
+bool ceduo_histograms_reserve(struct histogram *into, const struct histogram *from, size_t n);
+void ceduo_histograms_merge(struct histogram *into, const struct histogram *from, size_t n);
+void ceduo_histograms_free(struct histogram *all, size_t n);
+
 /* The value of rank 1…n: the middle of its bin. */
 double ceduo_histogram_value(const struct histogram *h, uint64_t rank);
 

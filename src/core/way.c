@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "prepared.h"
 #include "walk.h"
 
 struct noter {
@@ -20,11 +21,7 @@ static void note_crossing(void *context, const struct walker *w, size_t mark, co
 }
 
 struct ceduo_follower {
-    const struct ceduo_scene *scene;
-    struct ceduo_rock mean;
-    struct ground ground;
-    struct marks marks;
-    struct wood wood;
+    struct prepared ready;
     struct stems stems;
 };
 
@@ -33,14 +30,8 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
     struct ceduo_follower *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
-    f->scene = scene;
-    const struct ceduo_simulation *simulation = &scene->simulation;
-    bool good = ceduo_rock_of_means(&scene->rock, &f->mean) == CEDUO_OK && ceduo_marks_init(&f->marks, scene, 0, NULL) &&
-                ceduo_ground_init(&f->ground, &scene->slope, simulation->gravity, f->mean.radius,
-                                  ceduo_rock_varies(&scene->rock)) &&
-                ceduo_wood_init(&f->wood, simulation, option, f->mean.mean_diameter) &&
-                ceduo_stems_init(&f->stems, &f->wood, simulation->contact_model == CEDUO_POISSON);
-    if (good)
+    if (ceduo_prepared_init(&f->ready, scene, option, 0, NULL) == CEDUO_OK &&
+        ceduo_stems_init(&f->stems, &f->ready.wood, scene->simulation.contact_model == CEDUO_POISSON))
         return f;
     ceduo_follower_free(f);
     return NULL;
@@ -49,12 +40,13 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
 enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock, const struct ceduo_watch *watch,
                                         struct ceduo_way *way, struct ceduo_crossing *crossings)
 {
-    struct noter noter = {&f->marks, crossings};
+    const struct ceduo_scene *scene = &f->ready.scene;
+    struct noter noter = {&f->ready.marks, crossings};
     struct walker w = {
-        .watch = watch, .cross = note_crossing, .context = &noter, .stems = f->wood.bare ? NULL : &f->stems};
+        .watch = watch, .cross = note_crossing, .context = &noter, .stems = f->ready.wood.bare ? NULL : &f->stems};
     if (crossings)
-        memset(crossings, 0, f->scene->controls_count * sizeof *crossings);
-    enum ceduo_status status = ceduo_walk_release(&w, f->scene, &f->ground, &f->marks, &f->mean, rock);
+        memset(crossings, 0, scene->controls_count * sizeof *crossings);
+    enum ceduo_status status = ceduo_walk_release(&w, scene, &f->ready.ground, &f->ready.marks, &f->ready.mean, rock);
     if (status != CEDUO_OK)
         return status;
     *way = (struct ceduo_way){.rock = w.rock,
@@ -63,7 +55,7 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
                               .vx0 = w.at.vx,
                               .vz0 = w.at.vz,
                               .spin0 = w.spin};
-    way->end = ceduo_walk(&w, f->scene->simulation.law);
+    way->end = ceduo_walk(&w, scene->simulation.law);
     way->x = w.at.x;
     way->z = w.at.z;
     way->contacts = w.contacts;
@@ -80,9 +72,7 @@ void ceduo_follower_free(struct ceduo_follower *f)
     if (!f)
         return;
     ceduo_stems_release(&f->stems);
-    ceduo_wood_release(&f->wood);
-    ceduo_ground_release(&f->ground);
-    ceduo_marks_release(&f->marks);
+    ceduo_prepared_release(&f->ready);
     free(f);
 }
 

@@ -41,7 +41,7 @@ half="MARGIN=.5e-10 ON_LINE=(2*DBL_EPSILON) NO_BREAK=.5e-7 GROUND_BITS=2 ROUNDIN
     PAUSE=2000 CHUNK_BLOCKS=128 WOOD_DIRECTIONS=256"
 twice="MARGIN=2e-10 ON_LINE=(8*DBL_EPSILON) NO_BREAK=2e-7 GROUND_BITS=4 ROUNDING=2e-9 STOP_ROUNDING=(8*DBL_EPSILON)
     PAUSE=8000 CHUNK_BLOCKS=512 WOOD_DIRECTIONS=1024"
-sources="src/core/ground.c $(grep -lE '"(wood|stems|walk).h"' src/core/*.c)"
+sources="src/core/ground.c $(grep -lE '"(wood|stems|walk|prepared|run_state).h"' src/core/*.c)"
 defines() {
     for d in "$@"; do printf -- '-D%s ' "$d"; done
 }

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_PREPARED_H
+#define CEDUO_PREPARED_H
+
+#include "ceduo/scene.h"
+#include "ground.h"
+#include "marks.h"
+#include "wood.h"
+
+/* A scene made ready to fly rocks through one forest: what a walker reads. */
+struct prepared {
+    struct ceduo_scene scene;
+    struct ceduo_rock mean;
+    struct ground ground;
+    struct marks marks;
+    struct wood wood;
+};
+
+/* `option` NULL: without forest. `cell_x`: places of envelopes, see marks.h. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it
+ * in any case. */
+enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene,
+                                      const struct ceduo_option *option, size_t cells, const double *cell_x);
+void ceduo_prepared_release(struct prepared *p);
+
+#endif

@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+#include "run_state.h"
+#include "walk.h"
+
+/* What a rock brings to a control. */
+struct arrival {
+    double values[QUANTITIES], stems_hit; /* stems_hit < 0: it does not arrive */
+};
+
+/* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
+ * have ended. */
+struct worker {
+    struct ceduo_run *run;
+    struct walker *walkers; /* one for each lane */
+    struct stems *stems;    /* likewise; NULL: no forest */
+    struct walker first;    /* a rock at its release: where all are alike, they are as this one */
+    struct block *block;
+    uint64_t from, next, to; /* rocks of the block: the first, the next to begin, behind the last */
+    struct arrival *arrivals; /* [control][CEDUO_BLOCK_ROCKS] */
+    double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
+    struct histogram *bins;
+    struct envelope_cell *cells;
+    bool no_memory;
+    struct chunk *chunk;
+};
+
+struct chunk {
+    uint64_t first, end; /* rocks */
+    size_t blocks;
+    atomic_size_t next;
+    atomic_bool stop;
+};
+
+static void block_swap(struct block *a, struct block *b)
+{
+    struct block t = *a;
+    *a = *b;
+    *b = t;
+}
+
+/* ---- one rock ---- */
+
+static void keep_sample(struct worker *w, uint64_t rock, size_t control, const double values[QUANTITIES])
+{
+    struct ceduo_run *run = w->run;
+    for (int q = 0; q < run->kept; q++) {
+        if (run->exact)
+            samples_of(run, control, q)[rock - run->first] = values[q];
+        else if (!ceduo_histogram_add(bins_of(w->bins, run, control, q), values[q]))
+            w->no_memory = true;
+    }
+    if (rock < run->pairs_room)
+        run->pairs[control * run->pairs_room + rock] = values[ENERGY];
+}
+
+static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
+{
+    struct worker *w = context;
+    struct ceduo_run *run = w->run;
+    const struct ceduo_rock *rock = &walker->rock;
+    size_t what = run->ready.marks.what[mark];
+    double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
+    double translation = 0.5 * rock->mass * (speed * speed);
+    double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
+    if (what >= run->controls) {
+        ceduo_envelope_add(&w->cells[what - run->controls], speed, c->height, energy);
+        return;
+    }
+    struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
+    *a = (struct arrival){{speed, c->height, energy, translation}, (double)c->stems_hit};
+    keep_sample(w, walker->number, what, a->values);
+}
+
+/* An unfinished rock counts at each control that it did not reach. */
+static void note_unfinished(struct worker *w, const struct walker *walker)
+{
+    for (size_t m = walker->next_mark; m < w->run->ready.marks.n; m++)
+        if (w->run->ready.marks.what[m] < w->run->controls)
+            w->block->controls[w->run->ready.marks.what[m]].unfinished++;
+}
+
+static void clear_samples(struct ceduo_run *run, uint64_t rock)
+{
+    for (size_t c = 0; rock < run->pairs_room && c < run->controls; c++)
+        run->pairs[c * run->pairs_room + rock] = NAN;
+    if (!run->exact)
+        return;
+    for (size_t c = 0; c < run->controls; c++)
+        for (int q = 0; q < run->kept; q++)
+            samples_of(run, c, q)[rock - run->first] = NAN;
+    stops_of(run)[rock - run->first] = NAN;
+}
+
+static void note_stop(struct worker *w, uint64_t rock, double x)
+{
+    struct ceduo_run *run = w->run;
+    w->stops[rock - w->from] = x;
+    if (run->exact)
+        stops_of(run)[rock - run->first] = x;
+    else if (!ceduo_histogram_add(&w->bins[run->columns - 1], x))
+        w->no_memory = true;
+}
+
+static void note_end(void *context, size_t lane, enum ceduo_end end)
+{
+    struct worker *w = context;
+    const struct walker *walker = &w->walkers[lane];
+    if (walker->stems) {
+        w->no_memory |= walker->stems->no_memory;
+        w->block->stems.drawn += walker->stems->drawn;
+        w->block->stems.hit += walker->stems_hit;
+        w->block->stems.met += walker->stools_met;
+    }
+    w->block->contacts += walker->contacts;
+    w->block->ends[end]++;
+    if (end == CEDUO_UNFINISHED)
+        note_unfinished(w, walker);
+    if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
+        note_stop(w, walker->number, walker->at.x);
+    if (walker->cancelled)
+        atomic_store(&w->chunk->stop, true);
+}
+
+/* ---- many rocks ---- */
+
+static bool cancelled(const struct ceduo_run *run)
+{
+    return run->def.cancel && atomic_load_explicit(run->def.cancel, memory_order_relaxed);
+}
+
+/* Whether to go on with the next rock. */
+static bool goes_on(struct worker *w)
+{
+    if (cancelled(w->run) || w->no_memory)
+        atomic_store(&w->chunk->stop, true);
+    return !atomic_load_explicit(&w->chunk->stop, memory_order_relaxed);
+}
+
+static enum ceduo_status release(struct worker *w, struct walker *walker, uint64_t number)
+{
+    struct ceduo_run *run = w->run;
+    if (run->alike && walker->g) {
+        ceduo_walk_release_again(walker, &w->first, number);
+        return CEDUO_OK;
+    }
+    enum ceduo_status status =
+        ceduo_walk_release(walker, &run->ready.scene, &run->ready.ground, &run->ready.marks, &run->ready.mean, number);
+    if (run->alike)
+        w->first = *walker;
+    return status;
+}
+
+/* A rock that cannot be drawn has no way: it is unfinished before every control. */
+static void note_undrawn(struct worker *w)
+{
+    w->block->ends[CEDUO_UNFINISHED]++;
+    for (size_t c = 0; c < w->run->controls; c++)
+        w->block->controls[c].unfinished++;
+}
+
+/* The next rock of the block at its release; false where none is left. */
+static bool next_rock(void *context, size_t lane)
+{
+    struct worker *w = context;
+    struct ceduo_run *run = w->run;
+    while (w->next < w->to && goes_on(w)) {
+        uint64_t number = w->next++;
+        clear_samples(run, number);
+        if (release(w, &w->walkers[lane], number) == CEDUO_OK)
+            return true;
+        note_undrawn(w);
+    }
+    return false;
+}
+
+static void clear_block(struct worker *w)
+{
+    size_t n = w->run->controls * CEDUO_BLOCK_ROCKS;
+    for (size_t i = 0; i < n; i++)
+        w->arrivals[i].stems_hit = -1;
+    for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
+        w->stops[i] = NAN;
+}
+
+static void sum_arrivals(struct worker *w, size_t control)
+{
+    const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
+    struct sums *to = &w->block->controls[control], sums = *to;
+    double accepted = w->run->ready.scene.controls[control].accepted;
+    for (uint64_t i = 0; i < w->to - w->from; i++) {
+        const struct arrival *a = &arrivals[i];
+        if (a->stems_hit < 0)
+            continue;
+        for (int q = 0; q < QUANTITIES; q++)
+            ceduo_moments_add(&sums.of[q], a->values[q]);
+        if (w->stems)
+            ceduo_moments_add(&sums.contacts, a->stems_hit);
+        sums.exceeded += a->values[ENERGY] > accepted; /* never, where that is NaN */
+    }
+    *to = sums;
+}
+
+static void sum_block(struct worker *w)
+{
+    for (size_t c = 0; c < w->run->controls; c++)
+        sum_arrivals(w, c);
+    for (uint64_t i = 0; i < w->to - w->from; i++)
+        if (!isnan(w->stops[i]))
+            ceduo_moments_add(&w->block->stop_x, w->stops[i]);
+}
+
+/* Flies the rocks of a block from w->from to before w->to; false where it was stopped. */
+static bool fly_block(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    enum ceduo_law law = run->ready.scene.simulation.law;
+    clear_block(w);
+    w->next = w->from;
+    const struct wide_job job = {.ground = run->wide,
+                                 .law = law,
+                                 .alike = run->alike,
+                                 .walkers = w->walkers,
+                                 .next = next_rock,
+                                 .ended = note_end,
+                                 .context = w};
+    if (run->wide_walk)
+        run->wide_walk(&job);
+    else
+        while (next_rock(w, 0))
+            note_end(w, 0, ceduo_walk(&w->walkers[0], law));
+    if (atomic_load_explicit(&w->chunk->stop, memory_order_relaxed))
+        return false;
+    sum_block(w);
+    return true;
+}
+
+static void *work(void *argument)
+{
+    struct worker *w = argument;
+    struct chunk *chunk = w->chunk;
+    uint64_t first_block = chunk->first / CEDUO_BLOCK_ROCKS;
+    for (size_t i; (i = atomic_fetch_add(&chunk->next, 1)) < chunk->blocks;) {
+        uint64_t from = (first_block + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
+        w->from = from < chunk->first ? chunk->first : from;
+        w->to = to > chunk->end ? chunk->end : to;
+        w->block = &w->run->slots[i];
+        if (!fly_block(w))
+            return NULL;
+    }
+    return NULL;
+}
+
+/* ---- threads ---- */
+
+static bool init_stems(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    w->stems = calloc(run->lanes, sizeof *w->stems);
+    if (!w->stems)
+        return false;
+    for (size_t i = 0; i < run->lanes; i++) {
+        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->ready.scene.simulation.contact_model == CEDUO_POISSON))
+            return false;
+        w->walkers[i].stems = &w->stems[i];
+    }
+    return true;
+}
+
+static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *chunk)
+{
+    *w = (struct worker){.run = run, .chunk = chunk};
+    w->walkers = calloc(run->lanes, sizeof *w->walkers);
+    w->arrivals = malloc((run->controls * CEDUO_BLOCK_ROCKS + 1) * sizeof *w->arrivals);
+    if (!w->walkers || !w->arrivals)
+        return false;
+    for (size_t i = 0; i < run->lanes; i++)
+        w->walkers[i] = (struct walker){
+            .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
+    if (!run->ready.wood.bare && !init_stems(w))
+        return false;
+    if (!run->exact && !(w->bins = calloc(run->columns, sizeof *w->bins)))
+        return false;
+    return run->def.cells == 0 || (w->cells = calloc(run->def.cells, sizeof *w->cells));
+}
+
+static void worker_release(struct worker *w)
+{
+    ceduo_histograms_free(w->bins, w->run->columns);
+    free(w->cells);
+    for (size_t i = 0; w->stems && i < w->run->lanes; i++)
+        ceduo_stems_release(&w->stems[i]);
+    free(w->stems);
+    free(w->walkers);
+    free(w->arrivals);
+}
+
+static void worker_merge(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    if (w->bins)
+        ceduo_histograms_merge(run->bins, w->bins, run->columns);
+    for (size_t i = 0; w->cells && i < run->def.cells; i++) {
+        ceduo_envelope_settle(&w->cells[i]);
+        ceduo_envelope_merge(&run->cells[i], &w->cells[i]);
+    }
+}
+
+/* Runs a chunk on as many threads as can be started; this one works too. */
+static void run_workers(struct worker *workers, unsigned n)
+{
+    pthread_t *threads = n > 1 ? malloc((n - 1) * sizeof *threads) : NULL;
+    unsigned started = 0;
+    while (threads && started < n - 1 && pthread_create(&threads[started], NULL, work, &workers[started + 1]) == 0)
+        started++;
+    work(&workers[0]);
+    for (unsigned i = 0; i < started; i++)
+        pthread_join(threads[i], NULL);
+    free(threads);
+}
+
+/* Room for the blocks of a chunk; only a part keeps them. */
+static bool grow_kept(struct ceduo_run *run, size_t more)
+{
+    if (!run->def.part || run->kept_count + more <= run->kept_room)
+        return true;
+    size_t room = 2 * run->kept_room + more;
+    struct block *blocks = realloc(run->kept_blocks, room * sizeof *blocks);
+    if (!blocks)
+        return false;
+    run->kept_blocks = blocks;
+    for (; run->kept_room < room; run->kept_room++)
+        if (!ceduo_run_block_init(&blocks[run->kept_room], run->controls))
+            return false;
+    return true;
+}
+
+static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, struct worker *workers, unsigned n)
+{
+    bool no_memory = false;
+    for (unsigned i = 0; i < n; i++)
+        no_memory |= workers[i].no_memory;
+    if (no_memory)
+        return CEDUO_NO_MEMORY;
+    if (atomic_load(&chunk->stop))
+        return CEDUO_CANCELLED;
+    if (!grow_kept(run, chunk->blocks))
+        return CEDUO_NO_MEMORY;
+    for (unsigned i = 0; i < n; i++)
+        if (workers[i].bins && !ceduo_histograms_reserve(run->bins, workers[i].bins, run->columns))
+            return CEDUO_NO_MEMORY;
+    for (unsigned i = 0; i < n; i++) /* nothing fails from here on: a chunk is there or leaves no trace */
+        worker_merge(&workers[i]);
+    for (size_t i = 0; i < chunk->blocks; i++) {
+        bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
+        if (full && run->def.part)
+            ceduo_run_block_merge(&run->kept_blocks[run->kept_count++], &run->slots[i], run->controls);
+        if (full)
+            ceduo_run_block_merge(&run->whole, &run->slots[i], run->controls);
+        else
+            block_swap(&run->tail, &run->slots[i]);
+        ceduo_run_block_clear(&run->slots[i], run->controls);
+    }
+    run->rocks = chunk->end;
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end)
+{
+    uint64_t first_block = run->rocks / CEDUO_BLOCK_ROCKS;
+    uint64_t last_block = (end - 1) / CEDUO_BLOCK_ROCKS;
+    struct chunk chunk = {.first = run->rocks, .end = end, .blocks = (size_t)(last_block - first_block + 1)};
+    unsigned n = run->def.threads < chunk.blocks ? run->def.threads : (unsigned)chunk.blocks;
+    struct worker *workers = calloc(n, sizeof *workers);
+    if (!workers)
+        return CEDUO_NO_MEMORY;
+    bool ready = true;
+    for (unsigned i = 0; i < n; i++)
+        ready &= worker_init(&workers[i], run, &chunk);
+    /* the first block goes on where the tail stands; a copy, so that a cancelled chunk leaves no trace */
+    ceduo_run_block_clear(&run->slots[0], run->controls);
+    if (run->rocks % CEDUO_BLOCK_ROCKS != 0)
+        ceduo_run_block_merge(&run->slots[0], &run->tail, run->controls);
+    enum ceduo_status status = CEDUO_NO_MEMORY;
+    if (ready) {
+        run_workers(workers, n);
+        status = finish_chunk(run, &chunk, workers, n);
+    }
+    if (status != CEDUO_OK)
+        for (size_t i = 0; i < chunk.blocks; i++)
+            ceduo_run_block_clear(&run->slots[i], run->controls);
+    for (unsigned i = 0; i < n; i++)
+        worker_release(&workers[i]);
+    free(workers);
+    return status;
+}

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+
+#include "run_state.h"
+
+/* ---- arrivals ---- */
+
+/* The values of a column that are there, in the order of the rocks. */
+static size_t gather(const struct ceduo_run *run, const double *column, double *to)
+{
+    size_t n = 0;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(column[r]))
+            to[n++] = column[r];
+    return n;
+}
+
+static struct ceduo_distribution distribution(const struct ceduo_run *run, size_t control, int q,
+                                              const struct ceduo_moments *m, double *scratch)
+{
+    if (!run->exact)
+        return ceduo_distribution_binned(&run->bins[control * (size_t)run->kept + (size_t)q], m);
+    size_t n = run->room > 0 ? gather(run, samples_of(run, control, q), scratch) : 0;
+    return ceduo_distribution_exact(scratch, n, m);
+}
+
+/* Energy where one mass and no spin make it follow from speed. */
+static struct ceduo_distribution energy_from_speed(const struct ceduo_distribution *speed, double mass,
+                                                   const struct ceduo_moments *m)
+{
+    struct ceduo_distribution d = {.mean = speed->mean, .se = ceduo_moments_se(m), .sd = ceduo_moments_sd(m)};
+    const double from[5] = {speed->p50, speed->p95, speed->p95_lo, speed->p95_hi, speed->p99};
+    double *to[5] = {&d.p50, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99};
+    for (int i = 0; i < 5; i++)
+        *to[i] = 0.5 * mass * (from[i] * from[i]);
+    d.mean = m->n > 0 ? m->mean : NAN;
+    d.max = m->n > 0 ? m->max : NAN;
+    return d;
+}
+
+/* Mean and standard error over all released, of whom those that do not arrive bring nothing. */
+static void per_released(const struct ceduo_moments *m, uint64_t released, double *mean, double *se)
+{
+    double n = (double)released, share = (double)m->n / n;
+    *mean = m->mean * share;
+    double m2 = m->m2 + m->mean * m->mean * (double)m->n * (1 - share);
+    *se = released < 2 ? NAN : sqrt(m2 / (n - 1) / n);
+}
+
+enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
+{
+    struct sums s = ceduo_run_sums_at(run, control);
+    *a = (struct ceduo_arrivals){.released = run->rocks,
+                                 .reached = s.of[SPEED].n,
+                                 .exceeded = s.exceeded,
+                                 .unfinished = s.unfinished,
+                                 .exact = run->exact};
+    double unused;
+    double released = (double)run->rocks;
+    a->reach_probability = (double)a->reached / released;
+    ceduo_wilson(a->reached, run->rocks, &a->reach_lo, &a->reach_hi);
+    if (s.unfinished > 0)
+        ceduo_wilson(a->reached + s.unfinished, run->rocks, &unused, &a->reach_hi);
+    a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
+    if (!isnan(run->ready.scene.controls[control].accepted)) {
+        a->exceed_probability = (double)a->exceeded / released;
+        ceduo_wilson(a->exceeded, run->rocks, &a->exceed_lo, &a->exceed_hi);
+        if (s.unfinished > 0)
+            ceduo_wilson(a->exceeded + s.unfinished, run->rocks, &unused, &a->exceed_hi);
+    }
+    per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
+    a->contacts = !run->ready.wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
+    a->contacts_se = run->ready.wood.bare ? NAN : ceduo_moments_se(&s.contacts);
+    double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
+    if (!scratch)
+        return CEDUO_NO_MEMORY;
+    a->speed = distribution(run, control, SPEED, &s.of[SPEED], scratch);
+    a->height = distribution(run, control, HEIGHT, &s.of[HEIGHT], scratch);
+    if (run->kept == QUANTITIES) {
+        a->energy = distribution(run, control, ENERGY, &s.of[ENERGY], scratch);
+        a->translation = distribution(run, control, TRANSLATION, &s.of[TRANSLATION], scratch);
+    } else {
+        a->energy = a->translation = energy_from_speed(&a->speed, run->ready.mean.mass, &s.of[ENERGY]);
+    }
+    free(scratch);
+    return CEDUO_OK;
+}
+
+void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
+{
+    struct sums s = ceduo_run_sums_at(run, control);
+    *reached = s.of[ENERGY].n;
+    *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
+    *se = ceduo_moments_se(&s.of[ENERGY]);
+}
+
+/* ---- differences ---- */
+
+/* Of the rocks whose energies are known. */
+static uint64_t paired_rocks(const struct ceduo_run *run)
+{
+    return run->exact || run->rocks < run->pairs_room ? run->rocks : run->pairs_room;
+}
+
+static double paired_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
+{
+    return run->exact ? ceduo_run_sample_energy(run, control, rock) : run->pairs[control * run->pairs_room + rock];
+}
+
+/* A mean of all rocks with the spread of those that are paired. */
+static struct ceduo_paired paired(double mean, const struct ceduo_moments *m, uint64_t rocks)
+{
+    return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks)};
+}
+
+struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
+                                             size_t control)
+{
+    struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};
+    double accepted = run->ready.scene.controls[control].accepted, n = (double)run->rocks;
+    const struct ceduo_paired unknown = {NAN, NAN};
+    if (run->rocks != baseline->rocks)
+        return (struct ceduo_difference){unknown, unknown, unknown};
+    uint64_t a = paired_rocks(run), b = paired_rocks(baseline), rocks = a < b ? a : b;
+    for (uint64_t r = 0; r < rocks; r++) {
+        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
+        ceduo_moments_add(&reach, (double)!isnan(e) - (double)!isnan(f));
+        ceduo_moments_add(&exceed, (double)(e > accepted) - (double)(f > accepted));
+        ceduo_moments_add(&energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
+    }
+    struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
+    const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
+    struct ceduo_difference d = {
+        .reach_probability = paired(((double)e->n - (double)f->n) / n, &reach, run->rocks),
+        .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &exceed, run->rocks),
+        .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &energy, run->rocks)};
+    if (isnan(accepted))
+        d.exceed_probability = unknown;
+    return d;
+}
+
+/* ---- ends, envelopes, energies ---- */
+
+enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)
+{
+    *ends = (struct ceduo_ends){.stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
+    if (run->def.arrivals_only)
+        return CEDUO_OK;
+    ends->stop_x = run->whole.stop_x;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
+    ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);
+    if (ends->stop_x.n == 0)
+        return CEDUO_OK;
+    ends->stop_max = ends->stop_x.max;
+    size_t n = (size_t)ends->stop_x.n;
+    size_t r50 = ceduo_quantile_rank(n, 0.5), r95 = ceduo_quantile_rank(n, 0.95);
+    if (!run->exact) {
+        const struct histogram *h = &run->bins[run->columns - 1];
+        ends->stop_p50 = ceduo_histogram_value(h, r50);
+        ends->stop_p95 = ceduo_histogram_value(h, r95);
+        return CEDUO_OK;
+    }
+    double *scratch = malloc((n + 1) * sizeof(double));
+    if (!scratch)
+        return CEDUO_NO_MEMORY;
+    gather(run, stops_of(run), scratch);
+    struct ceduo_distribution d = ceduo_distribution_exact(scratch, n, &ends->stop_x);
+    ends->stop_p50 = d.p50;
+    ends->stop_p95 = d.p95;
+    free(scratch);
+    return CEDUO_OK;
+}
+
+void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope)
+{
+    ceduo_envelope_read(&run->cells[cell], envelope);
+}
+
+size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
+{
+    size_t n = 0;
+    if (run->room == 0)
+        return 0;
+    bool from_speed = run->kept != QUANTITIES;
+    const double *column = samples_of(run, control, from_speed ? SPEED : ENERGY);
+    for (uint64_t r = 0; r < run->rocks && n < most; r++)
+        if (!isnan(column[r]))
+            to[n++] = from_speed ? 0.5 * run->ready.mean.mass * (column[r] * column[r]) : column[r];
+    return n;
+}

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
+
+#include "run_state.h"
+
+/* With one column more, in which they are sorted. */
+bool ceduo_run_samples_fit(const struct ceduo_run *run, uint64_t rocks)
+{
+    return (double)rocks * (double)(run->columns + 1) * sizeof(double) <= (double)run->def.exact_bytes;
+}
+
+/* Makes room for the samples of `rocks` rocks. Each column grows by itself: never are all there twice. */
+static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
+{
+    rocks -= run->first;
+    if (rocks <= run->room)
+        return true;
+    uint64_t room = 2 * run->room;
+    room = room < rocks || !ceduo_run_samples_fit(run, room) ? rocks : room;
+    if (!run->samples && !(run->samples = calloc(run->columns, sizeof *run->samples)))
+        return false;
+    for (size_t i = 0; i < run->columns; i++) {
+        double *grown = realloc(run->samples[i], (size_t)room * sizeof(double));
+        if (!grown)
+            return false;
+        run->samples[i] = grown;
+    }
+    run->room = room;
+    return true;
+}
+
+void ceduo_run_samples_free(struct ceduo_run *run)
+{
+    for (size_t i = 0; run->samples && i < run->columns; i++)
+        free(run->samples[i]);
+    free(run->samples);
+    run->samples = NULL;
+    run->room = 0;
+}
+
+double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
+{
+    if (run->kept == QUANTITIES)
+        return samples_of(run, control, ENERGY)[rock];
+    double speed = samples_of(run, control, SPEED)[rock];
+    return 0.5 * run->ready.mean.mass * (speed * speed);
+}
+
+/* Where samples are kept no more, the first rocks' energies stay. */
+static bool keep_pairs(struct ceduo_run *run)
+{
+    if (run->controls == 0)
+        return true;
+    uint64_t room = run->def.exact_bytes / sizeof(double) / run->controls;
+    room = room < CEDUO_PAIRED_ROCKS ? room : CEDUO_PAIRED_ROCKS;
+    run->pairs = malloc(((size_t)room * run->controls + 1) * sizeof(double));
+    if (!run->pairs)
+        return false;
+    run->pairs_room = room;
+    for (size_t c = 0; c < run->controls; c++)
+        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++)
+            run->pairs[c * room + r] = ceduo_run_sample_energy(run, c, r);
+    return true;
+}
+
+static bool fill_bins(const struct ceduo_run *run, struct histogram *bins)
+{
+    for (size_t i = 0; run->room > 0 && i < run->columns; i++)
+        for (uint64_t r = 0; r < run->rocks; r++) {
+            double v = run->samples[i][r];
+            if (!isnan(v) && !ceduo_histogram_add(&bins[i], v))
+                return false;
+        }
+    return true;
+}
+
+/* From samples to histograms: there are now too many rocks to keep. */
+bool ceduo_run_samples_bin(struct ceduo_run *run)
+{
+    struct histogram *bins = calloc(run->columns, sizeof *bins);
+    if (!bins || !fill_bins(run, bins) || !keep_pairs(run)) {
+        ceduo_histograms_free(bins, run->columns);
+        return false;
+    }
+    ceduo_run_samples_free(run);
+    run->bins = bins;
+    run->exact = false;
+    return true;
+}
+
+bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks)
+{
+    if (!run->exact)
+        return true;
+    return ceduo_run_samples_fit(run, rocks) ? grow_samples(run, rocks) : ceduo_run_samples_bin(run);
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RUN_STATE_H
+#define CEDUO_RUN_STATE_H
+
+#include "ceduo/run.h"
+#include "envelope.h"
+#include "histogram.h"
+#include "prepared.h"
+#include "wide.h"
+
+/* A run from inside; only the run*.c include this.
+ *
+ *     run.c          makes, extends and frees a run, chunk by chunk
+ *     run_fly.c      flies the rocks of one chunk on several threads
+ *     run_sums.c     sums of a block, merged in the order of the blocks
+ *     run_samples.c  what is kept of single rocks: every value, or histograms where there are too many
+ *     run_read.c     arrivals, differences and ends, read from sums and samples
+ *     run_pack.c     parts as bytes, and back */
+
+#ifndef CHUNK_BLOCKS
+#define CHUNK_BLOCKS 256 /* blocks in work at a time: this bounds the memory of their sums */
+#endif
+
+enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
+
+/* What is summed at one control. Released rocks that do not arrive are known from the counts. */
+struct sums {
+    struct ceduo_moments of[QUANTITIES], contacts; /* contacts: stems hit before */
+    uint64_t exceeded, unfinished;
+};
+
+/* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
+struct block {
+    uint64_t contacts, ends[CEDUO_ENDS];
+    struct ceduo_stem_counts stems;
+    struct ceduo_moments stop_x;
+    struct sums *controls;
+};
+
+struct ceduo_run {
+    struct ceduo_run_def def;
+    struct prepared ready;
+    struct wide_ground *wide;
+    wide_walk_fn *wide_walk; /* NULL: rocks are flown one by one */
+    size_t lanes;            /* rocks that a thread flies at once */
+    size_t controls;
+    int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
+    size_t columns;        /* of samples: controls times kept, and the stops */
+    uint64_t rocks;        /* done; of a part: with those before it */
+    uint64_t first;        /* rocks before a part, otherwise 0 */
+    struct block *kept_blocks; /* of a part: the whole blocks one by one */
+    size_t kept_count, kept_room;
+    size_t chunk;          /* blocks to take on next */
+    struct block whole;    /* all whole blocks */
+    struct block tail;     /* the block that is not full yet */
+    struct block *slots;   /* CHUNK_BLOCKS in work */
+    bool alike;            /* the rocks differ in nothing but their numbers */
+    bool exact;            /* samples are kept; otherwise histograms */
+    uint64_t room;         /* rocks that the samples have room for */
+    double **samples;      /* [control, quantity][room], NaN where a rock did not arrive; then one of the stops: NaN where
+                            * it did not stop */
+    uint64_t pairs_room;   /* where samples are not kept: the first rocks' energies, for differences */
+    double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
+    struct histogram *bins; /* [control][quantity], then one of the stops */
+    struct envelope_cell *cells;
+};
+
+static inline double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
+{
+    return run->samples[control * (size_t)run->kept + (size_t)quantity];
+}
+
+static inline double *stops_of(const struct ceduo_run *run)
+{
+    return run->samples[run->columns - 1];
+}
+
+static inline struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
+{
+    return &bins[control * (size_t)run->kept + (size_t)quantity];
+}
+
+/* ---- sums ---- */
+
+bool ceduo_run_block_init(struct block *b, size_t controls); /* false without memory */
+void ceduo_run_block_clear(struct block *b, size_t controls);
+void ceduo_run_block_merge(struct block *into, const struct block *from, size_t controls);
+/* All rocks of the run. */
+struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control);
+
+/* ---- samples ---- */
+
+bool ceduo_run_samples_fit(const struct ceduo_run *run, uint64_t rocks);
+/* Makes room for so many rocks; where they do not fit, turns samples into histograms. False without memory. */
+bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks);
+bool ceduo_run_samples_bin(struct ceduo_run *run);
+void ceduo_run_samples_free(struct ceduo_run *run);
+/* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
+double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock);
+
+/* ---- flying ---- */
+
+/* Flies one chunk, from where the run stands to rock `end`. On failure the run is as it was before. */
+enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end);
+
+#endif
