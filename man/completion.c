@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/options.h"
 
 /* The words that the value of an option is one of, or NULL. */
-static const char *words_of(const struct argument_row *row)
+static const char *words_of(const struct option_row *row)
 {
     static char words[256];
     words[0] = '\0';
@@ -24,21 +24,21 @@ static const char *words_of(const struct argument_row *row)
     return words[0] ? words : NULL;
 }
 
-static bool takes_path(const struct argument_row *row)
+static bool takes_path(const struct option_row *row)
 {
     return row->value && strncmp(row->value, "PATH=", 5) == 0;
 }
 
-static bool takes_file(const struct argument_row *row)
+static bool takes_file(const struct option_row *row)
 {
     return row->value && strncmp(row->value, "FILE", 4) == 0;
 }
 
 /* ---- bash ---- */
 
-static void put_pattern(const struct argument_row *row)
+static void put_pattern(const struct option_row *row)
 {
-    if (row->letter < 256)
+    if (row->letter)
         printf("-%c|", row->letter);
     printf("--%s)", row->name);
 }
@@ -113,7 +113,7 @@ static const char *const bash_head =
     "--list-parameters 2>/dev/null |\n" \
     "            awk 'NR > 1 && !NF {exit} NR > 1 {print $1 \"" after "\"}'"
 
-static void put_bash(const struct argument_row *rows, size_t n)
+static void put_bash(const struct option_row *rows, size_t n)
 {
     puts(bash_head);
     for (size_t i = 0; i < n; i++) {
@@ -163,7 +163,7 @@ static void put_quoted(const char *text)
     }
 }
 
-static void put_zsh_value(const struct argument_row *row)
+static void put_zsh_value(const struct option_row *row)
 {
     const char *words = words_of(row);
     if (!row->value)
@@ -176,7 +176,7 @@ static void put_zsh_value(const struct argument_row *row)
         fputs(takes_path(row) ? ":_ceduo_parameters" : takes_file(row) ? ":_files" : ": ", stdout);
 }
 
-static void put_zsh(const struct argument_row *rows, size_t n)
+static void put_zsh(const struct option_row *rows, size_t n)
 {
     puts("#compdef ceduo\n"
          "_ceduo_parameters()\n"
@@ -194,7 +194,7 @@ static void put_zsh(const struct argument_row *rows, size_t n)
          "}\n"
          "_arguments -s \\");
     for (size_t i = 0; i < n; i++) {
-        bool letter = rows[i].letter < 256;
+        bool letter = rows[i].letter != 0;
         fputs("    ", stdout);
         const char *equals = rows[i].value ? "=" : "";
         if (strstr(rows[i].help, "repeated"))
@@ -215,7 +215,7 @@ static void put_zsh(const struct argument_row *rows, size_t n)
 int main(int argc, char **argv)
 {
     size_t n;
-    const struct argument_row *rows = ceduo_arguments_rows(&n);
+    const struct option_row *rows = ceduo_option_rows(&n);
     if (argc == 2 && strcmp(argv[1], "bash") == 0)
         put_bash(rows, n);
     else if (argc == 2 && strcmp(argv[1], "zsh") == 0)

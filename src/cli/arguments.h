@@ -16,15 +16,14 @@ enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_CHECK, MODE_P
 
 struct arguments {
     enum mode mode;
+    uint32_t given; /* options, as bits: see ceduo_option_given() */
     enum ceduo_format format;
-    bool format_given, rows_given;
     enum ceduo_plot plot;       /* a picture instead of the page */
     int plot_width, plot_height; /* cells, title and all */
     const char *script; /* keys and commands for the terminal program; NULL: none */
-    bool charset_given;
     enum ceduo_charset charset;
     const char *output; /* NULL: standard output */
-    bool stands;        /* CSV rows are stands */
+    int stands;         /* CSV rows are stands */
     bool quiet;
     uint64_t rocks;     /* 0: the scene's */
     double tolerance;   /* 0: none */
@@ -41,26 +40,8 @@ struct arguments {
     const char *find;   /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
     enum ceduo_goal goal;
-    bool goal_given;
     double goal_value;  /* NaN: the light's own limit */
     uint64_t shard, shards; /* only this part of so many, from 1; 0: all */
-    bool merge;         /* the scenes are parts to be joined */
 };
-
-/* EXIT_DONE, or EXIT_USAGE with the reason on standard error. */
-enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
-
-void ceduo_arguments_free(struct arguments *arguments);
-
-void ceduo_arguments_help(struct text *text);
-
-/* An option of the command line; `letter` of a character, or above 255 none; `value` NULL: it takes none. */
-struct argument_row {
-    const char *name;
-    int letter;
-    const char *value;
-    const char *help;
-};
-const struct argument_row *ceduo_arguments_rows(size_t *n);
 
 #endif

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "interrupt.h"
+#include "options.h"
 #include "io/file.h"
 #include "base/intl.h"
 
@@ -384,7 +385,7 @@ uint64_t ceduo_batch_rocks(const struct arguments *a, const struct scene_file *f
 /* `start`: where this scene's pictures begin; a blank line stands between two. */
 static void add_plot(const struct arguments *a, const struct ceduo_picture *picture, size_t start, struct text *out)
 {
-    enum ceduo_charset charset = a->charset_given ? a->charset
+    enum ceduo_charset charset = ceduo_option_given(a, "charset") ? a->charset
                                  : is_utf8()      ? CEDUO_CHARSET_BRAILLE
                                                   : CEDUO_CHARSET_ASCII;
     int width = a->plot_width > 0 ? a->plot_width : PLOT_WIDTH;

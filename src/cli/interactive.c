@@ -6,13 +6,14 @@
 #include <string.h>
 
 #include "batch.h"
+#include "options.h"
 #include "base/intl.h"
 #include "tui/script.h"
 #include "tui/terminal.h"
 
 static enum ceduo_charset charset_of(const struct arguments *a)
 {
-    if (a->charset_given)
+    if (ceduo_option_given(a, "charset"))
         return a->charset;
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0 ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII;
 }

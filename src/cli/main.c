@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "batch.h"
+#include "command_line.h"
 #include "ceduo/version.h"
 #include "interactive.h"
 #include "base/intl.h"

@@ -23,8 +23,9 @@ done
 cp man/ceduo.1 "$dir/page"
 "${BUILD:-build/release}/tests/tables" keys "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
 say $? "the keys of ceduo.1 are those of the program (make man)"
-for option in $("${CEDUO:-./ceduo}" --help | grep -oE -- '--[a-z-]+' | sort -u); do
-    grep -qE -- "It Fl (. , )?-${option#--}( |$)" man/ceduo.1
-    say $? "$option stands in ceduo.1"
+for option in $("${CEDUO:-./ceduo}" --help | sed -nE 's/^  (-(.),|   ) --([a-z-]+).*/\2:\3/p'); do
+    letter=${option%%:*}
+    grep -qE -- "It Fl ${letter:+$letter , }-${option#*:}( |$)" man/ceduo.1
+    say $? "--${option#*:} stands in ceduo.1${letter:+ with -$letter}"
 done
 echo "1..$n"

@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/command_line.h"
+#include "cli/options.h"
 #include "view/plot.h"
 
 #define BRAILLE CEDUO_CHARSET_BRAILLE
@@ -1640,11 +1641,11 @@ static void a_picture_is_asked_for(void **state)
     assert_int_equal(a.plot, CEDUO_PLOT_ADC);
     assert_int_equal(a.plot_width, 100);
     assert_int_equal(a.plot_height, 30);
-    assert_true(a.charset_given);
+    assert_true(ceduo_option_given(&a, "charset"));
     assert_int_equal(a.charset, BLOCK);
     ceduo_arguments_free(&a);
     assert_int_equal(READ(&a, "--plot=profile", "x.yaml"), EXIT_DONE);
-    assert_false(a.charset_given);
+    assert_false(ceduo_option_given(&a, "charset"));
     assert_int_equal(a.plot_width, 0);
     ceduo_arguments_free(&a);
     assert_int_equal(READ(&a, "--check", "--plot=profile", "x.yaml"), EXIT_USAGE); /* a check draws nothing */

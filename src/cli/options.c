@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "ceduo/scene.h"
+#include "ceduo/years.h"
+#include "io/part_file.h"
+#include "usage.h"
+
+#define WIDTH_LEAST  20
+#define HEIGHT_LEAST 6
+
+/* ---- setters that several options share ---- */
+
+static enum exit_status set_text(struct arguments *a, const struct option_row *row, char *value)
+{
+    memcpy((char *)a + row->at, &value, sizeof value);
+    return EXIT_DONE;
+}
+
+/* One of the words of row->value, to an enum or a count. */
+static enum exit_status set_word(struct arguments *a, const struct option_row *row, char *value)
+{
+    int i = 0;
+    size_t length = strlen(value);
+    struct text all = {0};
+    for (const char *word = row->value; *word; i++) {
+        size_t n = strcspn(word, "|");
+        if (n == length && strncmp(word, value, n) == 0) {
+            memcpy((char *)a + row->at, &i, sizeof i);
+            ceduo_text_free(&all);
+            return EXIT_DONE;
+        }
+        ceduo_text_format(&all, "%s%.*s", i > 0 ? ", " : "", (int)n, word);
+        word += n + (word[n] == '|');
+    }
+    enum exit_status status = all.bytes && !all.failed
+                                  ? ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, all.bytes)
+                                  : ceduo_usage_no_memory();
+    ceduo_text_free(&all);
+    return status;
+}
+
+/* ---- setters of one option ---- */
+
+static enum exit_status set_quiet(struct arguments *a, const struct option_row *row, char *value)
+{
+    (void)row, (void)value;
+    a->quiet = true;
+    return EXIT_DONE;
+}
+
+static enum exit_status set_set(struct arguments *a, const struct option_row *row, char *value)
+{
+    (void)row;
+    a->sets[a->sets_count++] = value;
+    return EXIT_DONE;
+}
+
+static enum exit_status set_only(struct arguments *a, const struct option_row *row, char *value)
+{
+    (void)row;
+    a->options[a->options_count++] = value;
+    return EXIT_DONE;
+}
+
+static enum exit_status read_count(const char *name, const char *value, double lo, double hi, uint64_t *to)
+{
+    switch (ceduo_count_read(value, lo, hi, to)) {
+    case CEDUO_NUMBER_GOOD:
+        return EXIT_DONE;
+    case CEDUO_NUMBER_TOO_LARGE:
+        return ceduo_usage(name, _("%s lies outside %.0f to %.0f"), value, lo, hi);
+    default:
+        return ceduo_usage(name, _("'%s' is no whole number"), value);
+    }
+}
+
+static enum exit_status set_rocks(struct arguments *a, const struct option_row *row, char *value)
+{
+    return read_count(row->name, value, 1, CEDUO_ROCKS_MOST, &a->rocks);
+}
+
+static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
+{
+    double number;
+    if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
+        return ceduo_usage(row->name, _("'%s' is no number"), value);
+    if (!(number > 0) || !(number < 1))
+        return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
+    a->tolerance = number;
+    return EXIT_DONE;
+}
+
+static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
+{
+    a->plot = ceduo_plot_find(value);
+    if (a->plot == CEDUO_PLOT_NONE)
+        return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, CEDUO_PLOT_NAMES);
+    return EXIT_DONE;
+}
+
+static enum exit_status set_size(struct arguments *a, const struct option_row *row, char *value)
+{
+    char *width = strdup(value), *height = width ? strchr(width, 'x') : NULL;
+    double w = 0, h = 0;
+    if (!width)
+        return ceduo_usage_no_memory();
+    if (height)
+        *height++ = '\0';
+    bool good = height && ceduo_number_read(width, &w) == CEDUO_NUMBER_GOOD &&
+                ceduo_number_read(height, &h) == CEDUO_NUMBER_GOOD && w == floor(w) && h == floor(h);
+    free(width);
+    if (!good)
+        return ceduo_usage(row->name, _("'%s' is no size; write columns x lines, as 80x24"), value);
+    if (w < WIDTH_LEAST || w > CEDUO_CANVAS_MAX_WIDTH || h < HEIGHT_LEAST || h > CEDUO_CANVAS_MAX_HEIGHT)
+        return ceduo_usage(row->name, _("%s lies outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
+                           CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
+    a->plot_width = (int)w;
+    a->plot_height = (int)h;
+    return EXIT_DONE;
+}
+
+static enum exit_status set_seed(struct arguments *a, const struct option_row *row, char *value)
+{
+    uint64_t seed;
+    enum exit_status status = read_count(row->name, value, 0, 9007199254740992.0, &seed);
+    if (status != EXIT_DONE)
+        return status;
+    snprintf(a->seed, sizeof a->seed, "simulation.seed=%llu", (unsigned long long)seed);
+    a->sets[a->sets_count++] = a->seed;
+    return EXIT_DONE;
+}
+
+/* "A:B" or "A:B:STEP", whole years. */
+static enum exit_status set_years(struct arguments *a, const struct option_row *row, char *value)
+{
+    double parts[3] = {0, 0, 1};
+    char *copy = strdup(value), *rest = copy;
+    int n = 0;
+    bool good = true;
+    if (!copy)
+        return ceduo_usage_no_memory();
+    while (good && rest && n < 3) {
+        char *part = rest, *colon = strchr(rest, ':');
+        rest = colon ? colon + 1 : NULL;
+        if (colon)
+            *colon = '\0';
+        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]);
+        n++;
+    }
+    good = good && !rest && n >= 2;
+    free(copy);
+    if (!good)
+        return ceduo_usage(row->name, _("'%s' is no stretch of years; write A:B or A:B:STEP, as 0:25"), value);
+    if (parts[0] < 0)
+        return ceduo_usage(row->name, _("%s begins before year 0, the stand as filed"), value);
+    if (parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1)
+        return ceduo_usage(row->name, _("%s goes backwards, or too far"), value);
+    if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
+        return ceduo_usage(row->name, _("%s are more than %d years at a time"), value, CEDUO_YEARS_MOST);
+    a->years = true;
+    a->year_first = (unsigned)parts[0];
+    a->year_last = (unsigned)parts[1];
+    a->year_step = parts[2] > 100000 ? 100000 : (unsigned)parts[2];
+    return EXIT_DONE;
+}
+
+/* "PATH=LO:HI"; the path is kept without the rest. */
+static enum exit_status set_find(struct arguments *a, const struct option_row *row, char *value)
+{
+    char *equals = strrchr(value, '='), *colon = equals ? strchr(equals, ':') : NULL;
+    bool good = colon && equals > value;
+    if (good)
+        *colon = '\0';
+    good = good && ceduo_number_read(equals + 1, &a->find_lo) == CEDUO_NUMBER_GOOD &&
+           ceduo_number_read(colon + 1, &a->find_hi) == CEDUO_NUMBER_GOOD;
+    if (colon)
+        *colon = ':';
+    if (!good)
+        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, as 'forest[0].stand.trees[0].per_ha=1:1000'"), value);
+    if (!(a->find_lo <= a->find_hi))
+        return ceduo_usage(row->name, _("the range %s goes backwards"), equals + 1);
+    *equals = '\0';
+    a->find = value;
+    return EXIT_DONE;
+}
+
+static enum exit_status set_goal(struct arguments *a, const struct option_row *row, char *value)
+{
+    enum ceduo_goal_reading reading = ceduo_goal_read(value, &a->goal, &a->goal_value);
+    const char *number = value + strlen(value) + 1;
+    switch (reading) {
+    case CEDUO_GOAL_UNKNOWN:
+        return ceduo_usage(row->name, _("'%s' is unknown; one of adc, free-run, energy, exceed"), value);
+    case CEDUO_GOAL_NO_NUMBER:
+        return ceduo_usage(row->name, _("'%s' is no number"), number);
+    case CEDUO_GOAL_NEGATIVE:
+        return ceduo_usage(row->name, _("%s is below 0"), number);
+    case CEDUO_GOAL_NO_SHARE:
+        return ceduo_usage(row->name, _("%s is no share; write 0 to 1, as 0.05 for 5 %%"), number);
+    default:
+        return EXIT_DONE;
+    }
+}
+
+/* "I/N" */
+static enum exit_status set_shard(struct arguments *a, const struct option_row *row, char *value)
+{
+    char *part = strdup(value), *parts = part ? strchr(part, '/') : NULL;
+    if (parts)
+        *parts++ = '\0';
+    bool good = parts && ceduo_count_read(parts, 1, SHARDS_MOST, &a->shards) == CEDUO_NUMBER_GOOD &&
+                ceduo_count_read(part, 1, (double)a->shards, &a->shard) == CEDUO_NUMBER_GOOD;
+    free(part);
+    if (!good)
+        return ceduo_usage(row->name, _("'%s' is no part of a whole; write I/N, I from 1 to N, as 3/8, N up to %d"),
+                           value, SHARDS_MOST);
+    return EXIT_DONE;
+}
+
+static enum exit_status set_threads(struct arguments *a, const struct option_row *row, char *value)
+{
+    uint64_t n;
+    enum exit_status status = read_count(row->name, value, 1, THREADS_MOST, &n);
+    if (status == EXIT_DONE)
+        a->threads = (unsigned)n;
+    return status;
+}
+
+/* ---- the table ---- */
+
+#define AT(member) offsetof(struct arguments, member)
+#define NOT_PART   (NOT_SHARD | NOT_MERGE)
+
+static const struct option_row rows[] = {
+    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, 0, N_("compute the scenes and print the result; no terminal is touched")},
+    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
+     N_("how to print it (table)")},
+    {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, NOT_CHECK,
+     N_("where to; a regular file is written whole or not at all")},
+    {"set", 's', "PATH=VALUE", set_set, 0, MODE_TERMINAL, NOT_MERGE,
+     N_("change a parameter of the scene; may be repeated")},
+    {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, NOT_MERGE | NOT_CHECK,
+     N_("rocks simulated; with --tolerance the most")},
+    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, NOT_PART | NOT_CHECK,
+     N_("go on until mean energies are known to REL of themselves (95 %)")},
+    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
+     N_("what a row of CSV is (controls)")},
+    {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},
+    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0,
+     N_("threads; the result does not depend on them (all cores)")},
+    {"option", 0, "NAME", set_only, 0, MODE_TERMINAL, NOT_MERGE, N_("only this option of the scene; may be repeated")},
+    {"years", 0, "A:B[:STEP]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
+     N_("every option year by year, from the stands as filed (year 0)")},
+    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, NOT_PART | NOT_CHECK,
+     N_("the value of a parameter that reaches --goal at the worst control")},
+    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, NOT_CHECK,
+     N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+    {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE,
+     N_("compute part I of N of each scene, and write it as a line for --merge")},
+    {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("print what the parts in the files given come to, as one run would")},
+    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
+     N_("print a picture: profile, energy, height, histogram, adc, rotation, stand or compare")},
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("of a picture in columns and lines (80x24)")},
+    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, NOT_CHECK,
+     N_("what pictures are made of (the locale's)")},
+    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, NOT_PART | NOT_CHECK,
+     N_("feed keys and commands to the terminal program; needs no terminal")},
+    {"check", 0, NULL, NULL, 0, MODE_CHECK, NOT_PART, N_("read the scenes and print every problem; compute nothing")},
+    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, NOT_PART,
+     N_("path, type, unit, range, default and meaning of each")},
+    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, NOT_PART,
+     N_("scenes, slopes and stands that are found by name")},
+    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("no progress")},
+    {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("this page")},
+    {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("the version")},
+};
+
+#define ROWS (sizeof rows / sizeof rows[0])
+_Static_assert(ROWS <= OPTIONS_MOST, "a bit for each");
+
+const struct option_row *ceduo_option_rows(size_t *n)
+{
+    *n = ROWS;
+    return rows;
+}
+
+bool ceduo_option_given(const struct arguments *a, const char *name)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (strcmp(rows[i].name, name) == 0)
+            return (a->given >> i & 1) != 0;
+    return false;
+}
+
+/* A list or a check goes before what is computed, help goes before all; of two alike the first one counts. */
+static int weight(enum mode mode)
+{
+    return (int)(mode < MODE_CHECK ? mode : mode < MODE_HELP ? MODE_CHECK : MODE_HELP);
+}
+
+enum exit_status ceduo_option_set(struct arguments *a, const struct option_row *row, char *value)
+{
+    enum exit_status status = row->set ? row->set(a, row, value) : EXIT_DONE;
+    a->given |= (uint32_t)1 << (row - rows);
+    if (status == EXIT_DONE && weight(row->mode) > weight(a->mode))
+        a->mode = row->mode;
+    return status;
+}
