@@ -282,10 +282,10 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Writes the tables of parameters into the pages.
+# Writes the tables of parameters, keys, goals and figures into the pages.
 man: $(TABLES)
 	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
-	@$(TABLES) keys man/ceduo.1
+	@for table in keys goals figures; do $(TABLES) $$table man/ceduo.1; done
 
 # ---- installing ----
 

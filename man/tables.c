@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a table into a manual page, between its two marks: tables scene|slope|stand PAGE that of the parameters,
- * tables keys PAGE that of the keys of the terminal program. */
+ * keys that of the keys of the terminal program, goals and figures those of a search and of JSON. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "io/schema.h"
+#include "study/goal.h"
 #include "tui/keys.h"
+#include "view/figures.h"
 
 /* Text of a page: what troff would read as a request or an escape is hidden. */
 static void put(FILE *out, const char *text)
@@ -83,13 +85,78 @@ static void put_keys(FILE *out)
     fputs(".El\n", out);
 }
 
+static void put_goals(FILE *out)
+{
+    fputs(".Bl -tag -width Ds -compact\n", out);
+    for (int i = 0; i < CEDUO_GOALS; i++) {
+        const struct ceduo_goal_row *g = &ceduo_goals[i];
+        fputs(".It Cm ", out);
+        put(out, g->word);
+        fputc('\n', out);
+        put(out, g->meaning);
+        fprintf(out, ",\n%s\n.Ar value%s%s", g->below ? "below" : "at most at", ceduo_goal_is_share(i) ? "" : "\n",
+                ceduo_goal_is_share(i) ? "" : g->unit);
+        fprintf(out, g->usual ? "%s\nby default %s.\n" : "%s\nwhich must be given.\n", ceduo_goal_is_share(i) ? " ," : ",",
+                g->usual);
+    }
+    fputs(".El\n", out);
+}
+
+static bool is_listed(const struct ceduo_figure *figures)
+{
+    const struct ceduo_figure_list *list = ceduo_figure_lists;
+    while (list->title && list->figures != figures)
+        list++;
+    return list->title != NULL;
+}
+
+static void put_figures(FILE *out, const struct ceduo_figure *f)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        if (!f->key && !is_listed(f->of))
+            put_figures(out, f->of);
+        if (!f->key)
+            continue;
+        fprintf(out, ".It Va %s\n", f->key);
+        put(out, f->meaning);
+        fprintf(out, "%s%s", f->unit[0] ? "; " : "", f->unit);
+        if (f->null) {
+            fputs("; null where ", out);
+            put(out, f->null);
+        }
+        fputs(".\n", out);
+        if (f->of && !is_listed(f->of)) {
+            fputs(".Bl -tag -width Ds -compact\n", out);
+            put_figures(out, f->of);
+            fputs(".El\n", out);
+        }
+    }
+}
+
+static void put_figure_lists(FILE *out)
+{
+    for (const struct ceduo_figure_list *list = ceduo_figure_lists; list->title; list++) {
+        fprintf(out, ".Pp\n%s:\n.Bl -tag -width Ds\n", list->title);
+        put_figures(out, list->figures);
+        fputs(".El\n", out);
+    }
+}
+
 int main(int argc, char **argv)
 {
+    static const struct {
+        const char *name;
+        void (*put)(FILE *out);
+    } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"figures", put_figure_lists}};
     if (argc != 3)
         return 2;
-    bool keys = strcmp(argv[1], "keys") == 0;
-    const char *begin_mark = keys ? ".\\\" begin keys\n" : ".\\\" begin parameters\n";
-    const char *end_mark = keys ? ".\\\" end keys\n" : ".\\\" end parameters\n";
+    size_t table = 0;
+    while (table < sizeof tables / sizeof tables[0] && strcmp(argv[1], tables[table].name) != 0)
+        table++;
+    bool parameters = table == sizeof tables / sizeof tables[0];
+    char begin_mark[64], end_mark[64];
+    snprintf(begin_mark, sizeof begin_mark, ".\\\" begin %s\n", parameters ? "parameters" : argv[1]);
+    snprintf(end_mark, sizeof end_mark, ".\\\" end %s\n", parameters ? "parameters" : argv[1]);
     static char page[1 << 20];
     FILE *in = fopen(argv[2], "r");
     size_t n = in ? fread(page, 1, sizeof page - 1, in) : 0;
@@ -101,10 +168,10 @@ int main(int argc, char **argv)
     if (!out)
         return 1;
     fwrite(page, 1, (size_t)(begin - page) + strlen(begin_mark), out);
-    if (keys)
-        put_keys(out);
-    else
+    if (parameters)
         put_parameters(out, argv[1]);
+    else
+        tables[table].put(out);
     fputs(end, out);
     return fclose(out) == 0 ? 0 : 1;
 }

@@ -57,7 +57,7 @@ enum exit_status ceduo_arguments_check(struct arguments *a)
         return ceduo_usage(NULL, _("--find wants a --goal: adc, free-run, energy=KJ or exceed"));
     if (ceduo_option_given(a, "goal") && a->mode != MODE_FIND)
         return ceduo_usage(NULL, _("--goal goes with --find"));
-    if (a->mode == MODE_FIND && ceduo_goals[a->goal].needs_value && isnan(a->goal_value))
+    if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
         return ceduo_usage(NULL, _("--goal energy wants the mean energy in kJ: energy=50"));
     if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0))
         return ceduo_usage(NULL, _("--find goes with neither --plot, --years nor --tolerance"));

@@ -9,15 +9,14 @@
 #include "ceduo/assess.h"
 
 const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
-    [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, false, "the ADC of the worst belt; by default the threshold of the scene"},
-    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false, false,
-                             "the chance of a free run in the worst belt; by default 0.1"},
-    [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false, true,
-                           "the mean energy of the rocks that arrive through the forest, which must be given; with the "
-                           "contact model index what the index leaves of the mean without forest"},
-    [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, false,
-                           "the share of the released that arrive through the forest with more than the place bears; by "
-                           "default 0.05"}};
+    [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, "the ADC of the worst belt", "the threshold of the scene"},
+    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false,
+                             "the chance of a free run in the worst belt", "0.1"},
+    [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false,
+                           "the mean energy of the rocks that arrive through the forest (with contact_model: index what the "
+                           "index leaves of the mean without forest)", NULL},
+    [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false,
+                           "the share of the released that arrive through the forest with more than the place bears", "0.05"}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {

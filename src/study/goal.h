@@ -13,8 +13,8 @@ struct ceduo_goal_row {
     const char *name;    /* in sentences */
     const char *unit;    /* of its value; "%": a share, 0…1 */
     bool below;          /* reached below the value; otherwise at most at it */
-    bool needs_value;    /* no light sets a limit */
     const char *meaning; /* for the manual */
+    const char *usual;   /* what the value is where none is given; NULL: it must be given */
 };
 
 extern const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS];

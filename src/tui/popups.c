@@ -465,7 +465,7 @@ static bool read_goal(struct app *app, char *text, struct seek *seek)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
     else if (reading != CEDUO_GOAL_GOOD)
         ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
-    else if (ceduo_goals[seek->goal].needs_value && isnan(seek->target))
+    else if (!ceduo_goals[seek->goal].usual && isnan(seek->target))
         ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
     else
         return true;

@@ -20,9 +20,11 @@ for kind in scene slope stand; do
     "${BUILD:-build/release}/tests/tables" $kind "$dir/page" && cmp -s "man/ceduo-$kind.5" "$dir/page"
     say $? "the parameters of ceduo-$kind.5 are those of the program (make man)"
 done
-cp man/ceduo.1 "$dir/page"
-"${BUILD:-build/release}/tests/tables" keys "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
-say $? "the keys of ceduo.1 are those of the program (make man)"
+for table in keys goals figures; do
+    cp man/ceduo.1 "$dir/page"
+    "${BUILD:-build/release}/tests/tables" $table "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
+    say $? "the $table of ceduo.1 are those of the program (make man)"
+done
 for option in $("${CEDUO:-./ceduo}" --help | sed -nE 's/^  (-(.),|   ) --([a-z-]+).*/\2:\3/p'); do
     letter=${option%%:*}
     grep -qE -- "It Fl ${letter:+$letter , }-${option#*:}( |$)" man/ceduo.1

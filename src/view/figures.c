@@ -1,0 +1,503 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "figures.h"
+
+#include <math.h>
+
+#include "ceduo/version.h"
+
+#define KILO 1e-3
+
+/* ---- values ---- */
+
+static struct ceduo_value number(double value)
+{
+    return (struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = value};
+}
+
+static struct ceduo_value text(const char *value)
+{
+    return (struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = value};
+}
+
+static struct ceduo_value count(uint64_t value)
+{
+    return (struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = value};
+}
+
+static struct ceduo_value flag(bool value)
+{
+    return (struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = value};
+}
+
+static const void *member(const struct ceduo_figure *f, const void *object)
+{
+    return (const char *)object + f->offset;
+}
+
+static struct ceduo_value number_at(const struct ceduo_figure *f, const void *object)
+{
+    return number(*(const double *)member(f, object));
+}
+
+static struct ceduo_value count_at(const struct ceduo_figure *f, const void *object)
+{
+    return count(*(const uint64_t *)member(f, object));
+}
+
+static struct ceduo_value unsigned_at(const struct ceduo_figure *f, const void *object)
+{
+    return count(*(const unsigned *)member(f, object));
+}
+
+static struct ceduo_value flag_at(const struct ceduo_figure *f, const void *object)
+{
+    return flag(*(const bool *)member(f, object));
+}
+
+static struct ceduo_value text_at(const struct ceduo_figure *f, const void *object)
+{
+    return text(*(const char *const *)member(f, object));
+}
+
+static struct ceduo_value light_at(const struct ceduo_figure *f, const void *object)
+{
+    return text(ceduo_words_light(*(const enum ceduo_light *)member(f, object)));
+}
+
+/* A member of a struct, read by its type; numbers in an object of their own there. */
+#define AT(object, member)                                                                                             \
+    .value = _Generic(((struct ceduo_##object *)0)->member, double: number_at, uint64_t: count_at,                     \
+                      unsigned: unsigned_at, bool: flag_at, char *: text_at, const char *: text_at),                   \
+    .offset = offsetof(struct ceduo_##object, member)
+#define IN(object, member, table) .of = table, .offset = offsetof(struct ceduo_##object, member)
+#define LIGHT_AT(member)          .value = light_at, .offset = offsetof(struct ceduo_index, member)
+#define END                       {.key = NULL}
+
+double ceduo_figure_scale(const struct ceduo_figure *f, double scale)
+{
+    return f->scale > 0 ? scale * f->scale : scale;
+}
+
+struct ceduo_value ceduo_figure_value(const struct ceduo_figure *f, const void *object, double scale)
+{
+    const void *from = object && f->from ? f->from(object) : object;
+    struct ceduo_value v = from ? f->value(f, from) : (struct ceduo_value){.kind = CEDUO_NULL};
+    if (v.kind == CEDUO_VALUE_NUMBER)
+        v.number *= ceduo_figure_scale(f, scale);
+    bool exists = v.kind != CEDUO_VALUE_NUMBER || isfinite(v.number);
+    if (!exists || (v.kind == CEDUO_VALUE_TEXT && !v.text))
+        v.kind = CEDUO_NULL;
+    return v;
+}
+
+const void *ceduo_figure_object(const struct ceduo_figure *f, const void *object)
+{
+    const void *from = object && f->from ? f->from(object) : object;
+    return from ? member(f, from) : NULL;
+}
+
+/* ---- objects of a place ---- */
+
+/* The option as it is filed, or in a year. */
+static const struct ceduo_option *forest_of(const struct ceduo_place *p)
+{
+    return p->year ? &p->year->option : &p->report->result->scene->options[p->option];
+}
+
+static const struct ceduo_index *indices_of(const struct ceduo_place *p)
+{
+    return p->year ? p->year->controls : p->report->result->options[p->option].controls;
+}
+
+static const struct ceduo_flown *wood_of(const struct ceduo_place *p)
+{
+    return p->year && p->year->wooded.rocks > 0 ? &p->year->wooded : &p->report->result->options[p->option].wooded;
+}
+
+static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p)
+{
+    if (!p->year)
+        return ceduo_result_wooded(p->report->result, p->option, p->control);
+    return p->year->wooded.rocks > 0 ? &p->year->wooded.arrivals[p->control] : NULL;
+}
+
+/* For `from`: p is the place, r its result. */
+#define OBJECT(name, object)                                \
+    static const void *name(const void *place)              \
+    {                                                       \
+        const struct ceduo_place *p = place;                \
+        const struct ceduo_result *r = p->report->result;   \
+        (void)r;                                            \
+        return object;                                      \
+    }
+OBJECT(report_of, p->report)
+OBJECT(scene_of, r->scene)
+OBJECT(rock_of, &r->rock)
+OBJECT(year_of, p->year)
+OBJECT(option_of, &r->scene->options[p->option])
+OBJECT(first_option_of, &r->scene->options[0])
+OBJECT(belt_of, &forest_of(p)->belts[p->belt])
+OBJECT(stand_of, &(p->year ? p->year->stands : r->options[p->option].stands)[p->belt])
+OBJECT(control_of, &r->scene->controls[p->control])
+OBJECT(index_of, &indices_of(p)[p->control])
+OBJECT(last_index_of, &indices_of(p)[r->last_control])
+OBJECT(bare_of, &r->bare.arrivals[p->control])
+OBJECT(wooded_of, through_the_wood(p))
+OBJECT(flown_of, wood_of(p))
+OBJECT(stops_of, wood_of(p)->ends.stop_x.n > 0 ? p : NULL)
+OBJECT(difference_of, p->option > 0 && !p->year ? &r->options[p->option].differences[p->control] : NULL)
+OBJECT(rotation_of, p->report->years ? p : NULL)
+
+/* ---- lists ---- */
+
+static bool enter_option(struct ceduo_place *p, size_t i)
+{
+    p->option = i;
+    bool inside = i < p->report->result->scene->options_count;
+    if (inside && p->report->years)
+        p->sum = ceduo_years_sum(p->report->years[i], p->report->result->last_control);
+    return inside;
+}
+
+static bool enter_belt(struct ceduo_place *p, size_t i)
+{
+    p->belt = i;
+    return i < forest_of(p)->belts_count;
+}
+
+static bool enter_control(struct ceduo_place *p, size_t i)
+{
+    p->control = i;
+    return i < p->report->result->scene->controls_count;
+}
+
+static bool enter_year(struct ceduo_place *p, size_t i)
+{
+    const struct ceduo_years *years = p->report->years ? p->report->years[p->option] : NULL;
+    p->year = years && i < years->count ? &years->years[i] : NULL;
+    return p->year != NULL;
+}
+
+static bool enter_difference(struct ceduo_place *p, size_t i)
+{
+    size_t controls = p->report->result->scene->controls_count;
+    p->option = controls > 0 ? 1 + i / controls : SIZE_MAX;
+    p->control = controls > 0 ? i % controls : 0;
+    return p->option < p->report->result->scene->options_count;
+}
+
+/* ---- sentences ---- */
+
+static void say_of_run(const struct ceduo_place *p, ceduo_say *say, void *context)
+{
+    ceduo_words_run_warnings(p->report->result, &p->report->remarks, say, context);
+}
+
+static void say_of_stand(const struct ceduo_place *p, ceduo_say *say, void *context)
+{
+    ceduo_words_stand_warnings(p->report->result->scene, belt_of(p), stand_of(p), say, context);
+}
+
+static void say_of_all(const struct ceduo_place *place, ceduo_say *say, void *context)
+{
+    struct ceduo_place p = *place;
+    say_of_run(&p, say, context);
+    for (size_t i = 0; enter_belt(&p, i); i++)
+        say_of_stand(&p, say, context);
+}
+
+/* ---- what is more than a member ---- */
+
+/* For `value`: o is the object, f the row. */
+#define VALUE(name, type, result)                                                             \
+    static struct ceduo_value name(const struct ceduo_figure *f, const void *object)          \
+    {                                                                                         \
+        const struct ceduo_##type *o = object;                                                \
+        (void)f, (void)o;                                                                     \
+        return result;                                                                        \
+    }
+#define NOTHING ((struct ceduo_value){.kind = CEDUO_NULL})
+VALUE(format_of, place, text("ceduo-result-1"))
+VALUE(version_of, place, text(CEDUO_VERSION))
+VALUE(path_of, report, text(o->file->path))
+VALUE(rocks_of, report, count(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
+VALUE(law_of, scene, text(ceduo_words_law(o->simulation.law)))
+VALUE(accepted_of, control, number(ceduo_words_accepted(o)))
+VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : count(o->reached))
+VALUE(rule_of, stand_result, text(o->bare ? NULL : ceduo_words_rule(o->rule)))
+VALUE(stand_per_100m, stand_result, number(o->dissipated / o->length * 100))
+VALUE(index_per_100m, index, number(o->dissipated / o->length * 100))
+VALUE(mean_adc, index, number(o->contacts > 0 ? o->length / o->contacts : NAN))
+VALUE(passes_contact, index, flag(o->contact == CEDUO_PASS))
+VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : flag(o->exhausted))
+VALUE(share_at, flown, number((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
+VALUE(stop_at, place, number(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->origin_x))
+VALUE(felled_of, place, number(ceduo_years_felled(o->report->years[o->option])))
+
+/* ---- the tables ---- */
+
+#define NO_ROCK "no rock arrives"
+#define FEW     "fewer than two rocks arrive"
+#define NO_END  "too few rocks arrive to bound it"
+
+static const struct ceduo_figure distribution[] = {
+    {"mean", "", "mean", AT(distribution, mean), .null = NO_ROCK},
+    {"se", "", "standard error of the mean", AT(distribution, se), .null = FEW},
+    {"sd", "", "standard deviation", AT(distribution, sd), .null = FEW},
+    {"p50", "", "median", AT(distribution, p50), .null = NO_ROCK},
+    {"p95", "", "95th percentile", AT(distribution, p95), .null = NO_ROCK},
+    {"p95_lo", "", "lower end of its 95 % interval", AT(distribution, p95_lo), .null = NO_END},
+    {"p95_hi", "", "upper end of its 95 % interval", AT(distribution, p95_hi), .null = NO_END},
+    {"p99", "", "99th percentile", AT(distribution, p99), .null = NO_ROCK},
+    {"max", "", "largest value", AT(distribution, max), .null = NO_ROCK},
+    END};
+
+static const struct ceduo_figure paired[] = {
+    {"mean", "", "mean", AT(paired, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
+    {"se", "", "its standard error", AT(paired, se), .null = "it is not known"},
+    END};
+
+/* Two of the means of arrivals are members side by side, as in a struct ceduo_paired. */
+#define IS_PAIRED(member) \
+    _Static_assert(offsetof(struct ceduo_arrivals, member##_se) - offsetof(struct ceduo_arrivals, member) == \
+                   offsetof(struct ceduo_paired, se), "side by side")
+IS_PAIRED(energy_per_released);
+IS_PAIRED(contacts);
+
+static const struct ceduo_figure arrivals[] = {
+    {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
+    {"reach_probability", "", "share of all released that reach it; an unfinished rock counts as not reached",
+     AT(arrivals, reach_probability)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach_lo)},
+    {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach_hi)},
+    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
+     AT(arrivals, exceed_probability), .null = "the control has no accepted_kJ"},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = "the control has no accepted_kJ"},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = "the control has no accepted_kJ"},
+    {"speed_m_s", "m/s", "speed of the rocks that reach it", IN(arrivals, speed, distribution)},
+    {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = KILO},
+    {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = KILO},
+    {"height_m", "m", "height of their underside above the ground", IN(arrivals, height, distribution)},
+    {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
+     IN(arrivals, energy_per_released, paired), .scale = KILO},
+    END};
+
+static const struct ceduo_figure wooded[] = {
+    {.of = arrivals},
+    {"contacts", "", "stems hit before this control by the rocks that reach it (with contact_model: poisson, contacts)",
+     IN(arrivals, contacts, paired)},
+    END};
+
+static const struct ceduo_figure adc[] = {
+    {"rule", "", "form that was used: gsteiger-stools, gsteiger-stems, interception or crofton", .value = rule_of,
+     .null = "the stand has no stems"},
+    {"adc_m", "m", "what it gives", AT(stand_result, adc_m), .null = "the stand has no stems"},
+    {"gsteiger_stools_m", "m", "ADC by gsteiger-stools", AT(stand_result, adc.gsteiger_stools), .null = "the stand has no stems"},
+    {"gsteiger_stems_m", "m", "ADC by gsteiger-stems", AT(stand_result, adc.gsteiger_stems), .null = "the stand has no stems"},
+    {"interception_m", "m", "ADC by interception", AT(stand_result, adc.interception), .null = "the stand has no stems"},
+    {"crofton_m", "m", "ADC by crofton", AT(stand_result, adc.crofton), .null = "the stand has no stems"},
+    END};
+
+static const struct ceduo_figure stand_result[] = {
+    {"length_m", "m", "horizontal length of the belt", AT(stand_result, length)},
+    {"stems_per_ha", "1/ha", "stems: shoots and trees", AT(stand_result, stems_per_ha)},
+    {"stools_per_ha", "1/ha", "stools", AT(stand_result, stools_per_ha)},
+    {"trees_per_ha", "1/ha", "single trees", AT(stand_result, trees_per_ha)},
+    {"basal_area_m2_ha", "m2/ha", "basal area", AT(stand_result, basal_area)},
+    {"adc", "", "Average Distance between Contacts", .of = adc},
+    {"passes_threshold", "", "whether adc.adc_m is below the threshold", AT(stand_result, passes_threshold)},
+    {"free_run_probability", "", "chance of running as far as the threshold inside the stand without a contact",
+     AT(stand_result, free_run_probability)},
+    {"contacts", "", "contacts over the whole belt: length over ADC", AT(stand_result, contacts)},
+    {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
+     AT(stand_result, energy_per_contact), .null = "the stand has no stems"},
+    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", .value = stand_per_100m, .scale = KILO},
+    END};
+
+static const struct ceduo_figure stand[] = {
+    {"name", "", "name of the stand", .from = belt_of, AT(belt, name)},
+    {"from_m", "m", "where the belt begins", .from = belt_of, AT(belt, from_given)},
+    {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
+    {.from = stand_of, .of = stand_result},
+    {"warnings", "", "sentences about this stand", .say = say_of_stand},
+    END};
+
+static const struct ceduo_figure summary[] = {
+    {"length_m", "m", "wooded length", AT(index, length)},
+    {"longest_gap_m", "m", "longest stretch without stems", AT(index, longest_gap)},
+    {"adc_m", "m", "length_m over contacts", .value = mean_adc, .null = "there are no contacts"},
+    {"contacts", "", "contacts in all belts", AT(index, contacts)},
+    {"meet_nothing_probability", "", "chance of meeting no stem in any belt", AT(index, meet_nothing_probability)},
+    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = KILO},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = KILO,
+     .null = "there is no forest"},
+    {"passes_threshold", "", "whether lights.contact of the last control is pass", .value = passes_contact},
+    END};
+
+static const struct ceduo_figure by_index[] = {
+    {"dissipated_kJ", "kJ", "energy that the stems between the release and this control could take", AT(index, dissipated),
+     .scale = KILO},
+    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0", AT(index, residual), .scale = KILO,
+     .null = "no rock arrives without forest"},
+    {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
+    {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s; only where the control gives that",
+     AT(index, measured), .scale = KILO, .optional = true},
+    END};
+
+static const struct ceduo_figure lights[] = {
+    {"contact", "", "whether the stand makes contact often enough", LIGHT_AT(contact)},
+    {"free_run", "", "whether long runs without contact are rare enough", LIGHT_AT(free_run)},
+    {"energy", "", "whether few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
+     "contact_model: index", LIGHT_AT(energy)},
+    END};
+
+static const struct ceduo_figure control[] = {
+    {"x_m", "m", "as in the scene", .from = control_of, AT(control, x_given)},
+    {"name", "", "as in the scene", .from = control_of, AT(control, name), .null = "the control has none"},
+    {"accepted_kJ", "kJ", "as in the scene", .from = control_of, .value = accepted_of, .null = "the control has none"},
+    {"bare", "", "what arrives without forest", .from = bare_of, .of = arrivals},
+    {"index", "", "the index of the paper", .from = index_of, .of = by_index},
+    {"wooded", "", "what arrives through the forest of this option", .from = wooded_of, .of = wooded,
+     .null = "contact_model is index"},
+    {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
+     .from = index_of, .of = lights},
+    END};
+
+static const struct ceduo_figure ends[] = {
+    {"stopped_by_stems", "", "share of the released that stems stop", .value = share_at,
+     .offset = offsetof(struct ceduo_flown, ends.count[CEDUO_STOPPED_BY_STEMS])},
+    {"came_to_rest", "", "share that comes to rest by itself", .value = share_at,
+     .offset = offsetof(struct ceduo_flown, ends.count[CEDUO_AT_REST])},
+    {"left_slope", "", "share that leaves the profile", .value = share_at,
+     .offset = offsetof(struct ceduo_flown, ends.count[CEDUO_LEFT_SLOPE])},
+    {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
+     AT(flown, ends.count[CEDUO_UNFINISHED])},
+    END};
+
+static const struct ceduo_figure stops[] = {
+    {"p50", "m", "median", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_p50)},
+    {"p95", "m", "95th percentile", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_p95)},
+    {"max", "m", "farthest", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_max)},
+    END};
+
+#define SUMMARY  {"summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary}
+#define STANDS   {"stands", "", "an object for each belt, in order", .of = stand, .enter = enter_belt}
+#define CONTROLS {"controls", "", "an object for each control, in the scene's order", .of = control, .enter = enter_control}
+#define ENDS \
+    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)", \
+     .from = flown_of, .of = ends}, \
+    {"stop_x_m", "m", "places where rocks were stopped by stems or came to rest", .from = stops_of, .of = stops, \
+     .null = "no rock was stopped or came to rest"}
+#define YEAR \
+    {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)}, \
+    {"cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)}
+
+static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};
+
+static const struct ceduo_figure rotation[] = {
+    {"years", "", "how many years were computed", AT(place, sum.years)},
+    {"felled_m", "m", "metres of belts felled in them, each time they are", .value = felled_of},
+    {"unprotected_contact", "", "years in which lights.contact fails", AT(place, sum.unprotected_contact)},
+    {"unprotected_free_run", "", "years in which lights.free_run fails", AT(place, sum.unprotected_free_run)},
+    {"unprotected_energy", "", "years in which lights.energy fails", AT(place, sum.unprotected_energy)},
+    {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
+    {"exceed_probability", "", "plain mean over the years", IN(place, sum.exceed, paired)},
+    {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired),
+     .scale = KILO},
+    {"worst_year", "", "year with the largest share that exceeds (or arrives, or with the largest ADC)",
+     AT(place, sum.worst_year)},
+    {"passes_per_year", "1/y", "rocks to be expected to pass", AT(place, sum.passes_per_year),
+     .null = "the scene has no rocks_per_year"},
+    {"exceeds_per_year", "1/y", "those of them with more than accepted_kJ", AT(place, sum.exceeds_per_year),
+     .null = "the scene has no rocks_per_year, or the control no accepted_kJ"},
+    END};
+
+static const struct ceduo_figure option[] = {
+    {"name", "", "name of the option", .from = option_of, AT(option, name)},
+    STANDS,
+    SUMMARY,
+    CONTROLS,
+    ENDS,
+    {"years", "", "with --years: an object for each year", .of = year, .enter = enter_year, .optional = true},
+    {"rotation", "", "with --years: the years together, at the last control", .from = rotation_of, .of = rotation,
+     .optional = true},
+    END};
+
+static const struct ceduo_figure differences[] = {
+    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, paired)},
+    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, paired)},
+    {"energy_per_released_kJ", "kJ", "difference of the energies over all released",
+     IN(difference, energy_per_released, paired), .scale = KILO},
+    END};
+
+static const struct ceduo_figure difference[] = {
+    {"option", "", "option that is compared", .from = option_of, AT(option, name)},
+    {"against", "", "the first option", .from = first_option_of, AT(option, name)},
+    {"x_m", "m", "control", .from = control_of, AT(control, x_given)},
+    {.from = difference_of, .of = differences},
+    END};
+
+static const struct ceduo_figure rock[] = {
+    {"mass_kg", "kg", "mass", AT(rock, mass)},
+    {"mean_diameter_m", "m", "mean of its dimensions: the diameter that meets the stems", AT(rock, mean_diameter)},
+    {"moment_kg_m2", "kg m2", "moment of inertia", AT(rock, moment)},
+    END};
+
+static const struct ceduo_figure scene[] = {
+    {"scene", "", "path of the file, as it was found; standard input for -", .from = report_of, .value = path_of},
+    {"title", "", "title of the scene, or the name of its file", .from = scene_of, AT(scene, title)},
+    {"seed", "", "seed of the random numbers", .from = scene_of, AT(scene, simulation.seed)},
+    {"rocks", "", "rocks flown", .from = report_of, .value = rocks_of},
+    {"law", "", "law of the impacts: lumped or crsp", .from = scene_of, .value = law_of},
+    {"rock", "", "the rock; with spreads, that of the means", .from = rock_of, .of = rock},
+    {"threshold_m", "m", "ADC below which a stand protects", .from = scene_of, AT(scene, simulation.threshold)},
+    END};
+
+static const struct ceduo_figure work[] = {
+    {"rocks_flown", "", "rocks of all runs: one without forest, and one for each forest that differs", AT(report, work.rocks)},
+    {"contacts", "", "contacts with the ground, of all rocks", AT(report, work.contacts)},
+    {"stems_drawn", "", "stems made up along their ways, hit or not", AT(report, work.stems.drawn)},
+    {"runs", "", "runs computed", AT(report, work.runs)},
+    {"runs_reused", "", "how often one was needed that was already there", AT(report, work.reused)},
+    {"seconds", "s", "time on the clock; this is the one value that changes from run to run", AT(report, seconds)},
+    END};
+
+const struct ceduo_figure ceduo_result_figures[] = {
+    {"format", "", "always ceduo-result-1", .value = format_of},
+    {"version", "", "version of the program", .value = version_of},
+    {.of = scene},
+    {"warnings", "", "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground "
+     "assumed, percentiles from a histogram", .say = say_of_run},
+    {"options", "", "an object for each option, in the scene's order; a scene with forest has one, named current",
+     .of = option, .enter = enter_option},
+    {"differences", "", "an object for each option but the first, and each control; [] with one option",
+     .of = difference, .enter = enter_difference},
+    {"work", "", "what it took", .from = report_of, .of = work},
+    END};
+
+/* ---- rows of CSV ---- */
+
+#define OPTION {"option", "", "", .from = option_of, AT(option, name)}
+#define REST \
+    SUMMARY, {.of = control}, ENDS, {"difference", "", "", .from = difference_of, .of = differences}, \
+    {"warnings", "", "", .say = say_of_all}
+
+const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
+const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};
+const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand}, END};
+
+/* ---- the manual ---- */
+
+const struct ceduo_figure_list ceduo_figure_lists[] = {
+    {"A result", ceduo_result_figures},
+    {"An object of options", option},
+    {"The object summary", summary},
+    {"An object of stands", stand},
+    {"An object of controls", control},
+    {"The objects bare and wooded of a control", arrivals},
+    {"Each of their distributions, over the rocks that reach the control", distribution},
+    {"Each other mean", paired},
+    {"An object of years", year},
+    {"An object of differences", difference},
+    {NULL, NULL}};
