@@ -73,7 +73,7 @@ static void put_keys(FILE *out)
 {
     fputs(".Bl -tag -width \"Shift\\-Tab\" -compact\n", out);
     for (int i = 0; i < ACTION_COUNT; i++) {
-        const struct action_row *a = &ceduo_actions[i];
+        const struct action_info *a = &ceduo_actions[i];
         fputs(".It", out);
         put_key(out, a->word);
         if (a->word2[0]) {

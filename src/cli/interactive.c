@@ -8,6 +8,7 @@
 #include "batch.h"
 #include "options.h"
 #include "base/intl.h"
+#include "tui/program.h"
 #include "tui/script.h"
 #include "tui/terminal.h"
 
@@ -50,7 +51,7 @@ enum exit_status ceduo_interactive_run(const struct arguments *a)
         return no_terminal(why);
     struct app app;
     struct problems problems = {0};
-    bool good = ceduo_app_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, charset_of(a), a->threads,
+    bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, charset_of(a), a->threads,
                                  a->script != NULL, &problems);
     ceduo_problems_close(&problems);
     ceduo_batch_say(&problems.text);
@@ -58,6 +59,6 @@ enum exit_status ceduo_interactive_run(const struct arguments *a)
     if (!good)
         return EXIT_INPUT;
     enum exit_status status = run(a, &app);
-    ceduo_app_free(&app);
+    ceduo_program_free(&app);
     return status;
 }

@@ -8,6 +8,7 @@
 
 #include "base/intl.h"
 #include "base/utf8.h"
+#include "line.h"
 
 #define LABEL       18 /* columns of a line's label */
 #define COLUMN_MOST 22 /* of a table's column */
@@ -224,6 +225,34 @@ struct form_cell *ceduo_form_cell(struct form *form)
     return row && form->column < row->n ? &row->cells[form->column] : NULL;
 }
 
+/* The first cell of a row that matches, by the row's name, its own or what it holds. */
+static bool matches(const struct form_row *row, const char *what, size_t *column)
+{
+    *column = 0;
+    if (strcasestr(row->label, what))
+        return true;
+    for (size_t k = 0; k < row->n; k++)
+        if (strcasestr(row->cells[k].text, what) || strcasestr(row->cells[k].path, what)) {
+            *column = k;
+            return true;
+        }
+    return false;
+}
+
+bool ceduo_form_search(struct form *form, const char *word)
+{
+    for (size_t i = 1; word[0] && i <= form->n; i++) {
+        size_t at = (form->row + i) % form->n, column;
+        if (can_hold(&form->rows[at]) && matches(&form->rows[at], word, &column)) {
+            form->row = at;
+            form->column = column;
+            ceduo_form_settle(form);
+            return true;
+        }
+    }
+    return false;
+}
+
 /* ---- drawing ---- */
 
 /* Columns of cell k of a row in a rectangle `width` wide. */
@@ -270,16 +299,7 @@ static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, i
     char shown[80];
     cell_place(row, width, k, &from, &span);
     snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
-    const char *text = cursor && edit ? edit : shown;
-    if (cursor && edit) { /* the end of what is typed stays in sight */
-        size_t columns = ceduo_utf8_width(text);
-        while (span > 1 && columns > (size_t)span - 1) {
-            text++;
-            while (((unsigned char)*text & 0xc0) == 0x80)
-                text++;
-            columns--;
-        }
-    }
+    const char *text = !cursor || !edit ? shown : span > 1 ? ceduo_line_end(edit, span - 1) : edit;
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_canvas_label(canvas, left + from + i, y, CEDUO_ROLE_CURSOR, " ");

@@ -59,6 +59,9 @@ void ceduo_form_points(struct form *form, const struct document *d, const struct
 void ceduo_form_settle(struct form *form);
 void ceduo_form_move(struct form *form, int lines, int columns);
 
+/* Moves the cursor to the next line whose name, or a cell whose text or path holds a word; false where there is none. */
+bool ceduo_form_search(struct form *form, const char *word);
+
 /* The cell under the cursor; NULL where there is none. */
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "base/utf8.h"
 
-const struct action_row ceduo_actions[ACTION_COUNT] = {
+const struct action_info ceduo_actions[ACTION_COUNT] = {
 #define X(NAME, key, word, key2, word2, bar, help) {key, key2, word, word2, bar, help},
     ACTIONS(X)
 #undef X

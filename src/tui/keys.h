@@ -37,6 +37,18 @@ enum key {
     K_F10
 };
 
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, what
+ * the key does. */
+#define VIEWS(V)                                                                                             \
+    V(SLOPE, slope, '1', "1", N_("view: slope")) \
+    V(STAND, stand, '2', "2", N_("view: stand")) \
+    V(ROCK, rock, '3', "3", N_("view: rock and release")) \
+    V(RESULTS, results, '4', "4", N_("view: results")) \
+    V(COMPARE, compare, '5', "5", N_("view: compare")) \
+    V(ROTATION, rotation, '6', "6", N_("view: rotation"))
+
+#define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help)
+
 /* The one table of actions: keys, bar, help and manual come from it.
  * name, first key, its word, second key, its word, in the bar, what it does */
 #define ACTIONS(X)                                                                                           \
@@ -62,12 +74,7 @@ enum key {
     X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                   \
     X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 1, N_("pane"))                                             \
     X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                     \
-    X(VIEW_1, '1', "1", K_NONE, "", 0, N_("view: slope"))                                              \
-    X(VIEW_2, '2', "2", K_NONE, "", 0, N_("view: stand"))                                              \
-    X(VIEW_3, '3', "3", K_NONE, "", 0, N_("view: rock and release"))                                   \
-    X(VIEW_4, '4', "4", K_NONE, "", 0, N_("view: results"))                                            \
-    X(VIEW_5, '5', "5", K_NONE, "", 0, N_("view: compare"))                                            \
-    X(VIEW_6, '6', "6", K_NONE, "", 0, N_("view: rotation"))                                           \
+    VIEWS(VIEW_ACTION)                                                                                 \
     X(FIND, 'f', "f", K_NONE, "", 0, N_("find the value here that reaches a goal"))                    \
     X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                   \
     X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \
@@ -94,14 +101,14 @@ enum action {
     ACTION_NONE
 };
 
-struct action_row {
+struct action_info {
     int key, key2;
     const char *word, *word2;
     int bar; /* 2: always in the bar, 1: where there is room */
     const char *help; /* marked for translation */
 };
 
-extern const struct action_row ceduo_actions[ACTION_COUNT];
+extern const struct action_info ceduo_actions[ACTION_COUNT];
 
 /* The action of a key; ACTION_NONE. */
 enum action ceduo_action_of(int key);

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "line.h"
+
+#include <stdint.h>
 #include <string.h>
 
-#include "app.h"
+#include "base/utf8.h"
+#include "keys.h"
 
 void ceduo_line_set(struct line *line, const char *text)
 {
@@ -95,4 +99,13 @@ bool ceduo_line_key(struct line *line, int key)
     default:
         return key >= ' ' && key < K_SPECIAL && !(key >= 0x7f && key < 0xa0) && insert(line, key);
     }
+}
+
+const char *ceduo_line_end(const char *text, int columns)
+{
+    for (size_t left = ceduo_utf8_width(text); left > 0 && (int)left > columns; left--)
+        do
+            text++;
+        while (((unsigned char)*text & 0xc0) == 0x80);
+    return text;
 }

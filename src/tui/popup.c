@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lies over the views: text to read, a list to choose from, a form to fill, a question. */
+/* Popups of three kinds: text to read, a list to choose from, fields to fill. One that is done with is taken off before
+ * what it leads to, which may open another. */
 #include "popup.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/intl.h"
 #include "base/utf8.h"
@@ -24,15 +26,19 @@ static struct popup *open_popup(struct app *app, enum popup_kind kind, const cha
     return p;
 }
 
+static void free_popup(struct popup *p)
+{
+    ceduo_arena_free(&p->arena);
+    free(p->items);
+    ceduo_text_free(&p->text);
+    free(p->kept);
+    free(p);
+}
+
 void ceduo_popup_close(struct app *app)
 {
-    if (!app->popup)
-        return;
-    ceduo_arena_free(&app->popup->arena);
-    free(app->popup->items);
-    ceduo_text_free(&app->popup->text);
-    free(app->popup->kept);
-    free(app->popup);
+    if (app->popup)
+        free_popup(app->popup);
     app->popup = NULL;
 }
 
@@ -84,6 +90,17 @@ void ceduo_popup_field(struct popup *p, const char *label, const char *value)
     ceduo_line_set(&p->fields[p->fields_count++], value);
 }
 
+bool ceduo_popup_may_write(struct app *app, struct popup *p)
+{
+    const char *path = p->fields[0].text;
+    if (access(path, F_OK) != 0 || (p->kept && strcmp(p->kept, path) == 0))
+        return true;
+    free(p->kept);
+    p->kept = strdup(path);
+    ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));
+    return false;
+}
+
 /* ---- keys ---- */
 
 static void move(struct popup *p, int by, size_t n)
@@ -115,18 +132,9 @@ static void list_key(struct app *app, int key)
         return;
     }
     if (key == K_ENTER && p->items_count > 0) {
-        char *value = strdup(p->items[p->at].value);
-        popup_chosen *chosen = p->chosen;
-        struct popup *mine = p;
-        if (!value)
-            return;
-        app->popup = NULL; /* what is chosen may open another */
-        chosen(app, mine, value);
-        struct popup *opened = app->popup;
-        app->popup = mine;
-        ceduo_popup_close(app);
-        app->popup = opened;
-        free(value);
+        app->popup = NULL;
+        p->chosen(app, p, p->items[p->at].value);
+        free_popup(p);
         return;
     }
     switch (ceduo_action_of(key)) {
@@ -153,16 +161,13 @@ static void fields_key(struct app *app, int key)
         move(p, 1, p->fields_count);
     } else if (key == K_ENTER) {
         app->message[0] = '\0';
-        app->popup = NULL; /* what follows may open another */
-        bool done = p->filled(app, p);
-        struct popup *opened = app->popup;
-        app->popup = p;
-        if (!done) {
-            snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
+        app->popup = NULL;
+        if (p->filled(app, p)) {
+            free_popup(p);
             return;
         }
-        ceduo_popup_close(app);
-        app->popup = opened;
+        app->popup = p;
+        snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
     } else {
         ceduo_line_key(&p->fields[p->at], key);
     }
@@ -273,11 +278,7 @@ static void draw_fields(struct app *app, struct popup *p)
         int y = r.top + 1 + note_lines + (int)i, x = r.left + 34;
         struct ceduo_area label = {r.left + 2, y, 31, 1}, value = {x, y, r.width - 36, 1};
         ceduo_app_text(app, label, CEDUO_ROLE_DIM, p->labels[i], 0);
-        const char *text = p->fields[i].text;
-        while ((int)ceduo_utf8_width(text) > value.width - 1) /* the end stays in sight */
-            do
-                text++;
-            while (((unsigned char)*text & 0xc0) == 0x80);
+        const char *text = ceduo_line_end(p->fields[i].text, value.width - 1);
         ceduo_canvas_label(app->canvas, value.left, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
         if (i == p->at)
             ceduo_canvas_label(app->canvas, value.left + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");

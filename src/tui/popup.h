@@ -14,7 +14,7 @@ struct popup_item {
     const char *text, *value;
 };
 
-/* An item was chosen; the popup is closed after the call. */
+/* An item was chosen; the popup is off the screen already, and freed after the call. */
 typedef void popup_chosen(struct app *app, struct popup *popup, const char *value);
 
 /* The fields were filled. False: app->message says what is wrong, and it stays open. */
@@ -39,10 +39,22 @@ struct popup {
     popup_filled *filled;
 };
 
+/* Each opens one in place of any other; NULL where there is no memory, which is said. */
 struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
+
+/* Whether the file that the first field names may be written: one that is there is replaced only where Enter says so once
+ * more, which the first time is said. */
+bool ceduo_popup_may_write(struct app *app, struct popup *popup);
+
+/* ---- the one that is open ---- */
+
+void ceduo_popup_draw(struct app *app);
+const char *ceduo_popup_bar(const struct app *app); /* its keys */
+void ceduo_popup_key(struct app *app, int key);
+void ceduo_popup_close(struct app *app);
 
 #endif

@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/file.h"
 #include "base/intl.h"
 #include "base/utf8.h"
+#include "io/file.h"
+#include "program.h"
+#include "screen.h"
 
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {
@@ -27,7 +29,7 @@ static enum script_end press(struct app *app, char *names, const char *path, siz
         int key = ceduo_key_of(name);
         if (key == K_NONE)
             return fail(path, line, _("no such key"), name);
-        ceduo_app_key(app, key);
+        ceduo_program_key(app, key);
     }
     return SCRIPT_DONE;
 }
@@ -39,21 +41,21 @@ static void type(struct app *app, const char *text)
         uint32_t code;
         size_t length = ceduo_utf8_decode(text + i, n - i, &code);
         if (length > 0)
-            ceduo_app_key(app, (int)code);
+            ceduo_program_key(app, (int)code);
         i += length > 0 ? length : 1;
     }
 }
 
 static void wait_idle(struct app *app)
 {
-    ceduo_worker_wait(app->worker);
+    ceduo_worker_wait(app->figures.worker);
     ceduo_app_news(app);
 }
 
 static enum script_end dump(struct app *app, const char *name, bool roles, const char *path, size_t line)
 {
     ceduo_app_news(app);
-    ceduo_app_draw(app);
+    ceduo_screen_draw(app);
     char *text = roles ? ceduo_canvas_roles(app->canvas) : ceduo_canvas_dump(app->canvas);
     bool good = text != NULL;
     if (good && strcmp(name, "-") == 0)

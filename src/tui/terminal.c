@@ -16,6 +16,8 @@
 #include <wchar.h>
 
 #include "base/intl.h"
+#include "program.h"
+#include "screen.h"
 
 /* ---- colours ---- */
 
@@ -144,7 +146,7 @@ static void show(struct app *app, bool colours)
         ceduo_app_resize(app, COLS, LINES);
     if (!app->canvas)
         return;
-    ceduo_app_draw(app);
+    ceduo_screen_draw(app);
     if (app->redraw)
         clearok(curscr, TRUE);
     app->redraw = false;
@@ -187,11 +189,11 @@ static void take_mouse(struct app *app)
     if (getmouse(&event) != OK)
         return;
     if (event.bstate & BUTTON4_PRESSED)
-        ceduo_app_wheel(app, -3);
+        ceduo_program_wheel(app, -3);
     else if (event.bstate & BUTTON5_PRESSED)
-        ceduo_app_wheel(app, 3);
+        ceduo_program_wheel(app, 3);
     else if (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
-        ceduo_app_click(app, event.x, event.y);
+        ceduo_program_click(app, event.x, event.y);
 }
 
 /* All keys that wait. True where there was one. */
@@ -212,7 +214,7 @@ static bool take_keys(struct app *app)
         if (kind != KEY_CODE_YES && (code == 127 || code == 8))
             key = K_BACKSPACE;
         if (key != K_NONE)
-            ceduo_app_key(app, key);
+            ceduo_program_key(app, key);
     }
     return any;
 }
@@ -231,7 +233,7 @@ static void loop(struct app *app, bool colours)
     show(app, colours);
     while (!app->quit && !app->stopped && !ending) {
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
-                                {.fd = ceduo_worker_fd(app->worker), .events = POLLIN},
+                                {.fd = ceduo_worker_fd(app->figures.worker), .events = POLLIN},
                                 {.fd = wake[0], .events = POLLIN}};
         int n = poll(fds, 3, -1);
         if (n < 0 && errno != EINTR)
@@ -241,7 +243,7 @@ static void loop(struct app *app, bool colours)
             break; /* the window is gone */
         if (interrupted) {
             interrupted = 0;
-            ceduo_app_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
+            ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
         bool changed = take_keys(app); /* also where a signal told of a new size */
         changed |= ceduo_app_news(app);

@@ -3,8 +3,11 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "app.h"
 #include "base/intl.h"
+#include "io/emit.h"
+#include "popup.h"
+#include "popups.h"
+#include "view/words.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -25,25 +28,25 @@ enum column { ADC, FREE_RUN, TAKEN, LEFT, INDEX_COLUMNS, SHARE = TAKEN, DIFFEREN
 
 static bool wooded(const struct app *app)
 {
-    return app->result->wooded;
+    return app->figures.result->wooded;
 }
 
 static double share_of(const struct app *app, size_t i)
 {
     double half;
-    return 1000 * ceduo_words_share(app->result, i, &half);
+    return 1000 * ceduo_words_share(app->figures.result, i, &half);
 }
 
 static double difference_of(const struct app *app, size_t i, double *half)
 {
-    double difference = 1000 * ceduo_words_difference(app->result, i, half);
+    double difference = 1000 * ceduo_words_difference(app->figures.result, i, half);
     *half *= 1000;
     return difference;
 }
 
 static double figure(const struct app *app, size_t i, enum column column)
 {
-    const struct ceduo_result *r = app->result;
+    const struct ceduo_result *r = app->figures.result;
     const struct ceduo_index *s = &r->options[i].controls[r->last_control];
     double half;
     switch (column) {
@@ -62,7 +65,7 @@ static double figure(const struct app *app, size_t i, enum column column)
  * differ. Shares of rocks differ where they are more than two standard errors apart. */
 static char mark_of(const struct app *app, size_t i, enum column column)
 {
-    size_t n = app->result->options_count, best = i, worst = i;
+    size_t n = app->figures.result->options_count, best = i, worst = i;
     if (isnan(figure(app, i, column)) || (wooded(app) && column == DIFFERENCE))
         return ' ';
     bool more_is_better = column == TAKEN && !wooded(app);
@@ -76,7 +79,7 @@ static char mark_of(const struct app *app, size_t i, enum column column)
             worst = k;
     }
     double lowest = figure(app, best, column), highest = figure(app, worst, column), here = figure(app, i, column);
-    bool apart = wooded(app) && column == SHARE ? ceduo_words_worse(app->result, worst, best) : lowest != highest;
+    bool apart = wooded(app) && column == SHARE ? ceduo_words_worse(app->figures.result, worst, best) : lowest != highest;
     return !apart ? ' ' : here == lowest ? '*' : here == highest ? '!' : ' ';
 }
 
@@ -105,7 +108,7 @@ static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
     enum ceduo_role role = i == app->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT;
     int width = lines_of(area) == 1 ? name_columns(area) - 1 : area.width;
     struct text safe = {0};
-    ceduo_text_safe(&safe, app->result->scene->options[i].name);
+    ceduo_text_safe(&safe, app->figures.result->scene->options[i].name);
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
         ceduo_canvas_label(app->canvas, area.left + x, y, role, " ");
     ceduo_form_cut(app->canvas, area.left, y, width, role, safe.bytes ? safe.bytes : "");
@@ -114,7 +117,7 @@ static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
 
 static void draw_figure(struct app *app, int x, int y, size_t i, enum column column)
 {
-    const struct ceduo_result *r = app->result;
+    const struct ceduo_result *r = app->figures.result;
     struct text text = {0};
     double half, value = figure(app, i, column);
     if (column == FREE_RUN)
@@ -140,7 +143,7 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
 
 static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
 {
-    const struct ceduo_index *s = &app->result->options[i].controls[app->result->last_control];
+    const struct ceduo_index *s = &app->figures.result->options[i].controls[app->figures.result->last_control];
     draw_name(app, area, y, i);
     y += lines_of(area) - 1;
     int x = area.left + name_columns(area);
@@ -165,7 +168,7 @@ static void draw_head(struct app *app, struct ceduo_area area)
     static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
     static const char *const simulated[COLUMNS] = {N_("ADC m"), N_("free run"), N_("too much"), N_("to first")};
     static const char *const arriving[COLUMNS] = {N_("ADC m"), N_("free run"), N_("arrive"), N_("to first")};
-    const struct ceduo_result *r = app->result;
+    const struct ceduo_result *r = app->figures.result;
     const char *const *words = !wooded(app)                                           ? by_index
                                : isnan(r->scene->controls[r->last_control].accepted) ? arriving
                                                                                       : simulated;
@@ -182,7 +185,7 @@ static void draw_head(struct app *app, struct ceduo_area area)
 
 static void put_foot(const struct app *app, size_t options, struct text *words)
 {
-    const struct ceduo_result *r = app->result;
+    const struct ceduo_result *r = app->figures.result;
     if (options < 2) {
         ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
         return;
@@ -205,12 +208,11 @@ static void put_foot(const struct app *app, size_t options, struct text *words)
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    app->form_area = (struct ceduo_area){0, 0, 0, 0};
-    if (!app->result) {
+    if (!app->figures.result) {
         ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
         return;
     }
-    size_t n = app->result->options_count;
+    size_t n = app->figures.result->options_count;
     draw_head(app, area);
     int lines = lines_of(area), foot_lines = area.height >= 26 ? 6 : area.height - 1 - lines * (int)n;
     foot_lines = foot_lines < 2 ? 2 : foot_lines > 6 ? 6 : foot_lines;
@@ -228,10 +230,7 @@ static void draw(struct app *app, struct ceduo_area area)
 static void choose(struct app *app, long i)
 {
     long n = (long)app->document.file.scene.options_count;
-    app->option = (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i);
-    app->belt = 0;
-    struct problems none = {0};
-    ceduo_app_edited(app, true, &none);
+    ceduo_app_show_option(app, (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i));
 }
 
 static void copy_option(struct app *app)
@@ -267,6 +266,25 @@ static void move_option(struct app *app, int by)
         choose(app, to);
 }
 
+static bool filled_name(struct app *app, struct popup *p)
+{
+    struct problems problems = {0};
+    struct text value = {0};
+    char path[64];
+    snprintf(path, sizeof path, "options[%zu].name", app->option);
+    ceduo_emit_scalar(&value, p->fields[0].text, true);
+    bool good = value.bytes && ceduo_document_set(&app->document, path, value.bytes, &problems);
+    ceduo_text_free(&value);
+    return ceduo_app_edited(app, good, &problems);
+}
+
+static void rename_option(struct app *app)
+{
+    struct popup *p = ceduo_popup_fields(app, _("Name of this option"), filled_name);
+    if (p)
+        ceduo_popup_field(p, _("name"), ceduo_app_option(app)->name);
+}
+
 static bool act(struct app *app, enum action action)
 {
     switch (action) {
@@ -274,17 +292,17 @@ static bool act(struct app *app, enum action action)
     case ACTION_DOWN: choose(app, (long)app->option + 1); return true;
     case ACTION_TOP: choose(app, 0); return true;
     case ACTION_BOTTOM: choose(app, 1000000); return true;
-    case ACTION_ADD: ceduo_popup_presets(app, true); return true;
+    case ACTION_ADD: ceduo_popup_new_option(app); return true;
     case ACTION_DUPLICATE: copy_option(app); return true;
     case ACTION_DELETE: delete_option(app); return true;
     case ACTION_EARLIER: move_option(app, -1); return true;
     case ACTION_LATER: move_option(app, 1); return true;
     case ACTION_EDIT:
         if (ceduo_node_get(app->document.file.root, "options"))
-            ceduo_popup_rename(app);
+            rename_option(app);
         return true;
     default: return false;
     }
 }
 
-const struct app_view ceduo_view_compare = {N_("compare"), 1, build, draw, act, NULL};
+const struct view ceduo_view_compare = {.title = N_("compare"), .panes = 1, .build = build, .draw = draw, .act = act};

@@ -2,20 +2,20 @@
 /* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
 #include "app.h"
 #include "base/intl.h"
+#include "view/report.h"
 
 /* The batch page of the option shown, as narrow as the pane. */
 static void fill_page(struct app *app, struct text *text, int width)
 {
     struct ceduo_report report = {.file = &app->document.file,
-                                  .result = app->result,
+                                  .result = app->figures.result,
                                   .remarks = {.ground_assumed = app->document.file.ground_assumed}};
     ceduo_report_option(text, &report, app->option, width);
 }
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    app->form_area = (struct ceduo_area){0, 0, 0, 0};
-    if (!app->result) {
+    if (!app->figures.result) {
         ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling …"), 0);
         return;
     }
@@ -42,12 +42,13 @@ static void draw(struct app *app, struct ceduo_area area)
     const char *bytes = text.bytes ? text.bytes : "";
     struct ceduo_area none = {0, 0, page.width, 0};
     int lines = ceduo_app_text(app, none, CEDUO_ROLE_TEXT, bytes, 0), most = lines - page.height;
-    if (app->scroll > most)
-        app->scroll = most > 0 ? most : 0;
-    ceduo_app_text(app, page, CEDUO_ROLE_TEXT, bytes, app->scroll);
-    if (app->scroll < most)
+    int *scroll = &ceduo_app_state(app)->scroll;
+    if (*scroll > most)
+        *scroll = most > 0 ? most : 0;
+    ceduo_app_text(app, page, CEDUO_ROLE_TEXT, bytes, *scroll);
+    if (*scroll < most)
         ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_text_free(&text);
 }
 
-const struct app_view ceduo_view_results = {N_("results"), 1, NULL, draw, NULL, NULL};
+const struct view ceduo_view_results = {.title = N_("results"), .panes = 1, .draw = draw};

@@ -46,9 +46,7 @@ static void build(struct app *app, struct form *form)
 static void draw(struct app *app, struct ceduo_area area)
 {
     struct ceduo_rock rock;
-    app->form_area = (struct ceduo_area){area.left, area.top, area.width, area.height - 3};
-    ceduo_form_draw(&app->forms[VIEW_ROCK], app->canvas, area.left, area.top, area.width, area.height - 3, true,
-                    app->editing ? app->line.text : NULL);
+    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - 3}, true);
     if (ceduo_rock_of_means(&app->document.file.scene.rock, &rock) != CEDUO_OK)
         return;
     struct text text = {0};
@@ -61,5 +59,4 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_text_free(&text);
 }
 
-/* A sphere has one of three sizes: the one that is set replaces the other two. */
-const struct app_view ceduo_view_rock = {N_("rock"), 1, build, draw, NULL, NULL};
+const struct view ceduo_view_rock = {.title = N_("rock"), .panes = 1, .build = build, .draw = draw};

@@ -5,6 +5,7 @@
 
 #include "app.h"
 #include "base/intl.h"
+#include "view/words.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -27,16 +28,16 @@ static void build(struct app *app, struct form *form)
                   {"growth.trees.height_rate_1_y", N_("m, 1/y")}};
     const struct document *d = &app->document;
     const struct object *scene = ceduo_schema_scene();
-    char forest[64], path[FORM_PATH], heading[128];
+    char forest[64], stand[FORM_PATH], heading[128];
     ceduo_app_forest(app, forest, sizeof forest);
     ceduo_form_table(form, d, ceduo_schema_field(scene, "forest")->object, forest, belt_columns, "");
     if (ceduo_app_option(app)->belts_count > 0) {
-        snprintf(path, sizeof path, "%s[%zu].stand", forest, app->belt);
+        ceduo_app_stand(app, stand, sizeof stand);
         snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
                  ceduo_app_option(app)->belts[app->belt].name);
         ceduo_form_heading(form, heading);
         for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
-            ceduo_form_field(form, d, ceduo_schema_stand(), path, fields[i].key, _(fields[i].label));
+            ceduo_form_field(form, d, ceduo_schema_stand(), stand, fields[i].key, _(fields[i].label));
     }
     ceduo_form_heading(form, _("What comes down, what must stay"));
     ceduo_form_field(form, d, scene, "", "rocks_per_year", _("rocks a year"));
@@ -65,8 +66,8 @@ static void say_belt(struct text *text, const struct ceduo_belt *belt)
 
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
-    size_t c = app->result->last_control;
-    const struct ceduo_control *control = &app->result->scene->controls[c];
+    size_t c = app->figures.result->last_control;
+    const struct ceduo_control *control = &app->figures.result->scene->controls[c];
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
     ceduo_text_format(text, y->cut ? _("Year %u, cut: ") : _("Year %u: "), y->year);
     ceduo_text_format(text, _("ADC "));
@@ -89,7 +90,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
 
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
-    struct ceduo_years_summary s = ceduo_years_sum(years, app->result->last_control);
+    struct ceduo_years_summary s = ceduo_years_sum(years, app->figures.result->last_control);
     ceduo_text_format(text, _("%zu years: %zu without contact, %zu with too much energy"), s.years,
                       s.unprotected_contact, s.unprotected_energy);
     if (!isnan(s.exceed.mean))
@@ -105,7 +106,7 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
 static void draw(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
-    bool alone = app->pane == 1;
+    bool alone = ceduo_app_state(app)->pane == 1;
     int words = area.height >= 30 ? 6 : 4, form = alone ? 0 : area.height / 3;
     if (!alone && area.height < 16) /* a small window: the picture first */
         form = words = 3;
@@ -115,7 +116,7 @@ static void draw(struct app *app, struct ceduo_area area)
     if (alone && !app->message[0])
         ceduo_app_say(app, "%s", _("left, right: another year; Tab: back to the form"));
     ceduo_plot_rotation(app->canvas, &top, &picture);
-    if (picture.years && app->result && picture.years->count > 0) {
+    if (picture.years && app->figures.result && picture.years->count > 0) {
         struct text text = {0};
         say_all(app, picture.years, &text);
         ceduo_text_char(&text, '\n');
@@ -124,15 +125,13 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_text_free(&text);
     }
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    app->form_area = below;
-    if (!alone)
-        ceduo_form_draw(&app->forms[VIEW_ROTATION], app->canvas, below.left, below.top, below.width, below.height, true,
-                        app->editing ? app->line.text : NULL);
+    ceduo_app_draw_form(app, below, true);
 }
 
 static bool go_to_year(struct app *app, long year)
 {
-    long n = app->years ? (long)app->years->count : 0;
+    const struct ceduo_years *years = app->figures.years;
+    long n = years ? (long)years->count : 0;
     if (n > 0)
         app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);
     return true;
@@ -140,7 +139,7 @@ static bool go_to_year(struct app *app, long year)
 
 static bool act(struct app *app, enum action action)
 {
-    if (app->pane != 1)
+    if (ceduo_app_state(app)->pane != 1)
         return false;
     switch (action) {
     case ACTION_RIGHT: return go_to_year(app, (long)app->year + 1);
@@ -151,4 +150,10 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct app_view ceduo_view_rotation = {N_("rotation"), 2, build, draw, act, ceduo_app_follow_belt};
+const struct view ceduo_view_rotation = {.title = N_("rotation"),
+                                         .panes = 2,
+                                         .years = true,
+                                         .build = build,
+                                         .draw = draw,
+                                         .act = act,
+                                         .follow = ceduo_app_follow_belt};

@@ -62,10 +62,10 @@ static void build(struct app *app, struct form *form)
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
 {
-    ceduo_app_follow(app, app->rock);
+    ceduo_app_follow_rock(app);
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_span span;
-    bool alone = app->pane == 1;
+    bool alone = ceduo_app_state(app)->pane == 1;
     int form_height = alone ? 0 : area.height / 3;
     int room = area.height - form_height;
     int strips = room >= 24 ? 2 : room >= 13 ? 1 : 0;
@@ -81,25 +81,22 @@ static void draw(struct app *app, struct ceduo_area area)
     }
     if (strips > 0)
         ceduo_plot_energy(app->canvas, &next, &picture, &span, strips > 1);
-    struct ceduo_area form = {area.left, area.top + area.height - form_height, area.width, form_height};
-    app->form_area = form;
-    if (!alone)
-        ceduo_form_draw(&app->forms[VIEW_SLOPE], app->canvas, form.left, form.top, form.width, form.height, true,
-                        app->editing ? app->line.text : NULL);
+    struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
+    ceduo_app_draw_form(app, below, true);
 }
 
 /* In the picture left and right go from rock to rock, up and down along its way. */
 static bool act(struct app *app, enum action action)
 {
-    if (app->pane != 1)
+    if (ceduo_app_state(app)->pane != 1)
         return false;
     switch (action) {
-    case ACTION_RIGHT: ceduo_app_show_rock(app, app->rock + 1); return true;
-    case ACTION_LEFT: ceduo_app_show_rock(app, app->rock > 0 ? app->rock - 1 : 0); return true;
+    case ACTION_RIGHT: ceduo_app_next_rock(app, 1); return true;
+    case ACTION_LEFT: ceduo_app_next_rock(app, -1); return true;
     case ACTION_DOWN: ceduo_app_step_rock(app, 1); return true;
     case ACTION_UP: ceduo_app_step_rock(app, -1); return true;
     default: return false;
     }
 }
 
-const struct app_view ceduo_view_slope = {N_("slope"), 2, build, draw, act, NULL};
+const struct view ceduo_view_slope = {.title = N_("slope"), .panes = 2, .build = build, .draw = draw, .act = act};

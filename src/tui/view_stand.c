@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "base/intl.h"
+#include "view/words.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -17,7 +18,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_table(form, d, belt, forest, belt_columns, "");
     if (ceduo_app_option(app)->belts_count == 0)
         return;
-    snprintf(path, sizeof path, "%s[%zu].stand", forest, app->belt);
+    ceduo_app_stand(app, path, sizeof path);
     char heading[128];
     snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
              ceduo_app_option(app)->belts[app->belt].name);
@@ -60,7 +61,7 @@ static void draw_figures(struct app *app, struct ceduo_area area)
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
-    ceduo_app_follow(app, app->rock);
+    ceduo_app_follow_rock(app);
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool wide = area.width >= 84;
     int plan = wide ? area.width / 2 - 1 : 0;
@@ -72,13 +73,12 @@ static void draw(struct app *app, struct ceduo_area area)
         if (app->belt < o->belts_count)
             ceduo_plot_stand(app->canvas, &below, &picture);
     }
-    app->form_area = form;
-    ceduo_form_draw(&app->forms[VIEW_STAND], app->canvas, form.left, form.top, form.width, form.height, app->pane == 0,
-                    app->editing ? app->line.text : NULL);
+    ceduo_app_draw_form(app, form, true);
     struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
     if (wide && app->belt < o->belts_count)
         ceduo_plot_stand(app->canvas, &beside, &picture);
     draw_figures(app, figures);
 }
 
-const struct app_view ceduo_view_stand = {N_("stand"), 1, build, draw, NULL, ceduo_app_follow_belt};
+const struct view ceduo_view_stand = {
+    .title = N_("stand"), .panes = 1, .build = build, .draw = draw, .follow = ceduo_app_follow_belt};

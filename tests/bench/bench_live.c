@@ -11,7 +11,8 @@
 #include <unistd.h>
 
 #include "measure.h"
-#include "tui/app.h"
+#include "tui/program.h"
+#include "tui/screen.h"
 
 static double milliseconds(void)
 {
@@ -30,16 +31,16 @@ static void report(const char *what, double *ms, size_t n, double goal_median, d
 static void wait_for(struct app *app, uint64_t rocks)
 {
     do {
-        struct pollfd fd = {.fd = ceduo_worker_fd(app->worker), .events = POLLIN};
+        struct pollfd fd = {.fd = ceduo_worker_fd(app->figures.worker), .events = POLLIN};
         poll(&fd, 1, 1000);
         ceduo_app_news(app);
-    } while (!app->result || app->outlook->bare->flown.rocks < rocks || app->outlook_key != app->shown_key);
-    ceduo_app_draw(app);
+    } while (!app->figures.result || app->figures.outlook->bare->flown.rocks < rocks || app->figures.asked != app->figures.shown);
+    ceduo_screen_draw(app);
 }
 
 static void to_field(struct app *app, const char *path)
 {
-    struct form *form = &app->forms[app->view];
+    struct form *form = ceduo_app_form(app);
     for (size_t i = 0; i < form->n; i++)
         if (form->rows[i].n > 0 && strcmp(form->rows[i].cells[0].path, path) == 0)
             form->row = i;
@@ -66,26 +67,26 @@ int main(int argc, char **argv)
     double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all), *stand = calloc(repeats, sizeof *stand),
            *wooded = calloc(repeats, sizeof *wooded);
     if (!first || !all || !stand || !wooded ||
-        !ceduo_app_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
+        !ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
                           &problems))
         return 1;
     ceduo_app_resize(&app, 120, 40);
-    ceduo_worker_wait(app.worker);
+    ceduo_worker_wait(app.figures.worker);
     printf("what,edits,median_ms,p99_ms,goal_median_ms,goal_p99_ms\n");
     for (size_t i = 0; i < repeats; i++) {
-        ceduo_app_key(&app, '3');
+        ceduo_program_key(&app, '3');
         to_field(&app, "rock.diameter_m");
         double start = milliseconds();
-        ceduo_app_key(&app, i % 2 ? '-' : '+');
+        ceduo_program_key(&app, i % 2 ? '-' : '+');
         wait_for(&app, 1000);
         first[i] = milliseconds() - start;
         wait_for(&app, 10000);
         all[i] = milliseconds() - start;
-        ceduo_app_key(&app, '2');
+        ceduo_program_key(&app, '2');
         to_field(&app, "forest[0].stand.stools.per_ha");
         start = milliseconds();
-        ceduo_app_key(&app, i % 2 ? '-' : '+');
-        ceduo_app_draw(&app);
+        ceduo_program_key(&app, i % 2 ? '-' : '+');
+        ceduo_screen_draw(&app);
         stand[i] = milliseconds() - start;
         wait_for(&app, 1000);
         wooded[i] = milliseconds() - start;
@@ -94,7 +95,7 @@ int main(int argc, char **argv)
     report("key to a picture of 10000 rocks", all, repeats, 250, 0);
     report("edit of a stand to its index", stand, repeats, 5, 0);
     report("edit of a stand to 1000 rocks through it", wooded, repeats, 33, 100);
-    ceduo_app_free(&app);
+    ceduo_program_free(&app);
     free(first);
     free(all);
     free(stand);

@@ -18,7 +18,7 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
 LIBRARY = ("base", "scene", "core", "study")
 SCIENCE = ("scene", "core")  # reaches for nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort)$")
-CIRCLES = {"src/tui: app - now", "src/view: plot - plot_parts"}  # that still stand
+CIRCLES = {"src/view: plot - plot_parts"}  # that still stand
 SANITIZERS = re.compile(r"__(asan|odr|tsan|ubsan)")
 
 

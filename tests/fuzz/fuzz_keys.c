@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "fuzz.h"
+#include "tui/program.h"
+#include "tui/screen.h"
 #include "tui/script.h"
 
 /* A rock flies over the control, hits stems or the ground and stays there: flying them takes little of the time. */
@@ -85,11 +87,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
     struct app app;
     struct problems problems = {0};
-    if (!ceduo_app_create(&app, "fuzz.yaml", CEDUO_CHARSET_BRAILLE, 1, true, &problems))
+    if (!ceduo_program_create(&app, "fuzz.yaml", CEDUO_CHARSET_BRAILLE, 1, true, &problems))
         abort();
     (void)ceduo_script_run(&app, path);
-    ceduo_app_draw(&app);
-    ceduo_app_free(&app);
+    ceduo_screen_draw(&app);
+    ceduo_program_free(&app);
     ceduo_problems_free(&problems);
     close(fd);
     free(text);

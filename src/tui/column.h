@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_NOW_H
-#define CEDUO_NOW_H
+#ifndef CEDUO_COLUMN_H
+#define CEDUO_COLUMN_H
 
 #include "app.h"
 
 /* Draws the column of the newest figures. */
-void ceduo_now_draw(struct app *app, struct ceduo_area area);
+void ceduo_column_draw(struct app *app, struct ceduo_area area);
 
 #endif

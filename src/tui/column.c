@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The column that stands still in every view: what passes, whether it protects, how sure that is. */
-#include "now.h"
+#include "column.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/intl.h"
+#include "view/words.h"
 
 #define KILO 1e-3
 
@@ -173,9 +174,9 @@ static void put_warnings(struct pen *pen)
     const struct ceduo_option *o = ceduo_app_option(app);
     const struct ceduo_option_result *found = ceduo_app_found(app);
     struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed};
-    ceduo_words_run_warnings(app->result, &remarks, add_warning, &w);
+    ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
-        ceduo_words_stand_warnings(app->result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
+        ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
     int room = pen->area.top + pen->area.height - pen->y;
     if (w.text.bytes && room > 0) {
         struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, room};
@@ -189,7 +190,7 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
 {
     struct app *app = pen->app;
     struct text text = {0};
-    ceduo_text_format(&text, "%s ", app->busy ? "\xe2\x80\xa6" : "=");
+    ceduo_text_format(&text, "%s ", app->figures.busy ? "\xe2\x80\xa6" : "=");
     if (a->reached > 0)
         ceduo_text_format(&text, "\xc2\xb1%.2g %% ", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
     ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)a->released);
@@ -197,15 +198,15 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
     ceduo_text_free(&text);
 }
 
-void ceduo_now_draw(struct app *app, struct ceduo_area area)
+void ceduo_column_draw(struct app *app, struct ceduo_area area)
 {
     struct pen pen = {app, area, area.top};
     put_scene(&pen);
-    if (!app->result) {
+    if (!app->figures.result) {
         line(&pen, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return;
     }
-    const struct ceduo_result *r = app->result;
+    const struct ceduo_result *r = app->figures.result;
     size_t c = r->last_control;
     const struct ceduo_option_result *found = ceduo_app_found(app);
     const struct ceduo_arrivals *wood = ceduo_result_wooded(r, app->option, c), *bare = &r->bare.arrivals[c];

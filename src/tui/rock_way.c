@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "steps.h"
+#include "rock_way.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,13 +20,13 @@ static double now(void)
 
 static bool is_enough(void *context)
 {
-    const struct steps *s = context;
+    const struct rock_way *s = context;
     return now() - s->begun > SECONDS_MOST;
 }
 
 static void add_piece(void *context, const struct ceduo_piece *piece)
 {
-    struct steps *s = context;
+    struct rock_way *s = context;
     if (s->n >= PIECES_MOST)
         return;
     if (s->n == s->room) {
@@ -42,7 +42,7 @@ static void add_piece(void *context, const struct ceduo_piece *piece)
 
 static void add_stem(void *context, const struct ceduo_stem_passed *stem)
 {
-    struct steps *s = context;
+    struct rock_way *s = context;
     if (s->n >= PIECES_MOST)
         return;
     if (s->stems_count == s->stems_room) {
@@ -75,7 +75,7 @@ static void add_to_trail(struct ceduo_trail *t, const struct ceduo_piece *p, dou
 }
 
 /* The line of the pieces that are shown. */
-static bool draw_trail(struct steps *s, double gravity)
+static bool draw_trail(struct rock_way *s, double gravity)
 {
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     ceduo_trail_free(&s->trail);
@@ -90,7 +90,7 @@ static bool draw_trail(struct steps *s, double gravity)
     return true;
 }
 
-bool ceduo_steps_follow(struct steps *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
+bool ceduo_rock_way_follow(struct rock_way *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
                         uint64_t key, uint64_t rock)
 {
     bool same = s->n > 0 && s->key == key && s->rock == rock;
@@ -108,7 +108,7 @@ bool ceduo_steps_follow(struct steps *s, const struct ceduo_scene *scene, const 
     return draw_trail(s, scene->simulation.gravity);
 }
 
-void ceduo_steps_move(struct steps *s, int by)
+void ceduo_rock_way_move(struct rock_way *s, int by)
 {
     if (by > 0)
         s->at = s->at < s->n ? s->at + 1 : s->n;
@@ -116,7 +116,7 @@ void ceduo_steps_move(struct steps *s, int by)
         s->at = s->at > 1 ? s->at - 1 : s->at == 1 ? 0 : s->n;
 }
 
-size_t ceduo_steps_stems(const struct steps *s)
+size_t ceduo_rock_way_stems(const struct rock_way *s)
 {
     size_t n = 0;
     if (s->at == 0)
@@ -127,7 +127,7 @@ size_t ceduo_steps_stems(const struct steps *s)
 }
 
 /* The stem that is hit at the end of the piece shown. */
-static void say_stem(const struct steps *s, struct text *text)
+static void say_stem(const struct rock_way *s, struct text *text)
 {
     for (size_t i = 0; i < s->stems_count; i++) {
         const struct ceduo_stem_passed *p = &s->stems[i];
@@ -142,7 +142,7 @@ static void say_stem(const struct steps *s, struct text *text)
     }
 }
 
-static void say_end(const struct steps *s, double origin, struct text *text)
+static void say_end(const struct rock_way *s, double origin, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
@@ -153,7 +153,7 @@ static void say_end(const struct steps *s, double origin, struct text *text)
         ceduo_text_format(text, _(", %llu stems hit"), (unsigned long long)s->way.stems_hit);
 }
 
-void ceduo_steps_say(const struct steps *s, const struct ceduo_scene *scene, double origin, struct text *text)
+void ceduo_rock_way_say(const struct rock_way *s, const struct ceduo_scene *scene, double origin, struct text *text)
 {
     if (s->at == 0 || s->at > s->n) {
         say_end(s, origin, text);
@@ -174,11 +174,11 @@ void ceduo_steps_say(const struct steps *s, const struct ceduo_scene *scene, dou
     say_stem(s, text);
 }
 
-void ceduo_steps_free(struct steps *s)
+void ceduo_rock_way_free(struct rock_way *s)
 {
     free(s->pieces);
     free(s->stems);
     free(s->stem_piece);
     ceduo_trail_free(&s->trail);
-    *s = (struct steps){0};
+    *s = (struct rock_way){0};
 }

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_EDIT_H
+#define CEDUO_EDIT_H
+
+#include "app.h"
+
+/* Editing the field and the list item under the cursor of the form. */
+
+/* Opens the field, as a line or with the list of its choices. */
+void ceduo_edit_start(struct app *app);
+/* A key while the line is open. */
+void ceduo_edit_key(struct app *app, int key);
+/* One step up (+1) or down (-1). */
+void ceduo_edit_step(struct app *app, int direction);
+
+void ceduo_items_add(struct app *app);
+void ceduo_items_delete(struct app *app);
+void ceduo_items_duplicate(struct app *app);
+void ceduo_items_move(struct app *app, int by);
+
+#endif

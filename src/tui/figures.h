@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_FIGURES_H
+#define CEDUO_FIGURES_H
+
+#include "model/worker.h"
+#include "ceduo/result.h"
+
+/* What is known of the scene by the newest runs. It follows edits by itself: what the rocks meet is asked for anew, the
+ * rest is assessed at once. */
+struct figures {
+    struct worker *worker;
+    struct ceduo_outlook *outlook; /* newest; NULL before the first */
+    struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
+    struct ceduo_years *years;     /* to come, of option `years_option`; NULL: not computed */
+    size_t years_option;
+    uint64_t asked, shown;         /* keys of the runs that were asked for last, and of the outlook */
+    bool busy;
+    double seconds;                /* from the edit to the outlook */
+};
+
+/* False where no thread can be started. */
+bool ceduo_figures_create(struct figures *figures, unsigned threads);
+void ceduo_figures_free(struct figures *figures);
+
+/* Forgets all, and lets go of the memory of the scene they were of. False, and nothing changed, where no thread can be
+ * started. */
+bool ceduo_figures_restart(struct figures *figures);
+
+/* The scene has changed. `years`: the years to come of the option as well. */
+void ceduo_figures_follow(struct figures *figures, const struct ceduo_scene *scene, size_t option, bool years);
+
+/* Takes the worker's news; true where something has changed. `*failed`: there is no memory for more. */
+bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene, bool *failed);
+
+/* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
+const struct ceduo_outlook *ceduo_figures_outlook(const struct figures *figures, const struct ceduo_scene *scene);
+const struct ceduo_years *ceduo_figures_years(const struct figures *figures, const struct ceduo_scene *scene,
+                                              size_t option);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_LINE_H
+#define CEDUO_LINE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A line that is typed: a value, a file name, something to search. */
+struct line {
+    char text[1024];
+    size_t at;  /* byte of the cursor */
+    bool fresh; /* nothing typed yet: the first character replaces it all */
+};
+
+void ceduo_line_set(struct line *line, const char *text);
+
+/* Handles a key; false where the key means nothing to it. */
+bool ceduo_line_key(struct line *line, int key);
+
+/* The end of the text, which stays in sight where it is longer than this many columns. */
+const char *ceduo_line_end(const char *text, int columns);
+
+#endif

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The page, the screen or the command to a file. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "io/file.h"
+#include "popup.h"
+#include "popups.h"
+#include "screen.h"
+#include "view/report.h"
+
+/* The batch command that gives the same figures. */
+static void put_command(struct app *app, struct text *text)
+{
+    struct document *d = &app->document;
+    const struct ceduo_arrivals *shown = ceduo_app_shown(app);
+    uint64_t rocks = shown ? shown->released : d->file.scene.simulation.rocks;
+    ceduo_text_format(text, "ceduo --batch -n %llu '", (unsigned long long)rocks);
+    for (const char *c = d->path ? d->path : "scene.yaml"; *c; c++)
+        ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1); /* as a shell reads it */
+    ceduo_text_put(text, "'\n");
+}
+
+/* More rocks may fall while it is read. */
+static void show_command(struct app *app, struct popup *p, const char *value)
+{
+    const struct ceduo_arrivals *shown = ceduo_app_shown(app);
+    (void)value;
+    ceduo_text_free(&p->text);
+    put_command(app, &p->text);
+    if (shown)
+        ceduo_text_format(&p->text, _("\nThe figures on the screen are of %llu rocks%s.\n"),
+                          (unsigned long long)shown->released, app->figures.busy ? _("; more are falling") : "");
+    else
+        ceduo_text_put(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
+    if (ceduo_document_unsaved(&app->document))
+        ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
+}
+
+static struct ceduo_report report_of(const struct app *app)
+{
+    return (struct ceduo_report){.file = &app->document.file,
+                                 .result = app->figures.result,
+                                 .remarks = {.ground_assumed = app->document.file.ground_assumed},
+                                 .seconds = app->figures.seconds};
+}
+
+static void put_table(struct app *app, struct text *text)
+{
+    struct ceduo_report report = report_of(app);
+    if (report.result)
+        ceduo_report_table(text, &report, app->charset == CEDUO_CHARSET_ASCII);
+}
+
+static void put_csv(struct app *app, struct text *text)
+{
+    struct ceduo_report report = report_of(app);
+    if (!report.result)
+        return;
+    ceduo_report_csv_header(text, false, false);
+    ceduo_report_csv(text, &report, false);
+}
+
+static void put_json(struct app *app, struct text *text)
+{
+    struct ceduo_report report = report_of(app);
+    if (report.result)
+        ceduo_report_json(text, &report);
+}
+
+static void put_screen(struct app *app, struct text *text)
+{
+    ceduo_screen_draw(app); /* without the popup, which is off already */
+    char *screen = ceduo_canvas_dump(app->canvas);
+    ceduo_text_put(text, screen ? screen : "");
+    free(screen);
+}
+
+static const struct {
+    const char *name, *file, *what;
+    void (*put)(struct app *app, struct text *text); /* NULL: it is shown, not written */
+} exports[] = {{"table", "ceduo.txt", N_("the page, as text"), put_table},
+               {"picture", "ceduo-screen.txt", N_("this screen, with its picture, as text"), put_screen},
+               {"csv", "ceduo.csv", N_("CSV, a row for each option and control"), put_csv},
+               {"json", "ceduo.json", N_("JSON"), put_json},
+               {"command", "", N_("the batch command that gives the same"), NULL}};
+#define EXPORTS (sizeof exports / sizeof exports[0])
+
+static size_t export_of(const char *name)
+{
+    size_t i = 0;
+    while (i + 1 < EXPORTS && strcmp(exports[i].name, name) != 0)
+        i++;
+    return i;
+}
+
+static bool filled_export(struct app *app, struct popup *p)
+{
+    const char *path = p->fields[0].text;
+    struct text text = {0};
+    bool good = false;
+    if (!ceduo_popup_may_write(app, p))
+        return false;
+    exports[export_of(p->path)].put(app, &text);
+    if (!text.bytes) {
+        ceduo_app_warn(app, "%s", _("nothing is computed yet"));
+    } else if (!ceduo_file_write(path, text.bytes, text.length)) {
+        ceduo_app_warn(app, "%s: %s", path, strerror(errno));
+    } else {
+        ceduo_app_say(app, _("written: %s"), path);
+        good = true;
+    }
+    ceduo_text_free(&text);
+    return good;
+}
+
+static void chose_export(struct app *app, struct popup *p, const char *value)
+{
+    size_t i = export_of(value);
+    (void)p;
+    if (!exports[i].put) {
+        struct popup *q = ceduo_popup_text(app, _("The batch command that gives the same"));
+        if (q)
+            q->preview = show_command;
+        return;
+    }
+    struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);
+    if (!q)
+        return;
+    snprintf(q->path, sizeof q->path, "%s", value);
+    ceduo_popup_field(q, _("file"), exports[i].file);
+}
+
+void ceduo_popup_export(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("Export"), chose_export);
+    for (size_t i = 0; p && i < EXPORTS; i++)
+        ceduo_popup_item(p, _(exports[i].what), exports[i].name);
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which value of the field reaches a goal? */
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "model/seek.h"
+#include "popup.h"
+#include "popups.h"
+
+enum { FIND_GOAL, FIND_LO, FIND_HI };
+
+static bool read_goal(struct app *app, char *text, struct seek *seek)
+{
+    enum ceduo_goal_reading reading = ceduo_goal_read(text, &seek->goal, &seek->target);
+    if (reading == CEDUO_GOAL_NO_SHARE)
+        ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
+    else if (reading != CEDUO_GOAL_GOOD)
+        ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
+    else if (!ceduo_goals[seek->goal].usual && isnan(seek->target))
+        ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
+    else
+        return true;
+    return false;
+}
+
+#define FIND_ROCKS 2000 /* so that the answer is there at once */
+
+/* Looks for the value, and puts it into the field where one is found. */
+static bool filled_find(struct app *app, struct popup *p)
+{
+    struct seek seek = {.file = &app->document.file, .path = p->path, .option = app->option, .rocks = FIND_ROCKS,
+                        .threads = ceduo_worker_threads(app->figures.worker)};
+    char goal[64];
+    snprintf(goal, sizeof goal, "%.63s", p->fields[FIND_GOAL].text);
+    if (!read_goal(app, goal, &seek))
+        return false;
+    if (ceduo_number_read(p->fields[FIND_LO].text, &seek.lo) != CEDUO_NUMBER_GOOD ||
+        ceduo_number_read(p->fields[FIND_HI].text, &seek.hi) != CEDUO_NUMBER_GOOD || !(seek.lo <= seek.hi)) {
+        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+        return false;
+    }
+    struct ceduo_found found;
+    struct problems problems = {0};
+    enum ceduo_status status = ceduo_seek(&seek, &found, &problems);
+    bool good = status == CEDUO_OK;
+    if (!good) {
+        ceduo_app_edited(app, false, &problems);
+        return false;
+    }
+    struct text words = {0};
+    bool set = true;
+    if (found.found && found.whole_range) { /* then the value that is there is as good as another */
+        const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+        ceduo_text_format(&words, _("every value from %s to %s reaches the goal %s; the field stays %s"),
+                          p->fields[FIND_LO].text, p->fields[FIND_HI].text, p->fields[FIND_GOAL].text,
+                          cell && cell->text[0] ? cell->text : _("as it is"));
+    } else {
+        ceduo_seek_say(&seek, &found, &words);
+    }
+    if (found.found && !found.whole_range) {
+        char room[CEDUO_NUMBER_ROOM], path[1024];
+        snprintf(path, sizeof path, "%s", p->path);
+        set = ceduo_document_set(&app->document, path, ceduo_number_shortest(found.value, room), &problems);
+        ceduo_app_edited(app, set, &problems);
+    } else {
+        ceduo_problems_free(&problems);
+    }
+    for (char *c = words.bytes; c && *c; c++)
+        *c = *c == '\n' ? ' ' : *c;
+    if (set && words.bytes)
+        ceduo_app_say(app, "%s", words.bytes);
+    ceduo_text_free(&words);
+    return true;
+}
+
+void ceduo_popup_find(struct app *app)
+{
+    const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    bool number = cell && cell->field && (cell->field->type == FIELD_NUMBER || cell->field->type == FIELD_COUNT ||
+                                          cell->field->type == FIELD_SPREAD);
+    if (!number) {
+        ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
+        return;
+    }
+    char path[FORM_PATH], lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    snprintf(path, sizeof path, "%s", cell->path);
+    double value = 0;
+    bool known = ceduo_number_read(cell->text, &value) == CEDUO_NUMBER_GOOD && value > 0;
+    ceduo_number_shortest(known ? (cell->field->type == FIELD_COUNT ? 1 : value / 10) : 1, lo);
+    ceduo_number_shortest(known ? value * 10 : 1000, hi);
+    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
+    if (!p)
+        return;
+    snprintf(p->path, sizeof p->path, "%s", path);
+    ceduo_text_format(&p->text, _("%s, with the same rocks for every value. Goals at the worst control: adc, free-run, "
+                                  "energy=KJ (mean), exceed=SHARE (0.05). What is found is put into the field; u takes it back."),
+                      path);
+    ceduo_popup_field(p, _("goal"), "adc");
+    ceduo_popup_field(p, _("from"), lo);
+    ceduo_popup_field(p, _("to"), hi);
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All keys, and the field under the cursor. */
+#include "base/intl.h"
+#include "popup.h"
+#include "popups.h"
+
+void ceduo_popup_help(struct app *app)
+{
+    struct popup *p = ceduo_popup_text(app, _("Keys"));
+    if (!p)
+        return;
+    const struct form_cell *cell = ceduo_app_state(app)->pane == 0 ? ceduo_form_cell(ceduo_app_form(app)) : NULL;
+    struct text field = {0};
+    if (cell)
+        ceduo_form_explain(&app->document, cell, &field);
+    if (field.bytes) {
+        ceduo_text_safe(&p->text, field.bytes);
+        ceduo_text_put(&p->text, "\n \n");
+    }
+    ceduo_text_free(&field);
+    ceduo_text_put(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        const struct action_info *a = &ceduo_actions[i];
+        char keys[32];
+        snprintf(keys, sizeof keys, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
+        ceduo_text_format(&p->text, "%-18s%s\n", keys, _(a->help));
+    }
+    ceduo_text_put(&p->text, _(" \nA star marks what is assumed and not measured. Dim values are defaults.\n"
+                               "A number with a spread is typed as {mean: 0.6, spread: 0.1, kind: normal}.\n"
+                               "The column on the right: of 1000 rocks released, without forest; the three lights; what "
+                               "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
+                               "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
+                               "terminal itself selects text.\n"));
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_POPUPS_H
+#define CEDUO_POPUPS_H
+
+#include "app.h"
+
+/* The popups that there are. Each call opens one, or says why it does not. */
+
+void ceduo_popup_help(struct app *app);
+void ceduo_popup_presets(struct app *app);
+void ceduo_popup_new_option(struct app *app);
+void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
+void ceduo_popup_open(struct app *app);
+void ceduo_popup_new(struct app *app);
+void ceduo_popup_export(struct app *app);
+void ceduo_popup_search(struct app *app);
+void ceduo_popup_find(struct app *app);
+void ceduo_popup_counts(struct app *app);
+
+/* ---- saving, and unsaved work (popup_save.c) ---- */
+
+/* Writes where the scene came from; asks where it cannot, or where the file has changed. */
+void ceduo_popup_save(struct app *app);
+void ceduo_popup_save_as(struct app *app);
+
+/* Ends the program, or asks. */
+void ceduo_popup_quit(struct app *app);
+
+/* Whether unsaved work keeps another scene from being opened; it is said. */
+bool ceduo_popup_unsaved(struct app *app);
+
+/* Offers what a program that is gone left behind of the document that was just opened. */
+void ceduo_popup_recover(struct app *app);
+
+#endif

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "screen.h"
+
+#include <stdio.h>
+
+#include "base/intl.h"
+#include "base/utf8.h"
+#include "column.h"
+#include "popup.h"
+
+const struct view *const ceduo_views[VIEW_COUNT] = {
+#define V(NAME, name, key, word, help) &ceduo_view_##name,
+    VIEWS(V)
+#undef V
+};
+
+#define WIDTH_LEAST  60
+#define HEIGHT_LEAST 20
+
+/* Columns of the title of a view: its number, and blanks. */
+static int title_columns(int view)
+{
+    return (int)ceduo_utf8_width(_(ceduo_views[view]->title)) + 4;
+}
+
+enum view_number ceduo_screen_view_at(int column)
+{
+    int v = 0;
+    for (int end = 0; v < VIEW_COUNT; v++)
+        if (column < (end += title_columns(v)))
+            break;
+    return (enum view_number)v;
+}
+
+static void draw_title(struct app *app)
+{
+    int x = 0;
+    for (int v = 0; v < VIEW_COUNT; x += title_columns(v++))
+        ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, " %d %s ", v + 1,
+                        _(ceduo_views[v]->title));
+    struct text title = {0};
+    ceduo_text_format(&title, "%s", ceduo_document_unsaved(&app->document) ? "* " : "");
+    ceduo_text_safe(&title, app->document.file.scene.title);
+    int room = app->width - x - 1;
+    if (title.bytes && room > 4) {
+        int columns = (int)ceduo_utf8_width(title.bytes);
+        ceduo_form_cut(app->canvas, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
+                       title.bytes);
+    }
+    ceduo_text_free(&title);
+}
+
+static void draw_explanation(struct app *app)
+{
+    struct text text = {0}, safe = {0};
+    struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    enum ceduo_role role = CEDUO_ROLE_TEXT;
+    if (app->message[0]) {
+        ceduo_text_put(&text, app->message);
+        role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
+    } else if (cell && ceduo_app_state(app)->pane == 0) {
+        ceduo_form_explain(&app->document, cell, &text);
+    }
+    ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
+    bool two_lines = safe.bytes && app->message[0] && (int)ceduo_utf8_width(safe.bytes) > app->width;
+    struct ceduo_area lines = {0, app->height - 3, app->width, 2};
+    if (two_lines)
+        ceduo_app_text(app, lines, role, safe.bytes, 0);
+    else if (safe.bytes)
+        ceduo_form_cut(app->canvas, 0, app->height - 2, app->width, role, safe.bytes);
+    ceduo_text_free(&text);
+    ceduo_text_free(&safe);
+}
+
+static int bar_width(const struct action_info *a)
+{
+    return (int)ceduo_utf8_width(a->word) + (int)ceduo_utf8_width(_(a->help)) + 3;
+}
+
+static void draw_bar(struct app *app)
+{
+    int x = 0;
+    if (app->popup || app->editing) {
+        ceduo_app_label(app, 0, app->height - 1, CEDUO_ROLE_DIM, "%s",
+                        app->popup ? ceduo_popup_bar(app)
+                                   : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
+        return;
+    }
+    int room = app->width + 2;
+    for (int i = 0; i < ACTION_COUNT; i++)
+        room -= ceduo_actions[i].bar == 2 ? bar_width(&ceduo_actions[i]) : 0;
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        const struct action_info *a = &ceduo_actions[i];
+        const char *help = _(a->help);
+        int n = bar_width(a);
+        if (!a->bar || (a->bar == 1 && n > room))
+            continue;
+        room -= a->bar == 1 ? n : 0;
+        ceduo_app_label(app, x, app->height - 1, CEDUO_ROLE_TITLE, "%s", a->word);
+        ceduo_app_label(app, x + (int)ceduo_utf8_width(a->word) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", help);
+        x += n;
+    }
+}
+
+void ceduo_screen_draw(struct app *app)
+{
+    if (!app->canvas)
+        return;
+    ceduo_canvas_clear(app->canvas);
+    if (app->width < WIDTH_LEAST || app->height < HEIGHT_LEAST) {
+        struct ceduo_area all = {0, 0, app->width, app->height};
+        char text[128];
+        snprintf(text, sizeof text, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
+                 WIDTH_LEAST, HEIGHT_LEAST, app->width, app->height);
+        ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, 0);
+        return;
+    }
+    int side = app->width >= 140 ? 44 : app->width >= 100 ? 36 : 28;
+    struct ceduo_area now = {app->width - side + 1, 2, side - 1, app->height - 5};
+    struct ceduo_area body = {0, 2, app->width - side - 2, app->height - 5};
+    draw_title(app);
+    for (int y = now.top; y < now.top + now.height; y++)
+        ceduo_canvas_label(app->canvas, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
+    ceduo_column_draw(app, now);
+    ceduo_views[app->view]->draw(app, body);
+    draw_explanation(app);
+    draw_bar(app);
+    if (app->popup)
+        ceduo_popup_draw(app);
+}
