@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/schema.h"
+#include "scene/schema.h"
 #include "study/goal.h"
 #include "tui/keys.h"
 #include "view/figures.h"
@@ -29,17 +29,17 @@ static void put(FILE *out, const char *text)
 static void put_parameter(void *context, const char *path, const struct field *f)
 {
     FILE *out = context;
-    char range[96];
+    struct text range = {0};
     if (f->type == FIELD_TAG || strncmp(path, "options[].forest", 16) == 0 || strncmp(path, "forest[].stand.", 15) == 0 ||
         strncmp(path, "slope.", 6) == 0)
         return;
-    bool limited = ceduo_schema_range_text(f, range, sizeof range);
+    bool limited = ceduo_schema_range_text(f, &range);
     fprintf(out, ".It Va %s\n%s", path, f->meaning);
     if (f->unit[0])
         fprintf(out, "; %s", f->unit);
     if (limited) {
         fputs("; ", out);
-        put(out, range);
+        put(out, range.bytes);
     }
     for (size_t i = 0; f->choices && i < f->choices->n; i++) {
         fputs(i ? ", " : "; one of ", out);
@@ -48,6 +48,7 @@ static void put_parameter(void *context, const char *path, const struct field *f
     if (f->value)
         fprintf(out, "; default %s", f->value);
     fputs(f->type == FIELD_SPREAD || f->type == FIELD_SPREADS ? "; may have a spread.\n" : ".\n", out);
+    ceduo_text_free(&range);
 }
 
 static void put_parameters(FILE *out, const char *kind)

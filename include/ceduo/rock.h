@@ -40,9 +40,6 @@ struct ceduo_rock {
     double volume;        /* m3 */
 };
 
-/* A def without any size, density 2600 kg/m3 (limestone; assumed). */
-struct ceduo_rock_def ceduo_rock_def_default(void);
-
 /* The rock whose every size is the mean. CEDUO_BAD_ROCK where a size is missing or not above 0. */
 enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock);
 

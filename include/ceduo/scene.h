@@ -13,7 +13,7 @@
 #include "stand.h"
 
 #define CEDUO_GRAVITY 9.81
-#define CEDUO_THRESHOLD_M 30.0 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
+#define CEDUO_THRESHOLD_M 30 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
 #define CEDUO_ROCKS_MOST 10000000
 
 /* How a rock starts. Each number may have a spread. */
@@ -88,8 +88,8 @@ struct ceduo_scene {
     double reserves_minimum;        /* single trees per ha that a wood must keep; NaN: not said */
 };
 
-/* What the paper's site and rule take where a scene does not say. */
-struct ceduo_simulation ceduo_simulation_default(void);
+/* Whatever has a default has it; there is no slope, control or option yet. */
+struct ceduo_scene ceduo_scene_default(void);
 
 /* Checks that the parts fit together: rock, slope, release on it, controls beyond the release and on the slope. `where`
  * (may be NULL) is set to the index of the offending control. */

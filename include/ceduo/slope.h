@@ -18,8 +18,6 @@ enum ceduo_facets {
 #undef X
 };
 
-#define CEDUO_FRICTION_DEFAULT 0.5 /* assumed */
-
 /* The ground of one segment. */
 struct ceduo_segment {
     struct ceduo_number rn; /* normal restitution, 0…1 */
@@ -36,8 +34,12 @@ struct ceduo_slope {
     size_t vertices;                /* >= 2 */
     double *x, *z;                  /* m, x strictly increasing */
     struct ceduo_segment *segments; /* vertices - 1 */
+    size_t segments_given;          /* as the files have them: 1 is for all; 0: they follow from something else */
     double origin_x, origin_z;
 };
+
+/* Friction by default; restitution and roughness are not known. */
+struct ceduo_segment ceduo_segment_default(void);
 
 /* Height of the polyline at x (m, relative), which must lie on the slope; at a vertex, the vertex. */
 double ceduo_slope_height(const struct ceduo_slope *slope, double x);

@@ -5,7 +5,7 @@
 #include "io/file.h"
 #include "base/intl.h"
 #include "io/node.h"
-#include "io/schema.h"
+#include "scene/schema.h"
 
 /* ---- parameters ---- */
 
@@ -44,16 +44,15 @@ static void put_words(struct text *text, const struct choices *choices)
 static void put_parameter(void *context, const char *path, const struct field *f)
 {
     struct text *text = context;
-    char range[96];
+    struct text words = {0};
     if (f->type == FIELD_TAG || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* as forest[] */
-    ceduo_schema_range_text(f, range, sizeof range);
-    struct text words = {0};
     if (f->choices)
         put_words(&words, f->choices);
+    else if (!ceduo_schema_range_text(f, &words))
+        ceduo_text_char(&words, '-');
     ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_name(f), f->unit[0] ? f->unit : "-",
-                      f->choices ? (words.bytes ? words.bytes : "") : range[0] ? range : "-", f->value ? f->value : "-",
-                      _(f->meaning));
+                      words.bytes ? words.bytes : "", f->value ? f->value : "-", _(f->meaning));
     ceduo_text_free(&words);
 }
 

@@ -7,7 +7,7 @@
 
 #include "file.h"
 #include "base/intl.h"
-#include "schema.h"
+#include "scene/schema.h"
 
 /* A line of the file, and a field of it. */
 struct span {

@@ -2,7 +2,14 @@
 #ifndef CEDUO_CSV_SLOPE_H
 #define CEDUO_CSV_SLOPE_H
 
-#include "schema.h"
+#include "base/arena.h"
+#include "problem.h"
+
+/* A profile as its files give it. */
+struct points {
+    double *x, *z;
+    size_t n;
+};
 
 /* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
  * separated by comma, semicolon or tab. False where that fails. */

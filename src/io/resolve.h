@@ -2,7 +2,7 @@
 #ifndef CEDUO_RESOLVE_H
 #define CEDUO_RESOLVE_H
 
-#include "schema.h"
+#include "bind.h"
 
 /* Puts in place of a path what its file holds, and merges a stand into its base. `object` says what is wanted. NULL
  * where that fails; what is wrong is in `problems`. */

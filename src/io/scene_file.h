@@ -3,7 +3,7 @@
 #define CEDUO_SCENE_FILE_H
 
 #include "ceduo/scene.h"
-#include "schema.h"
+#include "bind.h"
 
 /* A scene as read from its files. Everything that it points to lives in its arena. */
 struct scene_file {
@@ -35,9 +35,6 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);
 
 /* Changes one value. `set` is PATH=VALUE; problems are told as those of the option of the command line. */
 bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems);
-
-/* Whether a note is of growth or cutting: it matters to the years to come, not to the stand as it is. */
-bool ceduo_note_of_years(const struct source_note *note);
 
 /* True where some value below `path` is marked as an assumption, but for growth and cutting. */
 bool ceduo_scene_assumes(const struct scene_file *file, const char *path);

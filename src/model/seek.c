@@ -8,7 +8,7 @@
 #include "ceduo/key.h"
 #include "ceduo/result.h"
 #include "base/intl.h"
-#include "io/schema.h"
+#include "scene/schema.h"
 
 /* One search under way. */
 struct search {

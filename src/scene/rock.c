@@ -6,18 +6,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-struct ceduo_rock_def ceduo_rock_def_default(void)
-{
-    struct ceduo_number none = ceduo_number(NAN);
-    return (struct ceduo_rock_def){.shape = CEDUO_SPHERE,
-                                   .diameter = none,
-                                   .height = none,
-                                   .volume = none,
-                                   .mass = none,
-                                   .density = ceduo_number(2600),
-                                   .axes = {none, none, none}};
-}
-
 /* The sizes of one rock, all drawn. */
 struct sizes {
     double diameter, height, volume, mass, density, axes[3];

@@ -3,18 +3,6 @@
 
 #include <math.h>
 
-struct ceduo_simulation ceduo_simulation_default(void)
-{
-    return (struct ceduo_simulation){.law = CEDUO_LAW_LUMPED,
-                                     .rocks = 1000,
-                                     .seed = 1,
-                                     .contact_model = CEDUO_STEMS,
-                                     .rule = CEDUO_RULE_AUTO,
-                                     .threshold = CEDUO_THRESHOLD_M,
-                                     .gravity = CEDUO_GRAVITY,
-                                     .scale_rn = false};
-}
-
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
 {
     struct ceduo_rock rock;

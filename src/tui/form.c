@@ -373,15 +373,16 @@ bool ceduo_form_hit(const struct form *form, int left, int top, int width, int h
 void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text)
 {
     const struct field *f = cell->field;
-    char range[96] = "";
+    struct text range = {0};
     if (!f)
         return;
     const char *key = strrchr(cell->path, '.');
     ceduo_text_format(text, "%s  %s", key ? key + 1 : cell->path, _(f->meaning));
     if (f->unit[0])
         ceduo_text_format(text, "; %s", f->unit);
-    if (ceduo_schema_range_text(f, range, sizeof range))
-        ceduo_text_format(text, ", %s", range);
+    if (ceduo_schema_range_text(f, &range))
+        ceduo_text_format(text, ", %s", range.bytes ? range.bytes : "");
+    ceduo_text_free(&range);
     if (f->value)
         ceduo_text_format(text, _(" (default %s)"), f->value);
     const struct source_note *note = ceduo_scene_note(&d->file, cell->path);

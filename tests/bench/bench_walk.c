@@ -77,13 +77,13 @@ static void init_scene(struct site *site, enum ceduo_law law, bool height)
                                                    .rt = ceduo_number(ground[1]),
                                                    .roughness_m = height ? ground[2] : NAN,
                                                    .roughness_rad = height ? NAN : ground[2],
-                                                   .friction = CEDUO_FRICTION_DEFAULT};
+                                                   .friction = ceduo_segment_default().friction};
     }
     site->control =
         (struct ceduo_control){.x = CONTROL_X, .x_given = CONTROL_X, .accepted = NAN, .measured_speed = NAN};
     site->option = (struct ceduo_option){.belts_count = 0, .belts = &site->belt};
     struct ceduo_scene *scene = &site->scene;
-    scene->rock = ceduo_rock_def_default();
+    scene->rock = ceduo_scene_default().rock;
     scene->rock.shape = CEDUO_CYLINDER;
     scene->rock.diameter = ceduo_number(0.56);
     scene->rock.height = ceduo_number(0.80);
@@ -98,7 +98,7 @@ static void init_scene(struct site *site, enum ceduo_law law, bool height)
     scene->controls = &site->control;
     scene->options_count = 1;
     scene->options = &site->option;
-    scene->simulation = ceduo_simulation_default();
+    scene->simulation = ceduo_scene_default().simulation;
     scene->simulation.law = law;
     scene->simulation.rocks = MANY_ROCKS;
 }
@@ -112,7 +112,7 @@ static void init_plain(struct site *site, bool height)
         s->rn = ground[0];
         s->rt = ground[1];
         s->roughness = ground[2];
-        s->friction = CEDUO_FRICTION_DEFAULT;
+        s->friction = ceduo_segment_default().friction;
     }
     struct ceduo_rock rock;
     if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)

@@ -17,14 +17,14 @@ void line_scene_init(struct line_scene *s, size_t vertices, const double *x, con
                                                 .roughness_rad = NAN,
                                                 .friction = ground.friction};
     struct ceduo_scene *scene = &s->scene;
-    scene->rock = ceduo_rock_def_default();
+    scene->rock = ceduo_scene_default().rock;
     scene->rock.diameter = ceduo_number(2 * radius);
     scene->slope = (struct ceduo_slope){
         .facets = CEDUO_AGAINST, .vertices = vertices, .x = s->x, .z = s->z, .segments = s->segments};
     scene->controls = &s->control;
     scene->options = &s->option;
     scene->options_count = 1;
-    scene->simulation = ceduo_simulation_default();
+    scene->simulation = ceduo_scene_default().simulation;
     scene->simulation.law = law;
 }
 

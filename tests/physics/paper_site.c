@@ -49,7 +49,7 @@ static void init_slope(struct paper_site *site)
     for (size_t j = 0; j < PAPER_SEGMENTS; j++)
         site->segments[j] = (struct ceduo_segment){.rn = ceduo_number(j < 2 ? first_rn[j] : 0.31),
                                                    .rt = ceduo_number(j < 2 ? first_rt[j] : 0.83),
-                                                   .friction = CEDUO_FRICTION_DEFAULT};
+                                                   .friction = ceduo_segment_default().friction};
     site->scene.slope = (struct ceduo_slope){.facets = CEDUO_AGAINST,
                                              .vertices = PAPER_VERTICES,
                                              .x = site->x,
@@ -79,7 +79,7 @@ void paper_site_init(struct paper_site *site)
 {
     memset(site, 0, sizeof *site);
     struct ceduo_scene *scene = &site->scene;
-    scene->rock = ceduo_rock_def_default();
+    scene->rock = ceduo_scene_default().rock;
     scene->rock.shape = CEDUO_CYLINDER;
     scene->rock.diameter = ceduo_number(0.56);
     scene->rock.height = ceduo_number(0.80);
@@ -92,7 +92,7 @@ void paper_site_init(struct paper_site *site)
     scene->controls = &site->control;
     scene->options_count = 1;
     scene->options = &site->option;
-    scene->simulation = ceduo_simulation_default();
+    scene->simulation = ceduo_scene_default().simulation;
 }
 
 void paper_site_read_theta(struct paper_site *site, enum paper_theta theta)
@@ -113,7 +113,7 @@ void paper_site_smooth(struct paper_site *site)
 
 void paper_site_sphere(struct paper_site *site)
 {
-    site->scene.rock = ceduo_rock_def_default();
+    site->scene.rock = ceduo_scene_default().rock;
     site->scene.rock.diameter = ceduo_number(PAPER_B);
 }
 

@@ -72,7 +72,7 @@ static const struct rock {
 
 static struct ceduo_rock_def def_of(const struct rock *r)
 {
-    struct ceduo_rock_def def = ceduo_rock_def_default();
+    struct ceduo_rock_def def = ceduo_scene_default().rock;
     def.shape = r->shape;
     def.diameter = ceduo_number(r->diameter);
     def.height = ceduo_number(r->height);
@@ -124,7 +124,7 @@ static void size_up(struct ceduo_block blocks[CEDUO_BLOCKS])
 /* A block of one size is as many of 1 m3 as it has: of 1 m by 1 m by so much, whose volume no rounding touches. */
 static struct ceduo_rock_def slab(double volume)
 {
-    struct ceduo_rock_def def = ceduo_rock_def_default();
+    struct ceduo_rock_def def = ceduo_scene_default().rock;
     def.shape = CEDUO_BLOCK;
     def.axes[0] = ceduo_number(volume);
     def.axes[1] = def.axes[2] = ceduo_number(1);

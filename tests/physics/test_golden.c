@@ -55,7 +55,7 @@ static void rock_shapes(void **state)
 {
     (void)state;
     const double pi = acos(-1);
-    struct ceduo_rock_def def = ceduo_rock_def_default();
+    struct ceduo_rock_def def = ceduo_scene_default().rock;
     struct ceduo_rock rock;
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_BAD_ROCK);
     def.volume = ceduo_number(pi / 6);
@@ -63,12 +63,12 @@ static void rock_shapes(void **state)
     expect_exact(rock.mean_diameter, 1);
     expect_exact(rock.k, 0.4);
     expect_exact(rock.mass, 2600 * pi / 6);
-    def = ceduo_rock_def_default();
+    def = ceduo_scene_default().rock;
     def.mass = ceduo_number(2600 * pi / 6 * 8);
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
     expect_exact(rock.mean_diameter, 2);
     expect_exact(rock.moment, 0.4 * rock.mass);
-    def = ceduo_rock_def_default();
+    def = ceduo_scene_default().rock;
     def.shape = CEDUO_ELLIPSOID;
     def.axes[0] = ceduo_number(0.5);
     def.axes[1] = ceduo_number(1.5);

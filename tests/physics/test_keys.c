@@ -193,7 +193,8 @@ static const struct field release_fields[] = {
 static const struct field slope_fields[] = {
     FIELD(ceduo_slope, facets, WORD, FLIGHT),   FIELD(ceduo_slope, vertices, COUNT, FLIGHT),
     FIELD(ceduo_slope, x, ELSEWHERE, 0),        FIELD(ceduo_slope, z, ELSEWHERE, 0),
-    FIELD(ceduo_slope, segments, ELSEWHERE, 0), FIELD(ceduo_slope, origin_x, NUMBER, 0),
+    FIELD(ceduo_slope, segments, ELSEWHERE, 0), FIELD(ceduo_slope, segments_given, ELSEWHERE, 0),
+    FIELD(ceduo_slope, origin_x, NUMBER, 0),
     FIELD(ceduo_slope, origin_z, NUMBER, 0),
 };
 

@@ -19,7 +19,7 @@ static struct paper_site site;
 static void plant_trees(double first_per_ha, double second_per_ha)
 {
     paper_site_init(&site);
-    site.scene.rock = ceduo_rock_def_default();
+    site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter = ceduo_number(.75);
     for (size_t i = 0; i < 2; i++) {
         site.belts[i].stand.shoots_count = 0;

@@ -540,7 +540,7 @@ static void releases_and_rocks_are_drawn_as_they_are_spread(void **state)
     s->release.vx = (struct ceduo_number){1, .5, CEDUO_NORMAL};
     s->release.vz = (struct ceduo_number){-1, .5, CEDUO_UNIFORM};
     s->release.spin = (struct ceduo_number){2, 3, CEDUO_NORMAL};
-    s->rock = ceduo_rock_def_default();
+    s->rock = ceduo_scene_default().rock;
     s->rock.diameter = (struct ceduo_number){.68, .1, CEDUO_NORMAL};
     assert_int_equal(ceduo_scene_check(s, NULL), CEDUO_OK);
     struct drawn d = draw_releases(s, 20000);

@@ -123,7 +123,7 @@ static void no_rock_no_figures(void **state)
         assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
     }
     /* good itself, but too heavy when it is as large as the others */
-    site.scene.rock = ceduo_rock_def_default();
+    site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter.mean = 1e-90;
     site.scene.rock.mass.mean = 1e200;
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
@@ -143,7 +143,7 @@ static void rocks_are_refused(void **state)
 {
     (void)state;
     const double no_size[] = {0, -1, INFINITY, -INFINITY};
-    struct ceduo_rock_def def = ceduo_rock_def_default();
+    struct ceduo_rock_def def = ceduo_scene_default().rock;
     expect_rock(&def, CEDUO_BAD_ROCK);
     def.diameter.mean = 1;
     expect_rock(&def, CEDUO_OK);
@@ -165,7 +165,7 @@ static void rocks_are_refused(void **state)
     def.diameter.mean = 4e-324;
     expect_rock(&def, CEDUO_BAD_ROCK);
 
-    def = ceduo_rock_def_default();
+    def = ceduo_scene_default().rock;
     def.shape = CEDUO_CYLINDER;
     def.diameter.mean = 1;
     expect_rock(&def, CEDUO_BAD_ROCK);
@@ -174,7 +174,7 @@ static void rocks_are_refused(void **state)
     def.diameter.mean = NAN;
     expect_rock(&def, CEDUO_BAD_ROCK);
 
-    def = ceduo_rock_def_default();
+    def = ceduo_scene_default().rock;
     for (int shape = CEDUO_ELLIPSOID; shape <= CEDUO_BLOCK; shape++) {
         def.shape = (enum ceduo_shape)shape;
         for (int all = 0; all < 8; all++) {
@@ -635,7 +635,7 @@ static void rocks_that_cannot_be_drawn(void **state)
     static const double cells[] = {50};
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
-    site.scene.rock = ceduo_rock_def_default();
+    site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter.mean = .5;
     site.scene.rock.mass = (struct ceduo_number){.mean = 3e-322, .spread = 2.9e-322, .kind = CEDUO_UNIFORM};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);

@@ -160,8 +160,8 @@ static void set_wood(struct site *s)
 static void site_init(struct site *s)
 {
     *s = (struct site){.scene = {.title = "small",
-                                 .rock = ceduo_rock_def_default(),
-                                 .simulation = ceduo_simulation_default(),
+                                 .rock = ceduo_scene_default().rock,
+                                 .simulation = ceduo_scene_default().simulation,
                                  .controls_count = 2,
                                  .controls = s->controls,
                                  .options_count = 2,

@@ -15,7 +15,7 @@
 #include "io/emit.h"
 #include "io/node.h"
 #include "io/scene_file.h"
-#include "io/schema.h"
+#include "scene/schema.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 

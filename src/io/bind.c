@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "schema.h"
+#include "bind.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -49,7 +49,7 @@ static const char *path_here(const struct binder *b)
     return path[0] == '.' ? path + 1 : path;
 }
 
-/* What stands at the present path is not to be reckoned with. */
+/* Marks the value at the current path as invalid; later checks skip it. */
 static void note_bad(struct binder *b)
 {
     struct bad_values *bad = b->bad;
@@ -109,16 +109,6 @@ static void leave(struct binder *b, size_t before)
     b->path.length = before;
     if (b->path.bytes)
         b->path.bytes[before] = '\0';
-}
-
-/* ---- finding fields ---- */
-
-const struct field *ceduo_schema_field(const struct object *object, const char *key)
-{
-    for (size_t i = 0; i < object->n; i++)
-        if (strcmp(object->fields[i].key, key) == 0)
-            return &object->fields[i];
-    return NULL;
 }
 
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
@@ -212,31 +202,37 @@ static bool bind_number(struct binder *b, const struct field *f, const struct no
     return true;
 }
 
-static void bind_count(struct binder *b, const struct field *f, const struct node *node, uint64_t *to)
+static void bind_count(struct binder *b, const struct field *f, const struct node *node, void *to)
 {
     double value;
+    uint64_t count;
     if (!read_number(b, node, &value))
         return;
     if (value != floor(value))
         report(b, node, _("'%s' is no whole number"), node->text);
-    else if (check_range(b, f, node, value) && ceduo_count_read(node->text, f->lo, f->hi, to) != CEDUO_NUMBER_GOOD)
+    else if (!check_range(b, f, node, value))
+        return;
+    else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
         report(b, node, _("%s is above %.0f"), node->text, f->hi);
+    else
+        ceduo_schema_put_count(f, to, count);
 }
 
-static void bind_choice(struct binder *b, const struct field *f, const struct node *node, int *to)
+/* `to`: an int or an enum */
+static void bind_choice(struct binder *b, const struct choices *choices, const struct node *node, void *to)
 {
     if (!want_scalar(b, node, _("a word")))
         return;
-    int found = ceduo_choice_find(f->choices, node->text);
+    int found = ceduo_choice_find(choices, node->text);
     if (found >= 0) {
-        *to = found;
+        memcpy(to, &found, sizeof found);
         return;
     }
     struct text list = {0};
-    for (size_t i = 0; i < f->choices->n; i++)
-        ceduo_text_format(&list, "%s%s", i ? ", " : "", f->choices->names[i]);
-    const char *near = ceduo_text_nearest(node->text, f->choices->names, f->choices->n);
-    if (near && f->choices->n > 1)
+    for (size_t i = 0; i < choices->n; i++)
+        ceduo_text_format(&list, "%s%s", i ? ", " : "", choices->names[i]);
+    const char *near = ceduo_text_nearest(node->text, choices->names, choices->n);
+    if (near && choices->n > 1)
         report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, list.bytes ? list.bytes : "");
     else
         report(b, node, _("'%s' is unknown; one of: %s"), node->text, list.bytes ? list.bytes : "");
@@ -254,10 +250,11 @@ static void bind_flag(struct binder *b, const struct node *node, bool *to)
         *to = yes;
 }
 
-static void bind_text(struct binder *b, const struct node *node, const char **to)
+/* `to`: a char *, or NULL where nothing keeps it */
+static void bind_text(struct binder *b, const struct node *node, void *to)
 {
-    if (want_scalar(b, node, _("a text")))
-        *to = node->text;
+    if (want_scalar(b, node, _("a text")) && to)
+        memcpy(to, &node->text, sizeof node->text);
 }
 
 static void bind_tag(struct binder *b, const struct field *f, const struct node *node)
@@ -271,9 +268,7 @@ static void bind_source(struct binder *b, const struct node *node);
 /* {mean: …, spread: …, kind: …} */
 static void bind_spread_map(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
-    static const char *const kinds[] = {"normal", "uniform"};
-    static const struct choices kind_choices = {kinds, 2};
-    struct field spread = *f, kind = {.choices = &kind_choices};
+    struct field spread = *f;
     spread.lo = 0;
     spread.flags = 0;
     spread.hi = INFINITY;
@@ -281,22 +276,19 @@ static void bind_spread_map(struct binder *b, const struct field *f, const struc
     for (size_t i = 0; i < node->n; i++) {
         const struct node *entry = node->items[i];
         size_t before = enter(b, entry->key);
-        int k = CEDUO_NORMAL;
         if (strcmp(entry->key, "mean") == 0)
             has_mean = bind_number(b, f, entry, &to->mean) || true;
         else if (strcmp(entry->key, "spread") == 0)
             bind_number(b, &spread, entry, &to->spread);
         else if (strcmp(entry->key, "kind") == 0)
-            bind_choice(b, &kind, entry, &k);
+            bind_choice(b, &ceduo_spread_words, entry, &to->kind);
         else if (strcmp(entry->key, "source") != 0)
             report_key(b, entry, _("unknown key; known here: mean, spread, kind, source"));
-        if (strcmp(entry->key, "kind") == 0)
-            to->kind = (enum ceduo_spread_kind)k;
         leave(b, before);
         if (strcmp(entry->key, "source") == 0)
             bind_source(b, entry);
     }
-    if (!has_mean && isnan(to->mean) && !(f->flags & FIELD_DEFAULTS))
+    if (!has_mean && isnan(to->mean) && !(f->flags & FIELD_MEANLESS))
         report(b, node, _("'mean' is missing"));
 }
 
@@ -346,52 +338,62 @@ static void *take(struct binder *b, size_t n, size_t size)
     return p;
 }
 
-static void bind_numbers(struct binder *b, const struct field *f, const struct node *node, struct numbers *to)
+/* Sets a list of `item`: the pointer, and the count beside it. */
+static void put_list(const struct field *f, void *item, void *items, size_t n)
 {
-    if (!want_list(b, node) || !(to->values = take(b, node->n, sizeof(double))))
+    memcpy((char *)item + f->offset, &items, sizeof items);
+    memcpy((char *)item + f->beside, &n, sizeof n);
+}
+
+static void bind_numbers(struct binder *b, const struct field *f, const struct node *node, void *item)
+{
+    double *values;
+    if (!want_list(b, node) || !(values = take(b, node->n, sizeof *values)))
         return;
-    to->n = node->n;
+    put_list(f, item, values, node->n);
     for (size_t i = 0; i < node->n; i++) {
         size_t before = enter_item(b, i);
-        to->values[i] = NAN;
-        bind_number(b, f, node->items[i], &to->values[i]);
+        values[i] = NAN;
+        bind_number(b, f, node->items[i], &values[i]);
         leave(b, before);
     }
 }
 
-static void bind_points(struct binder *b, const struct field *f, const struct node *node, struct points *to)
+static void bind_points(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
+    double *xz[2];
     if (!want_list(b, node))
         return;
-    to->x = take(b, node->n, sizeof(double));
-    to->z = take(b, node->n, sizeof(double));
-    if (!to->x || !to->z)
+    xz[0] = take(b, node->n, sizeof *xz[0]);
+    xz[1] = take(b, node->n, sizeof *xz[1]);
+    if (!xz[0] || !xz[1])
         return;
-    to->n = node->n;
+    put_list(f, item, xz[0], node->n);
+    memcpy((char *)item + f->offset, xz, sizeof xz);
     for (size_t i = 0; i < node->n; i++) {
         const struct node *pair = node->items[i];
         size_t before = enter_item(b, i);
-        to->x[i] = to->z[i] = NAN;
+        xz[0][i] = xz[1][i] = NAN;
         if (pair->kind != NODE_LIST || pair->n != 2)
             report(b, pair, _("a pair [x, z] is wanted"));
-        else if (bind_number(b, f, pair->items[0], &to->x[i]))
-            bind_number(b, f, pair->items[1], &to->z[i]);
+        else if (bind_number(b, f, pair->items[0], &xz[0][i]))
+            bind_number(b, f, pair->items[1], &xz[1][i]);
         leave(b, before);
     }
 }
 
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
 
-static void bind_list(struct binder *b, const struct field *f, const struct node *node, struct list *to)
+static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
-    if (!want_list(b, node) || !(to->items = take(b, node->n, f->object->size)))
+    char *items;
+    if (!want_list(b, node) || !(items = take(b, node->n, f->object->size)))
         return;
-    to->n = node->n;
+    put_list(f, item, items, node->n);
     for (size_t i = 0; i < node->n; i++) {
-        char *item = (char *)to->items + i * f->object->size;
         size_t before = enter_item(b, i);
-        f->object->init(item);
-        bind_map(b, f->object, node->items[i], item);
+        ceduo_schema_init(f->object, items + i * f->object->size);
+        bind_map(b, f->object, node->items[i], items + i * f->object->size);
         leave(b, before);
     }
 }
@@ -409,7 +411,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         break;
     case FIELD_TEXT:
     case FIELD_FILE:
-        bind_text(b, node, to);
+        bind_text(b, node, f->flags & FIELD_NOWHERE ? NULL : to);
         break;
     case FIELD_NUMBER:
         bind_number(b, f, node, to);
@@ -424,22 +426,22 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         bind_count(b, f, node, to);
         break;
     case FIELD_CHOICE:
-        bind_choice(b, f, node, to);
+        bind_choice(b, f->choices, node, to);
         break;
     case FIELD_FLAG:
         bind_flag(b, node, to);
         break;
     case FIELD_NUMBERS:
-        bind_numbers(b, f, node, to);
+        bind_numbers(b, f, node, item);
         break;
     case FIELD_POINTS:
-        bind_points(b, f, node, to);
+        bind_points(b, f, node, item);
         break;
     case FIELD_GROUP:
         bind_map(b, f->object, node, to);
         break;
     case FIELD_LIST:
-        bind_list(b, f, node, to);
+        bind_list(b, f, node, item);
         break;
     }
 }
@@ -484,7 +486,6 @@ static void bind_source(struct binder *b, const struct node *node)
 {
     static const char *const kinds[] = {"measured", "literature", "assumed"};
     static const struct choices kind_choices = {kinds, 3};
-    const struct field kind_field = {.choices = &kind_choices};
     size_t before = enter(b, "source");
     const char *text = "";
     const struct node *except = NULL;
@@ -495,7 +496,7 @@ static void bind_source(struct binder *b, const struct node *node)
         const struct node *entry = node->items[i];
         size_t outer = enter(b, entry->key);
         if (strcmp(entry->key, "kind") == 0)
-            bind_choice(b, &kind_field, entry, &kind);
+            bind_choice(b, &kind_choices, entry, &kind);
         else if (strcmp(entry->key, "text") == 0)
             bind_text(b, entry, &text);
         else if (strcmp(entry->key, "except") == 0)
@@ -578,46 +579,11 @@ static void bind_map(struct binder *b, const struct object *object, const struct
     b->partial = partial;
 }
 
-void ceduo_schema_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
-                       struct problems *problems, const struct source_note **notes, struct bad_values *bad)
+void ceduo_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
+                struct problems *problems, const struct source_note **notes, struct bad_values *bad)
 {
     struct binder b = {.arena = arena, .problems = problems, .notes = notes, .bad = bad};
     bind_map(&b, object, node, item);
     problems->memory |= b.path.failed;
     ceduo_text_free(&b.path);
-}
-
-/* ---- showing the table ---- */
-
-bool ceduo_schema_range_text(const struct field *f, char *buffer, size_t size)
-{
-    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    bool low = isfinite(f->lo), high = isfinite(f->hi);
-    snprintf(lo, sizeof lo, "%.5g", f->lo);
-    snprintf(hi, sizeof hi, f->hi > 1e15 ? "%.17g" : "%.5g", f->hi);
-    if (!low && !high)
-        snprintf(buffer, size, "%s", "");
-    else if (!high)
-        snprintf(buffer, size, "%s %s", f->flags & FIELD_ABOVE ? ">" : ">=", lo);
-    else
-        snprintf(buffer, size, "%s%s\xe2\x80\xa6%s%s", f->flags & FIELD_ABOVE ? ">" : "", low ? lo : "",
-                 f->flags & FIELD_UNDER ? "<" : "", hi);
-    return low || high;
-}
-
-void ceduo_schema_visit(const struct object *object, const char *prefix,
-                        void (*visit)(void *context, const char *path, const struct field *field), void *context)
-{
-    for (size_t i = 0; i < object->n; i++) {
-        const struct field *f = &object->fields[i];
-        struct text path = {0};
-        ceduo_text_format(&path, "%s%s%s%s", prefix, prefix[0] ? "." : "", f->key, f->type == FIELD_LIST ? "[]" : "");
-        if (path.failed)
-            return;
-        if (f->type == FIELD_GROUP || f->type == FIELD_LIST)
-            ceduo_schema_visit(f->object, path.bytes, visit, context);
-        else
-            visit(context, path.bytes, f);
-        ceduo_text_free(&path);
-    }
 }

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "derive.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "resolve.h"
+
+void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...)
+{
+    struct text message = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&message, format, args);
+    va_end(args);
+    const char *within;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(d->root, path, &within, &used);
+    ceduo_node_problem(d->problems, node, within, "%s", message.bytes ? message.bytes : "");
+    ceduo_text_free(&message);
+}
+
+void *ceduo_derive_take(struct deriver *d, size_t n, size_t size)
+{
+    void *p = ceduo_arena_take(d->arena, (n + 1) * size);
+    if (!p)
+        ceduo_problem_memory(d->problems);
+    return p;
+}
+
+const char *ceduo_derive_text(struct deriver *d, const char *format, ...)
+{
+    struct text text = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&text, format, args);
+    va_end(args);
+    const char *copy = text.bytes ? ceduo_arena_string(d->arena, text.bytes) : NULL;
+    ceduo_text_free(&text);
+    if (!copy)
+        ceduo_problem_memory(d->problems);
+    return copy ? copy : "";
+}
+
+bool ceduo_derive_known(struct deriver *d, const char *format, ...)
+{
+    struct text path = {0};
+    va_list args;
+    va_start(args, format);
+    if (d->bad.n > 0)
+        ceduo_text_vformat(&path, format, args);
+    va_end(args);
+    bool good = !path.failed;
+    for (size_t i = 0; good && i < d->bad.n; i++)
+        good = !ceduo_path_leads_to(d->bad.paths[i], path.bytes);
+    d->problems->memory |= path.failed;
+    ceduo_text_free(&path);
+    return good;
+}
+
+bool ceduo_derive_sound(struct deriver *d, const char *path)
+{
+    for (size_t i = 0; i < d->bad.n; i++)
+        if (ceduo_path_leads_to(path, d->bad.paths[i]))
+            return false;
+    return ceduo_derive_known(d, "%s", path);
+}
+
+bool ceduo_derive_given(struct deriver *d, const char *group, const char *key)
+{
+    return ceduo_node_get(ceduo_node_get(d->root, group), key) || !ceduo_derive_known(d, "%s.%s", group, key);
+}
+
+void ceduo_derive_assume(struct deriver *d, const char *path, const char *text)
+{
+    struct source_note *note = ceduo_arena_take(d->arena, sizeof *note);
+    if (!note) {
+        ceduo_problem_memory(d->problems);
+        return;
+    }
+    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = d->notes, .made = true};
+    d->notes = note;
+}
+
+bool ceduo_derive_too_many(struct deriver *d, const char *path, size_t n)
+{
+    if (n > CEDUO_ITEMS_MOST)
+        ceduo_derive_complain(d, path, _("%zu are more than the %d that can be computed at once"), n, CEDUO_ITEMS_MOST);
+    return n > CEDUO_ITEMS_MOST;
+}
+
+/* ---- rock ---- */
+
+/* What each shape is given by, and how that is written. A sphere has one of its keys, the others have all. */
+static const struct {
+    const char *keys[4], *example;
+} shapes[] = {[CEDUO_SPHERE] = {{"diameter_m", "volume_m3", "mass_kg"}, "diameter_m: 1"},
+              [CEDUO_CYLINDER] = {{"diameter_m", "height_m"}, "diameter_m: 1, height_m: 1"},
+              [CEDUO_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
+              [CEDUO_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
+
+static bool belongs_to(enum ceduo_shape shape, const char *key)
+{
+    for (size_t i = 0; shapes[shape].keys[i]; i++)
+        if (strcmp(shapes[shape].keys[i], key) == 0)
+            return true;
+    return false;
+}
+
+static void refuse_other_sizes(struct deriver *d, enum ceduo_shape shape)
+{
+    static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
+    const struct node *rock = ceduo_node_get(d->root, "rock"), *said = ceduo_node_get(rock, "shape");
+    const char *name = ceduo_shape_words.names[shape];
+    for (size_t i = 0; i < 4; i++) {
+        if (belongs_to(shape, sizes[i]) || !ceduo_node_get(rock, sizes[i]))
+            continue;
+        const char *path = ceduo_derive_text(d, "rock.%s", sizes[i]);
+        if (said && said->source->is_option) /* nothing of the file can be taken out there */
+            ceduo_derive_complain(
+                d, path, _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name,
+                name, shapes[shape].example);
+        else
+            ceduo_derive_complain(d, path, _("does not belong to the shape '%s'; take it out"), name);
+    }
+}
+
+static void check_sizes(struct deriver *d, enum ceduo_shape shape)
+{
+    int n = 0;
+    refuse_other_sizes(d, shape);
+    for (size_t i = 0; shapes[shape].keys[i]; i++) {
+        bool given = ceduo_derive_given(d, "rock", shapes[shape].keys[i]);
+        n += given;
+        if (!given && shape != CEDUO_SPHERE)
+            ceduo_derive_complain(d, "rock", _("'%s' is missing: the shape '%s' needs it"), shapes[shape].keys[i],
+                                  ceduo_shape_words.names[shape]);
+    }
+    if (shape == CEDUO_SPHERE && n != 1)
+        ceduo_derive_complain(d, "rock",
+                              _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
+    const struct node *rock = ceduo_node_get(d->root, "rock");
+    if (shape != CEDUO_SPHERE && ceduo_node_get(rock, "mass_kg") && ceduo_node_get(rock, "density_kg_m3"))
+        ceduo_derive_complain(d, "rock.density_kg_m3", _("mass_kg says it already; keep one of the two"));
+}
+
+static void derive_rock(struct deriver *d)
+{
+    size_t before = d->problems->met;
+    const struct ceduo_rock_def *def = &d->draft.scene.rock;
+    if (!ceduo_derive_known(d, "rock.shape"))
+        return;
+    check_sizes(d, def->shape);
+    bool by_mass = def->shape != CEDUO_SPHERE && ceduo_derive_given(d, "rock", "mass_kg");
+    if (!ceduo_derive_given(d, "rock", "density_kg_m3") && !by_mass)
+        ceduo_derive_assume(
+            d, "rock.density_kg_m3",
+            ceduo_derive_text(d, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
+    struct ceduo_rock rock;
+    if (before == d->problems->met && ceduo_derive_sound(d, "rock") && ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+        ceduo_derive_complain(d, "rock", _("too small or too large a rock to compute with"));
+}
+
+bool ceduo_derive(struct deriver *d)
+{
+    ceduo_schema_init(ceduo_schema_scene(), &d->draft);
+    ceduo_bind(d->arena, ceduo_schema_scene(), d->root, &d->draft, d->problems, &d->notes, &d->bad);
+    if (d->bad.n > CEDUO_BAD_MOST || d->problems->memory)
+        return false;
+    derive_rock(d);
+    ceduo_derive_slope(d);
+    ceduo_derive_release(d);
+    ceduo_derive_controls(d);
+    ceduo_derive_options(d);
+    return true;
+}

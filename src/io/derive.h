@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_DERIVE_H
+#define CEDUO_DERIVE_H
+
+#include "bind.h"
+#include "ceduo/material.h"
+
+/* What follows from the values of a scene once they are read into its draft: places relative to the slope's first vertex,
+ * ground from materials, controls from controls_m, options from forest, and whether the parts fit together. What is wrong
+ * is reported at the node that it comes from. */
+struct deriver {
+    struct arena *arena;
+    const struct node *root; /* the scene, with what it refers to in place */
+    struct problems *problems;
+    const struct derived *last;
+    struct scene_draft draft; /* its scene is what is made */
+    const struct source_note *notes;
+    struct bad_values bad;
+    bool profile;        /* the slope has its vertices */
+    bool ground_assumed; /* the slope's file says no ground: talus was taken */
+    double origin;       /* what was taken off every x */
+};
+
+/* What was made of a slope before: where its part of the document is still the same it is taken over. */
+struct derived {
+    const struct node *slope_node; /* NULL: none */
+    struct ceduo_slope slope;
+    const struct source_note *notes;
+    bool ground_assumed;
+};
+
+/* False where there is so much wrong, or no memory, that there is nothing to go on with. */
+bool ceduo_derive(struct deriver *d);
+
+/* ---- its steps ---- */
+
+void ceduo_derive_slope(struct deriver *d);
+void ceduo_derive_release(struct deriver *d);
+void ceduo_derive_controls(struct deriver *d);
+void ceduo_derive_options(struct deriver *d);
+
+/* ---- for its steps ---- */
+
+void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Room for n + 1 in the file's arena. */
+void *ceduo_derive_take(struct deriver *d, size_t n, size_t size);
+
+/* A text in the arena, such as the path of an item. */
+const char *ceduo_derive_text(struct deriver *d, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Whether nothing is wrong with a value or what it stands in; what is wrong within it does not count. */
+bool ceduo_derive_known(struct deriver *d, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same, and nothing within it. */
+bool ceduo_derive_sound(struct deriver *d, const char *path);
+
+/* Whether something stands there, though it may be wrong. */
+bool ceduo_derive_given(struct deriver *d, const char *group, const char *key);
+
+/* Adds an assumption of the program itself to those of the files. */
+void ceduo_derive_assume(struct deriver *d, const char *path, const char *text);
+
+/* Reports a list that is longer than anybody reads. */
+bool ceduo_derive_too_many(struct deriver *d, const char *path, size_t n);
+
+#endif

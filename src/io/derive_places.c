@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "derive.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "resolve.h"
+
+/* ---- release and controls ---- */
+
+void ceduo_derive_release(struct deriver *d)
+{
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM], c[CEDUO_NUMBER_ROOM];
+    struct ceduo_scene *scene = &d->draft.scene;
+    struct ceduo_number *x = &scene->release.x;
+    x->mean = isnan(x->mean) ? 0 : x->mean - d->origin;
+    if (!d->profile || !ceduo_derive_sound(d, "release.x_m"))
+        return;
+    double end = scene->slope.x[scene->slope.vertices - 1];
+    double first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
+    if (!(first >= 0) || !(last < end))
+        ceduo_derive_complain(d, "release.x_m",
+                              _("%s lies beyond the slope, which has room for a release from %s to before %s m"),
+                              ceduo_number_shortest((first >= 0 ? last : first) + d->origin, a),
+                              ceduo_number_shortest(d->origin, b), ceduo_number_shortest(end + d->origin, c));
+}
+
+static void check_control(struct deriver *d, const char *path, const struct ceduo_control *c, size_t i)
+{
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    const struct ceduo_scene *scene = &d->draft.scene;
+    double end = d->profile ? scene->slope.x[scene->slope.vertices - 1] : INFINITY;
+    bool starts = d->profile && ceduo_derive_sound(d, "release.x_m");
+    double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
+    if (c->x > end) {
+        ceduo_derive_complain(d, path, _("%s lies beyond the slope, which ends at %s m"),
+                              ceduo_number_shortest(c->x_given, a), ceduo_number_shortest(end + d->origin, b));
+        return;
+    }
+    if (c->x <= last) {
+        ceduo_derive_complain(d, path, _("%s does not lie beyond the release, %s m"),
+                              ceduo_number_shortest(c->x_given, a), ceduo_number_shortest(last + d->origin, b));
+        return;
+    }
+    for (size_t k = 0; k < i; k++)
+        if (scene->controls[k].x == c->x) {
+            ceduo_derive_complain(d, path, _("%s is given twice"), ceduo_number_shortest(c->x_given, a));
+            return;
+        }
+}
+
+/* Controls as they are listed by their x alone. */
+static bool list_controls(struct deriver *d, size_t n)
+{
+    struct ceduo_scene *scene = &d->draft.scene;
+    const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "controls")->object;
+    if (!(scene->controls = ceduo_derive_take(d, n, sizeof *scene->controls)))
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        ceduo_schema_init(object, &scene->controls[i]);
+        scene->controls[i].x_given = d->draft.controls_m[i];
+    }
+    return true;
+}
+
+void ceduo_derive_controls(struct deriver *d)
+{
+    struct ceduo_scene *scene = &d->draft.scene;
+    bool listed = scene->controls_count > 0;
+    size_t n = listed ? scene->controls_count : d->draft.controls_m_count;
+    const char *path = listed ? "controls" : "controls_m";
+    scene->controls_count = 0;
+    if (ceduo_node_get(d->root, "controls") && ceduo_node_get(d->root, "controls_m")) {
+        ceduo_derive_complain(d, "controls_m", _("controls say it already; keep one of the two"));
+        return;
+    }
+    if (!ceduo_derive_known(d, "controls") || !ceduo_derive_known(d, "controls_m"))
+        return;
+    if (n == 0) {
+        ceduo_derive_complain(d, "",
+                              _("'controls' is missing: at least one place where the rocks that pass are counted"));
+        return;
+    }
+    if (ceduo_derive_too_many(d, path, n) || (!listed && !list_controls(d, n)))
+        return;
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_control *c = &scene->controls[i];
+        c->x = c->x_given - d->origin;
+        check_control(d, ceduo_derive_text(d, listed ? "%s[%zu].x_m" : "%s[%zu]", path, i), c, i);
+    }
+    scene->controls_count = n;
+}
+
+/* ---- stands, belts, options ---- */
+
+#define SHOOTS_MOST 10000 /* on a stool */
+
+static enum ceduo_system system_of(const struct ceduo_stand *stand)
+{
+    return stand->shoots_count > 0 ? CEDUO_SIMPLE_COPPICE : stand->trees_count > 0 ? CEDUO_HIGH_FOREST : CEDUO_BARE;
+}
+
+/* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
+static void check_spreads(struct deriver *d, const char *path, const char *list, const struct ceduo_stems *stems,
+                          size_t n)
+{
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    for (size_t i = 0; i < n; i++)
+        if (stems[i].dbh_sd > stems[i].dbh && ceduo_derive_known(d, "%s.%s[%zu].dbh_m", path, list, i) &&
+            ceduo_derive_known(d, "%s.%s[%zu].dbh_sd_m", path, list, i))
+            ceduo_derive_complain(
+                d, ceduo_derive_text(d, "%s.%s[%zu].dbh_sd_m", path, list, i),
+                _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                ceduo_number_shortest(stems[i].dbh_sd, a), ceduo_number_shortest(stems[i].dbh, b));
+}
+
+static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand *s)
+{
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    if ((int)s->system < 0)
+        s->system = system_of(s);
+    if (!ceduo_derive_known(d, "%s", path)) /* what it starts from is not there */
+        return;
+    if (s->growth.shoots_young < s->growth.shoots_old && ceduo_derive_known(d, "%s.growth.shoots_young", path))
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.growth.shoots_young", path),
+                              _("%s is below shoots_old, %s: shoots only become fewer"),
+                              ceduo_number_shortest(s->growth.shoots_young, a),
+                              ceduo_number_shortest(s->growth.shoots_old, b));
+    if (s->system == CEDUO_BARE && (s->shoots_count > 0 || s->trees_count > 0))
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.system", path),
+                              _("'bare', but there are stems; name the system or take them out"));
+    check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
+    check_spreads(d, path, "trees", s->trees, s->trees_count);
+    if (!ceduo_derive_known(d, "%s.stools.per_ha", path) || !ceduo_derive_known(d, "%s.shoots", path))
+        return;
+    if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MOST)
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.shoots", path),
+                              _("%s shoots on each stool are more than the %d that can be drawn"),
+                              ceduo_number_shortest(ceduo_stand_shoots(s) / s->stools_per_ha, a), SHOOTS_MOST);
+    if (s->shoots_count > 0 && !(s->stools_per_ha > 0))
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.shoots", path),
+                              _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+    else if (s->shoots_count == 0 && s->stools_per_ha > 0)
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.stools", path),
+                              _("stools without shoots; add 'shoots', or take the stools out"));
+    else if (s->shoots_count > 0 && ceduo_stand_shoots(s) < s->stools_per_ha)
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.stools.per_ha", path),
+                              _("%s shoots on %s stools: a stool has one shoot at least"),
+                              ceduo_number_shortest(ceduo_stand_shoots(s), a),
+                              ceduo_number_shortest(s->stools_per_ha, b));
+}
+
+static void check_belt(struct deriver *d, const char *path, const struct ceduo_belt *f, const struct ceduo_belt *before)
+{
+    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    const struct ceduo_slope *s = &d->draft.scene.slope;
+    double begin = d->profile ? d->origin : -INFINITY, end = d->profile ? s->x[s->vertices - 1] + d->origin : INFINITY;
+    if (f->to_given <= f->from_given) {
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.to_m", path), _("%s does not lie beyond from_m, %s"),
+                              ceduo_number_shortest(f->to_given, a), ceduo_number_shortest(f->from_given, b));
+        return;
+    }
+    if (before && f->from_given < before->to_given)
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.from_m", path),
+                              _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+                              ceduo_number_shortest(f->from_given, a), ceduo_number_shortest(before->to_given, b));
+    else if (f->from_given < begin)
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.from_m", path),
+                              _("%s lies before the slope, which begins at %s m"),
+                              ceduo_number_shortest(f->from_given, a), ceduo_number_shortest(begin, b));
+    if (f->to_given > end)
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.to_m", path),
+                              _("%s lies beyond the slope, which ends at %s m"), ceduo_number_shortest(f->to_given, a),
+                              ceduo_number_shortest(end, b));
+}
+
+/* What the stand calls itself, or else its file. */
+static const char *stand_name(struct deriver *d, const char *path, const struct ceduo_stand *stand)
+{
+    const char *within;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(d->root, path, &within, &used);
+    const char *name = ceduo_node_text(node, "name");
+    if (!name && node->written && node->written->kind == NODE_SCALAR)
+        name = node->written->text;
+    return name ? name : ceduo_stand_is_bare(stand) ? _("bare") : _("stand");
+}
+
+static void derive_belts(struct deriver *d, const char *path, struct ceduo_option *option)
+{
+    for (size_t i = 0; i < option->belts_count; i++) {
+        struct ceduo_belt *belt = &option->belts[i];
+        const char *here = ceduo_derive_text(d, "%s[%zu]", path, i), *stand = ceduo_derive_text(d, "%s.stand", here);
+        check_belt(d, here, belt, i > 0 ? belt - 1 : NULL);
+        belt->from = belt->from_given - d->origin;
+        belt->to = belt->to_given - d->origin;
+        belt->name = (char *)(uintptr_t)stand_name(d, stand, &belt->stand);
+        belt->assumed = ceduo_notes_assume(d->notes, stand);
+        derive_stand(d, stand, &belt->stand);
+    }
+}
+
+/* A scene without options has one, its forest. */
+static void derive_forest(struct deriver *d)
+{
+    struct ceduo_scene *scene = &d->draft.scene;
+    if (!(scene->options = ceduo_derive_take(d, 1, sizeof *scene->options)))
+        return;
+    scene->options[0] = (struct ceduo_option){
+        .name = (char *)(uintptr_t) "current", .belts_count = d->draft.belts_count, .belts = d->draft.belts};
+    scene->options_count = 1;
+    derive_belts(d, "forest", &scene->options[0]);
+}
+
+void ceduo_derive_options(struct deriver *d)
+{
+    struct ceduo_scene *scene = &d->draft.scene;
+    bool many = ceduo_node_get(d->root, "options") != NULL;
+    size_t n = scene->options_count;
+    scene->options_count = 0;
+    if (many && ceduo_node_get(d->root, "forest")) {
+        ceduo_derive_complain(d, "forest", _("options say it already; keep one of the two"));
+        return;
+    }
+    if (!ceduo_derive_known(d, "options"))
+        return;
+    if (many && n == 0)
+        ceduo_derive_complain(d, "options", _("the list is empty"));
+    if (!many)
+        derive_forest(d);
+    if (n == 0 || ceduo_derive_too_many(d, "options", n))
+        return;
+    for (size_t i = 0; i < n; i++) {
+        const char *name = scene->options[i].name;
+        for (size_t k = 0; name && k < i; k++)
+            if (scene->options[k].name && strcmp(scene->options[k].name, name) == 0)
+                ceduo_derive_complain(d, ceduo_derive_text(d, "options[%zu].name", i),
+                                      _("'%s' is given twice; names must differ"), name);
+        derive_belts(d, ceduo_derive_text(d, "options[%zu].forest", i), &scene->options[i]);
+    }
+    scene->options_count = n;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "notes.h"
+
+#include <stddef.h>
+#include <string.h>
+
+bool ceduo_path_leads_to(const char *outer, const char *path)
+{
+    size_t n = strlen(outer);
+    return n == 0 || (strncmp(path, outer, n) == 0 && (path[n] == '\0' || path[n] == '.' || path[n] == '['));
+}
+
+bool ceduo_note_of_years(const struct source_note *note)
+{
+    return strstr(note->path, ".growth") != NULL || strstr(note->path, ".cutting") != NULL;
+}
+
+bool ceduo_notes_assume(const struct source_note *notes, const char *path)
+{
+    size_t n = strlen(path);
+    for (const struct source_note *note = notes; note; note = note->before)
+        if (strncmp(note->path, path, n) == 0 &&
+            (note->path[n] == '\0' || note->path[n] == '.' || note->path[n] == '[') &&
+            strcmp(note->kind, "assumed") == 0 && !ceduo_note_of_years(note))
+            return true;
+    return false;
+}
+
+const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path)
+{
+    const struct source_note *best = NULL;
+    for (const struct source_note *note = notes; note; note = note->before) {
+        if (!ceduo_path_leads_to(note->path, path))
+            continue;
+        size_t n = strlen(note->path), most = best ? strlen(best->path) : 0;
+        if (!best || n > most ||
+            (n == most && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
+            best = note;
+    }
+    return best;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_NOTES_H
+#define CEDUO_NOTES_H
+
+#include <stdbool.h>
+
+/* A note of where a value comes from. */
+struct source_note {
+    const char *path; /* of the mapping that it stands in, or of a value in it that it is not of */
+    const char *kind; /* measured, literature, assumed; changed: of a value that the source around it is not of */
+    const char *text;
+    bool made; /* by the program, not in the files */
+    const struct source_note *before;
+};
+
+/* Whether `outer` is `path` or leads to it. */
+bool ceduo_path_leads_to(const char *outer, const char *path);
+
+/* Whether a note is of growth or cutting: it matters to the years to come, not to the stand as it is. */
+bool ceduo_note_of_years(const struct source_note *note);
+
+/* True where some value below `path` is marked as an assumption, but for growth and cutting. */
+bool ceduo_notes_assume(const struct source_note *notes, const char *path);
+
+/* The note of the innermost mapping on the way to a value; NULL where nothing is said. */
+const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path);
+
+#endif

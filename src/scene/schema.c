@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "schema.h"
+
+#include <math.h>
+#include <string.h>
+
+const struct field *ceduo_schema_field(const struct object *object, const char *key)
+{
+    for (size_t i = 0; i < object->n; i++)
+        if (strcmp(object->fields[i].key, key) == 0)
+            return &object->fields[i];
+    return NULL;
+}
+
+/* ---- defaults ---- */
+
+double ceduo_schema_default(const struct field *f)
+{
+    double value = f->flags & FIELD_ZERO ? 0 : NAN;
+    if (f->value)
+        ceduo_number_read(f->value, &value);
+    return value * f->scale;
+}
+
+static void init_field(const struct field *f, void *to)
+{
+    struct ceduo_number *numbers = to;
+    double number = f->flags & FIELD_ONE_OF ? NAN : ceduo_schema_default(f);
+    uint64_t count = 0;
+    int choice = f->value && f->choices ? ceduo_choice_find(f->choices, f->value) : -1;
+    bool flag = f->value && strcmp(f->value, "true") == 0;
+    switch (f->type) {
+    case FIELD_NUMBER:
+        memcpy(to, &number, sizeof number);
+        break;
+    case FIELD_SPREAD:
+        *numbers = ceduo_number(number);
+        break;
+    case FIELD_SPREADS:
+        numbers[0] = numbers[1] = numbers[2] = ceduo_number(number);
+        break;
+    case FIELD_COUNT:
+        if (f->value)
+            ceduo_count_read(f->value, f->lo, f->hi, &count);
+        ceduo_schema_put_count(f, to, count);
+        break;
+    case FIELD_CHOICE:
+        memcpy(to, &choice, sizeof choice);
+        break;
+    case FIELD_FLAG:
+        memcpy(to, &flag, sizeof flag);
+        break;
+    default: /* texts and lists: none */
+        break;
+    }
+}
+
+static void init_fields(const struct object *object, char *item)
+{
+    for (size_t i = 0; i < object->n; i++) {
+        const struct field *f = &object->fields[i];
+        if (f->type == FIELD_GROUP)
+            init_fields(f->object, item + f->offset);
+        else if (!(f->flags & FIELD_NOWHERE))
+            init_field(f, item + f->offset);
+    }
+}
+
+void ceduo_schema_init(const struct object *object, void *item)
+{
+    memset(item, 0, object->size);
+    init_fields(object, item);
+}
+
+void ceduo_schema_put_count(const struct field *f, void *to, uint64_t count)
+{
+    unsigned small = (unsigned)count;
+    if (f->size == sizeof small)
+        memcpy(to, &small, sizeof small);
+    else
+        memcpy(to, &count, sizeof count);
+}
+
+struct ceduo_scene ceduo_scene_default(void)
+{
+    struct scene_draft draft;
+    ceduo_schema_init(ceduo_schema_scene(), &draft);
+    draft.scene.release.x.mean = 0; /* at the first vertex */
+    return draft.scene;
+}
+
+struct ceduo_segment ceduo_segment_default(void)
+{
+    struct ceduo_segment segment;
+    ceduo_schema_init(ceduo_schema_segment(), &segment);
+    return segment;
+}
+
+/* ---- ranges ---- */
+
+bool ceduo_schema_in_range(const struct field *f, double value)
+{
+    bool low = f->flags & FIELD_ABOVE ? value > f->lo : value >= f->lo;
+    bool high = f->flags & FIELD_UNDER ? value < f->hi : value <= f->hi;
+    return low && high;
+}
+
+bool ceduo_schema_range_text(const struct field *f, struct text *text)
+{
+    bool low = isfinite(f->lo), high = isfinite(f->hi);
+    if (low && !high)
+        ceduo_text_put(text, f->flags & FIELD_ABOVE ? "> " : ">= ");
+    else if (low && f->flags & FIELD_ABOVE)
+        ceduo_text_put(text, ">");
+    if (low)
+        ceduo_text_format(text, "%.5g", f->lo);
+    if (high)
+        ceduo_text_format(text, f->hi > 1e15 ? "\xe2\x80\xa6%s%.17g" : "\xe2\x80\xa6%s%.5g", f->flags & FIELD_UNDER ? "<" : "",
+                          f->hi);
+    return low || high;
+}
+
+/* ---- showing the table ---- */
+
+void ceduo_schema_visit(const struct object *object, const char *prefix,
+                        void (*visit)(void *context, const char *path, const struct field *field), void *context)
+{
+    for (size_t i = 0; i < object->n; i++) {
+        const struct field *f = &object->fields[i];
+        struct text path = {0};
+        ceduo_text_format(&path, "%s%s%s%s", prefix, prefix[0] ? "." : "", f->key, f->type == FIELD_LIST ? "[]" : "");
+        if (path.failed)
+            return;
+        if (f->type == FIELD_GROUP || f->type == FIELD_LIST)
+            ceduo_schema_visit(f->object, path.bytes, visit, context);
+        else
+            visit(context, path.bytes, f);
+        ceduo_text_free(&path);
+    }
+}

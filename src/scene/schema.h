@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SCHEMA_H
+#define CEDUO_SCHEMA_H
+
+#include "base/text.h"
+#include "ceduo/scene.h"
+#include "words.h"
+
+/* The table of the scene: one row for each key of the files, with the member of the scene that holds its value. Everything
+ * that knows keys reads it here: the files' reader, --set, --list-parameters, the manual, the forms, typed get and put
+ * (value.h), the keys of runs. The rows are in fields.c. */
+
+#define CEDUO_ITEMS_MOST 1000 /* controls; options; belts: each is computed and printed by itself */
+
+enum field_type {
+    FIELD_TAG,     /* the file's kind, such as stand/1 */
+    FIELD_TEXT,    /* char * */
+    FIELD_FILE,    /* a path */
+    FIELD_NUMBER,  /* double */
+    FIELD_SPREAD,  /* struct ceduo_number: a number or {mean, spread, kind} */
+    FIELD_SPREADS, /* struct ceduo_number[3] */
+    FIELD_COUNT,   /* uint64_t or unsigned, by its size */
+    FIELD_CHOICE,  /* int or an enum: index into choices; -1: not said */
+    FIELD_FLAG,    /* bool */
+    FIELD_NUMBERS, /* double *, and a count beside */
+    FIELD_POINTS,  /* double *x, *z, and a count beside */
+    FIELD_GROUP,   /* a mapping of its own */
+    FIELD_LIST     /* a pointer to items, and a count beside */
+};
+
+enum field_flag {
+    FIELD_REQUIRED = 1 << 0,
+    FIELD_ABOVE = 1 << 1,    /* lo itself is outside */
+    FIELD_UNDER = 1 << 2,    /* hi itself is outside */
+    FIELD_FOLLOWS = 1 << 3,  /* a group that may be a path to a file holding it */
+    FIELD_MEANLESS = 1 << 4, /* a spread may leave its mean out */
+    FIELD_ZERO = 1 << 5,     /* 0 where it is not given; without it and without a default NaN */
+    FIELD_ONE_OF = 1 << 6,   /* another key may be given instead: the default holds where neither is */
+    FIELD_PLACE = 1 << 7,    /* an x in the slope's coordinates; relative to its first vertex beside, or itself */
+    FIELD_NOWHERE = 1 << 8,  /* no member holds it: what reads the files takes it from them */
+    FIELD_DRAFT = 1 << 9,    /* of struct scene_draft: the scene holds what follows from it */
+    FIELD_WOOD = 1 << 10,    /* it decides about stems, not about the ways of rocks without them */
+    FIELD_YEARS = 1 << 11,   /* it decides about the years to come, not about the forest as it is */
+    FIELD_UNFLOWN = 1 << 12  /* it decides about no rock: a name, a limit that figures are held against */
+};
+
+struct object;
+
+struct field {
+    const char *key;
+    enum field_type type;
+    size_t offset, size, beside; /* of the member; beside: of the count of items, or of the relative place */
+    const char *unit;            /* "" for a pure number */
+    double scale;                /* SI per unit of the file */
+    double lo, hi;               /* in the file's unit */
+    unsigned flags;
+    const char *value;   /* the default as it would be written; NULL: none */
+    const char *meaning; /* marked for translation */
+    const struct choices *choices;
+    const struct object *object;
+};
+
+struct object {
+    const char *name;
+    const struct field *fields;
+    size_t n;
+    size_t size;        /* of the structure that it fills */
+    const char *folder; /* of profiles, where it may be a file of its own */
+};
+
+struct material_belt {
+    double from, to;
+    int material;
+};
+
+/* A scene as its files give it: what they may say in another way than struct ceduo_scene stands behind it. */
+struct scene_draft {
+    struct ceduo_scene scene;
+    size_t materials_count, controls_m_count, belts_count;
+    struct material_belt *materials; /* instead of segments */
+    double *controls_m;              /* instead of controls */
+    struct ceduo_belt *belts;        /* instead of options */
+};
+
+/* The scene, the root of all: it fills a struct scene_draft. */
+const struct object *ceduo_schema_scene(void);
+const struct object *ceduo_schema_slope(void);
+const struct object *ceduo_schema_segment(void);
+const struct object *ceduo_schema_stand(void);
+
+const struct field *ceduo_schema_field(const struct object *object, const char *key);
+
+/* Fills an item with its defaults. */
+void ceduo_schema_init(const struct object *object, void *item);
+
+/* Sets a FIELD_COUNT. */
+void ceduo_schema_put_count(const struct field *field, void *to, uint64_t count);
+
+/* The default of a number in SI; NaN or 0 where it has none. */
+double ceduo_schema_default(const struct field *field);
+
+/* Whether a number, in the file's unit, lies in the field's range. */
+bool ceduo_schema_in_range(const struct field *field, double value);
+
+/* Adds the range of a field; false where it has none. */
+bool ceduo_schema_range_text(const struct field *field, struct text *text);
+
+/* Calls `visit` for each parameter with its whole path, groups and lists unfolded. */
+void ceduo_schema_visit(const struct object *object, const char *prefix,
+                        void (*visit)(void *context, const char *path, const struct field *field), void *context);
+
+#endif
