@@ -15,8 +15,9 @@ import traceback
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # as in the background of a shell; the program would ignore it, too
-    signal.signal(signal.SIGINT, signal.default_int_handler)
+for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
+    if signal.getsignal(number) == signal.SIG_IGN:  # in the background of a shell, under nohup; the program would ignore it, too
+        signal.signal(number, usual)
 
 ROOT = Path(__file__).resolve().parents[2]
 PROFILES = ROOT / "profiles"

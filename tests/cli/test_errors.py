@@ -489,7 +489,7 @@ CASES = {
     "cannot be computed (status 1)": impossible,
     "4 rocks were still moving after 1000000 contacts ... (in the result)": moving,
     "x, 90 m: whether 50 of 1000 rocks at most arrive with too much energy is too close to call; ... (in the result)":
-        Elsewhere("tests/cli/test_batch.py", "def test_table_close_call"),
+        Elsewhere("tests/cli/test_table.py", "def test_table_close_call"),
     "--output: name a file (status 4)": Words("--batch", "-o", "", "@", status=OUTPUT, start="--output: "),
     "scene.yaml: it is read in this run; write elsewhere (status 4)": Words(
         "--batch", "-o", "scene.yaml", "@", status=OUTPUT, start="scene.yaml: "),

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the tests of --batch read a page: its tables, their rows and cells, the text of one option."""
+import functools
+import math
+import re
+import unicodedata
+
+from harness import expect, expect_equal, expect_in, expect_near
+
+
+def expect_order(text, *parts):
+    """The parts stand in the text in this order. Runs of blanks count as one."""
+    plain, at = re.sub(r"\s+", " ", text), 0
+    for part in parts:
+        found = re.search(part, plain[at:])
+        expect(found, f"/{part}/ is missing, or stands too early, in:", text)
+        at += found.end()
+
+
+def expect_width(text):
+    long = [line for line in text.splitlines() if len(line) > 80]
+    expect(not long, "lines of more than 80 columns:", *[f"{len(line)}: {line}" for line in long])
+
+
+def digits(value, n):
+    """A number of the page: so many significant digits, a dash where there is none."""
+    if value is None:
+        return "-"
+    if value == 0:
+        return "0"
+    decimals = max(0, n - (math.floor(math.log10(abs(value))) + 1))
+    return f"{value:.{decimals}f}"
+
+
+def of_1000(lo_name, arrivals):
+    """'991 (984–995)' of the page."""
+    share, lo, hi = (arrivals[f"{lo_name}_{k}"] for k in ("probability", "lo", "hi"))
+    return "-" if share is None else f"{share * 1000:.0f} ({math.floor(lo * 1000)}–{math.ceil(hi * 1000)})"
+
+
+def table_row(text, name):
+    """The lines of a table that begin with a name."""
+    return [line for line in text.splitlines() if line.strip().startswith(name)]
+
+
+def expect_cells(line, *cells):
+    """A line of a table holds these cells, with a blank between any two."""
+    wanted = r"\s+".join(re.escape(c).replace(r"\ ", " ") for c in cells)
+    expect(re.search(rf"(^|\s){wanted}(\s|$)", line), f"'{'  '.join(cells)}' is missing in: {line!r}")
+
+
+def section(text, name):
+    """What the page says of one option."""
+    lines = text.splitlines()
+    first = next((i for i, line in enumerate(lines) if line == name), None)
+    expect(first is not None, f"no option '{name}' in:", text)
+    end = next((i for i in range(first + 1, len(lines)) if lines[i] and not lines[i].startswith(" ")), len(lines))
+    return "\n".join(lines[first:end])
+
+
+ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(\d+ \(\d+–\d+\)) +(-|\d+ \(\d+–\d+\)) +"
+                          r"(?:-|([\d.]+) ?±(-|[\d.]+)) +(-|[\d.e]+) +(-|[\d.e]+) +(-|[\d.e]+)$")
+
+
+@functools.cache
+def student(freedom):
+    """The 97.5 % quantile of Student's law: its density, summed by Simpson's rule from 0 on, comes to 0.475 there."""
+    scale = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
+
+    def density(t):
+        return scale * (1 + t * t / freedom) ** (-(freedom + 1) / 2)
+
+    step, t, total = 1e-3, 0.0, 0.0
+    while total < 0.475:
+        total += (density(t) + 4 * density(t + step / 2) + density(t + step)) * step / 6
+        t += step
+    return t - (total - 0.475) / density(t)
+
+
+def half_of_mean(figure, count):
+    """Half the width of the 95 % interval of a mean."""
+    return figure["se"] * student(count - 1)
+
+
+def expect_arrivals(line, arrivals):
+    """A line of the table of arrivals has a blank between any two cells, and what it says of a mean and its error is true."""
+    found = ARRIVALS_ROW.match(line)
+    expect(found, "cells run into one another:", repr(line))
+    reach, exceed, mean, half, p95, speed, height = found.groups()
+    expect_equal((reach, exceed), (of_1000("reach", arrivals), of_1000("exceed", arrivals)), line)
+    energy = arrivals["energy_kJ"]
+    expect_equal(mean is None, energy["mean"] is None, line)
+    if mean is not None and energy["se"] is not None:
+        wanted = half_of_mean(energy, arrivals["rocks_reached"])
+        expect(half != "-" and float(half) >= 0.94 * wanted, f"an error of {wanted} is said to be less:", line)
+        expect(abs(float(mean) - energy["mean"]) <= float(half) + 1e-3 * energy["mean"],
+               f"the mean of {energy['mean']} lies beyond its error:", line)
+        unit = 10.0 ** -len(half.partition(".")[2])  # it is rounded up
+        expect(float(half) <= max(1.1 * wanted, wanted + 1.001 * unit, 0.1 * energy["mean"]), f"an error of {wanted} is said to be far more:", line)
+    for cell, value in ((p95, energy["p95"]), (speed, arrivals["speed_m_s"]["mean"]), (height, arrivals["height_m"]["p95"])):
+        expect_equal(cell == "-", value is None, line)
+        if value is not None:
+            expect_near(float(cell), value, 0.051 * abs(value), line)
+
+
+def expect_option(text, option):
+    """The page of an option says what the JSON of the same run holds."""
+    flat_text = re.sub(r"\s+", " ", text)
+    bare = table_row(text, "without forest")
+    wooded = table_row(text, "through the wood")
+    expect_equal(len(bare), len(option["controls"]), "rows without forest")
+    expect_equal(len(wooded), 0 if option["controls"][0]["wooded"] is None else len(option["controls"]), "rows through the wood")
+    for i, control in enumerate(option["controls"]):
+        expect_arrivals(bare[i], control["bare"])
+        if not wooded:
+            continue
+        expect_arrivals(wooded[i], control["wooded"])
+        shares = [f"{option['ends'][k] * 1000:.0f}" for k in ("stopped_by_stems", "came_to_rest", "left_slope")]
+        expect_in("Of 1000, {} are stopped by stems, {} come to rest, {} leave the slope".format(*shares), flat_text, "ends")
+        if control["wooded"]["rocks_reached"] > 0:
+            hit = f"{control['wooded']['contacts']['mean']:.3g}"
+            expect(re.search(rf"\b{re.escape(hit)} stems?\b", flat_text), f"'{hit} stems' is missing in:", text)
+    words = {"pass": "passes", "fail": "FAILS", "unknown": "unknown"}
+    for name, key in (("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy")):
+        said = re.findall(rf"\b{name}: (\w+)\. (\S+)", flat_text)
+        expect_equal([word for word, reason in said], [words[c["lights"][key]] for c in option["controls"]], name)
+        expect(all(reason for _, reason in said), f"{name} without a reason", text)
+
+
+def side_by_side(text, names):
+    """The table of the options and the sentences below it: {name: its line}, all of them joined."""
+    lines = text[text.lower().index("\nside by side"):].split("\n\n")[0].strip().splitlines()
+    head = next(i for i, line in enumerate(lines) if line.strip().startswith("option"))
+    rows = lines[head + 1:head + 1 + len(names)]
+    for name, row in zip(names, rows):
+        shown = re.split(r" {2,}|…", row.strip())[0].rstrip("…")
+        expect(shown and name.startswith(shown), f"{name!r} is not the name of {row!r}")
+    return lines[head], dict(zip(names, rows)), " ".join(" ".join(lines[head + 1 + len(names):]).split())
+
+
+def columns(line):
+    return sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in line)
+
+
+def cells_of_rows(text):
+    """What stands in the rows of arrivals behind the shares: mean, 95 %, m/s, m up."""
+    rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
+    expect(rows, "no rows", text)
+    return [row[52:].strip().rsplit(None, 3) for row in rows]
+
+
+BLOCK = re.compile(r"^ {2}([> ]) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+|none) +([\d.]+) +(-|\d+ \(\d+–\d+\))$")
+
+
+def blocks_of(text):
+    """The table of blocks of other sizes: [(own, volume, mass, diameter, ADC, contacts, of 1000)]."""
+    lines = text.splitlines()
+    first = next(i for i, line in enumerate(lines) if "Blocks of other sizes" in line)
+    first = next(i for i in range(first, len(lines)) if lines[i].split()[:2] == ["m3", "kg"]) + 1
+    rows = []
+    for line in lines[first:]:
+        found = BLOCK.match(line)
+        if not found:
+            break
+        own, *numbers, share = found.groups()
+        rows.append((own == ">", *(math.inf if n == "none" else float(n) for n in numbers), share))
+    return rows

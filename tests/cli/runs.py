@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tests of --batch know of a run: the shape of its JSON, the cells of its CSV, scenes to run."""
+import csv
+import io
+import math
+import re
+
+from harness import PROFILES, expect, expect_equal, expect_near, scene, wooded_scene
+
+PAPER = PROFILES / "scenes" / "paper-site.yaml"
+FOUR = PROFILES / "scenes" / "four-systems.yaml"
+
+NUMBER, MAYBE, TEXT, TEXT_OR_NULL, FLAG, FLAG_OR_NULL, COUNT, NULL, LIGHT = (
+    "number", "number or null", "text", "text or null", "flag", "flag or null", "count", "null", "light")
+SPREAD = {k: MAYBE for k in ("mean", "se", "sd", "p50", "p95", "p95_lo", "p95_hi", "p99", "max")}
+PAIR = {"mean": MAYBE, "se": MAYBE}
+ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
+            "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
+            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR}
+INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
+WOODED = {**ARRIVALS, "contacts": PAIR}
+CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
+           "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT}}
+STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
+         "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
+         "adc": {"rule": TEXT_OR_NULL, "adc_m": MAYBE, "gsteiger_stools_m": MAYBE, "gsteiger_stems_m": MAYBE,
+                 "interception_m": MAYBE, "crofton_m": MAYBE},
+         "passes_threshold": FLAG, "free_run_probability": NUMBER, "contacts": NUMBER, "energy_per_contact_J": MAYBE,
+         "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": NUMBER, "warnings": [TEXT]}
+SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contacts": NUMBER,
+           "meet_nothing_probability": NUMBER, "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": MAYBE,
+           "passes_threshold": FLAG}
+STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
+DIFFERENCES = ("reach_probability", "exceed_probability", "energy_per_released_kJ")
+DIFFERENCE = {"option": TEXT, "against": TEXT, "x_m": NUMBER, **{name: PAIR for name in DIFFERENCES}}
+RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed": COUNT, "rocks": COUNT, "law": TEXT,
+          "rock": {"mass_kg": NUMBER, "mean_diameter_m": NUMBER, "moment_kg_m2": NUMBER}, "threshold_m": NUMBER,
+          "warnings": [TEXT],
+          "options": [{"name": TEXT, "stands": [STAND], "summary": SUMMARY, "controls": [CONTROL],
+                       "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
+                                "unfinished": COUNT},
+                       "stop_x_m": STOPS}],
+          "differences": [DIFFERENCE],
+          "work": {"rocks_flown": COUNT, "contacts": COUNT, "stems_drawn": COUNT, "runs": COUNT, "runs_reused": COUNT,
+                   "seconds": NUMBER}}
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+KINDS = {NUMBER: is_number, MAYBE: lambda v: v is None or is_number(v),
+         TEXT: lambda v: isinstance(v, str), TEXT_OR_NULL: lambda v: v is None or isinstance(v, str),
+         FLAG: lambda v: isinstance(v, bool), FLAG_OR_NULL: lambda v: v is None or isinstance(v, bool),
+         COUNT: lambda v: isinstance(v, int) and not isinstance(v, bool) and v >= 0, NULL: lambda v: v is None,
+         LIGHT: lambda v: v in ("pass", "fail", "unknown")}
+
+
+def expect_shape(value, shape, path="$"):
+    """Exactly the keys and types of a shape."""
+    if isinstance(shape, str):
+        expect(KINDS[shape](value), f"{path}: {value!r} is no {shape}")
+    elif isinstance(shape, list):
+        expect(isinstance(value, list), f"{path}: {value!r} is no list")
+        expect(shape or not value, f"{path}: {value!r} is not empty")
+        for i, item in enumerate(value):
+            expect_shape(item, shape[0], f"{path}[{i}]")
+    elif shape is STOPS and value is None:
+        return
+    else:
+        expect(isinstance(value, dict), f"{path}: {value!r} is no object")
+        allowed = set(shape) | ({"measured_kJ"} if shape is INDEX else set())
+        expect(set(shape) <= set(value) <= allowed,
+               f"{path}: missing {sorted(set(shape) - set(value))}, too many {sorted(set(value) - allowed)}")
+        for key in shape:
+            expect_shape(value[key], shape[key], f"{path}.{key}")
+
+
+def by_index(shape):
+    """The shape of a run with contact_model index: nothing is known of the wood."""
+    if shape is WOODED:
+        return NULL
+    if isinstance(shape, list):
+        return [by_index(item) for item in shape]
+    special = shape in (INDEX, STOPS) if isinstance(shape, dict) else True
+    return shape if special else {key: by_index(inner) for key, inner in shape.items()}
+
+
+INDEX_RESULT = by_index(RESULT)
+MODEL = "simulation.contact_model"
+MODELS = ("index", "poisson", "stems")
+
+
+def through(model):
+    """Options of the command line for a contact model."""
+    return ("-s", f"{MODEL}={model}")
+
+
+def expect_run(run, model="stems"):
+    """The shape of a run, and what goes with it whatever the scene."""
+    expect_shape(run, INDEX_RESULT if model == "index" else RESULT)
+    for option in run["options"]:
+        ends = option["ends"]
+        expect_near(ends["stopped_by_stems"] + ends["came_to_rest"] + ends["left_slope"] +
+                    ends["unfinished"] / run["rocks"], 1, 1e-12, "ends")
+        stops = ends["stopped_by_stems"] + ends["came_to_rest"] > 0
+        expect_equal(option["stop_x_m"] is not None, stops, "stop_x_m where rocks stop")
+        if model == "index":
+            expect_equal(ends["stopped_by_stems"], 0, "stopped by stems without stems")
+        for control in option["controls"]:
+            expect_equal(control["lights"]["energy"], energy_light(control), "energy light")
+    expect_differences(run)
+
+
+def energy_light(control):
+    wooded = control["wooded"]
+    if wooded is None or control["accepted_kJ"] is None:
+        return "unknown"
+    return "pass" if wooded["exceed_probability"] <= 0.05 else "fail"
+
+
+def flown(control):
+    """What is compared: through the wood, or by the index without it."""
+    return control["wooded"] or control["bare"]
+
+
+def expect_differences(run):
+    """Option less baseline, one for each other option and control, in order."""
+    baseline = run["options"][0]
+    wanted = [(option, control, first) for option in run["options"][1:]
+              for control, first in zip(option["controls"], baseline["controls"])]
+    expect_equal(len(run["differences"]), len(wanted), "differences")
+    for found, (option, control, first) in zip(run["differences"], wanted):
+        where = f"{option['name']} at {control['x_m']} m"
+        expect_equal((found["option"], found["against"], found["x_m"]), (option["name"], baseline["name"], control["x_m"]))
+        for name in DIFFERENCES:
+            values = [flown(c)[name] for c in (control, first)]
+            values = [v["mean"] if isinstance(v, dict) else v for v in values]
+            if values[0] is None:
+                expect_equal(found[name], {"mean": None, "se": None}, f"{where}: {name}")
+                continue
+            size = max(1, *map(abs, values))
+            expect_near(found[name]["mean"], values[0] - values[1], 1e-12 * size, f"{where}: {name}")
+            expect(run["rocks"] < 2 or found[name]["se"] >= 0, where, found)
+            if control["wooded"] is None:
+                expect_equal(found[name], {"mean": 0, "se": 0}, f"{where}: {name} by the index")
+
+
+def wilson(k, n):
+    z = 1.959963984540054
+    middle, half = k / n + z * z / (2 * n), z * math.sqrt(k / n * (1 - k / n) / n + z * z / (4 * n * n))
+    return (middle - half) / (1 + z * z / n), (middle + half) / (1 + z * z / n)
+
+
+def without_seconds(text):
+    return re.sub(r'"seconds": [^}]*', "", text)
+
+
+def flat(prefix, shape):
+    """Names of the cells of an object."""
+    names = []
+    for key, inner in shape.items():
+        names += flat(f"{prefix}{key}.", inner) if isinstance(inner, dict) else [prefix + key]
+    return names
+
+
+SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
+               "threshold_m", "option"]
+CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
+                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) +
+                 ["lights.contact", "lights.free_run", "lights.energy",
+                  "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
+                 flat("stop_x_m.", STOPS) + flat("difference.", {k: PAIR for k in DIFFERENCES}) + ["warnings"])
+STAND_CELLS = SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"]
+
+
+def read_csv(text):
+    rows = list(csv.reader(io.StringIO(text), strict=True))
+    expect(all(len(row) == len(rows[0]) for row in rows), "rows of different length", [len(r) for r in rows])
+    return rows[0], [dict(zip(rows[0], row)) for row in rows[1:]]
+
+
+def look_up(mapping, name):
+    for key in name.split("."):
+        if mapping is None:
+            return None
+        mapping = mapping.get(key)
+    return mapping
+
+
+def expect_cell(cell, value, name):
+    if value is None:
+        expect_equal(cell, "", name)
+    elif isinstance(value, bool):
+        expect_equal(cell, "true" if value else "false", name)
+    elif isinstance(value, str):
+        expect_equal(cell, value, name)
+    else:
+        expect(cell != "" and float(cell) == value, f"{name}: found {cell!r}, wanted {value!r}")
+
+
+def expect_rows(rows, runs, inner):
+    """CSV rows hold what the JSON of the same runs holds. inner: 'controls' or 'stands'."""
+    wanted = [(run, option, item) for run in runs for option in run["options"] for item in option[inner]]
+    expect_equal(len(rows), len(wanted), "rows")
+    for row, (run, option, item) in zip(rows, wanted):
+        for name, cell in row.items():
+            if name == "option":
+                value = option["name"]
+            elif name == "warnings":
+                stands = option["stands"] if inner == "controls" else [item]
+                value = "; ".join((run["warnings"] if inner == "controls" else []) +
+                                  [w for s in stands for w in s["warnings"]])
+            elif name in SCENE_CELLS:
+                value = look_up(run, name)
+            elif name.startswith("difference."):
+                found = [d for d in run["differences"] if (d["option"], d["x_m"]) == (option["name"], item["x_m"])]
+                value = look_up(found[0], name.removeprefix("difference.")) if found else None
+            elif name.split(".")[0] in ("summary", "ends", "stop_x_m"):
+                value = look_up(option, name)
+            else:
+                value = look_up(item, name)
+            expect_cell(cell, value, f"{option['name']} {name}")
+
+
+THIN = {"name": "thin", "species": "ostrya-carpinifolia", "stools": {"per_ha": 2000, "spacing_m": 0.25},
+        "shoots": [{"per_ha": 8000, "dbh_m": 0.02, "height_m": 6, "volume_m3": 0.0001}], "energy": {"u_J_m3": 100000}}
+THICK = {"name": "thick", "species": "ostrya-carpinifolia",
+         "trees": [{"per_ha": 300, "dbh_m": 0.4, "height_m": 18, "volume_m3": 1}], "energy": {"u_J_m3": 100000}}
+
+
+def treated(**stands):
+    """A scene with one option for each stand, of the same name; None is no forest."""
+    return wooded_scene(forest=None, options=[
+        {"name": name.replace("_", " "), "forest": [{"from_m": 0, "to_m": 105, "stand": st}] if st else []}
+        for name, st in stands.items()])
+
+
+# Nothing takes energy from these rocks: each makes as many contacts as are allowed.
+ENDLESS = scene(title="endless", release={"x_m": 5, "height_m": 3},
+                slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 1, "rt": 1, "roughness_rad": 0, "friction": 0}]},
+                controls=[{"x_m": 30, "accepted_kJ": 1}])

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pages of several options: the table side by side, and which of them is called the best."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
+from pages import expect_cells, expect_option, expect_order, expect_width, section, side_by_side
+from runs import FOUR, THICK, THIN, through, treated
+
+
+def test_table_options():
+    """Table of the four systems: each option, then side by side with the differences, what does not separate them said"""
+    text, run = good("--batch", "-n", 500, FOUR).out, result(FOUR, "-n", 500)
+    names = [o["name"] for o in run["options"]]
+    expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
+    for option in run["options"]:
+        expect_option(section(text, option["name"]), option)
+    head, rows, words = side_by_side(text, names)
+    expect_in("> 50 kJ", head, "head")
+    for name, word in (("simple coppice, just cut", "FAIL"), ("simple coppice, 25 years", "pass"),
+                       ("large reserves, just cut", "FAIL")):
+        expect(re.search(rf"[\d.]+ {word}\b", rows[name]), f"no {word} of contact", rows[name])
+    for option in run["options"]:
+        wooded = option["controls"][0]["wooded"]
+        share = wooded["exceed_probability"]
+        half = math.ceil(1959.963984540054 * math.sqrt(share * (1 - share) / run["rocks"]))
+        expect_cells(rows[option["name"]], f"{share * 1000:.0f} ±{half}")
+        expect(rows[option["name"]].endswith({"pass": "pass", "fail": "FAIL"}[option["controls"][0]["lights"]["energy"]]),
+               "the energy light is not the last", rows[option["name"]])
+    for difference in run["differences"]:
+        d = difference["exceed_probability"]
+        expect_cells(rows[difference["option"]], f"{d['mean'] * 1000:+.0f} ±{math.ceil(d['se'] * 1959.963984540054)}")
+    expect_in("No option passes the test of energy: it does not separate them", words, "what does not separate them")
+    expect_in("By contact and by energy 'simple coppice, 25 years' is best", words, "the best by both")
+    expect_width(text)
+    same = good("--batch", "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out
+    expect_order(same, "(?i)all options pass the test of contact: it does not separate")
+
+
+def test_table_options_index():
+    """Table of the four systems by the index: what does not separate them said, no winner named"""
+    text = good("--batch", "-n", 500, *through("index"), FOUR).out
+    names = [o["name"] for o in result(FOUR, "-n", 1)["options"]]
+    expect_order(text, *[re.escape(n) for n in names], "(?i)side by side", "(?i)does not separate")
+    head, rows, words = side_by_side(text, names)
+    for name, word in (("simple coppice, just cut", "FAIL"), ("simple coppice, 25 years", "pass"),
+                       ("large reserves, just cut", "FAIL")):
+        expect(re.search(rf"[\d.]+ {word}\b", rows[name]), f"no {word} of contact", rows[name])
+    expect_in("The index says what stems could take, not what a rock loses", words)
+    expect(not re.search(r"(?i)\b(winner|best|recommended|worst option|rank)\b", text), "a winner is named:", text)
+    expect(re.search(r"kJ/100 m +left kJ", head), "heads run into one another:", head)
+    expect("±" not in "".join(rows.values()), "an error of what was not flown", rows)
+
+
+def best_sentence(folder, scene_mapping, *arguments):
+    path = folder.write("s.yaml", scene_mapping)
+    names = [o["name"] for o in result(path, "-n", 2, *arguments)["options"]]
+    return side_by_side(good("--batch", path, *arguments).out, names)[2]
+
+
+def test_table_best():
+    """Table: which option is best by contact and by energy, both where they differ, neither where none is clearly better"""
+    with Folder() as f:
+        words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK))
+        expect_in("By contact 'many thin' is best, by energy 'few thick'; neither alone decides", words)
+        words = best_sentence(f, treated(few_thick=THICK, many_thin=THIN))
+        expect_in("By contact 'many thin' is best, by energy 'few thick'; neither alone decides", words, "in another order")
+        words = best_sentence(f, treated(none=None, few_thick=THICK))
+        expect_in("By contact and by energy 'few thick' is best", words)
+        words = best_sentence(f, treated(none=None, many_thin=THIN))  # which hardly take anything
+        expect_in("By contact 'many thin' is best, and none is clearly better by energy", words)
+        words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK), *through("index"))
+        expect("best" not in words, words)
+        hardly = {**THICK, "trees": [{"per_ha": 301, "dbh_m": 0.4, "height_m": 18, "volume_m3": 1}]}
+        words = best_sentence(f, treated(few_thick=THICK, hardly_more=hardly), "-n", 300)
+        expect_in("By contact 'hardly more' is best", words)
+        expect(re.search("and by energy|none is clearly better by energy", words), "an energy that chance decided", words)
+        words = best_sentence(f, treated(none=None, also_none=None))
+        expect("best" not in words, "the best of two that have no forest", words)
+        weak = {**THICK, "trees": [{**THICK["trees"][0], "volume_m3": 0.001}]}  # stems as thick: the same ADC
+        for order in ({"weak": weak, "strong": THICK, "none": None}, {"strong": THICK, "none": None, "weak": weak}):
+            words = best_sentence(f, treated(**order))
+            expect_in("By contact and by energy 'strong' is best", words, "contact does not tell weak from strong")
+        words = best_sentence(f, treated(weak=weak, strong=THICK))
+        expect_in("By energy 'strong' is best; contact does not tell the options apart", words)
+        words = best_sentence(f, treated(weak=weak, strong=THICK, as_strong=THICK))
+        expect_in("By energy 'strong' is best, though not clearly before all others; contact does not tell", words)
+        words = best_sentence(f, treated(many_thin=THIN, few_thick=THICK, as_thick=THICK))
+        expect_in("By contact 'many thin' is best, by energy 'few thick', though not clearly before all others", words)
+        words = best_sentence(f, {**treated(none=None, few_thick=THICK), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
+        expect_in("By contact 'few thick' is best, and none is clearly better by energy", words, "nothing comes with so much")
+
+
+def test_table_of_none():
+    """Table: of no rock among n with too much energy, and of no difference between such, the error is that of Wilson, never 0"""
+    with Folder() as f:
+        path = f.write("s.yaml", {**treated(few_thick=THICK, none=None), "controls": [{"x_m": 110, "accepted_kJ": 1e6}]})
+        rows = side_by_side(good("--batch", "-n", 200, path).out, ["few thick", "none"])[1]
+        half = math.ceil(1000 * 1.959963984540054**2 / (200 + 1.959963984540054**2))
+        expect_cells(rows["few thick"], f"0 ±{half}")
+        expect_cells(rows["none"], f"0 ±{half}", f"+0 ±{half}")
+
+
+def test_table_best_gap():
+    """Table: an option with a gap beyond the threshold, which fails by contact, is not the best by contact"""
+    with Folder() as f:
+        path = f.write("gap.yaml", wooded_scene(forest=None, options=[
+            {"name": "a strip", "forest": [{"from_m": 0, "to_m": 10, "stand": stand(stools={"per_ha": 4000, "spacing_m": 0.25})}]},
+            {"name": "whole way", "forest": [belt(0, 105)]}]))
+        lights = [o["controls"][1]["lights"]["contact"] for o in result(path)["options"]]
+        expect_equal(lights, ["fail", "pass"], "contact")
+        words = side_by_side(good("--batch", path).out, ["a strip", "whole way"])[2]
+        expect("By contact 'a strip'" not in words and "By contact and by energy 'a strip'" not in words, words)
+
+
+def test_table_best_same():
+    """Table: of options that are the same none is called the best"""
+    with Folder() as f:
+        words = best_sentence(f, treated(one=THICK, other=THICK))
+        expect("best" not in words, words)
+
+
+if __name__ == "__main__":
+    run_all(__name__)

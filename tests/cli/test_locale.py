@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""No locale and no terminal of the environment changes a number."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import PROFILES, Folder, Skip, ceduo, expect, expect_equal, good, run_all
+from pages import expect_width
+from runs import FOUR, PAPER, without_seconds
+
+
+def test_plain_ascii():
+    """LC_ALL=C: all output and every message is pure ASCII, with the same numbers"""
+    def ascii_only(done):
+        for data in (done.out_bytes, done.err_bytes):
+            bad = [line for line in data.splitlines() if any(b >= 0x80 for b in line)]
+            expect(not bad, "not ASCII:", *bad[:5])
+        return done
+    plain = {"LC_ALL": "C"}
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        text = ascii_only(good("--batch", "-n", 100, path, env=plain)).out
+        wide = good("--batch", "-n", 100, path).out
+        expect_equal(re.findall(r"\d+\.\d+", text), re.findall(r"\d+\.\d+", wide), "numbers")
+        expect_width(text)
+    ascii_only(good("--batch", "-n", 5, PAPER, "-s", "title=Überraschung — 𝄞", env=plain))
+
+
+def test_plain_ascii_lists():
+    """LC_ALL=C: lists and messages on standard error are pure ASCII"""
+    plain = {"LC_ALL": "C"}
+    cases = [good(mode, env=plain) for mode in ("--help", "--version", "--list-parameters", "--list-profiles")]
+    cases += [ceduo("--batch", PAPER, "-s", value, env=plain)
+              for value in ("forest[0].stand={shoots: [{per_ha: 1, dbh_m: 1, height_m: 1}]}", "title=[ü]", "rock.ü=1")]
+    bad = [line for done in cases for line in (done.out_bytes + done.err_bytes).splitlines()
+           if any(b >= 0x80 for b in line)]
+    expect(not bad, "not ASCII:", *bad[:6])
+
+
+def comma_locale(folder):
+    """Environment of a locale that writes a comma, made where the machine has none."""
+    installed = subprocess.run(["locale", "-a"], capture_output=True, text=True, check=False).stdout.split()
+    for name in installed:
+        if re.match(r"(de|it|fr|es)_.*utf-?8$", name, re.I):
+            return {"LC_ALL": name}
+    if not shutil.which("localedef") or not Path("/usr/share/i18n/locales/de_DE").exists():
+        raise Skip("no locale with a comma, nor localedef to make one")
+    subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(folder / "de_DE.UTF-8")], capture_output=True,
+                   check=False)
+    return {"LC_ALL": "de_DE.UTF-8", "LOCPATH": str(folder)}
+
+
+def test_comma_locale():
+    """A locale with a decimal comma: numbers are read and written with a dot"""
+    with Folder() as f:
+        env = comma_locale(f.path)
+        probe = subprocess.run(["sh", "-c", "printf '%.1f' 0,5"], env={**os.environ, **env}, capture_output=True,
+                               check=False)
+        if shutil.which("locale"):
+            point = subprocess.run(["locale", "decimal_point"], env={**os.environ, **env}, capture_output=True, text=True,
+                                   check=False).stdout.strip()
+            expect_equal(point, ",", f"the locale {env} ({probe.stdout})")
+        for form in ("table", "csv", "json"):
+            found, wanted = [without_seconds(good("--batch", "-f", form, PAPER, "-s", "rock.diameter_m=0.75", env=e).out)
+                             for e in (env, {})]
+            expect_equal(found, wanted, form)
+        expect_equal(good("--list-parameters", env=env).out, good("--list-parameters").out)
+
+
+def test_plain_environment():
+    """NO_COLOR, TERM=dumb, no TERM, no HOME, unknown locales change nothing"""
+    wanted = good("--batch", "-n", 50, FOUR).out
+    for env in ({"NO_COLOR": "1"}, {"TERM": "dumb"}, {"TERM": None}, {"HOME": None}, {"HOME": ""}, {"XDG_DATA_HOME": ""},
+                {"XDG_DATA_HOME": "relative"}):
+        expect_equal(good("--batch", "-n", 50, FOUR, env=env).out, wanted, str(env))
+    good("--batch", "-n", 50, FOUR, env={"LC_ALL": "xx_YY.UTF-8"})
+
+
+if __name__ == "__main__":
+    run_all(__name__)

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contact models and options: what they share, and in what they differ."""
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import USAGE, Folder, belt, ceduo, expect, expect_equal, result, run_all, wooded_scene
+from runs import DIFFERENCES, FOUR, MODELS, PAPER, THICK, THIN, expect_run, through, treated
+
+
+def same_run(a, b):
+    """Of two options: all that a run finds, without the name."""
+    return {k: v for k, v in a.items() if k != "name"} == {k: v for k, v in b.items() if k != "name"}
+
+
+def test_contact_models():
+    """index, poisson and stems: bare and index are the same in all, what goes through the wood differs"""
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene())
+        runs = {model: result(path, *through(model)) for model in MODELS}
+        controls = {model: run["options"][0]["controls"] for model, run in runs.items()}
+        for model, run in runs.items():
+            expect_run(run, model)
+            for a, b in zip(controls[model], controls["index"]):
+                expect_equal((a["bare"], a["index"]), (b["bare"], b["index"]), f"{model}: without forest")
+                light = ("contact", "free_run")
+                expect_equal([a["lights"][k] for k in light], [b["lights"][k] for k in light], model)
+        for c in controls["index"]:
+            expect_equal(c["wooded"], None, "wooded by the index")
+        expect(controls["poisson"][0]["wooded"] != controls["stems"][0]["wooded"], "poisson and stems are the same")
+        for model in ("poisson", "stems"):
+            expect_equal(result(path, *through(model), "--seed", 1)["options"], runs[model]["options"], f"{model} again")
+            expect(result(path, *through(model), "--seed", 2)["options"] != runs[model]["options"], f"{model}: another seed")
+            for c in controls[model]:
+                expect(c["wooded"]["energy_kJ"]["mean"] < c["bare"]["energy_kJ"]["mean"] - 5, f"{model}: stems take nothing")
+                expect(c["wooded"]["rocks_reached"] < c["bare"]["rocks_reached"], f"{model}: stems stop none")
+            expect(runs[model]["options"][0]["ends"]["stopped_by_stems"] > 0.01, model)
+            expect(runs[model]["work"]["stems_drawn"] > 0, model)
+        expect_equal(runs["index"]["work"]["stems_drawn"], 0, "stems drawn by the index")
+
+
+def test_no_stems_on_the_way():
+    """No stem on the way to a control: wooded is bare there in every figure, with no contact"""
+    def expect_bare(control, where):
+        wooded = dict(control["wooded"])
+        expect_equal(wooded.pop("contacts"), {"mean": 0, "se": 0}, f"{where}: contacts")
+        expect_equal(wooded, control["bare"], where)
+
+    with Folder() as f:
+        forests = {"none": [], "bare": [{"from_m": 10, "to_m": 95, "stand": {"name": "clearing"}}], "behind": [belt(70, 95)],
+                   "above": [belt(0, 15)], "beyond": [belt(110, 150)]}
+        path = f.write("s.yaml", wooded_scene(forest=None, release={"x_m": 16, "vx_m_s": 2}, options=[
+            {"name": name, "forest": forest} for name, forest in forests.items()]))
+        for model in ("poisson", "stems"):
+            run = result(path, *through(model))
+            expect_run(run, model)
+            found = {o["name"]: o for o in run["options"]}
+            for name in ("none", "bare", "above", "beyond"):
+                for control in found[name]["controls"]:
+                    expect_bare(control, f"{model}, {name} at {control['x_m']} m")
+            expect_bare(found["behind"]["controls"][0], f"{model}, a belt behind the control")
+            behind = found["behind"]["controls"][1]["wooded"]
+            expect(behind["contacts"]["mean"] > 1, "the belt behind the first control is met before the second", behind)
+            for name in ("bare", "above"):
+                expect(same_run({**found[name], "stands": [], "summary": 0, "controls": 0},
+                                {**found["none"], "stands": [], "summary": 0, "controls": 0}), f"{model}, {name}: ends")
+            # none and bare are the run without forest
+            expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (4, 8000), f"{model}: runs")
+
+
+def test_duplicate_option():
+    """An option under another name shares its run: no more rocks, the same figures, a difference of exactly 0"""
+    with Folder() as f:
+        options = [{"name": n, "forest": [belt(10, 95, **({} if n != "other" else {"trees": []}))]}
+                   for n in ("first", "other", "again", "renamed stand")]
+        options[3]["forest"][0]["stand"]["name"] = "another name"
+        path = f.write("s.yaml", wooded_scene(forest=None, options=options))
+        for model in MODELS:
+            run = result(path, "-n", 1000, *through(model))
+            expect_run(run, model)
+            first, other, again, renamed = run["options"]
+            expect(same_run(first, again), f"{model}: the same option has other figures")
+            expect_equal(renamed["controls"], first["controls"], f"{model}: the name of a stand")
+            if model != "index":
+                expect(other["controls"][1]["wooded"] != first["controls"][1]["wooded"], "the other option is the same")
+            runs = 1 if model == "index" else 3
+            expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (runs, 1000 * runs), f"{model}: work")
+            expect(run["work"]["runs_reused"] >= 2, f"{model}: runs reused", run["work"])
+            fewer = result(path, "-n", 1000, *through(model), "--option", "first", "--option", "other")
+            expect_equal(fewer["work"]["rocks_flown"], 1000 * runs, f"{model}: rocks without the copies")
+            for difference in run["differences"]:
+                if difference["option"] != "other":
+                    for name in DIFFERENCES[::2] if difference["x_m"] == 60 else DIFFERENCES:
+                        expect_equal(difference[name], {"mean": 0, "se": 0}, f"{model}: {difference['option']} {name}")
+                elif model != "index":
+                    expect(difference["energy_per_released_kJ"]["mean"] > 0 and difference["reach_probability"]["se"] > 0,
+                           "fewer trees", difference)
+
+
+def test_option_subset():
+    """--option: the figures of an option do not depend on which others run with it; differences are to the first that is left"""
+    with Folder() as f:
+        path = f.write("s.yaml", treated(none=None, many_thin=THIN, few_thick=THICK))
+        for model in ("poisson", "stems"):
+            whole = {o["name"]: o for o in result(path, *through(model))["options"]}
+            for names in (["many thin"], ["few thick", "many thin"], ["none", "few thick"]):
+                run = result(path, *through(model), *[a for n in names for a in ("--option", n)])
+                expect_run(run, model)
+                expect_equal(run["options"], [o for n, o in whole.items() if n in names], f"{model}, {names}")
+                expect_equal({d["against"] for d in run["differences"]}, {run["options"][0]["name"]} if len(names) > 1 else set())
+
+
+def test_difference_errors():
+    """Differences of options are between the same rocks: their error is that of pairs, smaller than of two runs apart"""
+    with Folder() as f:
+        path = f.write("s.yaml", treated(thick=THICK, one_more={**THICK, "trees": [{**THICK["trees"][0], "per_ha": 303}]}, thin=THIN))
+        run = result(path, "-n", 4000)
+        first, near, far = (o["controls"][1]["wooded"] for o in run["options"])
+        differences = {d["option"]: d for d in run["differences"] if d["x_m"] == 105}
+        apart = math.hypot(first["energy_per_released_kJ"]["se"], near["energy_per_released_kJ"]["se"])
+        expect(0 < differences["one more"]["energy_per_released_kJ"]["se"] < 0.5 * apart, apart, differences["one more"])
+        # a difference that is there is found at many times its error
+        d = differences["thin"]["energy_per_released_kJ"]
+        expect(d["mean"] > 10 * d["se"] > 0, d)
+        bare = [o["controls"][1]["bare"] for o in run["options"]]
+        expect(bare[0] == bare[1] == bare[2], "the options fly other rocks")
+
+
+def test_option():
+    """--option keeps those asked for, in the scene's order; an unknown name is status 2"""
+    names = ["large reserves", "simple coppice, 25 years"]
+    run = result(FOUR, "-n", 20, "--option", names[0], "--option", names[1])
+    expect_equal([o["name"] for o in run["options"]], names[::-1])
+    whole = result(FOUR, "-n", 20)
+    expect_equal(run["options"], [o for o in whole["options"] if o["name"] in names])
+    expect_equal(result(PAPER, "-n", 1, "--option", "current")["options"][0]["name"], "current")
+    done = ceduo("--batch", FOUR, "--option", "nope")
+    expect(done.status == USAGE and done.out == "" and "'nope'" in done.err, done)
+    done = ceduo("--check", FOUR, "--option", "nope")
+    expect(done.status == USAGE, done)
+
+
+def test_spread_uses_nothing_else():
+    """All options of a scene fly the same rocks, and adding an option changes no number of another"""
+    run = result(FOUR, "-n", 300)
+    expect(all(o["controls"][0]["bare"] == run["options"][0]["controls"][0]["bare"] for o in run["options"]), "bare")
+    one = result(FOUR, "-n", 300, "--option", "large reserves")["options"][0]
+    expect_equal([o for o in run["options"] if o["name"] == "large reserves"], [one])
+
+
+if __name__ == "__main__":
+    run_all(__name__)

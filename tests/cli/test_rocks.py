@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many rocks: -n, --seed, -j and -e."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, wooded_scene
+from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated, without_seconds
+
+
+def test_rocks_and_seed():
+    """-n and --seed: reported, the same seed gives the same bytes, another others; the first rocks stay the same"""
+    runs = [without_seconds(good("--batch", "-f", "json", "-n", 500, "--seed", s, PAPER).out) for s in (1, 1, 2)]
+    expect(runs[0] == runs[1] != runs[2], "seeds")
+    for model, runs in (("index", 1), ("poisson", 2), ("stems", 2)):
+        run = result("-n", 500, "--seed", 9007199254740992, *through(model), PAPER)
+        expect_equal((run["rocks"], run["seed"], run["work"]["rocks_flown"]), (500, 9007199254740992, 500 * runs), model)
+    expect_equal(result("-n", 1, "--seed", 0, PAPER)["seed"], 0)
+    long, short = result(PAPER, "-n", 3000), result(PAPER, "-n", 1500)
+    for which in ("bare", "wooded"):
+        a, b = (r["options"][0]["controls"][0][which] for r in (long, short))
+        expect(b["rocks_reached"] <= a["rocks_reached"] and b["energy_kJ"]["max"] <= a["energy_kJ"]["max"],
+               f"{which}: the first rocks are others in a longer run")
+
+
+def test_seed_beyond():
+    """--seed and simulation.seed beyond 2^53 are refused, not rounded"""
+    for arguments in (("--seed", "9007199254740993"), ("-s", "simulation.seed=9007199254740993")):
+        expect_equal(ceduo("--batch", "-n", 1, *arguments, PAPER).status, USAGE, " ".join(arguments))
+
+
+def test_threads():
+    """-j 1, 2, 16 and 1024 give the same bytes but for work.seconds"""
+    for extra in (through("index"), (), ("-s", "simulation.law=crsp", "-s", "rock.diameter_m.spread=0.05", *through("poisson"))):
+        runs = {j: without_seconds(good("--batch", "-f", "json", "-n", 10000, "-j", j, *extra, PAPER).out)
+                for j in (1, 2, 16, 1024)}
+        expect(len(set(runs.values())) == 1, *[f"-j {j}: {hash(r)}" for j, r in runs.items()])
+    for form in ("table", "csv"):
+        expect_equal(good("--batch", "-f", form, "-n", 3000, "-j", 1, PAPER).out,
+                     good("--batch", "-f", form, "-n", 3000, "-j", 16, PAPER).out, form)
+    runs = {j: without_seconds(good("--batch", "-f", "json", "-n", 1500, "-j", j, FOUR).out) for j in (1, 2, 5)}
+    expect_equal(len(set(runs.values())), 1, "four systems by threads")
+
+
+def half_width(bare):
+    if bare["energy_kJ"]["se"] is None:
+        return math.inf
+    return 1.959963984540054 * bare["energy_kJ"]["se"] / bare["energy_kJ"]["mean"]
+
+
+def test_tolerance_met():
+    """-e goes on until every mean energy is known so well, the same with any number of threads"""
+    two = ["-s", "controls=[{x_m: 60}, {x_m: 135}]"]
+    for model in MODELS:
+        run = result("-e", 0.01, *two, *through(model), PAPER)
+        expect_run(run, model)
+        expect_tolerance(run, 0.01)
+        expect_equal(run["warnings"], [])
+        expect(1000 < run["rocks"] < 100000, run["rocks"])
+        expect_equal(run["options"], result("-e", 0.01, "-n", 1000000, "-j", 16, *two, *through(model), PAPER)["options"])
+        needed = max((half_width(a) / 0.01) ** 2 * run["rocks"] for c in run["options"][0]["controls"]
+                     for a in (c["bare"], c["wooded"]) if a and a["rocks_reached"] >= 100)
+        expect(needed <= run["rocks"] <= 1.2 * needed, f"{model}: {run['rocks']} rocks, the spread seen asks for {needed}")
+
+
+def expect_tolerance(run, tolerance):
+    """Every mean energy printed is known so well, but where a warning names the control as left out, or all as not met."""
+    if any("not met" in w for w in run["warnings"]):
+        return
+    for option in run["options"]:
+        for control in option["controls"]:
+            for arrivals in (control["bare"], control["wooded"]):
+                if arrivals is None or arrivals["rocks_reached"] == 0:
+                    continue
+                named = any(f"{control['x_m']:g} m" in w and "left out" in w for w in run["warnings"])
+                expect(arrivals["rocks_reached"] < 100 and named or half_width(arrivals) <= tolerance,
+                       f"{option['name']} at {control['x_m']} m: half width {half_width(arrivals)}", arrivals["rocks_reached"],
+                       run["warnings"])
+
+
+def test_tolerance_options():
+    """-e goes on until every option's mean energy through its wood is known so well"""
+    with Folder() as f:
+        path = f.write("s.yaml", treated(thin=THIN, thick=THICK, none=None))
+        run = result(path, "-e", 0.02)
+        expect_run(run)
+        expect_tolerance(run, 0.02)
+        expect_equal(run["warnings"], [])
+        widths = [half_width(c[which]) for o in run["options"] for c in o["controls"] for which in ("bare", "wooded")]
+        bare = result(path, "-e", 0.02, *through("index"))
+        expect(bare["rocks"] < run["rocks"], "what is least known decides", bare["rocks"], run["rocks"], widths)
+        half = result(path, "-n", run["rocks"] // 2)
+        expect(any(half_width(c["wooded"]) > 0.02 for o in half["options"] for c in o["controls"]), "it went on too long")
+
+
+def test_tolerance_few_wooded():
+    """-e leaves out a control that under 100 rocks reach through the wood, and names it; where none reach it, too"""
+    with Folder() as f:
+        dense = {**THICK, "trees": [{**THICK["trees"][0], "per_ha": 1500, "volume_m3": 5}]}
+        path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 62, "to_m": 100, "stand": dense}],
+                                              controls=[{"x_m": 60}, {"x_m": 104, "accepted_kJ": 10}]))
+        run = result(path, "-e", 0.02)
+        near, far = run["options"][0]["controls"]
+        expect(far["wooded"]["rocks_reached"] < 100, far["wooded"]["rocks_reached"])
+        expect_tolerance(run, 0.02)
+        expect(half_width(near["wooded"]) <= 0.02 and half_width(far["bare"]) <= 0.02, "those that many reach")
+        expect(any("104 m" in w and "left out" in w for w in run["warnings"]), run["warnings"])
+        expect(not any("not met" in w or "60 m" in w for w in run["warnings"]), run["warnings"])
+        expect_in("left out", re.sub(r"\s+", " ", good("--batch", "-e", 0.02, path).out), "table")
+
+
+def test_tolerance_not_met():
+    """-e with -n too small: a warning that names the tolerance, status 0"""
+    run = result("-e", 0.001, "-n", 2000, PAPER)
+    expect_equal(run["rocks"], 2000)
+    expect(len(run["warnings"]) == 1 and "0.001" in run["warnings"][0] and "not met" in run["warnings"][0], run["warnings"])
+    expect_in("not met", good("--batch", "-e", 0.001, "-n", 2000, PAPER).out, "table")
+    _, rows = read_csv(good("--batch", "-f", "csv", "-e", 0.001, "-n", 2000, PAPER).out)
+    expect_in("not met", rows[0]["warnings"], "CSV")
+
+
+def test_tolerance_few():
+    """-e leaves out a control that under 100 rocks reach, and names it"""
+    with Folder() as f:
+        # rocks that come to rest: few reach the end
+        few = scene(slope={"vertices_m": [[0, 20], [30, 0], [200, 0]],
+                           "segments": [{"rn": 0.3, "rt": 0.8, "roughness_rad": 0.3, "friction": 0.5}]},
+                    controls=[{"x_m": 25}, {"x_m": 199}])
+        run = result("-e", 0.05, "-n", 20000, f.write("few.yaml", few))
+        near, far = run["options"][0]["controls"]
+        expect(far["bare"]["rocks_reached"] < 100, far["bare"])
+        expect(half_width(near["bare"]) < 0.05, near["bare"])
+        expect(any("199 m" in w for w in run["warnings"]), run["warnings"])
+        expect(not any("not met" in w or "25 m" in w for w in run["warnings"]), run["warnings"])
+
+
+if __name__ == "__main__":
+    run_all(__name__)

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""-s changes a value of a scene and is checked like its file."""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (INPUT, PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, good, result,
+                     scene, stand, tests_of)
+from runs import PAPER
+
+
+def test_set_rock_and_order():
+    """-s goes left to right and is checked like the file"""
+    expect_near(result(PAPER, "-n", 1, "-s", "rock.diameter_m=1")["rock"]["mean_diameter_m"], 0.9, 1e-12, "B")
+    run = result(PAPER, "-n", 1, "-s", "rock.diameter_m=1", "-s", "rock.diameter_m=0.56", "--seed", 7, "-s",
+                 "simulation.seed=8")
+    expect_equal((run["rock"]["mean_diameter_m"], run["seed"]), (0.68, 8))
+    expect_equal(result(PAPER, "-n", 1, "-s", "simulation.seed=8", "--seed", 7)["seed"], 7)
+    expect_equal(result(PAPER, "-s", "simulation.rocks=5")["rocks"], 5)
+    expect_equal(result(PAPER, "-s", "title='x: y'", "-n", 1)["title"], "x: y")
+    controls = result(PAPER, "-n", 1, "-s", "controls=[{x_m: 100}, {x_m: 20}]")["options"][0]["controls"]
+    expect_equal([c["x_m"] for c in controls], [100, 20], "controls in the order given")
+
+
+def test_set_through_files():
+    """-s goes through file references, by [i] and by [name], and changes that place only"""
+    def stools(*arguments):
+        return [[s["stools_per_ha"] for s in o["stands"]] for o in result(*arguments, "-n", 1)["options"]]
+    before = {p: p.read_bytes() for p in PROFILES.rglob("*.yaml")}
+    expect_equal(stools(PAPER, "-s", "forest[0].stand.stools.per_ha=2000"), [[2000, 2807]])
+    expect_equal(stools(PAPER, "-s", "forest[ADS 2].stand.stools.per_ha=2000"), [[3688, 2000]])
+    expect_equal(stools(PAPER, "-s", "forest[ADS 2].stand.stools.per_ha=2000", "-s",
+                        "forest[ADS 1].stand.stools.per_ha=1000"), [[1000, 2000]])
+    expect_equal(stools(PAPER, "-s", "forest[1].stand=../stands/ads-1.yaml"), [[3688, 3688]])
+    stands = result(PAPER, "-n", 1, "-s", "forest[0].stand.trees[0].per_ha=120")["options"][0]["stands"]
+    expect_equal([s["trees_per_ha"] for s in stands], [120, 542])
+    run = result(PROFILES / "scenes/selection-or-standards.yaml", "-n", 1, "-s",
+                 "options[standards, all just cut].forest[0].stand.trees[0].per_ha=333")
+    found = [[s["trees_per_ha"] for s in o["stands"]] for o in run["options"]]
+    expect(found[0][0] > 300 and found[1][0] < 300, "the second option starts from the same file", found)
+    expect_equal(before, {p: p.read_bytes() for p in PROFILES.rglob("*.yaml")}, "files")
+    speed = [result(PAPER, "-s", f"slope.segments[5].rn={rn}")["options"][0]["controls"][0]["bare"]["speed_m_s"]["mean"]
+             for rn in (0.31, 0.9)]
+    expect(speed[0] != speed[1] and speed[0] == result(PAPER)["options"][0]["controls"][0]["bare"]["speed_m_s"]["mean"],
+           speed)
+
+
+def test_set_at_odds():
+    """A change that does not fit the rest of a good scene is named, with status 2; a bad scene stays bad input"""
+    for sets, column, words in ((["forest[0].to_m=100"], 16, "forest[1].from_m: 67.5 lies before the end"),
+                                (["release.x_m=140"], 13, "controls[0].x_m: 135 does not lie beyond the release"),
+                                (["slope.vertices_m=[[0,100],[50,0]]"], 18, "13 segments for 1 stretches"),
+                                (["rock.shape=sphere", "rock.diameter_m=1"], 12, "does not belong to the shape 'sphere'"),
+                                (["simulation.rocks=9", "forest[0].to_m=100", "rock.diameter_m=1"], 16, "lies before the end")):
+        done = ceduo("--check", *(word for s in sets for word in ("-s", s)), PAPER)
+        culprit = next(s for s in sets if "=9" not in s)
+        expect(done.status == USAGE and done.out == "", done)
+        expect(done.err.startswith(f"--set:1:{column}: the scene is good without this change, but not with it:\n  {culprit}\n" +
+                                   " " * (column + 1) + "^\n"), done)
+        expect_in(words, done.err)
+        expect_equal(done.err.count("--set:"), 1, done.err)
+    both = ["-s", "forest[0].to_m=100", "-s", "forest[1].from_m=100"]  # either of them alone would not fit
+    good("--check", *both, PAPER)
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 500}]))
+        done = ceduo("--check", "-s", "rock.diameter_m=1", path)
+        expect(done.status == INPUT and "--set" not in done.err, done)
+
+
+def test_set_by_name_twice():
+    """-s refuses a name that several belts have, and names their places; it takes one that is there once"""
+    with Folder() as f:
+        belts = [{"from_m": x, "to_m": x + 9, "stand": stand(name=n)} for x, n in ((10, "a"), (20, "b"), (30, "a"), (40, "a"))]
+        path = f.write("s.yaml", scene(forest=belts))
+        good("--check", "-s", "forest[b].stand.trees[0].per_ha=1", path)
+        good("--check", "-s", "forest[0].stand.trees[0].per_ha=1", path)
+        bad_set_on(path, "forest[a].stand.trees[0].per_ha=1", "'a': this name is given more than once; take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[a]={}", "take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[c].to_m=1", "'c': no such item")
+
+
+def bad_set_on(path, change, words):
+    done = ceduo("--check", "-s", change, path)
+    expect(done.status == USAGE and words in done.err, done)
+
+
+def test_set_spreads():
+    """-s makes a number a spread, whole or by its parts"""
+    whole = result(PAPER, "-s", "rock.diameter_m={mean: 0.56, spread: 0.1, kind: uniform}")
+    parts = result(PAPER, "-s", "rock.diameter_m.spread=0.1", "-s", "rock.diameter_m.kind=uniform")
+    expect_equal(whole["options"], parts["options"])
+    expect(whole["options"] != result(PAPER)["options"], "the spread changes nothing")
+    expect_near(whole["rock"]["mean_diameter_m"], 0.68, 1e-12, "rock holds the means")
+    expect_equal(result(PAPER, "-s", "rock.diameter_m.spread=0")["options"], result(PAPER)["options"], "spread 0")
+    for path in ("release.vx_m_s", "release.vz_m_s", "slope.segments[2].rn", "slope.segments[2].rt"):
+        expect(result(PAPER, "-s", f"{path}.spread=0.1")["options"] != result(PAPER)["options"], path)
+    expect_in("means", good("--batch", PAPER, "-s", "rock.diameter_m.spread=0.05").out, "table")
+
+
+def test_set_base():
+    """-s reaches into a stand that starts from another; mappings merge, lists are replaced"""
+    with Folder() as f:
+        f.write("base.yaml", stand(ceduo="stand/1", name="base"))
+        built = {"base": "base.yaml", "stools": {"per_ha": 1500}}
+        path = f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 60, "stand": built}]))
+        def one(*sets):
+            return result(path, "-n", 1, *[a for s in sets for a in ("-s", s)])["options"][0]["stands"][0]
+        expect_equal((one()["stools_per_ha"], one()["stems_per_ha"], one()["name"]), (1500, 5100, "base"))
+        expect_equal(one("forest[0].stand.stools.per_ha=1800")["stools_per_ha"], 1800)
+        expect_equal(one("forest[base].stand.shoots[0].per_ha=4000")["stems_per_ha"], 4100)
+        expect_equal(one("forest[0].stand.trees=[]")["trees_per_ha"], 0)
+
+
+BAD_SETS = [
+    ("rock.diameter_m=-1", "-1 is below 0 m"), ("rock.diameter_m=0", "0 is not above 0 m"),
+    ("rock.diametre_m=1", "unknown key"), ("nope=1", "unknown key"), ("rock.diameter_m", "PATH=VALUE"),
+    ("=1", "PATH=VALUE"), ("", "PATH=VALUE"), ("forest[9].to_m=1", "no such item"), ("forest[ADS 3].to_m=1", "no such item"),
+    ("forest[-1].to_m=1", "no such item"), ("forest[99999999999999999999].to_m=1", "no such item"),
+    ("rock..x=1", "malformed path"), ("forest[0=1", "malformed path"), ("forest[].to_m=1", "malformed path"),
+    (".rock=1", "malformed path"), ("rock[0]=1", "no list"), ("forest.to_m=1", "no mapping"),
+    ("rock.diameter_m=", "no value"), ("rock.diameter_m=abc", "'abc' is no number"), ("rock.diameter_m='1'", "in quotes"),
+    ("rock.diameter_m=1,5", "write a dot"), ("rock.diameter_m=nan", "'nan' is no number"),
+    ("rock.diameter_m=1e999", "too large"), ("rock={", "malformed YAML"), ("rock.diameter_m=*x", "alias"),
+    ("rock.diameter_m=&x 1", "anchor"), ("rock.diameter_m=!!int 1", "tag"), ("simulation.law=bounce", "unknown"),
+    ("simulation.contact_model=pinball", "unknown"), ("simulation.rocks=1.5", "whole number"),
+    ("controls[0].x_m=500", "beyond the slope"), ("release.x_m=-5", "beyond the slope"),
+    ("simulation.scale_rn=yes", "true or false"), ("title=[1]", "a text is wanted"), ("rock.diameter_m=\x1b[31m", "control"),
+    ("rock.\x1b[31m=1", "unknown key"),
+]
+
+
+def bad_set(value, words):
+    for mode in ("--batch", "--check"):
+        done = ceduo(mode, "-s", value, PAPER)
+        expect_equal(done.status, USAGE, value)
+        expect_equal(done.out, "")
+        expect_in(words, done.err, value)
+        expect_in("--set", done.err.splitlines()[0], value)
+        expect("paper-site.yaml" not in done.err.splitlines()[0], "the fault is not the file's", done)
+
+
+def test_set_place():
+    """-s shows its own text with a caret under the fault"""
+    done = ceduo("--batch", "-s", "rock.diameter_m=-1", PAPER)
+    expect_equal(done.err, "--set:1:17: rock.diameter_m: -1 is below 0 m\n  rock.diameter_m=-1\n" + " " * 18 + "^\n")
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    for value, words in BAD_SETS:
+        suite.check(f"-s {ascii(value)}: status 2, {words}", bad_set, value, words)
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()

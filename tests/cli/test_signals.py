@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Signals end the program with nothing half done; progress goes to a terminal only."""
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import CEDUO, DONE, Failure, Folder, environment, expect, expect_equal, only_text, run_all
+from runs import ENDLESS, FOUR, PAPER
+
+
+def on_terminal(arguments, stop, which):
+    """What the program writes to a terminal that is its stdout or stderr, until stop(text, seconds); and its status."""
+    master, slave = pty.openpty()
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, which: slave}
+    with subprocess.Popen([CEDUO, *map(str, arguments)], stdin=subprocess.DEVNULL, env=environment(), **streams) as p:
+        os.close(slave)
+        os.set_blocking(master, False)
+        text, start, sent = b"", time.monotonic(), False
+        while time.monotonic() - start < 30:
+            try:
+                text += os.read(master, 65536)
+            except BlockingIOError:
+                time.sleep(0.02)
+            except OSError:
+                break
+            if not sent and stop(text, time.monotonic() - start):
+                p.send_signal(signal.SIGINT)
+                sent = True
+        p.kill()
+        p.communicate()
+    os.close(master)
+    return text, p.returncode
+
+
+def test_terminal():
+    """On a terminal: no escape bytes on standard output; progress on standard error after a second, none with -q"""
+    text, status = on_terminal(["--batch", "-n", "50", FOUR], lambda *_: False, "stdout")
+    expect_equal(status, DONE)
+    only_text(text.replace(b"\r\n", b"\n"), "stdout")
+    with Folder() as f:
+        endless = f.write("endless.yaml", ENDLESS)
+        run = ["--batch", "-n", "1000000", "-o", "/dev/null"]
+        text, status = on_terminal([*run, endless], lambda t, s: s > 1.3, "stderr")
+        expect_equal(status, -signal.SIGINT)
+        expect(b"\x1b" not in text, text)
+        text, status = on_terminal(["--batch", "-n", "10000000", "-j", "1", "-s", "simulation.law=crsp", "-o", "/dev/null",
+                                    PAPER], lambda t, s: b"rocks" in t or s > 90, "stderr")
+        expect(b"rocks" in text and b"\x1b" not in text, text)
+        expect_equal(status, -signal.SIGINT)
+        text, status = on_terminal(["--batch", "-q", "-n", "10000000", "-j", "1", "-o", "/dev/null", PAPER],
+                                   lambda t, s: t or s > 1.6, "stderr")
+        expect_equal(text, b"", "-q")
+        text, status = on_terminal(["--batch", "-n", "10", "-o", "/dev/null", PAPER], lambda *_: False, "stderr")
+        expect_equal((text, status), (b"", DONE), "short work")
+
+
+def interrupted(number, path, most):
+    with Folder() as f:
+        old = f.write("old.txt", "old")
+        for target in (None, f.path / "new.txt", old):
+            where = ["-o", str(target)] if target else []
+            with subprocess.Popen([CEDUO, "--batch", "-n", "10000000", *where, str(path)], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, env=environment()) as p:
+                time.sleep(0.25)
+                expect(p.poll() is None, "it ended before the signal", p.returncode)
+                p.send_signal(number)
+                start = time.monotonic()
+                try:
+                    out, err = p.communicate(timeout=120)
+                except subprocess.TimeoutExpired as late:
+                    p.kill()
+                    raise Failure("it goes on after the signal") from late
+            expect_equal(p.returncode, -number, "status")
+            expect_equal((out, err), (b"", b""))
+            expect(time.monotonic() - start < most, f"ended {time.monotonic() - start:.1f} s after the signal")
+            expect_equal(f.names(), ["old.txt"])
+            expect_equal(old.read_text(), "old")
+
+
+def test_interrupt():
+    """SIGINT in a long run ends by that signal, no file written"""
+    interrupted(signal.SIGINT, PAPER, 2)
+
+
+def test_terminate():
+    """SIGTERM in a long run ends by that signal, no file written"""
+    interrupted(signal.SIGTERM, PAPER, 2)
+
+
+def test_hang_up():
+    """SIGHUP in a long run ends by that signal, no file written"""
+    interrupted(signal.SIGHUP, PAPER, 2)
+
+
+def test_interrupt_endless():
+    """SIGINT where rocks never come to rest ends the program within a second"""
+    with Folder() as f:
+        interrupted(signal.SIGINT, f.write("endless.yaml", ENDLESS), 1)
+
+
+def test_nohup():
+    """A signal that the caller switched off stays off"""
+    old = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with subprocess.Popen([CEDUO, "--batch", "-n", "300000", str(PAPER)], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, env=environment()) as p:
+            time.sleep(0.1)
+            p.send_signal(signal.SIGHUP)
+            out, err = p.communicate(timeout=120)
+    finally:
+        signal.signal(signal.SIGHUP, old)
+    expect(p.returncode == DONE and b"300000" in out and err == b"", p.returncode, out, err)
+
+
+def test_interrupt_between():
+    """A signal during the second scene leaves the first one's result and prints nothing half"""
+    with subprocess.Popen([CEDUO, "--batch", "-f", "json", str(FOUR), "-", "-n", "10000000"], stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment()) as p:
+        time.sleep(0.2)
+        p.send_signal(signal.SIGINT)
+        out, _ = p.communicate(timeout=120)
+    expect_equal((p.returncode, out), (-signal.SIGINT, b""))
+
+
+if __name__ == "__main__":
+    run_all(__name__)

@@ -1,0 +1,319 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of one option: its statements, tables, width, warnings and sources."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (PROFILES, Folder, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
+                     wooded_scene)
+from pages import (blocks_of, cells_of_rows, columns, digits, expect_cells, expect_option, expect_order, expect_width,
+                   half_of_mean, of_1000, section, table_row)
+from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated
+
+
+def test_table_order():
+    """Table of the paper's site: statements in their order, wooded first and bare below it, verdicts in words"""
+    text, run = good("--batch", PAPER).out, result(PAPER)
+    option = run["options"][0]
+    control = option["controls"][0]
+    expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "through the wood",
+                 "without forest 992", "896", "113.2", "Of 1000, ", "stopped by stems", "come to rest", "leave the slope", "stems",
+                 "Contact: passes", "30 m", "Free run: passes", "Energy: FAILS", "of 1000 arrive with more than 50 kJ",
+                 "50 are allowed", "ADS 1", "1.95 yes", "ADS 2", "2.61 yes", "interception", "gsteiger-stools 3.04 m",
+                 "gsteiger-stems 1.49 m", "crofton 2.17 m", "(?i)by the index", "53.8 kJ",
+                 "39.9 kJ per 100 m \\(interception\\)", "Eq. 5", "59.4 kJ", "62.3 kJ", "(?i)one rock", "Blocks of other sizes",
+                 "Eq. 6 gives 2.61 m", "Assumed")
+    expect_option(text, option)
+    for line, arrivals in ((table_row(text, "through the wood")[0], control["wooded"]),
+                           (table_row(text, "without forest")[0], control["bare"])):
+        energy = arrivals["energy_kJ"]
+        expect_cells(line, f"{digits(energy['mean'], 4)} ±{digits(half_of_mean(energy, arrivals['rocks_reached']), 2)}", digits(energy["p95"], 3),
+                     digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
+    expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
+              re.sub(r"\s+", " ", text), "the energy light's reason")
+    expect_in("bears 50 kJ*", text, "mark of the assumed accepted energy")
+    expect_width(text)
+
+
+def test_table_order_index():
+    """Table of the paper's site by the index: no figure through the wood, the index labelled, the energy light unknown"""
+    text, run = good("--batch", *through("index"), PAPER).out, result(*through("index"), PAPER)
+    expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "without forest 992",
+                 "896", "113.2", "Contact: passes", "Free run: passes", "Energy: unknown", "index", "ADS 1", "1.95 yes", "ADS 2",
+                 "2.61 yes", "gsteiger-stools 3.04 m", "(?i)by the index \\(Eq. 4, interception\\) stems could take 53.8 kJ",
+                 "39.9 kJ per 100 m", "left \\(Eq. 5\\): 113.2 − 53.8 = 59.4 kJ", "62.3 kJ", "(?i)one rock", "Eq. 6 gives 2.61 m")
+    expect_option(text, run["options"][0])
+    expect("through the wood" not in text and "stopped by stems" not in text, "what no rock flew through is told", text)
+    expect_width(text)
+
+
+def test_table_width():
+    """Tables of all shipped scenes and of long names stay within 80 columns"""
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        for law in ("lumped", "crsp"):
+            expect_width(good("--batch", "-n", 200, "-s", f"simulation.law={law}", path).out)
+    words = "a very long name that says all there is to say about it and then a little more, so that it must be cut "
+    text = good("--batch", "-n", 50, FOUR, "-s", f"title={words * 2}", "-s", f"options[0].name={words * 2}", "-s",
+                f"controls[0].name={words}", "-s", f"options[1].forest[0].stand.name={words}", "-s",
+                "simulation.threshold_m=12.345").out
+    expect_width(text)
+
+
+def test_table_width_survey():
+    """Table in survey coordinates stays within 80 columns"""
+    far = scene(slope={"vertices_m": [[480000, 64], [480100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]},
+                release={"vx_m_s": 1}, controls=[{"x_m": 480075.125, "accepted_kJ": 20, "name": "road"}],
+                forest=[{"from_m": 480010.125, "to_m": 480070.375, "stand": stand(name="an old coppice of hornbeam")}])
+    with Folder() as f:
+        expect_width(good("--batch", f.write("far.yaml", far)).out)
+
+
+def test_table_widest():
+    """Table: words longer than a line, wide characters and huge numbers keep its columns, 80 of them"""
+    wide, word = "一二三四五六七八九十" * 8, "x" * 300
+    text = good("--batch", "-n", 50, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
+                "-s", "controls[0].accepted_kJ=123456", "-s", "rock={diameter_m: 20}", FOUR).out
+    expect(max(map(columns, text.splitlines())) <= 80, *(line for line in text.splitlines() if columns(line) > 80))
+    flat = "".join(text.split())
+    expect(word in flat and wide in flat, "cut short:", text)
+    rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
+    expect(all(re.search(r" \(\d\.\d±\d\.\d\)e6 +\de6 ", row) for row in rows), "mean energies", *rows)
+    head, *table = text.split("Side by side")[1].splitlines()[2:]
+    names = [name for name in (wide[:9], "large reserves") if not any(name in row for row in table)]
+    expect(not names, "rows of", names, head, *table)
+    expect(len({columns(row) for row in table if re.search(r"(pass|FAIL)$", row)}) == 1, "columns that do not align", *table)
+    expect_in("> 123 MJ", head, "limit")
+
+
+def test_table_small():
+    """Table: small figures have a blank before them and are not cut"""
+    slope = {"vertices_m": [[0, 0], [100, -60]], "segments": [{"rn": 0.05, "rt": 0.95, "roughness_rad": 0.1, "friction": 0.1}]}
+    with Folder() as f:
+        path = f.write("s.yaml", scene(slope=slope, release={"vx_m_s": 2}, controls=[{"x_m": x} for x in (2, 20, 90)]))
+        for diameter in (1, 0.1, 0.03, 0.01, 0.003, 0.001, 1e-4):
+            orders = ["-n", 60, "-s", f"rock.diameter_m={diameter}", path]
+            controls = [a for c in result(*orders)["options"][0]["controls"] for a in (c["wooded"], c["bare"])]
+            found = cells_of_rows(good("--batch", *orders).out)
+            expect_equal(len(found), len(controls), "rows")
+            for cells, a in zip(found, controls):
+                expect(len(cells) == 4 and "…" not in "".join(cells), f"diameter {diameter}: {cells}")
+                for cell, value in zip(cells[1:], (a["energy_kJ"]["p95"], a["speed_m_s"]["mean"], a["height_m"]["p95"])):
+                    shown, _, power = cell.partition("e")
+                    place = 10.0 ** (int(power or 0) - len(shown.partition(".")[2]))
+                    expect_near(float(cell), value, 0.51 * place, f"diameter {diameter}: {cells}")
+
+
+def test_table_one_rock():
+    """Table: of one rock no error is known, whatever it weighs and however it is compared: a dash"""
+    for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 500}", "{diameter_m: 0.001}"):
+        text = good("--batch", "-n", 1, "-s", f"rock={rock}", FOUR).out
+        expect(not re.search(r"\bnan\b", text), re.findall(".*nan.*", text))
+        expect(all("±-" in cells[0] for cells in cells_of_rows(text) if cells[0] != "-"), cells_of_rows(text))
+
+
+def test_table_width_short():
+    """Table of a slope of a millimetre stays within 80 columns"""
+    with Folder() as f:
+        path = f.write("short.yaml", scene(slope={"vertices_m": [[0, 0], [0.007693, -0.005387]],
+                                                  "segments": [{"rn": 0.3, "rt": 0.8}]}, controls=[{"x_m": 0.001}]))
+        expect_width(good("--batch", "-n", 5, path).out)
+
+
+def test_table_splinter():
+    """Table: a rock so thin that its volume is next to 0 has no other sizes, and all else of its page"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": [1e-320, 1, 1], "mass_kg": 50}))
+        text = good("--batch", "-n", 5, path).out
+        expect_in("through the wood", text)
+        expect("Blocks of other sizes" not in text, text)
+
+
+def test_table_warnings_once():
+    """Table: what belts of one stand have in common is warned of once an option"""
+    text = good("--batch", "-n", 10, "staggered").out
+    warnings = re.findall(r"^    ! .*(?:\n      .*)*", text, re.M)
+    options = text.count("Contact: ")
+    expect(0 < len(warnings) <= options, f"{len(warnings)} warnings of {options} options", *warnings)
+
+
+def test_table_lights():
+    """Table: every light with its reason: no forest, a gap, a thin belt, nothing said of what a place bears, the index"""
+    def said(*arguments, scene_mapping=None, where=-1):
+        with Folder() as f:
+            text = good("--batch", f.write("s.yaml", scene_mapping or wooded_scene()), *arguments).out
+            flat_text = re.sub(r"\s+", " ", text)
+            return {name: re.findall(rf"\b{name}: (.*?\.) (?=Free run:|Energy:|At |m stand|By the index)", flat_text)[where]
+                    for name in ("Contact", "Free run", "Energy")}
+    lights = said()
+    expect(re.fullmatch(r"passes\. Every belt has an ADC below 30 m \([\d.]+ m at most\) and no gap is longer\.",
+                        lights["Contact"]), lights)
+    expect(re.fullmatch(r"passes\. Chance of 30 m without a contact at worst [\d.]+ % \(10 % is allowed\)\.",
+                        lights["Free run"]), lights)
+    expect(re.fullmatch(r"FAILS\. \d+ \(\d+–\d+\) of 1000 arrive with more than 60 kJ \(50 are allowed\)\.",
+                        lights["Energy"]), lights)
+    lights = said("-s", "controls[1].accepted_kJ=1000")
+    expect(re.fullmatch(r"passes\. 0 \(0–\d+\) of 1000 arrive with more than 1000 kJ \(50 are allowed\)\.", lights["Energy"]),
+           lights)
+    expect(re.match(r"unknown\. .*not said what the place bears \(accepted_kJ\)", said(where=0)["Energy"]), "no accepted_kJ")
+    expect(re.match(r"unknown\. The index .*contact_model: index", said(*through("index"))["Energy"]), "index")
+    lights = said("-s", "forest=[]")
+    expect(re.match(r"FAILS\. There is no forest", lights["Contact"]) and re.match(r"FAILS\. No stem", lights["Free run"]), lights)
+    expect(lights["Energy"].startswith("FAILS. "), "the energy light where no forest is", lights)
+    lights = said("-s", "forest[0].from_m=50")
+    expect(re.match(r"FAILS\. A gap of 50 m has no forest; .* 30 m", lights["Contact"]), lights)
+    lights = said(scene_mapping=wooded_scene(forest=[{"from_m": 0, "to_m": 105, "stand": {**THICK, "trees": [
+        {**THICK["trees"][0], "per_ha": 60}]}}]))
+    expect(re.match(r"FAILS\. A belt has an ADC of 145 m; .* 30 m", lights["Contact"]), lights)
+    expect(re.match(r"FAILS\. Chance of 30 m without a contact at worst 81\.3 % \(10 % is allowed\)", lights["Free run"]), lights)
+
+
+def test_table_close_call():
+    """The energy light is called close where its interval holds 50 of 1000, in the table, in JSON and in CSV; else not"""
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(controls=[{"x_m": 105, "accepted_kJ": 60}]))
+        energies = result(path)["options"][0]["controls"][0]["wooded"]
+        seen = set()
+        for accepted in (10, energies["energy_kJ"]["p95"], 1.1 * energies["energy_kJ"]["max"]):
+            change = ("-s", f"controls[0].accepted_kJ={accepted}")
+            run = result(path, *change)
+            wooded = run["options"][0]["controls"][0]["wooded"]
+            close = wooded["exceed_lo"] <= 0.05 < wooded["exceed_hi"]
+            seen.add(close)
+            expect_run(run)
+            expect_equal(sum("close to call" in w for w in run["warnings"]), close, run["warnings"])
+            if close:
+                warning = next(w for w in run["warnings"] if "close to call" in w)
+                expect("105 m" in warning and "50 of 1000" in warning, "place and limit", warning)
+            expect_equal("lose to call" in re.sub(r"\s+", " ", good("--batch", path, *change).out), close, "table")
+            _, rows = read_csv(good("--batch", "-f", "csv", path, *change).out)
+            expect_equal("close to call" in rows[0]["warnings"], close, "CSV")
+            expect(not result(path, *change, *through("index"))["warnings"], "a close call by the index")
+        expect_equal(seen, {True, False}, "close and clear calls")
+
+
+def test_table_blocks():
+    """Table of blocks of other sizes: five, rising, this scene's marked and like the run, larger ones meet and carry more"""
+    for arguments, own in (((), 0.197), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),
+                           (("-s", "rock.diameter_m=3", "-s", "rock.height_m=3"), 21.2)):
+        text, run = good("--batch", PAPER, *arguments).out, result(PAPER, *arguments)
+        rows = blocks_of(text)
+        expect_equal(len(rows), 5, "rows\n" + text)
+        expect_equal(sorted(r[1] for r in rows), [r[1] for r in rows], "volumes rise")
+        expect_equal([r[1] for r in rows if not r[0]], [0.05, 0.2, 1, 5], "volumes")
+        mine = next(r for r in rows if r[0])
+        option, rock = run["options"][0], run["rock"]
+        expect_equal(mine[1], own, "this scene's volume")
+        expect_equal(mine[2:4], (float(digits(rock["mass_kg"], 3)), float(digits(rock["mean_diameter_m"], 3))), "mass, diameter")
+        expect_equal(mine[4], float(digits(max(s["adc"]["adc_m"] for s in option["stands"]), 3)), "ADC")
+        expect_equal(mine[5], float(digits(option["summary"]["contacts"], 3)), "contacts")
+        expect_equal(mine[6], of_1000("exceed", option["controls"][0]["wooded"]), "share")
+        for a, b in zip(rows, rows[1:]):
+            expect(a[4] >= b[4] and a[5] <= b[5], "a larger block meets more", a, b)
+        shares = [int(r[6].split()[0]) for r in rows]
+        expect(shares == sorted(shares) and shares[-1] > shares[0], "a larger block carries more", shares)
+
+
+def test_table_blocks_cases():
+    """Table of blocks: of each option, without forest, without an accepted energy, by the index"""
+    with Folder() as f:
+        path = f.write("s.yaml", treated(thick=THICK, none=None))
+        run, text = result(path), good("--batch", path).out
+        for option in run["options"]:
+            rows = blocks_of(section(text, option["name"]))
+            expect_equal(len(rows), 5, option["name"])
+            mine = next(r for r in rows if r[0])
+            expect_equal(mine[6], of_1000("exceed", option["controls"][1]["wooded"]), option["name"])
+        expect(all(r[4] == math.inf and r[5] == 0 for r in blocks_of(section(text, "none"))), text)
+        text = good("--batch", path, *through("index")).out
+        expect(all(r[6] == "-" for r in blocks_of(section(text, "thick"))), "a share by the index", text)
+        path = f.write("s.yaml", wooded_scene(controls=[{"x_m": 105}]))
+        text = good("--batch", path).out
+        expect_in("arrive", text[text.index("Blocks of"):], "head")
+        mine = next(r for r in blocks_of(text) if r[0])
+        expect_equal(mine[6], of_1000("reach", result(path)["options"][0]["controls"][0]["wooded"]), "that arrive")
+
+
+def test_table_arrivals():
+    """Table of arrivals: whatever the figures, each cell whole and apart from the next; sign and size survive"""
+    cases = [scene(forest=[{"from_m": 0, "to_m": 75, "stand": THIN}], controls=[{"x_m": 40}, {"x_m": 75, "accepted_kJ": 0.1}]),
+             wooded_scene(rock={"diameter_m": 8}), wooded_scene(rock={"diameter_m": 0.05}),
+             wooded_scene(controls=[{"x_m": 105, "accepted_kJ": 123456.789}]), wooded_scene(simulation={"rocks": 1}),
+             wooded_scene(simulation={"rocks": 3}), wooded_scene(simulation={"law": "crsp"})]
+    with Folder() as f:
+        for mapping in cases:
+            path = f.write("s.yaml", mapping)
+            run, text = result(path), good("--batch", path).out
+            expect_option(text, run["options"][0])
+            expect_width(text)
+            expect_equal(len(blocks_of(text)), 5, "blocks of other sizes")
+
+
+def test_table_verdicts():
+    """Table says failed tests and used up energy in words, never 0 kJ left"""
+    text = good("--batch", PAPER, "-s", "forest[0].to_m=30", "-s", "forest[1].from_m=90").out
+    expect_order(text, "Contact: FAILS", "(?i)gap", "60 m")
+    for model in MODELS:
+        text = good("--batch", PAPER, "-s", "forest[0].stand.shoots[0].volume_m3=1", *through(model)).out
+        expect_order(text, "(?i)used up on average", "(?i)some rocks still pass")
+        expect(not re.search(r"= 0(\.0*)? kJ", text), text)
+
+
+def test_table_assumed():
+    """Table marks what is assumed, and only that"""
+    with Folder() as f:
+        plain = scene(controls=[{"x_m": 75, "accepted_kJ": 50}], rock={"diameter_m": 0.5, "density_kg_m3": 2600})
+        text = good("--batch", f.write("plain.yaml", plain)).out
+        expect("*" not in text and "ssumed" not in text, text)
+        note = {"kind": "assumed", "text": "guessed by eye"}
+        marked = scene(rock={"diameter_m": 0.5, "source": note}, controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}],
+                       forest=[{"from_m": 10, "to_m": 60, "stand": stand(source=note)}])
+        text = good("--batch", f.write("marked.yaml", marked)).out
+        expect_order(text, r"Rock[^*]*m\*", r"50 kJ\*", r"coppice\*", r"\* Assumed", "guessed by eye")
+
+
+def test_table_changed():
+    """A value changed by -s no longer has the source around it, and what is listed says so; no figure changes by that"""
+    note = {"kind": "assumed", "text": "all a guess"}
+    with Folder() as f:
+        path = f.write("s.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}, {"x_m": 80, "source": note}]))
+        for change, said in (("accepted_kJ=60", "; changed since: accepted_kJ"), ("accepted_kJ=50", ""), ("name=road", ""),
+                             ("source={kind: assumed}", "")):
+            text = " ".join(good("--batch", path, "-s", f"controls[0].{change}").out.split())
+            expect_in(f"all a guess{said} (controls[", text, change)
+        for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ\n")):
+            expect_in(f"bears {star}", good("--batch", path, "-s", f"controls[0].{change}").out, "its star")
+        twice = good("--batch", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
+        expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
+        whole = good("--batch", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
+        expect("guess" not in whole, whole)
+        plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
+        expect_equal(result(path, "-s", "controls[0].accepted_kJ=60")["options"], result(plain)["options"], "figures")
+        # the innermost source alone is told; in a list the whole of it; settings have no source
+        path = f.write("s.yaml", scene(source={"kind": "assumed", "text": "outer"}, forest=[
+            {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
+        text = " ".join(good("--batch", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
+                             "forest[0].stand.trees[0].per_ha=9", "--seed", 5, "-s", "controls[0].x_m=70").out.split())
+        for words in ("outer; changed since: controls (the scene)", "belt (forest[0])",
+                      "all a guess; changed since: stools.per_ha, trees (forest[0].stand)"):
+            expect_in(words, text)
+
+
+def test_table_talus():
+    """A bare CSV slope takes talus and says that it is assumed"""
+    with Folder() as f:
+        f.write("line.csv", "distance,elevation\n0,64\n50,30\n100,0\n")
+        path = f.write("csv.yaml", scene(slope="line.csv"))
+        expect_in("talus is assumed", good("--batch", path).out.replace("\n", " "), "table")
+        expect_in("talus", result(path)["warnings"][0], "JSON warnings")
+        mapping = f.write("map.yaml", scene(slope={"csv": "line.csv", "materials": [
+            {"from_m": 0, "to_m": 100, "material": "talus"}]}))
+        run, other = result(path), result(mapping)
+        expect_equal(other["warnings"], [])
+        expect_equal(run["options"], other["options"], "talus")
+
+
+if __name__ == "__main__":
+    run_all(__name__)

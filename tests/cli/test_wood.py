@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Woods of every kind: as many stems are met as stand in the way, and each takes what it should."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (Folder, Suite, belt, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
+                     wooded_scene)
+from pages import expect_width
+from runs import expect_run, through
+
+# So light that a hit takes nothing to speak of, so tall that no rock flies over it: the way is that without forest.
+GHOST = {"height_m": 60, "volume_m3": 1e-9}
+
+
+def ghosts(stools=2000, spacing=0.25, shoots=5000, dbh=0.0625, trees=0, tree_dbh=0.25, **changes):
+    """A stand of such stems."""
+    made = {"stools": {"per_ha": stools, "spacing_m": spacing}, "shoots": [{**GHOST, "per_ha": shoots, "dbh_m": dbh}]}
+    made = stand(**(made if stools else {"stools": None, "shoots": None}),
+                 trees=[{**GHOST, "per_ha": trees, "dbh_m": tree_dbh}] if trees else [])
+    made.update(changes)
+    return made
+
+
+def expect_contacts(found, length, rate, rocks, what, clumps=1.0):
+    """A mean number of hits over so many metres; `clumps`: how many come at once, for the error where few were seen."""
+    contacts = found["contacts"]
+    wanted = length * rate
+    error = max(contacts["se"], math.sqrt(wanted * clumps / rocks))
+    expect_near(contacts["mean"], wanted, 4.5 * error + 1e-4 * wanted, what)
+
+
+EXTREMES = [
+    # (what, stand, rocks, shoots that come at once)
+    ("100000 shoots a hectare", ghosts(stools=20000, shoots=100000), 400, 5),
+    ("0.1 trees a hectare", ghosts(stools=0, trees=0.1), 20000, 1),
+    ("shoots 2 m farther apart than the rock is wide", ghosts(spacing=2.75), 2000, 3),
+    ("200 shoots on each stool", ghosts(stools=50, shoots=10000, spacing=0.2), 2000, 60),
+    ("a shoot on each stool", ghosts(stools=3000, shoots=3000, spacing=0.5), 2000, 1),
+    ("one stool in 100 ha", ghosts(stools=0.01, shoots=0.05), 20000, 5),
+    ("shoots of 2 mm", ghosts(dbh=0.002), 2000, 3),
+    ("trees of 2 m", ghosts(stools=0, trees=200, tree_dbh=2), 2000, 1),
+    ("shoots and trees", ghosts(trees=300), 2000, 3),
+]
+
+
+def extreme(_, wood, rocks, clumps):
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": wood}], simulation={"rocks": rocks}))
+        for model in ("poisson", "stems"):
+            run = result(path, *through(model))
+            expect_run(run, model)
+            option = run["options"][0]
+            control = option["controls"][1]
+            adc = option["stands"][0]["adc"]
+            rate = 1 / adc["gsteiger_stems_m" if model == "stems" else "adc_m"]
+            expect_contacts(control["wooded"], 85, rate, rocks, f"{model}: stems met", clumps if model == "stems" else 1)
+            bare = control["bare"]
+            for name in ("reach_probability", "exceed_probability"):
+                expect_near(control["wooded"][name], bare[name], 0.003, f"{model}: {name}")
+            expect_near(control["wooded"]["energy_kJ"]["mean"], bare["energy_kJ"]["mean"], 0.02 * bare["energy_kJ"]["mean"],
+                        f"{model}: such stems take nothing")
+            text = good("--batch", path, "-n", min(rocks, 500), *through(model)).out
+            expect("nan" not in text.lower() and "inf " not in text.lower(), text)
+            expect_width(text)
+
+
+def test_release_in_belt():
+    """A release inside a belt meets what stands from there on, whichever belts stand behind it"""
+    with Folder() as f:
+        wood = ghosts(trees=300)
+        for forest in ([(10, 95)], [(10, 50), (50, 95)], [(0, 30), (40, 95)]):
+            path = f.write("s.yaml", wooded_scene(forest=[{"from_m": a, "to_m": b, "stand": wood} for a, b in forest]))
+            for model in ("poisson", "stems"):
+                for release in ("50", "{mean: 50, spread: 9.5, kind: uniform}"):
+                    run = result(path, *through(model), "-s", f"release.x_m={release}")
+                    expect_run(run, model)
+                    adc = run["options"][0]["stands"][0]["adc"]
+                    rate = 1 / adc["gsteiger_stems_m" if model == "stems" else "adc_m"]
+                    expect_contacts(run["options"][0]["controls"][1]["wooded"], 45, rate, 2000, f"{model}, {forest}, {release}", 3)
+
+
+def test_release_uphill():
+    """Rocks thrown uphill meet the stems there once, not again on their way down, and those below the release"""
+    with Folder() as f:
+        wood = ghosts(stools=0, trees=2000)
+        uphill = {"x_m": 50, "height_m": 1, "vx_m_s": -9, "vz_m_s": 8}
+        options = [{"name": name, "forest": [{"from_m": a, "to_m": b, "stand": wood}]}
+                   for name, a, b in (("all", 0, 105), ("above", 0, 50), ("below", 50, 105), ("top", 0, 25))]
+        path = f.write("s.yaml", wooded_scene(forest=None, release=uphill, options=options, controls=[{"x_m": 105}]))
+        for model in ("poisson", "stems"):
+            run = result(path, *through(model))
+            expect_run(run, model)
+            met = {o["name"]: o["controls"][0]["wooded"]["contacts"] for o in run["options"]}
+            adc = run["options"][0]["stands"][0]["adc"]["adc_m"]
+            error = 4.5 * math.hypot(met["all"]["se"], met["above"]["se"], met["below"]["se"])
+            expect_near(met["below"]["mean"] * adc, 55, 4.5 * met["below"]["se"] * adc, f"{model}: metres below the release")
+            expect(2 < met["above"]["mean"] * adc < 25, f"{model}: metres above the release", met)
+            expect_near(met["all"]["mean"], met["above"]["mean"] + met["below"]["mean"], error, f"{model}: all")
+            expect_equal(met["top"], {"mean": 0, "se": 0}, f"{model}: where no rock comes")
+        stopping = {**wood, "trees": [{"per_ha": 4000, "dbh_m": 0.4, "height_m": 60, "volume_m3": 5}]}
+        path = f.write("s.yaml", wooded_scene(release=uphill, forest=[{"from_m": 0, "to_m": 50, "stand": stopping}]))
+        option = result(path)["options"][0]
+        expect(option["ends"]["stopped_by_stems"] > 0.9 and option["stop_x_m"]["max"] < 160, option["ends"])
+        expect(option["stop_x_m"]["p50"] < 50, "stopped above their release", option["stop_x_m"])
+
+
+def test_dbh_spread():
+    """dbh_sd_m: as many stems are met as with their mean diameter"""
+    with Folder() as f:
+        shoots = [{**GHOST, "per_ha": 5000, "dbh_m": 0.0625, "dbh_sd_m": 0.03}]
+        trees = [{**GHOST, "per_ha": 300, "dbh_m": 0.25, "dbh_sd_m": 0.15}]
+        for name, wood in (("shoots", stand(shoots=shoots, trees=[])), ("trees", stand(stools=None, shoots=None, trees=trees))):
+            path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": wood}]))
+            for model in ("poisson", "stems"):
+                run = result(path, *through(model))
+                expect_run(run, model)
+                adc = run["options"][0]["stands"][0]["adc"]
+                rate = 1 / adc["gsteiger_stems_m" if model == "stems" else "adc_m"]
+                expect_contacts(run["options"][0]["controls"][1]["wooded"], 85, rate, 2000, f"{model}, {name}", 3)
+
+
+def taken_per_contact(folder, wood, model):
+    """kJ that a rock too heavy to be turned by them loses to a stem, just behind a short belt; its error; and W of Eq. 3."""
+    path = folder.write("s.yaml", wooded_scene(
+        forest=None, options=[{"name": "none"}, {"name": "wood", "forest": [{"from_m": 55, "to_m": 59, "stand": wood}]}],
+        rock={"shape": "sphere", "diameter_m": 3}, controls=[{"x_m": 61}], simulation={"rocks": 4000}))
+    run = result(path, *through(model))
+    option, difference = run["options"][1], run["differences"][0]["energy_per_released_kJ"]
+    contacts = option["controls"][0]["wooded"]["contacts"]["mean"]
+    return -difference["mean"] / contacts, difference["se"] / contacts, option["stands"][0]["energy_per_contact_J"] / 1000
+
+
+def test_energy_taken():
+    """A hit takes W of Eq. 3 (brauner), or the share of Dorren's energy that goes with its offset, 0.558 on the mean"""
+    with Folder() as f:
+        tree = {"per_ha": 500, "dbh_m": 0.3, "height_m": 30, "volume_m3": 0.4}
+        shoot = {"per_ha": 4000, "dbh_m": 0.12, "height_m": 30, "volume_m3": 0.1}
+        for energy, per_tree, per_shoot in (({"model": "brauner", "u_J_m3": 100000}, 40, 10),
+                                            ({"model": "dorren", "fracture_ratio": 1.5}, 0.558 * 1.5 * 0.0387 * 30 ** 2.31,
+                                             0.558 * 1.5 * 0.0387 * 12 ** 2.31)):
+            trees = stand(stools=None, shoots=None, trees=[tree], energy=energy)
+            shoots = stand(stools={"per_ha": 1500, "spacing_m": 0.4}, shoots=[shoot], trees=[], energy=energy)
+            for wood, wanted in ((trees, per_tree), (shoots, per_shoot)):
+                for model in ("poisson", "stems"):
+                    found, error, said = taken_per_contact(f, wood, model)
+                    expect_near(said, wanted, 0.002 * wanted, f"{energy['model']}: energy_per_contact_J")
+                    # the ground that is hit between takes its share of what a stem left
+                    expect_near(found, wanted, 4.5 * error + 0.06 * wanted, f"{energy['model']}, {model}: taken by a hit")
+
+
+def test_energy_spread():
+    """dbh_sd_m: the thicker stems, which are met more often than the thin ones, take more"""
+    with Folder() as f:
+        mean, sd, rock = 0.3, 0.12, 3
+        shape, scale = (mean / sd) ** 2, sd * sd / mean
+        cube = shape * (shape + 1) * (shape + 2) * scale ** 3
+        # W goes with the square of the diameter, the chance to be met with the rock's width and the diameter
+        wanted = 40 * (rock + cube / (mean ** 2 + sd ** 2)) / (rock + mean)
+        tree = {"per_ha": 500, "dbh_m": mean, "dbh_sd_m": sd, "height_m": 30, "volume_m3": 0.4}
+        trees = stand(stools=None, shoots=None, trees=[tree])
+        shoots = stand(stools={"per_ha": 500, "spacing_m": 0.4}, shoots=[tree], trees=[])
+        for name, wood in (("trees", trees), ("shoots", shoots)):
+            found, error, _ = taken_per_contact(f, wood, "stems")
+            expect_near(found, wanted, 4.5 * error + 0.06 * wanted, name)
+        spread = [taken_per_contact(f, {**trees, "trees": [{**tree, "dbh_sd_m": s}]}, "stems")[0] for s in (0, sd)]
+        expect(spread[0] != spread[1], "a spread of diameters changes nothing")
+
+
+def test_dorren_thin():
+    """dorren below 10 cm: a warning with the stand's name, in JSON, on the page and in CSV"""
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(forest=[belt(10, 95, energy={"model": "dorren", "fracture_ratio": 1.5})]))
+        run = result(path)
+        expect_run(run)
+        expect(any("dorren" in w and "10 cm" in w and "coppice" in w for w in run["options"][0]["stands"][0]["warnings"]),
+               run["options"][0]["stands"][0]["warnings"])
+        expect_in("below 10 cm", re.sub(r"\s+", " ", good("--batch", path).out), "page")
+        expect_in("below 10 cm", good("--batch", "-f", "csv", path).out, "CSV")
+
+
+def test_height_of_stems():
+    """A stem is hit only by a rock below its top; poisson asks for no height"""
+    with Folder() as f:
+        # the first flight goes some 18 m out and 14 m high over a belt of low stems
+        mapping = wooded_scene(release={"height_m": 20, "vx_m_s": 8},
+                               slope={"vertices_m": [[0, 60], [100, 50], [160, 45]], "segments": [{"rn": 0.3, "rt": 0.5}]},
+                               controls=[{"x_m": 12}])
+        for height, hits in ((0.5, False), (3, False), (40, True)):
+            low = stand(stools=None, shoots=None, trees=[{"per_ha": 3000, "dbh_m": 0.2, "height_m": height, "volume_m3": 1e-9}])
+            path = f.write("s.yaml", {**mapping, "forest": [{"from_m": 2, "to_m": 11, "stand": low}]})
+            stems, poisson = (result(path, *through(m))["options"][0]["controls"][0] for m in ("stems", "poisson"))
+            expect_equal(stems["bare"]["reach_probability"], 1)
+            expect((stems["wooded"]["contacts"]["mean"] > 1) == hits, f"stems of {height} m", stems["wooded"]["contacts"])
+            expect(hits or stems["wooded"]["contacts"]["mean"] == 0, f"stems of {height} m", stems["wooded"]["contacts"])
+            expect_near(poisson["wooded"]["contacts"]["mean"], 9 / (1e4 / (3000 * 0.95)), 0.15, f"poisson, stems of {height} m")
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    for case in EXTREMES:
+        suite.check(f"a wood of {case[0]}: as many stems are met as stand in the way", extreme, *case)
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
