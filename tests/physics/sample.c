@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "sample.h"
+
+#include "expect.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#define CHANCE 1e-4 /* of a test of fit to fail though all is right; four standard errors are 6e-5 */
+
+void spread_add(struct spread *s, double value)
+{
+    if (!(s->n > 0))
+        s->origin = value;
+    double d = value - s->origin, power = 1;
+    for (int k = 1; k < 5; k++)
+        s->sum[k] += power *= d;
+    s->n++;
+}
+
+double spread_mean(const struct spread *s)
+{
+    return s->origin + s->sum[1] / s->n;
+}
+
+double spread_variance(const struct spread *s)
+{
+    double m = s->sum[1] / s->n;
+    return s->sum[2] / s->n - m * m;
+}
+
+double spread_se(const struct spread *s)
+{
+    return sqrt(spread_variance(s) / s->n);
+}
+
+double spread_variance_se(const struct spread *s)
+{
+    double m = s->sum[1] / s->n, m2 = s->sum[2] / s->n, v = spread_variance(s);
+    double fourth = s->sum[4] / s->n - 4 * m * s->sum[3] / s->n + 6 * m * m * m2 - 3 * m * m * m * m;
+    return sqrt((fourth - v * v) / s->n);
+}
+
+void expect_close(const char *what, double value, double se, double expected, double expected_se)
+{
+    double both = hypot(se, expected_se);
+    print_message("# %s: %.6g ± %.2g, expected %.6g (%+.1f se)\n", what, value, se, expected,
+                  (value - expected) / both);
+    if (!(fabs(value - expected) <= 4 * both))
+        fail_msg("%s: %.8g ± %.3g is not %.8g", what, value, se, expected);
+}
+
+void expect_mean(const char *what, const struct spread *s, double expected)
+{
+    expect_close(what, spread_mean(s), spread_se(s), expected, 0);
+}
+
+void expect_variance(const char *what, const struct spread *s, double expected)
+{
+    expect_close(what, spread_variance(s), spread_variance_se(s), expected, 0);
+}
+
+void expect_share(const char *what, uint64_t hits, uint64_t n, double expected)
+{
+    expect_close(what, (double)hits / (double)n, sqrt(expected * (1 - expected) / (double)n), expected, 0);
+}
+
+void expect_exact(const char *what, double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fabs(expected)))
+        fail_msg("%s: %.17g is not %.17g", what, value, expected);
+}
+
+void expect_chi_square(const char *what, double chi2, double freedom)
+{
+    double p = gsl_cdf_chisq_Q(chi2, freedom);
+    print_message("# %s: chi-square %.1f on %.0f, p = %.3g\n", what, chi2, freedom, p);
+    if (!(p > CHANCE))
+        fail_msg("%s: chi-square %.1f on %.0f, p = %.2g", what, chi2, freedom, p);
+}
+
+void expect_ks(const char *what, double d, double size)
+{
+    double most = sqrt(-log(CHANCE / 2) / 2);
+    print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), most);
+    if (!(d * sqrt(size) < most))
+        fail_msg("%s: D = %.3g of %.0f", what, d, size);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    return (*p > *q) - (*p < *q);
+}
+
+void expect_law(const char *what, double *values, size_t n, double (*cdf)(double x, const void *of), const void *of)
+{
+    qsort(values, n, sizeof *values, by_value);
+    double d = 0;
+    for (size_t i = 0; i < n; i++) {
+        double f = cdf(values[i], of);
+        d = fmax(d, fmax(f - (double)i / (double)n, (double)(i + 1) / (double)n - f));
+    }
+    expect_ks(what, d, (double)n);
+}
+
+void sample_add(struct sample *s, double value)
+{
+    if (s->n == s->room) {
+        s->room = s->room > 0 ? 2 * s->room : 1024;
+        s->values = realloc(s->values, s->room * sizeof *s->values);
+        assert_non_null(s->values);
+    }
+    s->values[s->n++] = value;
+}
+
+void sample_clear(struct sample *s)
+{
+    free(s->values);
+    *s = (struct sample){0};
+}
+
+static double sample_worth(const struct sample *s)
+{
+    return s->squares > 0 ? (double)s->n * (double)s->n / s->squares : (double)s->n;
+}
+
+void expect_same_law(const char *what, struct sample *a, struct sample *b)
+{
+    qsort(a->values, a->n, sizeof *a->values, by_value);
+    qsort(b->values, b->n, sizeof *b->values, by_value);
+    double d = 0;
+    for (size_t i = 0, j = 0; i < a->n && j < b->n;) {
+        double v = fmin(a->values[i], b->values[j]);
+        while (i < a->n && a->values[i] <= v)
+            i++;
+        while (j < b->n && b->values[j] <= v)
+            j++;
+        d = fmax(d, fabs((double)i / (double)a->n - (double)j / (double)b->n));
+    }
+    double p = sample_worth(a), q = sample_worth(b);
+    expect_ks(what, d, p * q / (p + q));
+}
+
+void expect_poisson(const char *what, const uint64_t count[COUNTS_MOST], double mean)
+{
+    double n = 0, chi2 = 0, seen = 0, expected = 0, left = 1;
+    int cells = 0;
+    for (int k = 0; k < COUNTS_MOST; k++)
+        n += (double)count[k];
+    for (unsigned k = 0; k < COUNTS_MOST; k++) {
+        double p = gsl_ran_poisson_pdf(k, mean);
+        seen += (double)count[k];
+        expected += n * p;
+        left -= p;
+        bool last = n * left < 10; /* the tail joins the last cell */
+        if (last)
+            for (expected += n * left; ++k < COUNTS_MOST;)
+                seen += (double)count[k];
+        if (expected < 10)
+            continue;
+        chi2 += (seen - expected) * (seen - expected) / expected;
+        cells++;
+        seen = expected = 0;
+    }
+    expect_chi_square(what, chi2, cells - 1);
+}

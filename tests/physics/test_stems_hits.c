@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a hit takes of a rock, which stems it flies over, and where stems stop it. */
+#include "expect.h"
+
+#include <math.h>
+
+#include "stems_scene.h"
+
+/* ---- what a hit takes ---- */
+
+/* The share of the largest energy by eccentricity as Dorren et al. 2006 print it, cut to 0…1. */
+static double printed_share(double u)
+{
+    double e = -.046 + (.98 + .046) / (1 + pow(10, (.58 - u) * -8.007));
+    return e < 0 ? 0 : e > 1 ? 1 : e;
+}
+
+/* Its mean by Simpson's rule. */
+static double mean_printed_share(void)
+{
+    const int n = 20000;
+    double sum = 0;
+    for (int i = 0; i <= n; i++)
+        sum += (i == 0 || i == n ? 1 : i % 2 ? 4 : 2) * printed_share((double)i / n);
+    return sum / (3 * n);
+}
+
+static void plant_dorren(double from, double to)
+{
+    struct ceduo_belt *belt = plant_belt(from, to, 800, .4);
+    plant_trees(belt, 1500, .3);
+    plant_shoots(belt, 3200, .12);
+    belt->stand.energy = CEDUO_DORREN;
+    belt->stand.fracture_ratio = 1.7;
+}
+
+static void dorrens_hits_take_the_share_of_their_eccentricity(void **state)
+{
+    (void)state;
+    struct spread trees = {0}, shoots = {0};
+    clear_plane(520);
+    plant_dorren(10, 510);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < 5000; rock++) {
+        sweep_rock(rock);
+        assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
+        for (size_t i = 0; i < sweep.count; i++) {
+            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            double most = 1.7 * 38.7 * pow(100 * s->dbh, 2.31), u = fabs(s->y) / ((B + s->dbh) / 2);
+            double share = printed_share(u);
+            if (!(fabs(s->taken / most - share) <= 1e-12 * fmax(share, 1e-3)))
+                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, most);
+            spread_add(s->shoot ? &shoots : &trees, s->taken / most);
+        }
+    }
+    sweep_end();
+    double mean = mean_printed_share();
+    expect_exact("mean share", ceduo_dorren_mean_share(), mean, 1e-6);
+    EXPECT_NEAR(mean, .558, .0005);
+    expect_mean("share of trees", &trees, mean);
+    expect_mean("share of shoots", &shoots, mean);
+    EXPECT(trees.n + shoots.n, >, 1e6);
+}
+
+/* A stem's hit between two pieces of the way, and what it does to the speed. */
+struct scaling {
+    struct ceduo_piece last;
+    double left; /* share of the energy that the hit before leaves; NaN: none */
+    uint64_t hits, checked;
+    double radius, mass, moment;
+    bool spins;
+};
+
+static double last_spin(const struct scaling *s)
+{
+    return !s->last.rolls ? s->last.spin : s->spins ? s->last.vx1 / s->radius : 0;
+}
+
+static void after_hit(void *context, const struct ceduo_piece *p)
+{
+    struct scaling *s = context;
+    if (!isnan(s->left)) {
+        double was = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1, is = p->vx * p->vx + p->vz * p->vz;
+        expect_exact("v2 behind a stem", is / was, s->left, 1e-12);
+        if (s->spins)
+            expect_exact("spin2 behind a stem", p->spin * p->spin / (last_spin(s) * last_spin(s)), s->left, 1e-12);
+        if (fabs(p->vz * s->last.vx1 - s->last.vz1 * p->vx) > 1e-12 * was)
+            fail_msg("a stem turned the rock");
+        s->checked++;
+    }
+    s->left = NAN;
+    s->last = *p;
+}
+
+static void at_hit(void *context, const struct ceduo_stem_passed *stem)
+{
+    struct scaling *s = context;
+    double v2 = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1;
+    expect_exact("energy before", stem->before, (s->mass * v2 + s->moment * last_spin(s) * last_spin(s)) / 2, 1e-12);
+    assert_true(stem->hit);
+    EXPECT(stem->taken, >=, 0);
+    EXPECT(stem->taken, <=, stem->before);
+    EXPECT(stem->x, ==, s->last.x1);
+    s->left = 1 - stem->taken / stem->before;
+    s->hits++;
+}
+
+static void a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        bool rolls = i & 1, spins = i & 2;
+        clear_plane(400);
+        plant_dorren(10, 400);
+        plane.line.scene.simulation.law = spins ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        line_scene_release(&plane.line, 0, rolls ? 0 : 30, 60, 0, spins ? 60 / (B / 2) : 0);
+        struct scaling s = {.left = NAN, .spins = spins};
+        uint64_t stopped = 0;
+        sweep_begin();
+        for (uint64_t rock = 0; rock < 2000; rock++) {
+            if (rock == 0)
+                sweep_rock(0); /* for the rock's mass */
+            s.radius = sweep.way.rock.radius;
+            s.mass = sweep.way.rock.mass;
+            s.moment = spins ? sweep.way.rock.moment : 0;
+            s.left = NAN;
+            sweep_watched(rock, &(struct ceduo_watch){.piece = after_hit, .stem = at_hit, .context = &s});
+            stopped += sweep.way.end == CEDUO_STOPPED_BY_STEMS;
+        }
+        sweep_end();
+        EXPECT(s.hits, >, 10000);
+        EXPECT(s.checked, >=, s.hits - 2000);
+        EXPECT(stopped, >, 100);
+        assert_int_equal(s.hits - s.checked, stopped);
+    }
+}
+
+/* Level ground, dorren's stems and one control. */
+static void cross_at(double x, bool rolls)
+{
+    clear_plane(400);
+    plant_dorren(10, 400);
+    line_scene_release(&plane.line, 0, rolls ? 0 : 30, 60, 0, 0);
+    plane.line.control = (struct ceduo_control){.x = x, .x_given = x, .accepted = NAN, .measured_speed = NAN};
+    plane.line.scene.controls_count = 1;
+}
+
+static void a_control_where_a_stem_stands_is_passed_before_the_hit(void **state)
+{
+    (void)state;
+    for (uint64_t rock = 0; rock < 400; rock++) {
+        bool rolls = rock % 2;
+        cross_at(400, rolls);
+        sweep_one(rock);
+        for (size_t i = 0; i < sweep.count && i < 4; i++) {
+            struct ceduo_stem_passed stem = sweep.stems[i];
+            struct ceduo_way way;
+            struct ceduo_crossing c;
+            cross_at(stem.x, rolls);
+            assert_int_equal(ceduo_way_follow(&plane.line.scene, &plane.line.option, rock, NULL, &way, &c), CEDUO_OK);
+            assert_true(c.reached);
+            EXPECT(c.stems_hit, ==, i);
+            expect_exact("energy at the control", way.rock.mass / 2 * (c.vx * c.vx + c.vz * c.vz), stem.before, 1e-12);
+        }
+    }
+}
+
+/* ---- heights ---- */
+
+static void rocks_fly_over_stems_that_are_lower(void **state)
+{
+    (void)state;
+    static const double heights[] = {4, 12, 25};
+    const double fall = 30, v = 40, g = CEDUO_GRAVITY;
+    struct spread come_to = {0}, hit = {0};
+    clear_plane(400);
+    line_scene_release(&plane.line, 0, fall, v, 0, 0);
+    plane.line.segments[0].rn = ceduo_number(0); /* dead ground: the rock rolls from its landing on */
+    struct ceduo_belt *belt = plant_belt(0, 400, 1000, .4);
+    plant_shoots(belt, 4000, .05)->height = heights[0];
+    plant_trees(belt, 1500, .2)->height = heights[1];
+    plant_trees(belt, 500, .4)->height = heights[2];
+    double expected = 0, landing = v * sqrt(2 * fall / g);
+    static const double per_ha[] = {4000, 1500, 500}, dbh[] = {.05, .2, .4};
+    for (size_t i = 0; i < LENGTH(heights); i++)
+        expected += per_metre(per_ha[i], B + dbh[i]) * (400 - v * sqrt(2 * (fall - heights[i]) / g));
+    sweep_begin();
+    for (uint64_t rock = 0; rock < 6000; rock++) {
+        sweep_rock(rock);
+        uint64_t hits = 0;
+        for (size_t i = 0; i < sweep.count; i++) {
+            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            double above = s->x < landing ? fall - g / 2 * (s->x / v) * (s->x / v) : 0;
+            if (s->hit != (s->clearance < s->height) || fabs(s->clearance - above) > 1e-9 ||
+                (!s->hit && (s->taken != 0 || s->before != 0)))
+                fail_msg("at %.17g the rock is %.17g high, not %.17g, a stem of %.3g m hit: %d", s->x, s->clearance,
+                         above, s->height, s->hit);
+            hits += s->hit;
+        }
+        if (hits != sweep.way.stems_hit || different(false) != sweep.way.stools_met)
+            fail_msg("rock %ju: stems flown over are counted", (uintmax_t)rock);
+        spread_add(&come_to, (double)sweep.count / 400);
+        spread_add(&hit, (double)hits);
+    }
+    sweep_end();
+    expect_mean("stems come to per metre", &come_to,
+                per_metre(4000, B + .05) + per_metre(1500, B + .2) + per_metre(500, B + .4));
+    expect_mean("stems hit", &hit, expected);
+}
+
+/* Clearance over a broken slope, from the pieces of the way themselves. */
+#define PIECES_MOST 4096
+struct pieces {
+    size_t count;
+    struct ceduo_piece piece[PIECES_MOST];
+};
+
+static void note_piece(void *context, const struct ceduo_piece *piece)
+{
+    struct pieces *p = context;
+    EXPECT(p->count, <, PIECES_MOST);
+    p->piece[p->count++] = *piece;
+}
+
+static void stem_beside_pieces(void *context, const struct ceduo_stem_passed *stem)
+{
+    (void)context;
+    note_stem(&sweep, stem);
+}
+
+static double height_above_ground(const struct pieces *p, double x)
+{
+    size_t i = 0;
+    while (i + 1 < p->count && x > p->piece[i].x1)
+        i++;
+    const struct ceduo_piece *f = &p->piece[i];
+    EXPECT(x, >=, f->x);
+    EXPECT(x, <=, f->x1);
+    if (f->rolls)
+        return 0;
+    double t = (x - f->x) / f->vx, z = f->z + f->vz * t - CEDUO_GRAVITY / 2 * t * t;
+    return z - ceduo_slope_height(&plane.line.scene.slope, x);
+}
+
+static void a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope(void **state)
+{
+    (void)state;
+    static struct pieces pieces;
+    static const double x[] = {0, 30, 45, 60, 61, 120, 200}, z[] = {0, -20, -22, -45, -60, -80, -130};
+    uint64_t hits = 0, over = 0;
+    clear_ground(LENGTH(x), x, z, .6, .3);
+    line_scene_release(&plane.line, 2, 5, 8, 3, 0);
+    struct ceduo_belt *belt = plant_belt(0, 200, 1000, .4);
+    plant_shoots(belt, 4000, .05)->height = 3;
+    plant_trees(belt, 1500, .2)->height = 10;
+    sweep_begin();
+    for (uint64_t rock = 0; rock < 1000; rock++) {
+        pieces.count = 0;
+        sweep_watched(rock, &(struct ceduo_watch){.piece = note_piece, .stem = stem_beside_pieces, .context = &pieces});
+        for (size_t i = 0; i < sweep.count; i++) {
+            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            double above = height_above_ground(&pieces, s->x);
+            if (s->hit != (s->clearance < s->height) || fabs(s->clearance - above) > 1e-9)
+                fail_msg("at %.17g: %.17g is not %.17g", s->x, s->clearance, above);
+            hits += s->hit;
+            over += !s->hit;
+        }
+    }
+    sweep_end();
+    EXPECT(hits, >, 10000);
+    EXPECT(over, >, 10000);
+}
+
+/* ---- rocks that stems stop ---- */
+
+/* Where the first point of a Poisson process lies, if there is one on `length` from `from` on. */
+struct first_stem {
+    double from, length, rate;
+};
+
+static double first_stem_cdf(double x, const void *of)
+{
+    const struct first_stem *f = of;
+    return expm1(-f->rate * (x - f->from)) / expm1(-f->rate * f->length);
+}
+
+static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
+{
+    struct ceduo_run *run = run_of(&plane.line.scene, &plane.line.option, rocks, 2, CEDUO_EXACT_BYTES);
+    struct ceduo_ends ends;
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    assert_int_equal(ends.count[CEDUO_STOPPED_BY_STEMS], stops->n);
+    assert_int_equal(ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n);
+    assert_int_equal(ends.stop_x.n, stops->n);
+    double sum = 0;
+    for (size_t i = 0; i < stops->n; i++)
+        sum += stops->values[i];
+    expect_exact("mean place of the stopped", ends.stop_x.mean, sum / (double)stops->n, 1e-12);
+    EXPECT(ends.stop_max, ==, stops->values[stops->n - 1]); /* they are sorted */
+    EXPECT(ends.stop_p50, ==, stops->values[(stops->n + 1) / 2 - 1]);
+    struct ceduo_stem_counts counts = ceduo_run_stems(run);
+    EXPECT(counts.hit, ==, stops->n);
+    EXPECT(counts.met, ==, stops->n);
+    EXPECT(counts.drawn, >=, counts.hit);
+    ceduo_run_free(run);
+}
+
+static void expect_stopped(const char *name, uint64_t rocks)
+{
+    struct sample stops = {0};
+    struct first_stem law = {10, 500, per_metre(30, B + .2)};
+    sweep_begin();
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        sweep_rock(rock);
+        if (sweep.count == 0) {
+            assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
+            continue;
+        }
+        const struct ceduo_stem_passed *s = sweep.stems;
+        if (sweep.count != 1 || sweep.way.end != CEDUO_STOPPED_BY_STEMS || sweep.way.x != s->x || s->taken != s->before)
+            fail_msg("%s: rock %ju is not stopped at %.17g", name, (uintmax_t)rock, s->x);
+        sample_add(&stops, sweep.way.x);
+    }
+    sweep_end();
+    char what[80];
+    snprintf(what, sizeof what, "%s, share stopped by stems", name);
+    expect_share(what, stops.n, rocks, -expm1(-law.rate * law.length));
+    snprintf(what, sizeof what, "%s, places, KS", name);
+    expect_law(what, stops.values, stops.n, first_stem_cdf, &law);
+    expect_run_stopped(&stops, rocks);
+    sample_clear(&stops);
+}
+
+static void rocks_are_stopped_where_their_stem_stands(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        static const char *const names[] = {"in flight", "rolling", "poisson"};
+        clear_plane(520);
+        plane.line.scene.simulation.seed = (uint64_t)i + 1;
+        plant_trees(plant_belt(10, 510, 0, 0), 30, .2)->volume = 1e30;
+        if (i == 1)
+            line_scene_release(&plane.line, 0, 0, 5000, 0, 0);
+        if (i == 2)
+            plane.line.scene.simulation.contact_model = CEDUO_POISSON;
+        expect_stopped(names[i], i == 1 ? 10000 : 100000);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dorrens_hits_take_the_share_of_their_eccentricity),
+        cmocka_unit_test(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy),
+        cmocka_unit_test(a_control_where_a_stem_stands_is_passed_before_the_hit),
+        cmocka_unit_test(rocks_fly_over_stems_that_are_lower),
+        cmocka_unit_test(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope),
+        cmocka_unit_test(rocks_are_stopped_where_their_stem_stands),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

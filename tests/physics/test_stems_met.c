@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How many stems rocks meet, on their way and of each stool, beside closed forms (Cauchy, Crofton, Poisson). */
+#include "expect.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+#include "stems_scene.h"
+
+/* ---- how many ---- */
+
+/* Stems of Eq. 1 with every stem, stools and trees by Crofton's formula, per metre. */
+struct plot_rates {
+    int number;
+    double stems, both, stools;
+};
+
+static const struct plot_rates plot_rates[] = {
+    {1, .67253, .46137, 3688 * (.741 + .5 * 8326 / 3688 / M_PI) / 1e4},
+    {2, .33740, 1 / 3.51373, 2807 * (.727 + .5 * (2 * (4099. / 2807 - 1)) / M_PI) / 1e4},
+};
+
+static void expect_plot(const struct plot_rates *r, uint64_t rocks, const char *how)
+{
+    char what[80];
+    struct met m = meet(rocks, 500);
+    /* the printed figures have five digits */
+    snprintf(what, sizeof what, "ADS %d %s, stems per metre", r->number, how);
+    expect_close(what, spread_mean(&m.stems), spread_se(&m.stems), r->stems, .5e-5 / 4);
+    snprintf(what, sizeof what, "ADS %d %s, stools and trees per metre", r->number, how);
+    expect_close(what, spread_mean(&m.both), spread_se(&m.both), r->both, .5e-5 / 4);
+    snprintf(what, sizeof what, "ADS %d %s, stools per metre", r->number, how);
+    expect_mean(what, &m.stools, r->stools);
+}
+
+static void stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton(void **state)
+{
+    (void)state;
+    static const uint64_t rocks[] = {3100, 6200};
+    for (size_t i = 0; i < LENGTH(plot_rates); i++) {
+        clear_plane(520);
+        plane.line.scene.simulation.seed = i + 1;
+        plant_plot(plot_rates[i].number, 10, 510);
+        expect_plot(&plot_rates[i], rocks[i], "in flight");
+    }
+}
+
+static void a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none(void **state)
+{
+    (void)state;
+    struct ceduo_way bare;
+    clear_plane(520);
+    plane.line.scene.simulation.seed = 3;
+    plant_plot(1, 10, 510);
+    line_scene_release(&plane.line, 0, 0, 5000, 0, 0);
+    expect_plot(&plot_rates[0], 1000, "rolling");
+    assert_int_equal(ceduo_way_follow(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
+    /* a hit leaves the rest of a roll's length R to go */
+    assert_int_equal(sweep.way.contacts, bare.contacts);
+    assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
+}
+
+static void rocks_of_many_sizes_meet_as_many_as_their_mean(void **state)
+{
+    (void)state;
+    clear_plane(520);
+    plant_plot(1, 10, 510);
+    plane.line.scene.rock.diameter = (struct ceduo_number){B, .3, CEDUO_UNIFORM};
+    struct met m = meet(3100, 500);
+    expect_mean("stems per metre, B .38 to .98 m", &m.stems, per_metre(9076, B + .061));
+}
+
+static void counts_of_trees_in_a_stretch_are_poisson(void **state)
+{
+    (void)state;
+    static uint64_t count[COUNTS_MOST];
+    struct spread s = {0};
+    clear_plane(40);
+    struct ceduo_belt *belt = plant_belt(10, 30, 0, 0);
+    plant_trees(belt, 2500, .2);
+    plant_trees(belt, 500, .45);
+    double mean = 20 * (per_metre(2500, B + .2) + per_metre(500, B + .45));
+    memset(count, 0, sizeof count);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < 200000; rock++) {
+        sweep_rock(rock);
+        count[sweep.count]++;
+        spread_add(&s, (double)sweep.count);
+    }
+    sweep_end();
+    expect_mean("trees on 20 m, mean", &s, mean);
+    expect_variance("trees on 20 m, variance", &s, mean);
+    expect_poisson("trees on 20 m, counts", count, mean);
+}
+
+static double exponential_cdf(double x, const void *rate)
+{
+    return -expm1(-x * *(const double *)rate);
+}
+
+static double uniform_cdf(double x, const void *unused)
+{
+    (void)unused;
+    return x;
+}
+
+/* Of each way the same number of gaps, few enough that it has them: others would be too short on average. */
+#define GAPS 150
+static void gaps_between_trees_are_exponential_and_offsets_uniform(void **state)
+{
+    (void)state;
+    struct sample gaps = {0}, offsets = {0};
+    clear_plane(1000);
+    struct ceduo_belt *belt = plant_belt(0, 1000, 0, 0);
+    plant_trees(belt, 2500, .2);
+    plant_trees(belt, 500, .45);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < 7000; rock++) {
+        sweep_rock(rock);
+        EXPECT(sweep.count, >, GAPS);
+        for (size_t i = 0; i < GAPS; i++) {
+            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            sample_add(&gaps, s->x - (i > 0 ? s[-1].x : 0));
+            sample_add(&offsets, .5 + s->y / (B + s->dbh));
+        }
+    }
+    sweep_end();
+    double rate = per_metre(2500, B + .2) + per_metre(500, B + .45);
+    expect_law("gaps between trees, KS", gaps.values, gaps.n, exponential_cdf, &rate);
+    expect_law("offsets of trees, KS", offsets.values, offsets.n, uniform_cdf, NULL);
+    sample_clear(&gaps);
+    sample_clear(&offsets);
+}
+
+static void the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 1000000;
+    uint64_t free_runs = 0;
+    clear_plane(20);
+    plant_plot(1, 5, 15);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        sweep_rock(rock);
+        free_runs += sweep.way.stems_hit == 0;
+    }
+    sweep_end();
+    expect_share("nothing met of those centred in 10 m", free_runs, rocks, exp(-10 / 2.16747));
+    EXPECT_NEAR(exp(-10 / 2.16747), .00992, .5e-5);
+}
+
+/* ---- rings ---- */
+
+/* Perimeter of the hull of n shoots on a ring. */
+static double perimeter(unsigned n, double spacing)
+{
+    return n < 2 ? 0 : n * spacing;
+}
+
+static void expect_stems_per_stool(const char *what, const struct met *m, double expected)
+{
+    double ratio = spread_mean(&m->stems) / spread_mean(&m->stools);
+    double stems = spread_variance(&m->stems), stools = spread_variance(&m->stools);
+    double both = (spread_variance(&m->sum) - stems - stools) / 2; /* covariance */
+    double variance = fmax(0, stems - 2 * ratio * both + ratio * ratio * stools) / m->sum.n;
+    expect_close(what, ratio, sqrt(variance) / spread_mean(&m->stools), expected, 1e-12);
+}
+
+static void a_ring_is_met_as_wide_as_its_hull_is_on_average(void **state)
+{
+    (void)state;
+    static const struct {
+        unsigned n;
+        double spacing;
+    } rings[] = {{1, .5}, {2, .3}, {2, .741}, {3, .5}, {4, .2}, {6, .5}, {9, .1}, {9, .7}};
+    const double d = .061, stools = 1500, metres = 500;
+    for (size_t i = 0; i < LENGTH(rings); i++) {
+        double n = rings[i].n, width = B + d + perimeter(rings[i].n, rings[i].spacing) / M_PI;
+        clear_plane(metres + 20);
+        plane.line.scene.simulation.seed = i + 1;
+        plant_shoots(plant_belt(10, 10 + metres, stools, rings[i].spacing), stools * n, d);
+        struct met m = meet((uint64_t)(1.02e6 / metres / per_metre(stools * n, B + d)), metres);
+        char what[80];
+        snprintf(what, sizeof what, "stools of %u, %.3f m apart, per metre", rings[i].n, rings[i].spacing);
+        expect_mean(what, &m.stools, per_metre(stools, width));
+        snprintf(what, sizeof what, "stems of stools of %u, %.3f m apart, per metre", rings[i].n, rings[i].spacing);
+        expect_mean(what, &m.stems, per_metre(stools * n, B + d));
+        snprintf(what, sizeof what, "stems per stool of %u met, %.3f m apart", rings[i].n, rings[i].spacing);
+        expect_stems_per_stool(what, &m, n * (B + d) / width);
+    }
+}
+
+/* Mean width from which both of two shoots `apart` metres from one another are met, over all directions. */
+static double width_of_both(double width, double apart)
+{
+    double angle = apart > width ? asin(width / apart) : M_PI / 2;
+    return 2 / M_PI * (width * angle - apart * (1 - cos(angle)));
+}
+
+/* Sum of that over all pairs of a ring, each counted twice: what clumping adds to the variance. */
+static double pairs_of_ring(unsigned n, double spacing, double width)
+{
+    double sum = 0, r = spacing / 2 / sin(M_PI / n);
+    for (unsigned i = 1; i < n; i++)
+        sum += n * width_of_both(width, 2 * r * sin(M_PI * i / n));
+    return sum;
+}
+
+static void clumping_changes_the_spread_but_not_the_mean(void **state)
+{
+    (void)state;
+    const double d = .06, spacing = .5, mean = 50 * per_metre(6000, B + d);
+    const uint64_t rocks = 50000;
+    clear_plane(70);
+    plant_trees(plant_belt(10, 60, 0, 0), 6000, d);
+    struct spread single = meet(rocks, 1).stems;
+    clear_plane(70);
+    plane.line.scene.simulation.seed = 2;
+    plant_shoots(plant_belt(10, 60, 1000, spacing), 6000, d);
+    struct spread clumped = meet(rocks, 1).stems;
+    expect_mean("hits on 50 m, single stems", &single, mean);
+    expect_mean("hits on 50 m, stools of 6", &clumped, mean);
+    expect_close("hits on 50 m, one beside the other", spread_mean(&clumped), spread_se(&clumped), spread_mean(&single),
+                 spread_se(&single));
+    expect_variance("variance on 50 m, single stems", &single, mean);
+    expect_variance("variance on 50 m, stools of 6", &clumped,
+                    mean + 50 * per_metre(1000, pairs_of_ring(6, spacing, B + d)));
+    EXPECT(spread_variance(&clumped), >,
+           spread_variance(&single) + 10 * hypot(spread_variance_se(&single), spread_variance_se(&clumped)));
+}
+
+/* ---- diameters ---- */
+
+/* Diameters of met stems when all have a gamma law: a stem is met from a strip B + d wide, so that thick ones are met
+ * more often, with density proportional to (B + d)f(d): f itself with weight B, and f weighted by d, again a gamma law
+ * with one more in its shape, with weight mean d. */
+struct biased {
+    double mean, shape, scale;
+};
+
+static struct biased biased_of(double mean, double sd)
+{
+    return (struct biased){mean, mean * mean / (sd * sd), sd * sd / mean};
+}
+
+static double biased_cdf(double d, const void *of)
+{
+    const struct biased *l = of;
+    return (B * gsl_cdf_gamma_P(d, l->shape, l->scale) + l->mean * gsl_cdf_gamma_P(d, l->shape + 1, l->scale)) /
+           (B + l->mean);
+}
+
+/* The k-th moment of the gamma law. */
+static double gamma_moment(const struct biased *l, int k)
+{
+    double m = 1;
+    for (int i = 0; i < k; i++)
+        m *= l->scale * (l->shape + i);
+    return m;
+}
+
+static void expect_biased(const char *name, double per_ha, double mean, double sd, uint64_t rocks, double metres)
+{
+    struct biased law = biased_of(mean, sd);
+    struct spread per = {0}, dbh = {0};
+    struct sample all = {0};
+    sweep_begin();
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        sweep_rock(rock);
+        spread_add(&per, (double)sweep.count / metres);
+        for (size_t i = 0; i < sweep.count; i++) {
+            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            if (!(fabs(s->y) <= (B + s->dbh) / 2))
+                fail_msg("%s: a stem %.17g m thick is met %.17g m off", name, s->dbh, s->y);
+            spread_add(&dbh, s->dbh);
+            if (i % 4 == 0) /* enough of them */
+                sample_add(&all, s->dbh);
+        }
+    }
+    sweep_end();
+    char what[80];
+    snprintf(what, sizeof what, "%s, met per metre", name);
+    expect_mean(what, &per, per_metre(per_ha, B + mean));
+    double first = (B * mean + gamma_moment(&law, 2)) / (B + mean);
+    double second = (B * gamma_moment(&law, 2) + gamma_moment(&law, 3)) / (B + mean);
+    snprintf(what, sizeof what, "%s, mean dbh of those met", name);
+    expect_mean(what, &dbh, first);
+    snprintf(what, sizeof what, "%s, variance of it", name);
+    expect_variance(what, &dbh, second - first * first);
+    snprintf(what, sizeof what, "%s, law of it, KS", name);
+    expect_law(what, all.values, all.n, biased_cdf, &law);
+    sample_clear(&all);
+}
+
+static void thick_stems_are_met_more_often(void **state)
+{
+    (void)state;
+    clear_plane(520);
+    plant_trees(plant_belt(10, 510, 0, 0), 4000, .2)->dbh_sd = .1;
+    expect_biased("trees .2 ± .1 m", 4000, .2, .1, 5800, 500);
+    clear_plane(520);
+    plant_trees(plant_belt(10, 510, 0, 0), 4000, .3)->dbh_sd = .36; /* most of them thin */
+    expect_biased("trees .3 ± .36 m", 4000, .3, .36, 5200, 500);
+    clear_plane(520);
+    plant_shoots(plant_belt(10, 510, 2000, .3), 9000, .1)->dbh_sd = .04;
+    expect_biased("shoots .1 ± .04 m", 9000, .1, .04, 2900, 500);
+}
+
+static void expect_same_stems(const struct ceduo_stem_passed *a, size_t n)
+{
+    assert_int_equal(n, sweep.count);
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_stem_passed *p = &a[i], *q = &sweep.stems[i];
+        if (p->x != q->x || p->y != q->y || p->dbh != q->dbh || p->height != q->height || p->shoot != q->shoot ||
+            p->stool != q->stool || p->hit != q->hit || p->before != q->before || p->taken != q->taken)
+            fail_msg("stem %zu is another", i);
+    }
+}
+
+/* A spread of 0 is none, and one of nearly nothing moves diameters and offsets by as little. */
+static void diameters_without_spread_change_nothing(void **state)
+{
+    (void)state;
+    static struct ceduo_stem_passed plain[STEMS_MOST];
+    for (uint64_t rock = 0; rock < 200; rock++) {
+        clear_plane(520);
+        plant_plot(1, 10, 510);
+        sweep_one(rock);
+        size_t n = sweep.count;
+        struct ceduo_way way = sweep.way;
+        memcpy(plain, sweep.stems, n * sizeof *plain);
+        plane.trees[0][0].dbh_sd = plane.shoots[0][0].dbh_sd = 0;
+        sweep_one(rock);
+        expect_same_stems(plain, n);
+        assert_memory_equal(&way, &sweep.way, sizeof way);
+        plane.trees[0][0].dbh_sd = 1e-9;
+        sweep_one(rock);
+        assert_int_equal(n, sweep.count);
+        for (size_t i = 0; i < n; i++)
+            if (plain[i].x != sweep.stems[i].x || fabs(plain[i].y - sweep.stems[i].y) > 1e-8 ||
+                fabs(plain[i].dbh - sweep.stems[i].dbh) > 1e-8)
+                fail_msg("stem %zu moves", i);
+    }
+}
+
+/* ---- extremes ---- */
+
+static void expect_stems_per_metre(const char *what, double expected, uint64_t rocks, double metres)
+{
+    struct met m = meet(rocks, metres);
+    expect_mean(what, &m.stems, expected);
+}
+
+static void extreme_stands_are_met_as_they_should_be(void **state)
+{
+    (void)state;
+    clear_plane(170);
+    plant_shoots(plant_belt(10, 160, 5000, .1), 100000, .02);
+    expect_stems_per_metre("100 000 shoots/ha", per_metre(100000, B + .02), 1000, 150);
+    clear_plane(1.2e8);
+    plant_trees(plant_belt(1e7, 1.1e8, 0, 0), .1, .3);
+    expect_stems_per_metre("0.1 trees/ha", per_metre(.1, B + .3), 1050, 1e8);
+    clear_plane(540);
+    plant_shoots(plant_belt(20, 520, 1500, 3), 6000, .06); /* the rock passes between the shoots of a stool */
+    expect_stems_per_metre("shoots 3 m apart", per_metre(6000, B + .06), 4600, 500);
+    clear_plane(300);
+    plant_shoots(plant_belt(20, 220, 50, .1), 10000, .05);
+    expect_stems_per_metre("200 shoots .1 m apart", per_metre(10000, B + .05), 7000, 200);
+    clear_plane(300);
+    plant_shoots(plant_belt(50, 250, 50, .5), 10000, .05);
+    expect_stems_per_metre("200 shoots .5 m apart", per_metre(10000, B + .05), 7000, 200);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton),
+        cmocka_unit_test(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none),
+        cmocka_unit_test(rocks_of_many_sizes_meet_as_many_as_their_mean),
+        cmocka_unit_test(counts_of_trees_in_a_stretch_are_poisson),
+        cmocka_unit_test(gaps_between_trees_are_exponential_and_offsets_uniform),
+        cmocka_unit_test(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton),
+        cmocka_unit_test(a_ring_is_met_as_wide_as_its_hull_is_on_average),
+        cmocka_unit_test(clumping_changes_the_spread_but_not_the_mean),
+        cmocka_unit_test(thick_stems_are_met_more_often),
+        cmocka_unit_test(diameters_without_spread_change_nothing),
+        cmocka_unit_test(extreme_stands_are_met_as_they_should_be),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

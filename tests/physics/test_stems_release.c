@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stems about a release in the forest, and ground that is covered twice: as dense as elsewhere, each met once. */
+#include "expect.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "stems_scene.h"
+
+/* ---- bins ---- */
+
+/* Stems in bins along x, rock by rock. Those of one stool are no independent events, so the bins' covariance over the
+ * rocks is kept as well. */
+#define BINS_MOST 64
+struct bins {
+    size_t k;
+    double from, width, n;
+    double now[BINS_MOST], sum[BINS_MOST], cross[BINS_MOST][BINS_MOST];
+};
+
+static void bins_note(struct bins *b, double x)
+{
+    double place = floor((x - b->from) / b->width);
+    if (place >= 0 && place < (double)b->k)
+        b->now[(size_t)place]++;
+}
+
+static void bins_end_rock(struct bins *b)
+{
+    for (size_t i = 0; i < b->k; i++) {
+        b->sum[i] += b->now[i];
+        for (size_t j = 0; j <= i && b->now[i] > 0; j++)
+            b->cross[i][j] += b->now[i] * b->now[j];
+    }
+    memset(b->now, 0, sizeof b->now);
+    b->n++;
+}
+
+/* Every bin has the same mean: chi-square of the means with their covariance (Hotelling 1931, many rocks). */
+static void expect_even(const char *what, const struct bins *b, double per_bin)
+{
+    gsl_matrix *s = gsl_matrix_alloc(b->k, b->k);
+    gsl_vector *d = gsl_vector_alloc(b->k), *x = gsl_vector_alloc(b->k);
+    for (size_t i = 0; i < b->k; i++) {
+        gsl_vector_set(d, i, b->sum[i] / b->n - per_bin);
+        for (size_t j = 0; j <= i; j++) {
+            double covariance = (b->cross[i][j] - b->sum[i] * b->sum[j] / b->n) / b->n / b->n;
+            gsl_matrix_set(s, i, j, covariance);
+            gsl_matrix_set(s, j, i, covariance);
+        }
+    }
+    assert_int_equal(gsl_linalg_cholesky_decomp1(s), 0);
+    assert_int_equal(gsl_linalg_cholesky_solve(s, d, x), 0);
+    double chi2 = 0;
+    for (size_t i = 0; i < b->k; i++)
+        chi2 += gsl_vector_get(d, i) * gsl_vector_get(x, i);
+    gsl_matrix_free(s);
+    gsl_vector_free(d);
+    gsl_vector_free(x);
+    expect_chi_square(what, chi2, (double)b->k);
+}
+
+/* ---- ground that is covered twice ---- */
+
+/* The ground covered so far; a stem must lie at its edge. */
+struct cover {
+    double lo, hi;
+    uint64_t turns;
+    int dir;
+};
+
+static void cover_piece(void *context, const struct ceduo_piece *p)
+{
+    struct cover *c = context;
+    c->lo = fmin(c->lo, p->x1);
+    c->hi = fmax(c->hi, p->x1);
+    int dir = p->x1 > p->x ? 1 : p->x1 < p->x ? -1 : c->dir;
+    c->turns += dir != c->dir;
+    c->dir = dir;
+}
+
+static void cover_stem(void *context, const struct ceduo_stem_passed *stem)
+{
+    const struct cover *c = context;
+    if (stem->x > c->lo + 1e-9 && stem->x < c->hi - 1e-9)
+        fail_msg("a stem at %.17g, on ground covered from %.17g to %.17g", stem->x, c->lo, c->hi);
+    note_stem(&sweep, stem);
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const struct ceduo_stem_passed *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    if (p->y != q->y)
+        return p->y < q->y ? -1 : 1;
+    return (p->stool > q->stool) - (p->stool < q->stool);
+}
+
+static void expect_each_stem_once(void)
+{
+    qsort(sweep.stems, sweep.count, sizeof *sweep.stems, by_place);
+    for (size_t i = 1; i < sweep.count; i++)
+        if (by_place(&sweep.stems[i - 1], &sweep.stems[i]) == 0)
+            fail_msg("the stem at %.17g, %.17g is met twice", sweep.stems[i].x, sweep.stems[i].y);
+}
+
+/* A smooth valley in which a rock rolls to and fro, higher on the left than it was released. */
+static void ground_that_is_covered_twice_holds_its_stems_once(void **state)
+{
+    (void)state;
+    const double from = 381.3, slope = tan(15 * M_PI / 180), v = 31.3;
+    struct spread left = {0}, right = {0};
+    clear_ground(3, (double[]){0, 400, 800}, (double[]){0, -400 * slope, 0}, .5, 0);
+    plant_plot(1, 0, 800);
+    line_scene_release(&plane.line, from, 0, v * cos(atan(slope)), -v * sin(atan(slope)), 0);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < 2500; rock++) {
+        struct cover c = {from, from, 0, 1};
+        sweep_watched(rock, &(struct ceduo_watch){.piece = cover_piece, .stem = cover_stem, .context = &c});
+        assert_int_equal(sweep.way.end, CEDUO_AT_REST);
+        EXPECT(c.turns, >, 10);
+        EXPECT(c.lo, >, 200);
+        EXPECT(c.lo, <, 320);
+        EXPECT(c.hi, >, 500);
+        size_t behind = 0;
+        for (size_t i = 0; i < sweep.count; i++)
+            behind += sweep.stems[i].x < from;
+        spread_add(&left, (double)behind / (from - c.lo));
+        spread_add(&right, (double)(sweep.count - behind) / (c.hi - from));
+        expect_each_stem_once();
+    }
+    sweep_end();
+    expect_mean("stems per metre behind the release", &left, per_metre(9076, B + .061));
+    expect_mean("stems per metre before the release", &right, per_metre(9076, B + .061));
+}
+
+/* ---- a release in the forest ---- */
+
+/* Level ground with a wall that throws the rock back over the place where it started. */
+enum way_out { AHEAD, AHEAD_AND_BACK, BACK_AND_AHEAD };
+#define RELEASE 150.
+static void clear_court(enum way_out out)
+{
+    static const double right[] = {0, 300, 300.01, 310}, left[] = {0, 10, 10.01, 310};
+    static const double rise[] = {0, 0, 1000, 1000}, fall[] = {0, 0, -1000, -1000};
+    if (out == BACK_AND_AHEAD)
+        clear_ground(4, left, fall, 1, 0);
+    else
+        clear_ground(out == AHEAD ? 2 : 4, right, rise, 1, 0);
+    line_scene_release(&plane.line, RELEASE, 1, out == BACK_AND_AHEAD ? -1e4 : 1e4, 0, 0);
+}
+
+static void expect_even_court(const char *name, enum way_out out, double per_m, uint64_t rocks)
+{
+    static struct bins bins;
+    const double reach = 4;
+    memset(&bins, 0, sizeof bins);
+    bins.width = .25;
+    bins.from = out == AHEAD ? RELEASE : RELEASE - reach;
+    bins.k = out == AHEAD ? 32 : (size_t)(2 * reach / bins.width);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        sweep_rock(rock);
+        assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
+        assert_true(out != AHEAD_AND_BACK || sweep.way.x == 0);
+        for (size_t i = 0; i < sweep.count; i++)
+            bins_note(&bins, sweep.stems[i].x);
+        bins_end_rock(&bins);
+    }
+    sweep_end();
+    expect_even(name, &bins, per_m * bins.width);
+}
+
+/* Stems are looked for on 8 m of so many per metre; the belt reaches beyond them by more than any ring. */
+static void court_of_the_paper(enum way_out out)
+{
+    clear_court(out);
+    plant_plot(1, RELEASE - 6, RELEASE + 10);
+}
+
+static void court_of_large_rings(enum way_out out)
+{
+    clear_court(out);
+    plant_shoots(plant_belt(RELEASE - 9, RELEASE + 13, 100, .1), 20000, .06);
+}
+
+#define PAPER_PER_M (9076 * (B + .061) / 1e4)
+#define RINGS_PER_M (20000 * (B + .06) / 1e4)
+
+static void stems_stand_as_dense_right_from_a_release_in_the_forest_on(void **state)
+{
+    (void)state;
+    court_of_the_paper(AHEAD);
+    expect_even_court("ADS 1 from the release on", AHEAD, PAPER_PER_M, 190000);
+    court_of_large_rings(AHEAD);
+    expect_even_court("rings of 200 from the release on", AHEAD, RINGS_PER_M, 86000);
+}
+
+static void stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest(void **state)
+{
+    (void)state;
+    court_of_the_paper(AHEAD_AND_BACK);
+    expect_even_court("ADS 1, ahead and then back", AHEAD_AND_BACK, PAPER_PER_M, 190000);
+    court_of_large_rings(AHEAD_AND_BACK);
+    expect_even_court("rings of 200, ahead and then back", AHEAD_AND_BACK, RINGS_PER_M, 86000);
+    court_of_the_paper(BACK_AND_AHEAD);
+    plane.line.scene.simulation.seed = 2;
+    expect_even_court("ADS 1, back and then ahead", BACK_AND_AHEAD, PAPER_PER_M, 190000);
+    court_of_large_rings(BACK_AND_AHEAD);
+    plane.line.scene.simulation.seed = 2;
+    expect_even_court("rings of 200, back and then ahead", BACK_AND_AHEAD, RINGS_PER_M, 86000);
+}
+
+/* A stool astride of the release is one stool, whichever way the rock goes first. */
+static void the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first(void **state)
+{
+    (void)state;
+    static struct ceduo_stem_passed ahead[STEMS_MOST];
+    uint64_t astride = 0;
+    for (uint64_t rock = 0; rock < 2000; rock++) {
+        court_of_the_paper(AHEAD_AND_BACK);
+        sweep_one(rock);
+        expect_each_stem_once();
+        size_t n = sweep.count, met = sweep.way.stools_met;
+        memcpy(ahead, sweep.stems, n * sizeof *ahead);
+        assert_int_equal(met, different(false));
+        court_of_the_paper(BACK_AND_AHEAD);
+        sweep_one(rock);
+        expect_each_stem_once();
+        assert_int_equal(n, sweep.count);
+        assert_int_equal(met, sweep.way.stools_met);
+        for (size_t i = 0; i < n; i++)
+            if (by_place(&ahead[i], &sweep.stems[i]) != 0 || ahead[i].dbh != sweep.stems[i].dbh)
+                fail_msg("rock %ju: the stem at %.17g is another", (uintmax_t)rock, ahead[i].x);
+        for (size_t i = 1; i < n; i++)
+            astride += ahead[i - 1].x < RELEASE && ahead[i].x >= RELEASE && ahead[i - 1].stool == ahead[i].stool;
+    }
+    EXPECT(astride, >, 40); /* some were there */
+}
+
+/* Far ahead and back again: many other stools lie between the two hits of one astride of the release. */
+static void a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between(void **state)
+{
+    (void)state;
+    uint64_t wrong = 0, rocks = 2000;
+    clear_court(AHEAD_AND_BACK);
+    plant_plot(1, RELEASE - 6, RELEASE + 145);
+    sweep_begin();
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        sweep_rock(rock);
+        wrong += sweep.way.stools_met != different(false);
+    }
+    sweep_end();
+    if (wrong > 0)
+        fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ground_that_is_covered_twice_holds_its_stems_once),
+        cmocka_unit_test(stems_stand_as_dense_right_from_a_release_in_the_forest_on),
+        cmocka_unit_test(stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest),
+        cmocka_unit_test(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first),
+        cmocka_unit_test(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,407 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, options side by side, the same bits and the same rocks. */
+#include "expect.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "stems_scene.h"
+
+/* ---- the paper's site ---- */
+
+static struct paper_site site;
+
+/* Independent implementations of the same model, rule auto; energies (kJ) and speeds of those that pass x = 135 m, shares
+ * (%) of all released. In the paper a rock was filmed there with 62.3 kJ and 15.6 m/s. */
+struct site_row {
+    enum ceduo_contact_model model;
+    double energy, speed, pass, stopped;
+};
+
+static void rocks_on_the_papers_site_arrive_as_in_independent_implementations(void **state)
+{
+    (void)state;
+    static const struct site_row rows[] = {{CEDUO_POISSON, 66.75, 15.29, 83.9, 15.2},
+                                           {CEDUO_STEMS, 62.06, 14.67, 83.2, 15.4}};
+    const uint64_t rocks = 300000;
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct site_row *r = &rows[i];
+        paper_site_init(&site);
+        site.scene.simulation.contact_model = r->model;
+        struct ceduo_run *run = run_of(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
+        struct ceduo_arrivals a;
+        struct ceduo_ends e;
+        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+        assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
+        double n = (double)rocks, pass = a.reach_probability;
+        double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
+        expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, r->energy, .1);
+        /* its error is not printed: half of that of the energy, as shares go, and half a digit */
+        expect_close("m/s at 135 m", a.speed.mean, a.speed.se, r->speed, r->speed * .05 / r->energy + .005 / 4);
+        expect_close("% that pass", 100 * pass, 100 * sqrt(pass * (1 - pass) / n), r->pass, .1);
+        expect_close("% stopped by stems", 100 * stopped, 100 * sqrt(stopped * (1 - stopped) / n), r->stopped, .1);
+        uint64_t ended = 0;
+        for (int k = 0; k < CEDUO_ENDS; k++)
+            ended += e.count[k];
+        assert_int_equal(ended, rocks);
+        ceduo_run_free(run);
+    }
+}
+
+/* ---- options side by side ---- */
+
+/* The paper's site, another option beside it: the same stems, which take a little more. */
+static struct {
+    struct ceduo_option options[2];
+    struct ceduo_belt belts[2];
+    struct paper_plot plots[2];
+} sides;
+
+static void open_sides(void)
+{
+    paper_site_init(&site);
+    for (int i = 0; i < 2; i++) {
+        paper_plot_init(&sides.plots[i], i + 1);
+        sides.plots[i].shoots.volume *= 1.03;
+        sides.belts[i] = site.belts[i];
+        sides.belts[i].stand = sides.plots[i].stand;
+    }
+    sides.options[0] = site.option;
+    sides.options[1] = (struct ceduo_option){.belts_count = 2, .belts = sides.belts};
+    site.scene.options = sides.options;
+    site.scene.options_count = LENGTH(sides.options);
+}
+
+/* Energy of each rock at the control, 0 where it does not arrive, whose `reached` is false. */
+static double energy_of_rock(struct ceduo_follower *f, uint64_t rock, bool *reached)
+{
+    struct ceduo_way w;
+    struct ceduo_crossing c;
+    assert_int_equal(ceduo_follower_follow(f, rock, NULL, &w, &c), CEDUO_OK);
+    *reached = c.reached;
+    return c.reached ? (w.rock.mass * (c.vx * c.vx + c.vz * c.vz) + w.rock.moment * c.spin * c.spin) / 2 : 0;
+}
+
+struct pair_moments {
+    struct ceduo_moments reach, exceed, energy;
+};
+
+static struct pair_moments pairs_of(const struct ceduo_option *a, const struct ceduo_option *b, uint64_t rocks)
+{
+    struct pair_moments m = {0};
+    struct ceduo_follower *f = ceduo_follower_create(&site.scene, a), *g = ceduo_follower_create(&site.scene, b);
+    assert_true(f);
+    assert_true(g);
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        bool p, q;
+        double e = energy_of_rock(f, rock, &p), h = energy_of_rock(g, rock, &q);
+        ceduo_moments_add(&m.reach, (double)p - (double)q);
+        ceduo_moments_add(&m.exceed, (double)(e > site.control.accepted) - (double)(h > site.control.accepted));
+        ceduo_moments_add(&m.energy, e - h);
+    }
+    ceduo_follower_free(f);
+    ceduo_follower_free(g);
+    return m;
+}
+
+static void expect_pair(const char *what, const struct ceduo_paired *d, const struct ceduo_moments *m, double a,
+                        double b)
+{
+    print_message("# %s: %.6g ± %.3g\n", what, d->mean, d->se);
+    if (fabs(d->mean - (a - b)) > 1e-12 * (fabs(a) + fabs(b)))
+        fail_msg("%s: %.17g is not %.17g", what, d->mean, a - b);
+    if (fabs(d->mean - m->mean) > 1e-12 * (fabs(a) + fabs(b)))
+        fail_msg("%s: %.17g is not %.17g, rock by rock", what, d->mean, m->mean);
+    expect_exact(what, d->se, ceduo_moments_se(m), 1e-9);
+}
+
+static void differences_have_the_error_of_differences_rock_by_rock(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 6000;
+    open_sides();
+    for (int other = 0; other < 2; other++) { /* the small change, no forest */
+        const struct ceduo_option *option = other ? NULL : &sides.options[1];
+        struct ceduo_run *run = run_of(&site.scene, option, rocks, 2, CEDUO_EXACT_BYTES);
+        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
+        struct ceduo_difference d = ceduo_run_difference(run, base, 0);
+        struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
+        struct ceduo_arrivals a, b;
+        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+        assert_int_equal(ceduo_run_arrivals(base, 0, &b), CEDUO_OK);
+        expect_pair("difference of shares that pass", &d.reach_probability, &m.reach, a.reach_probability,
+                    b.reach_probability);
+        expect_pair("difference of shares above what is accepted", &d.exceed_probability, &m.exceed,
+                    a.exceed_probability, b.exceed_probability);
+        expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released,
+                    b.energy_per_released);
+        double apart = hypot(a.energy_per_released_se, b.energy_per_released_se);
+        EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
+        ceduo_run_free(base);
+        ceduo_run_free(run);
+    }
+}
+
+static bool same_pair(const struct ceduo_paired *a, const struct ceduo_paired *b)
+{
+    return fabs(a->mean - b->mean) <= 1e-15 * fabs(a->mean) && fabs(a->se / b->se - 1) < 1e-9;
+}
+
+static void differences_without_all_samples_are_the_same(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 5000;
+    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double), 2500 * sizeof(double), 0};
+    struct ceduo_difference d[LENGTH(bytes)];
+    open_sides();
+    for (size_t i = 0; i < LENGTH(bytes); i++) {
+        struct ceduo_run *run = run_of(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
+        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
+        struct ceduo_arrivals a;
+        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+        EXPECT(a.exact, ==, (i == 0));
+        d[i] = ceduo_run_difference(run, base, 0);
+        ceduo_run_free(base);
+        ceduo_run_free(run);
+        EXPECT(d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean);
+        EXPECT(d[i].reach_probability.mean, ==, d[0].reach_probability.mean);
+        EXPECT(d[i].exceed_probability.mean, ==, d[0].exceed_probability.mean);
+    }
+    /* energies of all rocks are kept, though not all samples */
+    assert_true(same_pair(&d[1].energy_per_released, &d[0].energy_per_released));
+    assert_true(same_pair(&d[1].reach_probability, &d[0].reach_probability));
+    assert_true(same_pair(&d[1].exceed_probability, &d[0].exceed_probability));
+    /* of half of them: the spread is known a little worse */
+    EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
+}
+
+static void expect_same_bits(const struct ceduo_run *a, const struct ceduo_run *b)
+{
+    struct ceduo_arrivals x, y;
+    struct ceduo_ends p, q;
+    assert_int_equal(ceduo_run_arrivals(a, 0, &x), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(b, 0, &y), CEDUO_OK);
+    assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
+    assert_int_equal(ceduo_run_ends(a, &p), CEDUO_OK);
+    assert_int_equal(ceduo_run_ends(b, &q), CEDUO_OK);
+    assert_memory_equal(&p, &q, sizeof p);
+    struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
+    assert_memory_equal(&s, &t, sizeof s);
+}
+
+static void the_same_bits_among_stems_with_any_number_of_threads_and_steps(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 5000;
+    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double)};
+    static const unsigned threads[] = {2, 5};
+    static const uint64_t to[] = {999, 1024, 3000, 3000, 4096, 5000};
+    open_sides();
+    for (size_t e = 0; e < LENGTH(bytes); e++) {
+        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
+        struct ceduo_run *one = run_of(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
+        struct ceduo_difference d = ceduo_run_difference(one, base, 0), f;
+        for (size_t t = 0; t < LENGTH(threads); t++) {
+            struct ceduo_run *many = run_of(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
+            expect_same_bits(one, many);
+            f = ceduo_run_difference(many, base, 0);
+            assert_memory_equal(&d, &f, sizeof d);
+            ceduo_run_free(many);
+        }
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.option = &sides.options[1];
+        def.rocks_most = rocks;
+        def.threads = 5;
+        def.exact_bytes = bytes[e];
+        struct ceduo_run *steps;
+        assert_int_equal(ceduo_run_create(&def, &steps), CEDUO_OK);
+        for (size_t i = 0; i < LENGTH(to); i++)
+            assert_int_equal(ceduo_run_extend(steps, to[i]), CEDUO_OK);
+        expect_same_bits(one, steps);
+        f = ceduo_run_difference(steps, base, 0);
+        assert_memory_equal(&d, &f, sizeof d);
+        f = ceduo_run_difference(one, one, 0);
+        EXPECT(f.energy_per_released.mean, ==, 0);
+        EXPECT(f.energy_per_released.se, ==, 0);
+        ceduo_run_free(steps);
+        ceduo_run_free(one);
+        ceduo_run_free(base);
+    }
+}
+
+/* Hits on a way, all and before the control. */
+struct before {
+    uint64_t all, control;
+};
+
+static void count_before(void *context, const struct ceduo_stem_passed *stem)
+{
+    struct before *b = context;
+    b->all += stem->hit;
+    b->control += stem->hit && stem->x < site.control.x;
+}
+
+static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 3000;
+    open_sides();
+    struct ceduo_run *run = run_of(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
+    struct ceduo_follower *f = ceduo_follower_create(&site.scene, &sides.options[0]);
+    struct ceduo_moments energy = {0}, hits = {0};
+    struct ceduo_stem_counts sum = {0}, counts = ceduo_run_stems(run);
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        struct ceduo_way w;
+        struct ceduo_crossing c;
+        struct before before = {0};
+        assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_before, .context = &before}, &w, &c),
+                         CEDUO_OK);
+        assert_int_equal(w.stems_hit, before.all);
+        assert_true(!c.reached || c.stems_hit == before.control);
+        sum.drawn += w.stems_drawn;
+        sum.hit += w.stems_hit;
+        sum.met += w.stools_met;
+        if (!c.reached)
+            continue;
+        ceduo_moments_add(&energy, (w.rock.mass * (c.vx * c.vx + c.vz * c.vz)) / 2);
+        ceduo_moments_add(&hits, (double)c.stems_hit);
+    }
+    ceduo_follower_free(f);
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    EXPECT(sum.drawn, ==, counts.drawn);
+    EXPECT(sum.hit, ==, counts.hit);
+    EXPECT(sum.met, ==, counts.met);
+    assert_int_equal(a.reached, energy.n);
+    expect_exact("mean energy", a.energy.mean, energy.mean, 1e-12);
+    expect_exact("mean contacts", a.contacts, hits.mean, 1e-12);
+    expect_exact("their error", a.contacts_se, ceduo_moments_se(&hits), 1e-9);
+    ceduo_run_free(run);
+}
+
+/* Behind every stem a flight or roll is computed afresh; where the stem takes nothing that must not show. */
+static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
+{
+    (void)state;
+    const uint64_t rocks = 4000;
+    uint64_t same = 0;
+    struct spread met[2] = {0};
+    paper_site_init(&site);
+    for (int i = 0; i < 2; i++) {
+        struct paper_plot *p = &site.plots[i];
+        p->shoots.volume = p->trees.volume = 1e-25;
+        p->shoots.height = p->trees.height = 1e3;
+    }
+    site.belts[0].from = -5; /* stools before the release reach over it */
+    struct ceduo_follower *f = ceduo_follower_create(&site.scene, &site.option);
+    struct ceduo_follower *bare = ceduo_follower_create(&site.scene, NULL);
+    assert_true(f);
+    assert_true(bare);
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        struct ceduo_way v, w;
+        struct ceduo_crossing c, d;
+        assert_int_equal(ceduo_follower_follow(bare, rock, NULL, &v, &c), CEDUO_OK);
+        sweep.count = 0;
+        assert_int_equal(
+            ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = note_stem, .context = &sweep}, &w, &d),
+            CEDUO_OK);
+        same += v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6 && c.reached == d.reached &&
+                fabs(c.vx - d.vx) < 1e-6 && fabs(c.vz - d.vz) < 1e-6 && fabs(c.height - d.height) < 1e-6;
+        if (w.x < 137)
+            continue;
+        double first = 0;
+        for (size_t i = 0; i < sweep.count; i++)
+            first += sweep.stems[i].dbh == .061;
+        spread_add(&met[0], first / 67.5);
+        spread_add(&met[1], ((double)sweep.count - first) / 67.5);
+    }
+    ceduo_follower_free(f);
+    ceduo_follower_free(bare);
+    print_message("# %ju of %ju ways the same\n", (uintmax_t)same, (uintmax_t)rocks);
+    EXPECT(same, >, rocks * 98 / 100); /* some turn elsewhere by rounding */
+    expect_mean("stems per metre of ADS 1 on the paper's site", &met[0], per_metre(9076, B + .061));
+    expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));
+}
+
+static void options_with_the_same_stems_share_a_run(void **state)
+{
+    (void)state;
+    open_sides();
+    struct ceduo_belt same[3], other[2];
+    memcpy(&same[1], site.belts, sizeof site.belts);
+    same[0] = (struct ceduo_belt){.from = -5, .to = 0, .name = "meadow"}; /* without stems */
+    memcpy(other, site.belts, sizeof site.belts);
+    other[1].to -= 1;
+    struct ceduo_option options[] = {sides.options[0],
+                                     {.name = "the same", .belts_count = 3, .belts = same},
+                                     {.name = "shorter", .belts_count = 2, .belts = other},
+                                     {.name = "meadow", .belts_count = 1, .belts = same}};
+    site.scene.options = options;
+    site.scene.options_count = LENGTH(options);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    struct ceduo_work work = ceduo_pool_work(pool);
+    assert_int_equal(work.runs, 3);   /* without forest, the paper's, the shorter */
+    assert_int_equal(work.reused, 5); /* of 4 options, each with its forest and without, 8 in all */
+    assert_ptr_equal(ceduo_pool_find(pool, &options[1]), ceduo_pool_find(pool, &options[0]));
+    assert_ptr_not_equal(ceduo_pool_find(pool, &options[2]), ceduo_pool_find(pool, &options[0]));
+    assert_ptr_equal(ceduo_pool_find(pool, &options[3]), ceduo_pool_find(pool, NULL));
+    assert_int_equal(ceduo_pool_extend(pool, 1000), CEDUO_OK);
+    work = ceduo_pool_work(pool);
+    assert_int_equal(work.rocks, 3000);
+    struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
+    struct ceduo_run *alone = run_of(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
+    expect_same_bits(run, alone);
+    ceduo_run_free(alone);
+    ceduo_pool_free(pool);
+}
+
+/* The key of the other option when its first plot has stems of many diameters and something of it is changed. */
+enum change { NOTHING, DBH, DBH_SD, HEIGHT, VOLUME, PER_HA, SPACING, STOOLS_PER_HA, WORK, TO, CHANGES };
+
+static uint64_t key_with(enum change change)
+{
+    open_sides();
+    struct paper_plot *p = &sides.plots[0];
+    struct ceduo_stand *stand = &sides.belts[0].stand;
+    p->shoots.dbh_sd = p->trees.dbh_sd = .02;
+    double *const changed[CHANGES] = {NULL,
+                                      &p->shoots.dbh,
+                                      &p->shoots.dbh_sd,
+                                      &p->shoots.height,
+                                      &p->trees.volume,
+                                      &p->trees.per_ha,
+                                      &stand->spacing,
+                                      &stand->stools_per_ha,
+                                      &stand->u,
+                                      &sides.belts[0].to};
+    if (changed[change])
+        *changed[change] *= .9;
+    return ceduo_option_key(&site.scene.simulation, &sides.options[1]);
+}
+
+static void whatever_decides_about_stems_makes_another_run(void **state)
+{
+    (void)state;
+    for (int i = 0; i < CHANGES; i++)
+        for (int j = 0; j < CHANGES; j++)
+            if ((key_with((enum change)i) == key_with((enum change)j)) != (i == j))
+                fail_msg("changes %d and %d", i, j);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rocks_on_the_papers_site_arrive_as_in_independent_implementations),
+        cmocka_unit_test(differences_have_the_error_of_differences_rock_by_rock),
+        cmocka_unit_test(differences_without_all_samples_are_the_same),
+        cmocka_unit_test(the_same_bits_among_stems_with_any_number_of_threads_and_steps),
+        cmocka_unit_test(a_run_among_stems_flies_the_rocks_that_can_be_followed),
+        cmocka_unit_test(stems_that_take_nothing_leave_the_way_as_it_is),
+        cmocka_unit_test(options_with_the_same_stems_share_a_run),
+        cmocka_unit_test(whatever_decides_about_stems_makes_another_run),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
