@@ -13,6 +13,7 @@
 #include "number.h"
 #include "part.h"
 #include "pool.h"
+#include "question.h"
 #include "result.h"
 #include "rock.h"
 #include "rotation.h"

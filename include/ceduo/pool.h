@@ -8,19 +8,28 @@
  * the same rocks with the same random numbers, so that their differences are those of the forests. */
 struct ceduo_pool;
 
-/* A pool for the scene of `def`, whose `option` is not looked at, and whose exact_bytes the scene's runs share. CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+/* A pool for the scene of `def`, whose `option` is not looked at, and whose exact_bytes the scene's runs share.
+ * CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 void ceduo_pool_free(struct ceduo_pool *pool);
+
+/* A pool for the scene of `def` from what was kept: *pool is turned to it, see ceduo_pool_turn(), or freed and made anew
+ * where its rocks meet anything else than a forest that differs. *pool may be NULL; it is NULL unless CEDUO_OK. */
+enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 
 /* The run through the forest of `option` (NULL: without forest), as long as it is; the pool's. CEDUO_NO_MEMORY. */
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run);
 
 /* All that a scene's results need: for each option the run without forest, and unless the contact model is index that
- * through its forest. CEDUO_NO_MEMORY or CEDUO_OK. */
+ * through its forest. Once more for one scene it does nothing. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool);
 
 /* The run of that forest if the pool has it, otherwise NULL. */
 struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option);
+
+/* The run through the forest of `option` (NULL: without forest), made as long as `rocks`. */
+enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
+                                 struct ceduo_run **run);
 
 /* Makes every run of the pool as long as `rocks`, as ceduo_run_extend(). */
 enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);

@@ -39,7 +39,8 @@ struct ceduo_result {
     struct ceduo_option_result *options;
 };
 
-/* Reads the runs of a pool, which ceduo_pool_fill() has filled, and assesses every option. The scene must outlive the result.
+/* Reads the runs of a pool and assesses every option; of a run that the pool has not got nothing is known. The scene
+ * must outlive the result.
  * CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
                                       struct ceduo_result **result);

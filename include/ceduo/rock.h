@@ -43,6 +43,9 @@ struct ceduo_rock {
 /* The rock whose every size is the mean. CEDUO_BAD_ROCK where a size is missing or not above 0. */
 enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock);
 
+/* The same; every figure is NaN where the sizes make no rock. */
+struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def);
+
 /* True where some size has a spread. */
 bool ceduo_rock_varies(const struct ceduo_rock_def *def);
 

@@ -86,7 +86,7 @@ struct ceduo_difference {
     struct ceduo_paired energy_per_released; /* J */
 };
 
-/* `run` less `baseline`: two runs of one scene, with as many rocks (all NaN where one is longer). Both fly the same rocks,
+/* `run` less `baseline`: two runs of one scene, with as many rocks (all NaN where one is longer or NULL). Both fly the same rocks,
  * so that the error of a difference is the smaller the more alike the two forests are. In runs too long to keep their
  * samples the standard error comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as
  * exact_bytes goes. */

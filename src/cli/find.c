@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "batch.h"
+#include "output.h"
+#include "say.h"
 #include "ceduo/version.h"
 #include "interrupt.h"
 #include "base/intl.h"
@@ -85,7 +87,7 @@ static enum exit_status choose(const struct arguments *a, const struct scene_fil
         *option = k;
     }
     if (several)
-        ceduo_batch_complain("ceduo", _("--find: the scene has several options; name one with --option"));
+        ceduo_say_why("ceduo", _("--find: the scene has several options; name one with --option"));
     return several ? EXIT_USAGE : EXIT_DONE;
 }
 
@@ -118,7 +120,7 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
             struct problems problems = {0};
             enum ceduo_status done = ceduo_seek(&seek, &found, &problems);
             ceduo_problems_close(&problems);
-            ceduo_batch_say(&problems.text);
+            ceduo_say(&problems.text);
             if (done == CEDUO_OK && found.found) /* the nearest is of those that do not reach it */
                 found.nearest = found.goal_at_nearest = NAN;
             if (done != CEDUO_OK)
@@ -135,9 +137,9 @@ enum exit_status ceduo_batch_find(const struct arguments *a)
         ceduo_scene_release(&file);
         status = one > status ? one : status;
     }
-    ceduo_batch_localise(&out);
+    ceduo_say_plainly(&out);
     if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
-        enum exit_status written = ceduo_batch_write(a, &out);
+        enum exit_status written = ceduo_output_write(a, &out);
         status = written > status ? written : status;
     }
     ceduo_text_free(&out);

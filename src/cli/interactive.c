@@ -1,29 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "interactive.h"
 
-#include <langinfo.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "batch.h"
+#include "say.h"
 #include "options.h"
 #include "base/intl.h"
 #include "tui/program.h"
 #include "tui/script.h"
 #include "tui/terminal.h"
 
-static enum ceduo_charset charset_of(const struct arguments *a)
-{
-    if (ceduo_option_given(a, "charset"))
-        return a->charset;
-    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0 ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII;
-}
-
 static enum exit_status no_terminal(const char *why)
 {
     struct text text = {0};
     ceduo_text_format(&text, _("ceduo: %s; use 'ceduo --batch SCENE.yaml', or try 'ceduo --help'\n"), why);
-    ceduo_batch_say(&text);
+    ceduo_say(&text);
     ceduo_text_free(&text);
     return EXIT_USAGE;
 }
@@ -51,10 +44,10 @@ enum exit_status ceduo_interactive_run(const struct arguments *a)
         return no_terminal(why);
     struct app app;
     struct problems problems = {0};
-    bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, charset_of(a), a->threads,
+    bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, ceduo_option_charset(a), a->threads,
                                  a->script != NULL, &problems);
     ceduo_problems_close(&problems);
-    ceduo_batch_say(&problems.text);
+    ceduo_say(&problems.text);
     ceduo_problems_free(&problems);
     if (!good)
         return EXIT_INPUT;

@@ -2,6 +2,8 @@
 #include <string.h>
 
 #include "batch.h"
+#include "output.h"
+#include "say.h"
 #include "io/file.h"
 #include "base/intl.h"
 #include "io/node.h"
@@ -97,8 +99,8 @@ enum exit_status ceduo_batch_parameters(const struct arguments *a)
         align(&table, rows.bytes);
     ceduo_text_put(&table, _("\nnumber~: also {mean: ..., spread: ..., kind: normal|uniform}, drawn for each rock\n"
                              "options[].forest[] holds what forest[] holds; any mapping may hold source: {kind, text}\n"));
-    ceduo_batch_localise(&table);
-    enum exit_status status = ceduo_batch_write(a, &table);
+    ceduo_say_plainly(&table);
+    enum exit_status status = ceduo_output_write(a, &table);
     ceduo_text_free(&rows);
     ceduo_text_free(&table);
     return status;
@@ -151,8 +153,8 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
             list_shelf(&arena, &rows, folders[i], kinds[k]);
     if (rows.bytes)
         align(&table, rows.bytes);
-    ceduo_batch_localise(&table);
-    enum exit_status status = ceduo_batch_write(a, &table);
+    ceduo_say_plainly(&table);
+    enum exit_status status = ceduo_output_write(a, &table);
     ceduo_text_free(&rows);
     ceduo_text_free(&table);
     ceduo_arena_free(&arena);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "batch.h"
+#include "output.h"
 #include "command_line.h"
 #include "ceduo/version.h"
 #include "interactive.h"
@@ -37,7 +38,7 @@ static enum exit_status print(const struct arguments *a, void (*fill)(struct tex
 {
     struct text text = {0};
     fill(&text);
-    enum exit_status status = ceduo_batch_write(a, &text);
+    enum exit_status status = ceduo_output_write(a, &text);
     ceduo_text_free(&text);
     return status;
 }
@@ -49,7 +50,7 @@ static void fill_version(struct text *text)
 
 static enum exit_status act(const struct arguments *a)
 {
-    if (!ceduo_batch_can_write(a)) /* told before anything is computed */
+    if (!ceduo_output_check(a)) /* told before anything is computed */
         return EXIT_OUTPUT;
     switch (a->mode) {
     case MODE_BATCH:

@@ -10,6 +10,9 @@
 #include "interrupt.h"
 #include "base/intl.h"
 #include "io/part_file.h"
+#include "output.h"
+#include "print.h"
+#include "say.h"
 
 #define PART_BYTES_MOST (SIZE_MAX / 2) /* of a file; what memory holds is the bound */
 
@@ -35,7 +38,7 @@ __attribute__((format(printf, 4, 5))) static void complain(struct parts *all, co
     va_start(args, format);
     ceduo_text_vformat(&why, format, args);
     va_end(args);
-    ceduo_batch_complain(what.bytes ? what.bytes : "", why.bytes ? why.bytes : "");
+    ceduo_say_why(what.bytes ? what.bytes : "", why.bytes ? why.bytes : "");
     all->bad = true;
     ceduo_text_free(&what);
     ceduo_text_free(&why);
@@ -223,7 +226,7 @@ static enum exit_status unusable(struct parts *all, const struct part *part)
 
 static enum exit_status out_of_memory(const struct part *part)
 {
-    ceduo_batch_complain(part->scene, _("out of memory"));
+    ceduo_say_why(part->scene, _("out of memory"));
     return EXIT_RUN;
 }
 
@@ -240,33 +243,22 @@ static enum exit_status adopt(struct parts *all, size_t from, size_t end, struct
     return EXIT_DONE;
 }
 
-static enum ceduo_status fill_pool(const struct ceduo_run_def *def, struct ceduo_pool **pool)
-{
-    enum ceduo_status status = ceduo_pool_create(def, pool);
-    return status == CEDUO_OK ? ceduo_pool_fill(*pool) : status;
-}
-
 static enum exit_status report(struct parts *all, size_t from, size_t end, const struct arguments *a,
                                const struct scene_file *file, struct text *out)
 {
-    struct ceduo_run_def def = ceduo_run_def_default(&file->scene);
-    def.threads = a->threads;
-    def.rocks_most = all->items[from].rocks;
-    struct ceduo_report to = {.file = file, .remarks = {.ground_assumed = file->ground_assumed}};
-    struct ceduo_pool *pool, *unflown = NULL;
-    enum ceduo_status made = fill_pool(&def, &pool);
-    bool stands = a->stands && a->format == CEDUO_CSV; /* as one run does: no rock answers them */
-    if (made == CEDUO_OK && stands) {
-        made = fill_pool(&def, &unflown);
-        to.rocks_asked = def.rocks_most;
-    }
-    enum exit_status status = made == CEDUO_OK ? adopt(all, from, end, pool, &to.seconds)
+    struct ceduo_question q = ceduo_batch_question(a, file, NULL);
+    q.rocks = q.run.rocks_most = all->items[from].rocks;
+    double seconds = 0;
+    struct ceduo_pool *pool;
+    enum ceduo_status made = ceduo_pool_create(&q.run, &pool);
+    if (made == CEDUO_OK)
+        made = ceduo_pool_fill(pool);
+    enum exit_status status = made == CEDUO_OK ? adopt(all, from, end, pool, &seconds)
                               : made == CEDUO_NO_MEMORY ? out_of_memory(&all->items[from])
                                                         : unusable(all, &all->items[from]);
     if (status == EXIT_DONE)
-        status = ceduo_batch_report(a, file, stands ? unflown : pool, &to, 0, out);
+        status = ceduo_print_report(a, file, &q, &pool, seconds, out);
     ceduo_pool_free(pool);
-    ceduo_pool_free(unflown);
     return status;
 }
 
@@ -323,7 +315,7 @@ enum exit_status ceduo_batch_merge(const struct arguments *a)
     for (size_t i = 0; all.texts && i < a->scenes_count && !atomic_load(ceduo_interrupt_flag()); i++)
         read_file(&all, a->scenes[i]);
     if (!all.texts || all.no_memory) {
-        ceduo_batch_complain("ceduo", _("out of memory"));
+        ceduo_say_why("ceduo", _("out of memory"));
         status = EXIT_RUN;
     } else if (all.n > 0) {
         give_one_name(&all);
@@ -335,7 +327,7 @@ enum exit_status ceduo_batch_merge(const struct arguments *a)
     if (status == EXIT_DONE)
         status = join_all(&all, a, &out);
     if (!out.failed && out.length > 0 && status <= EXIT_RUN && !atomic_load(ceduo_interrupt_flag())) {
-        enum exit_status written = ceduo_batch_write(a, &out);
+        enum exit_status written = ceduo_output_write(a, &out);
         status = written > status ? written : status;
     }
     ceduo_text_free(&out);

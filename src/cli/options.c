@@ -10,6 +10,7 @@
 #include "ceduo/scene.h"
 #include "ceduo/years.h"
 #include "io/part_file.h"
+#include "say.h"
 #include "usage.h"
 
 #define WIDTH_LEAST  20
@@ -297,6 +298,13 @@ bool ceduo_option_given(const struct arguments *a, const char *name)
         if (strcmp(rows[i].name, name) == 0)
             return (a->given >> i & 1) != 0;
     return false;
+}
+
+enum ceduo_charset ceduo_option_charset(const struct arguments *a)
+{
+    if (ceduo_option_given(a, "charset"))
+        return a->charset;
+    return ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII;
 }
 
 /* A list or a check goes before what is computed, help goes before all; of two alike the first one counts. */

@@ -27,6 +27,9 @@ const struct option_row *ceduo_option_rows(size_t *n);
 /* Whether the option of this name stands on the command line. */
 bool ceduo_option_given(const struct arguments *arguments, const char *name);
 
+/* --charset, or what the locale can show. */
+enum ceduo_charset ceduo_option_charset(const struct arguments *arguments);
+
 /* Sets what an option asks for. EXIT_DONE, or another status once the reason is told. */
 enum exit_status ceduo_option_set(struct arguments *arguments, const struct option_row *row, char *value);
 

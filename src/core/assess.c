@@ -3,17 +3,11 @@
 
 #include <math.h>
 
-static double mean_diameter(const struct ceduo_scene *scene)
-{
-    struct ceduo_rock rock;
-    return ceduo_rock_of_means(&scene->rock, &rock) == CEDUO_OK ? rock.mean_diameter : NAN;
-}
-
 /* The figures that need only stand and rock; per metre of belt. */
 static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *scene, const struct ceduo_stand *stand,
                                                    double length)
 {
-    double b = mean_diameter(scene);
+    double b = ceduo_rock_mean(&scene->rock).mean_diameter;
     bool bare = ceduo_stand_is_bare(stand);
     enum ceduo_rule rule = ceduo_adc_rule(stand, b, scene->simulation.rule);
     struct ceduo_adc adc = bare ? (struct ceduo_adc){INFINITY, INFINITY, INFINITY, INFINITY} : ceduo_adc(stand, b);
@@ -95,8 +89,7 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     index.energy = CEDUO_UNKNOWN;
     index.exhausted = bare_mean < index.dissipated;
     index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);
-    struct ceduo_rock rock;
-    bool known = ceduo_rock_of_means(&scene->rock, &rock) == CEDUO_OK;
-    index.measured = known ? 0.5 * rock.mass * control->measured_speed * control->measured_speed : NAN;
+    index.measured =
+        0.5 * ceduo_rock_mean(&scene->rock).mass * control->measured_speed * control->measured_speed;
     return index;
 }

@@ -16,6 +16,8 @@ struct pooled {
 struct ceduo_pool {
     struct ceduo_run_def def;
     struct ceduo_scene scene;
+    uint64_t scene_key;
+    bool filled;
     size_t count, room;
     struct pooled *runs;
     uint64_t reused, asked;
@@ -34,6 +36,7 @@ enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct cedu
     pool->def = *def;
     pool->scene = *def->scene;
     pool->def.scene = &pool->scene;
+    pool->scene_key = ceduo_scene_key(def->scene);
     bool wooded = def->scene->simulation.contact_model != CEDUO_INDEX;
     pool->def.exact_bytes /= wooded ? def->scene->options_count + 1 : 1;
     *out = pool;
@@ -48,6 +51,16 @@ void ceduo_pool_free(struct ceduo_pool *pool)
         ceduo_run_free(pool->runs[i].run);
     free(pool->runs);
     free(pool);
+}
+
+enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool)
+{
+    if (*pool && (*pool)->scene_key == ceduo_scene_key(def->scene)) {
+        ceduo_pool_turn(*pool, def->scene);
+        return CEDUO_OK;
+    }
+    ceduo_pool_free(*pool);
+    return ceduo_pool_create(def, pool);
 }
 
 static enum ceduo_status add_run(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t key,
@@ -95,6 +108,13 @@ enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_opt
     return CEDUO_OK;
 }
 
+enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
+                                 struct ceduo_run **run)
+{
+    enum ceduo_status status = ceduo_pool_run(pool, option, run);
+    return status == CEDUO_OK ? ceduo_run_extend(*run, rocks) : status;
+}
+
 static bool is_needed(const struct ceduo_pool *pool, uint64_t key)
 {
     for (size_t i = 0; i < pool->scene.options_count; i++)
@@ -138,6 +158,8 @@ static size_t spare_runs(const struct ceduo_pool *pool)
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
 {
     pool->scene = *scene;
+    for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_INDEX; i++)
+        pool->filled &= ceduo_pool_find(pool, &scene->options[i]) != NULL;
     for (size_t spare = spare_runs(pool); spare > CEDUO_POOL_SPARE; spare--)
         drop_oldest(pool);
 }
@@ -161,11 +183,12 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
     bool wooded = pool->scene.simulation.contact_model != CEDUO_INDEX;
     enum ceduo_status status = CEDUO_OK;
     struct ceduo_run *run;
-    for (size_t i = 0; i < pool->scene.options_count && status == CEDUO_OK; i++) {
+    for (size_t i = 0; i < pool->scene.options_count && status == CEDUO_OK && !pool->filled; i++) {
         status = ceduo_pool_run(pool, NULL, &run);
         if (status == CEDUO_OK && wooded)
             status = ceduo_pool_run(pool, &pool->scene.options[i], &run);
     }
+    pool->filled = status == CEDUO_OK;
     return status;
 }
 

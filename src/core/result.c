@@ -26,6 +26,18 @@ enum ceduo_status ceduo_flown_read(const struct ceduo_run *run, size_t controls,
     return status;
 }
 
+/* Of a run that is not there nothing is known. */
+static enum ceduo_status read_if_there(const struct ceduo_run *run, size_t controls, struct ceduo_flown *f)
+{
+    if (run)
+        return ceduo_flown_read(run, controls, f);
+    if (!allocate_flown(f, controls))
+        return CEDUO_NO_MEMORY;
+    for (size_t c = 0; c < controls; c++)
+        f->arrivals[c].energy = ceduo_distribution_none();
+    return CEDUO_OK;
+}
+
 enum ceduo_status ceduo_flown_copy(const struct ceduo_flown *from, struct ceduo_flown *to)
 {
     if (!allocate_flown(to, from->controls))
@@ -99,7 +111,7 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
     r->scene = scene;
     r->wooded = scene->simulation.contact_model != CEDUO_INDEX;
     r->options = calloc(scene->options_count + 1, sizeof *r->options);
-    ceduo_rock_of_means(&scene->rock, &r->rock); /* which is good: rocks were flown */
+    r->rock = ceduo_rock_mean(&scene->rock);
     bool good = r->options && ceduo_flown_copy(bare, &r->bare) == CEDUO_OK;
     if (good)
         r->options_count = scene->options_count;
@@ -129,11 +141,11 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
     bool room = wooded && all && differences;
     const struct ceduo_run *baseline = ceduo_pool_find(pool, &scene->options[0]);
     enum ceduo_status status =
-        room ? ceduo_flown_read(ceduo_pool_find(pool, NULL), controls, &bare) : CEDUO_NO_MEMORY;
+        room ? read_if_there(ceduo_pool_find(pool, NULL), controls, &bare) : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = ceduo_pool_find(pool, &scene->options[i]);
-        all[i] = &wooded[i];
-        status = ceduo_flown_read(run, controls, &wooded[i]);
+        all[i] = run ? &wooded[i] : NULL;
+        status = read_if_there(run, controls, &wooded[i]);
         for (size_t c = 0; c < controls; c++)
             differences[i * controls + c] = ceduo_run_difference(run, baseline, c);
     }

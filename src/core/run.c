@@ -41,7 +41,7 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
             return status;
         choose_chunk(run, (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), ceduo_clock() - start);
         if (run->def.progress)
-            run->def.progress(run->def.context, run->rocks);
+            run->def.progress(run->def.context, run->rocks - run->first);
     }
     return CEDUO_OK;
 }

@@ -117,11 +117,11 @@ static struct ceduo_paired paired(double mean, const struct ceduo_moments *m, ui
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control)
 {
+    const struct ceduo_paired unknown = {NAN, NAN};
+    if (!run || !baseline || run->rocks != baseline->rocks)
+        return (struct ceduo_difference){unknown, unknown, unknown};
     struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};
     double accepted = run->ready.scene.controls[control].accepted, n = (double)run->rocks;
-    const struct ceduo_paired unknown = {NAN, NAN};
-    if (run->rocks != baseline->rocks)
-        return (struct ceduo_difference){unknown, unknown, unknown};
     uint64_t a = paired_rocks(run), b = paired_rocks(baseline), rocks = a < b ? a : b;
     for (uint64_t r = 0; r < rocks; r++) {
         double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/way.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,8 +81,7 @@ enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct
                                    const struct ceduo_watch *watch, struct ceduo_way *way,
                                    struct ceduo_crossing *crossings)
 {
-    struct ceduo_rock mean;
-    if (ceduo_rock_of_means(&scene->rock, &mean) != CEDUO_OK)
+    if (isnan(ceduo_rock_mean(&scene->rock).mass))
         return CEDUO_BAD_ROCK;
     struct ceduo_follower *f = ceduo_follower_create(scene, option);
     if (!f)

@@ -119,9 +119,7 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
     for (size_t i = 0; i < years->count; i++) {
         struct ceduo_year *y = &years->years[i];
         struct ceduo_run *run;
-        enum ceduo_status status = flies ? ceduo_pool_run(pool, &y->option, &run) : CEDUO_OK;
-        if (flies && status == CEDUO_OK)
-            status = ceduo_run_extend(run, rocks);
+        enum ceduo_status status = flies ? ceduo_pool_fly(pool, &y->option, rocks, &run) : CEDUO_OK;
         if (flies && status == CEDUO_OK) {
             ceduo_flown_free(&y->wooded);
             status = ceduo_flown_read(run, scene->controls_count, &y->wooded);

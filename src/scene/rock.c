@@ -83,6 +83,12 @@ enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct c
     return rock_from_sizes(def->shape, &s, rock);
 }
 
+struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def)
+{
+    struct ceduo_rock rock;
+    return ceduo_rock_of_means(def, &rock) == CEDUO_OK ? rock : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
 bool ceduo_rock_varies(const struct ceduo_rock_def *def)
 {
     const struct ceduo_number *n[] = {&def->diameter, &def->height,  &def->volume,  &def->mass,

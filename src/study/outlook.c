@@ -264,11 +264,8 @@ static void read_differences(const struct ceduo_outlook_def *def, struct ceduo_o
     const struct ceduo_scene *scene = def->scene;
     const struct ceduo_run *run = longest_run(def, &scene->options[option]);
     const struct ceduo_run *baseline = longest_run(def, &scene->options[0]);
-    const struct ceduo_paired unknown = {NAN, NAN};
     for (size_t c = 0; c < o->controls; c++)
-        o->differences[option * o->controls + c] = run && baseline
-                                                       ? ceduo_run_difference(run, baseline, c)
-                                                       : (struct ceduo_difference){unknown, unknown, unknown};
+        o->differences[option * o->controls + c] = ceduo_run_difference(run, baseline, c);
 }
 
 enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook)

@@ -37,8 +37,8 @@ static void put_scene(struct pen *pen)
 {
     const struct ceduo_scene *s = &pen->app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(pen->app);
-    struct ceduo_rock rock;
-    if (ceduo_rock_of_means(&s->rock, &rock) == CEDUO_OK)
+    struct ceduo_rock rock = ceduo_rock_mean(&s->rock);
+    if (!isnan(rock.mass))
         line(pen, CEDUO_ROLE_TEXT, _("Rock  %.3g m  %.4g kg%s"), rock.mean_diameter, rock.mass,
              ceduo_scene_assumes(&pen->app->document.file, "rock") ? "*" : "");
     line(pen, CEDUO_ROLE_TEXT, _("Wood  %s%s"), s->options_count > 1 ? o->name : o->belts_count ? o->belts[0].name : _("none"),

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 3: the rock, how it starts, and how it is computed. */
+#include <math.h>
+
 #include "app.h"
 #include "base/intl.h"
 
@@ -45,9 +47,9 @@ static void build(struct app *app, struct form *form)
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    struct ceduo_rock rock;
+    struct ceduo_rock rock = ceduo_rock_mean(&app->document.file.scene.rock);
     ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - 3}, true);
-    if (ceduo_rock_of_means(&app->document.file.scene.rock, &rock) != CEDUO_OK)
+    if (isnan(rock.mass))
         return;
     struct text text = {0};
     ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2; the lumped law knows neither "

@@ -152,14 +152,6 @@ bool ceduo_plot_has_stems(const struct ceduo_option *option)
     return false;
 }
 
-struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene)
-{
-    struct ceduo_rock rock;
-    if (ceduo_rock_of_means(&scene->rock, &rock) != CEDUO_OK)
-        rock = (struct ceduo_rock){.mean_diameter = NAN};
-    return rock;
-}
-
 void ceduo_plot_stretch(const struct ceduo_picture *p, double *from, double *to)
 {
     const struct ceduo_slope *slope = &p->scene->slope;

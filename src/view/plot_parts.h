@@ -50,9 +50,6 @@ bool ceduo_plot_wooded(const struct ceduo_picture *picture);
 /* Whether any stem stands in the option's belts. */
 bool ceduo_plot_has_stems(const struct ceduo_option *option);
 
-/* The rock whose sizes are the means; mean diameter NaN where the scene has none. */
-struct ceduo_rock ceduo_plot_rock(const struct ceduo_scene *scene);
-
 /* The stretch of slope to show. */
 void ceduo_plot_stretch(const struct ceduo_picture *picture, double *from, double *to);
 

@@ -302,7 +302,7 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
     struct plan p = {
         .canvas = canvas,
         .stand = &belt->stand,
-        .strip = ceduo_plot_rock(picture->scene).mean_diameter,
+        .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
         .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
     if (!ceduo_frame_true_scale(&p.frame, canvas->charset, 0, PATCH_M, 0, 0))
         return;

@@ -69,12 +69,6 @@ __attribute__((format(printf, 3, 4))) static void say_format(say_function *say, 
     ceduo_text_free(&sentence);
 }
 
-static double rock_diameter(const struct ceduo_scene *scene)
-{
-    struct ceduo_rock rock;
-    return ceduo_rock_of_means(&scene->rock, &rock) == CEDUO_OK ? rock.mean_diameter : NAN;
-}
-
 /* How many kinds of stem have a volume by form factor, and the first of them. */
 static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ceduo_stems **first)
 {
@@ -95,7 +89,7 @@ static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_bel
                          const struct ceduo_stand_result *r, say_function *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    double b = rock_diameter(scene), per_stool = ceduo_stand_shoots(s) / s->stools_per_ha;
+    double b = ceduo_rock_mean(&scene->rock).mean_diameter, per_stool = ceduo_stand_shoots(s) / s->stools_per_ha;
     if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
         say_format(say, context,
                    _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "

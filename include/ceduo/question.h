@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_QUESTION_H
+#define CEDUO_QUESTION_H
+
+#include "blocks.h"
+#include "years.h"
+
+/* One way to ask for runs: fly this scene so far, and read it.
+ *
+ *     struct ceduo_question question = ceduo_question_default(&scene);
+ *     struct ceduo_answer answer;
+ *     question.rocks = question.run.rocks_most = 10000;
+ *     if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK)
+ *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach_probability);
+ *     ceduo_answer_release(&answer); */
+struct ceduo_question {
+    struct ceduo_run_def run; /* the scene, and how its rocks are flown; its option is not looked at */
+    uint64_t rocks;           /* in each run; 0: none, for what stands and index say without */
+    double tolerance;         /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
+    size_t only;              /* the run of this option alone: through its forest, by the index without forest. Of what
+                               * was not flown nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
+    bool years;               /* each option year by year, with as many rocks */
+    unsigned year_first, year_last, year_step;
+    uint64_t block_rocks; /* > 0: blocks of other sizes to the last control, at the most so many of each */
+};
+#define CEDUO_ALL_OPTIONS SIZE_MAX
+
+/* All options of the scene, as many rocks as it says, no years, no other sizes. */
+struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene);
+
+struct ceduo_answer {
+    struct ceduo_result *result;
+    bool tolerance_met;
+    struct ceduo_years **years; /* one for each option; NULL: not asked for */
+    struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: not asked for, or the rock has no other sizes */
+    struct ceduo_work work;     /* of all runs of the pool; without the blocks */
+};
+
+/* `pool` (may be NULL) keeps the runs from one question to the next, see ceduo_pool_for(): *pool is NULL at first, and
+ * the caller's to free. What the scene points to must outlive answer and pool. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what
+ * ceduo_scene_check() says: then the answer is empty. Release it in any case. */
+enum ceduo_status ceduo_ask(const struct ceduo_question *question, struct ceduo_pool **pool,
+                            struct ceduo_answer *answer);
+void ceduo_answer_release(struct ceduo_answer *answer);
+
+/* Part 1…parts of the runs of a question as bytes, for the caller to free; see part.h. */
+enum ceduo_status ceduo_ask_part(const struct ceduo_question *question, uint64_t part, uint64_t parts,
+                                 unsigned char **bytes, size_t *n);
+
+#endif

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "output.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/intl.h"
+#include "interrupt.h"
+#include "io/file.h"
+#include "say.h"
+
+static bool write_stdout(const char *bytes, size_t n)
+{
+    while (n > 0) {
+        ssize_t done = write(STDOUT_FILENO, bytes, n);
+        if (done < 0 && errno == EINTR && !atomic_load(ceduo_interrupt_flag()))
+            continue;
+        if (done < 0)
+            return false;
+        bytes += done;
+        n -= (size_t)done;
+    }
+    return true;
+}
+
+/* First what the open file `before` holds (-1: nothing). */
+static enum exit_status write_after(int before, const struct arguments *a, const struct text *text)
+{
+    if (ceduo_text_lost() || text->failed) {
+        ceduo_say_why("ceduo", _("out of memory"));
+        return EXIT_RUN;
+    }
+    const char *bytes = text->bytes ? text->bytes : "";
+    bool good =
+        a->output ? ceduo_file_write_after(before, a->output, bytes, text->length) : write_stdout(bytes, text->length);
+    if (good)
+        return EXIT_DONE;
+    ceduo_say_why(a->output ? a->output : _("standard output"), strerror(errno));
+    return EXIT_OUTPUT;
+}
+
+enum exit_status ceduo_output_write(const struct arguments *a, const struct text *text)
+{
+    return write_after(-1, a, text);
+}
+
+bool ceduo_output_is(const struct arguments *a, const char *path)
+{
+    if (!a->output || !path || !ceduo_file_same(a->output, path))
+        return false;
+    ceduo_say_why(a->output, _("it is read in this run; write elsewhere"));
+    return true;
+}
+
+bool ceduo_output_check(const struct arguments *a)
+{
+    struct arena arena = {0};
+    bool good = !a->output || ceduo_file_can_write(a->output);
+    if (!good)
+        ceduo_say_why(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
+    if (a->output && good)
+        ceduo_file_tidy(a->output);
+    for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
+        const char *path = a->scenes[i];
+        if (a->mode != MODE_MERGE && strcmp(path, "-") != 0)
+            path = ceduo_file_find(&arena, path, NULL, "scenes");
+        good = !ceduo_output_is(a, path);
+    }
+    ceduo_arena_free(&arena);
+    return good;
+}
+
+/* ---- results of several scenes ---- */
+
+#define HELD_MOST ((size_t)256 * 1024) /* bytes of results that wait in memory */
+
+/* Results that wait for the last scene go into a nameless file once they are large, so that thousands of scenes need no
+ * more memory than one. Where there is no room for such a file they stay in memory. */
+static void set_aside(struct output *o)
+{
+    if (o->text.failed || o->text.length < HELD_MOST)
+        return;
+    if (!o->spool && (o->spool = tmpfile()))
+        setvbuf(o->spool, NULL, _IONBF, 0);
+    long end = o->spool ? ftell(o->spool) : -1;
+    if (end < 0)
+        return;
+    if (fwrite(o->text.bytes, 1, o->text.length, o->spool) == o->text.length)
+        o->text.length = 0;
+    else if (fseek(o->spool, end, SEEK_SET) != 0 || ftruncate(fileno(o->spool), end) != 0)
+        o->text.failed = true;
+}
+
+enum exit_status ceduo_output_next(struct output *o)
+{
+    enum exit_status status = EXIT_DONE;
+    if (o->arguments->output) {
+        set_aside(o);
+    } else if ((o->text.length > 0 || o->text.failed) && !atomic_load(ceduo_interrupt_flag())) {
+        status = ceduo_output_write(o->arguments, &o->text);
+        o->text.length = 0;
+    }
+    return status;
+}
+
+enum exit_status ceduo_output_end(struct output *o, bool writes)
+{
+    bool waits = o->arguments->output && (writes || o->text.failed);
+    enum exit_status status = waits ? write_after(o->spool ? fileno(o->spool) : -1, o->arguments, &o->text) : EXIT_DONE;
+    if (o->spool)
+        fclose(o->spool);
+    ceduo_text_free(&o->text);
+    return status;
+}

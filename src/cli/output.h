@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_OUTPUT_H
+#define CEDUO_OUTPUT_H
+
+#include <stdio.h>
+
+#include "arguments.h"
+#include "base/text.h"
+
+/* Whether it can be written to where --output says, as far as that can be told, and that is none of the files given;
+ * says why not. */
+bool ceduo_output_check(const struct arguments *arguments);
+
+/* Whether --output is this file, by whatever name. Says so. */
+bool ceduo_output_is(const struct arguments *arguments, const char *path);
+
+/* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
+enum exit_status ceduo_output_write(const struct arguments *arguments, const struct text *text);
+
+/* Results of several scenes: each is written as soon as it is there, with --output all at the end. */
+struct output {
+    const struct arguments *arguments;
+    struct text text; /* not yet written */
+    FILE *spool;      /* what came before it, where that is large; NULL: nothing */
+};
+enum exit_status ceduo_output_next(struct output *output);
+/* `writes`: what waits for the end. Releases the output in any case. */
+enum exit_status ceduo_output_end(struct output *output, bool writes);
+
+#endif

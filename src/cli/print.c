@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "print.h"
+
+#include <stdlib.h>
+
+#include "base/clock.h"
+#include "base/intl.h"
+#include "interrupt.h"
+#include "options.h"
+#include "say.h"
+#include "study/outlook.h"
+
+/* ---- pages ---- */
+
+static void write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
+{
+    if (a->format == CEDUO_JSON) {
+        ceduo_report_json(out, report);
+        return;
+    }
+    if (a->format == CEDUO_CSV) {
+        ceduo_text_put(out, ""); /* without stands no row, but the header */
+        ceduo_report_csv(out, report, a->stands);
+        return;
+    }
+    struct text page = {0};
+    bool plain = !ceduo_say_utf8();
+    ceduo_report_table(&page, report, plain);
+    if (plain)
+        ceduo_say_plainly(&page);
+    if (page.bytes)
+        ceduo_text_add(out, page.bytes, page.length);
+    out->failed |= page.failed;
+    ceduo_text_free(&page);
+}
+
+#define BLOCK_ROCKS 2000 /* of each size at the most: a page shows no more digits */
+
+/* Of 1000 rocks at most one may be unfinished. */
+static enum exit_status finished(const struct ceduo_result *result)
+{
+    return ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result) ? EXIT_RUN : EXIT_DONE;
+}
+
+enum exit_status ceduo_print_report(const struct arguments *a, const struct scene_file *file, struct ceduo_question *q,
+                                    struct ceduo_pool **pool, double seconds, struct text *out)
+{
+    struct progress progress = ceduo_progress_begin(a);
+    struct ceduo_answer answer;
+    uint64_t rocks = q->rocks;
+    bool stands = a->stands && a->format == CEDUO_CSV; /* what is asked of the stands no rock answers */
+    q->rocks = stands ? 0 : rocks;
+    q->run.progress = ceduo_progress_show;
+    q->run.context = &progress;
+    q->block_rocks = a->format == CEDUO_TABLE && !a->years ? BLOCK_ROCKS : 0;
+    enum ceduo_status status = ceduo_ask(q, stands ? NULL : pool, &answer);
+    ceduo_progress_end(&progress);
+    if (status != CEDUO_OK)
+        return ceduo_batch_failed(file, status);
+    const struct ceduo_report report = {.file = file,
+                                        .result = answer.result,
+                                        .years = answer.years,
+                                        .blocks = answer.blocks,
+                                        .work = answer.work,
+                                        .seconds = seconds < 0 ? ceduo_clock() - progress.start : seconds,
+                                        .rocks_asked = stands ? rocks : 0,
+                                        .remarks = {q->tolerance, answer.tolerance_met, file->ground_assumed}};
+    write_report(a, &report, out);
+    enum exit_status done = finished(answer.result);
+    ceduo_answer_release(&answer);
+    return done;
+}
+
+/* ---- pictures ---- */
+
+#define PLOT_WIDTH  80
+#define PLOT_HEIGHT 24
+
+/* `start`: where this scene's pictures begin; a blank line stands between two. */
+static void add_plot(const struct arguments *a, const struct ceduo_picture *picture, size_t start, struct text *out)
+{
+    int width = a->plot_width > 0 ? a->plot_width : PLOT_WIDTH;
+    int height = a->plot_width > 0 ? a->plot_height : PLOT_HEIGHT;
+    struct ceduo_canvas *canvas = ceduo_canvas_create(width, height, ceduo_option_charset(a));
+    struct ceduo_area area = {.top = 1, .width = width, .height = height - 1};
+    struct text title = {0};
+    ceduo_plot_title(&title, a->plot, picture);
+    char *rows = NULL;
+    if (canvas) {
+        ceduo_plot_draw(a->plot, canvas, &area, picture);
+        ceduo_canvas_label(canvas, 0, 0, CEDUO_ROLE_TITLE, title.bytes ? title.bytes : "");
+        rows = ceduo_canvas_dump(canvas);
+    }
+    if (out->length > start)
+        ceduo_text_char(out, '\n');
+    ceduo_text_put(out, rows ? rows : "");
+    out->failed |= !rows || title.failed;
+    free(rows);
+    ceduo_text_free(&title);
+    ceduo_canvas_free(canvas);
+}
+
+/* One picture for each option, belt or control that it depends on. */
+static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_outlook *outlook,
+                      struct ceduo_years *const *years, struct text *out)
+{
+    struct ceduo_picture picture = {.scene = scene, .outlook = outlook, .control = ceduo_plot_last_control(scene)};
+    size_t start = out->length;
+    size_t options = ceduo_plot_by_option(a->plot) ? scene->options_count : 1;
+    for (size_t o = 0; o < options; o++) {
+        size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
+        size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
+        picture.option = o;
+        picture.years = years ? years[o] : NULL;
+        picture.year = SIZE_MAX;
+        for (size_t k = 0; k == 0 || k < belts || k < controls; k++) {
+            picture.belt = k;
+            picture.control = controls > 0 ? k : picture.control;
+            add_plot(a, &picture, start, out);
+        }
+    }
+}
+
+static enum ceduo_status add_flown_plots(const struct arguments *a, const struct ceduo_question *q,
+                                         struct ceduo_pool **pool, struct text *out, enum exit_status *done)
+{
+    struct ceduo_answer answer;
+    struct ceduo_outlook *outlook = NULL;
+    enum ceduo_status status = ceduo_ask(q, pool, &answer);
+    const struct ceduo_outlook_def def = {.scene = q->run.scene,
+                                          .figures = *pool,
+                                          .pictures = *pool,
+                                          .cells = q->run.cells,
+                                          .cell_x = q->run.cell_x,
+                                          .trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0,
+                                          .cancel = q->run.cancel};
+    if (status == CEDUO_OK)
+        status = ceduo_outlook_create(&def, &outlook);
+    if (status == CEDUO_OK) {
+        add_plots(a, q->run.scene, outlook, answer.years, out);
+        *done = finished(answer.result);
+    }
+    ceduo_outlook_free(outlook);
+    ceduo_answer_release(&answer);
+    return status;
+}
+
+enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene_file *file, struct text *out)
+{
+    if (!ceduo_plot_needs_run(a->plot)) {
+        add_plots(a, &file->scene, NULL, NULL, out);
+        return EXIT_DONE;
+    }
+    struct progress progress = ceduo_progress_begin(a);
+    struct ceduo_question q = ceduo_batch_question(a, file, &progress);
+    struct ceduo_pool *pool = NULL;
+    double cell_x[CEDUO_OUTLOOK_CELLS];
+    enum exit_status done = EXIT_DONE;
+    q.run.cells = ceduo_plot_needs_cells(a->plot) ? ceduo_outlook_places(&file->scene, cell_x) : 0;
+    q.run.cell_x = cell_x;
+    if (a->plot == CEDUO_PLOT_ROTATION && !a->years) {
+        q.years = true;
+        q.year_last = ceduo_years_usual(&file->scene);
+        q.year_step = 1;
+    }
+    enum ceduo_status status = add_flown_plots(a, &q, &pool, out, &done);
+    ceduo_progress_end(&progress);
+    ceduo_pool_free(pool);
+    return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);
+}

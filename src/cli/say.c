@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "say.h"
+
+#include <langinfo.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/intl.h"
+
+bool ceduo_say_utf8(void)
+{
+    return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+}
+
+/* What is written in place of the signs that the program itself uses; none is longer. */
+static const char *const plain_signs[][2] = {
+    {"\xe2\x80\xa6", "..."}, {"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
+
+/* For a terminal that knows ASCII alone: what it cannot show otherwise becomes a question mark. */
+static void make_plain(struct text *text)
+{
+    size_t to = 0;
+    for (size_t i = 0; i < text->length; i++) {
+        unsigned char c = (unsigned char)text->bytes[i];
+        size_t sign = 0;
+        while (sign < 4 && strncmp(text->bytes + i, plain_signs[sign][0], strlen(plain_signs[sign][0])) != 0)
+            sign++;
+        if (sign < 4) {
+            size_t n = strlen(plain_signs[sign][1]);
+            memcpy(text->bytes + to, plain_signs[sign][1], n);
+            to += n;
+            i += strlen(plain_signs[sign][0]) - 1;
+        } else if (c < 0x80) {
+            text->bytes[to++] = text->bytes[i];
+        } else if ((c & 0xc0) != 0x80) {
+            text->bytes[to++] = '?';
+        }
+    }
+    text->length = to;
+    if (text->bytes)
+        text->bytes[to] = '\0';
+}
+
+void ceduo_say_plainly(struct text *text)
+{
+    if (!ceduo_say_utf8())
+        make_plain(text);
+}
+
+void ceduo_say(struct text *text)
+{
+    ceduo_say_plainly(text);
+    if (text->bytes)
+        fputs(text->bytes, stderr);
+    if (text->failed)
+        fputs(_("ceduo: out of memory\n"), stderr); /* what was to be said is cut short */
+}
+
+void ceduo_say_why(const char *what, const char *why)
+{
+    struct text line = {0};
+    ceduo_text_safe(&line, what);
+    ceduo_text_put(&line, ": ");
+    ceduo_text_safe(&line, why);
+    ceduo_text_char(&line, '\n');
+    ceduo_say(&line);
+    ceduo_text_free(&line);
+}

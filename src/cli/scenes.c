@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scenes.h"
+
+#include <string.h>
+
+#include "base/intl.h"
+#include "interrupt.h"
+#include "io/file.h"
+#include "output.h"
+#include "say.h"
+
+/* ---- reading ---- */
+
+static bool is_wanted(const struct arguments *a, const char *name)
+{
+    for (size_t i = 0; name && i < a->options_count; i++)
+        if (strcmp(a->options[i], name) == 0)
+            return true;
+    return false;
+}
+
+enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char *name)
+{
+    struct text message = {0};
+    ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: "), name, file->path);
+    for (size_t i = 0; i < file->scene.options_count; i++)
+        ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", file->scene.options[i].name);
+    ceduo_say_why("ceduo", message.bytes ? message.bytes : "");
+    ceduo_text_free(&message);
+    return EXIT_USAGE;
+}
+
+/* Keeps only the options that were asked for, in the scene's order. */
+enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file *file)
+{
+    for (size_t i = 0; i < a->options_count; i++) {
+        bool found = false;
+        for (size_t k = 0; k < file->scene.options_count; k++)
+            found |= strcmp(file->scene.options[k].name, a->options[i]) == 0;
+        if (!found)
+            return ceduo_batch_no_option(file, a->options[i]);
+    }
+    const struct node *list = ceduo_node_get(file->root, "options");
+    if (a->options_count == 0 || !list)
+        return EXIT_DONE;
+    for (size_t k = list->n; list && k-- > 0;)
+        if (!is_wanted(a, ceduo_node_text(list->items[k], "name")))
+            list = ceduo_node_removed(&file->arena, list, k);
+    const struct node *root = list ? ceduo_node_with(&file->arena, file->root, "options", list) : NULL;
+    struct problems problems = {0};
+    file->root = root;
+    bool good = root && ceduo_scene_bind(file, &problems);
+    ceduo_problems_free(&problems);
+    return good ? EXIT_DONE : EXIT_RUN;
+}
+
+enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct shelf *shelf,
+                                  struct scene_file *file)
+{
+    struct problems problems = {0};
+    struct shelf own = {0}; /* what is read from the disk, for -o */
+    bool good = ceduo_scene_read_by(file, shelf ? shelf : &own, path, a->sets, a->sets_count, &problems);
+    ceduo_problems_close(&problems);
+    ceduo_say(&problems.text);
+    enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
+    ceduo_problems_free(&problems);
+    const struct shelf *read = shelf ? shelf : &own;
+    for (const struct shelf_file *f = read->closed ? NULL : read->files; f && status != EXIT_OUTPUT; f = f->before)
+        if (ceduo_output_is(a, f->path))
+            status = EXIT_OUTPUT;
+    if (!shelf)
+        file->arena.shelf = NULL;
+    return status;
+}
+
+/* ---- asking ---- */
+
+/* -n, or with a tolerance alone as many as may be, or the scene's. */
+static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file *file)
+{
+    if (a->rocks > 0)
+        return a->rocks;
+    return a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
+}
+
+struct ceduo_question ceduo_batch_question(const struct arguments *a, const struct scene_file *file,
+                                           struct progress *progress)
+{
+    struct ceduo_question q = ceduo_question_default(&file->scene);
+    q.rocks = q.run.rocks_most = rocks_wanted(a, file);
+    q.tolerance = a->tolerance;
+    q.run.threads = a->threads;
+    q.run.cancel = ceduo_interrupt_flag();
+    q.run.progress = progress ? ceduo_progress_show : NULL;
+    q.run.context = progress;
+    q.years = a->years;
+    q.year_first = a->year_first;
+    q.year_last = a->year_last;
+    q.year_step = a->year_step;
+    return q;
+}
+
+enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status)
+{
+    if (status != CEDUO_CANCELLED)
+        ceduo_say_why(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
+    return EXIT_RUN;
+}

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/question.h"
+
+#include <stdlib.h>
+
+#include "ceduo/part.h"
+
+struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
+{
+    return (struct ceduo_question){
+        .run = ceduo_run_def_default(scene), .rocks = scene->simulation.rocks, .only = CEDUO_ALL_OPTIONS};
+}
+
+/* ---- flying ---- */
+
+static enum ceduo_status fly_one(const struct ceduo_question *q, struct ceduo_pool *pool)
+{
+    const struct ceduo_scene *scene = q->run.scene;
+    bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
+    struct ceduo_run *run;
+    return ceduo_pool_fly(pool, wooded ? &scene->options[q->only] : NULL, q->rocks, &run);
+}
+
+static enum ceduo_status fly_all(const struct ceduo_question *q, struct ceduo_pool *pool, bool *met)
+{
+    enum ceduo_status status = ceduo_pool_fill(pool);
+    if (status != CEDUO_OK)
+        return status;
+    return q->tolerance > 0 && q->rocks > 0 ? ceduo_pool_until(pool, q->tolerance, q->rocks, met)
+                                            : ceduo_pool_extend(pool, q->rocks);
+}
+
+static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
+{
+    const struct ceduo_scene *scene = q->run.scene;
+    const struct ceduo_flown *bare = &a->result->bare;
+    a->years = calloc(scene->options_count + 1, sizeof *a->years);
+    enum ceduo_status status = a->years ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
+        status = ceduo_years_create(scene, &scene->options[i], q->year_first, q->year_last, q->year_step, &a->years[i]);
+        if (status == CEDUO_OK)
+            status = ceduo_years_fly(a->years[i], pool, bare, bare->rocks);
+    }
+    return status;
+}
+
+/* So thin a splinter that a smaller one is no rock has no other sizes. */
+static enum ceduo_status fly_blocks(const struct ceduo_question *q, struct ceduo_answer *a)
+{
+    const struct ceduo_scene *scene = q->run.scene;
+    uint64_t flown = ceduo_result_rocks(a->result), rocks = flown < q->block_rocks ? flown : q->block_rocks;
+    a->blocks = calloc(scene->options_count * CEDUO_BLOCKS + 1, sizeof *a->blocks);
+    enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
+        status = ceduo_blocks(scene, &scene->options[i], a->result->last_control, rocks, q->run.threads, q->run.cancel,
+                              &a->blocks[i * CEDUO_BLOCKS]);
+    if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
+        return status;
+    free(a->blocks);
+    a->blocks = NULL;
+    return CEDUO_OK;
+}
+
+static enum ceduo_status answer_by(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
+{
+    enum ceduo_status status = q->only == CEDUO_ALL_OPTIONS ? fly_all(q, pool, &a->tolerance_met) : fly_one(q, pool);
+    if (status == CEDUO_OK)
+        status = ceduo_result_create(q->run.scene, pool, &a->result);
+    if (status == CEDUO_OK && q->years)
+        status = fly_years(q, pool, a);
+    a->work = ceduo_pool_work(pool);
+    if (status == CEDUO_OK && q->block_rocks > 0 && q->run.scene->controls_count > 0)
+        status = fly_blocks(q, a);
+    return status;
+}
+
+enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **kept, struct ceduo_answer *a)
+{
+    struct ceduo_pool *own = NULL, **pool = kept ? kept : &own;
+    *a = (struct ceduo_answer){0};
+    enum ceduo_status status = ceduo_pool_for(&q->run, pool);
+    if (status == CEDUO_OK)
+        status = answer_by(q, *pool, a);
+    ceduo_pool_free(own);
+    if (status != CEDUO_OK)
+        ceduo_answer_release(a);
+    return status;
+}
+
+void ceduo_answer_release(struct ceduo_answer *a)
+{
+    for (size_t i = 0; a->years && a->years[i]; i++)
+        ceduo_years_free(a->years[i]);
+    free(a->years);
+    free(a->blocks);
+    ceduo_result_free(a->result);
+    *a = (struct ceduo_answer){0};
+}
+
+enum ceduo_status ceduo_ask_part(const struct ceduo_question *q, uint64_t part, uint64_t parts, unsigned char **bytes,
+                                 size_t *n)
+{
+    struct ceduo_run_def def = q->run;
+    struct ceduo_pool *pool;
+    uint64_t end;
+    def.part = true;
+    ceduo_part_range(def.rocks_most, part, parts, &def.first, &end);
+    enum ceduo_status status = ceduo_pool_create(&def, &pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_fill(pool);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_extend(pool, end);
+    *bytes = NULL;
+    if (status == CEDUO_OK)
+        status = ceduo_pool_save(pool, bytes, n);
+    ceduo_pool_free(pool);
+    return status;
+}
