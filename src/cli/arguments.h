@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "study/goal.h"
+#include "view/cells.h"
 #include "view/plot.h"
 #include "view/report.h"
 

@@ -81,15 +81,15 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
 {
     int width = a->plot_width > 0 ? a->plot_width : PLOT_WIDTH;
     int height = a->plot_width > 0 ? a->plot_height : PLOT_HEIGHT;
-    struct ceduo_canvas *canvas = ceduo_canvas_create(width, height, ceduo_option_charset(a));
+    struct ceduo_cells *cells = ceduo_cells_create(width, height, ceduo_option_charset(a));
     struct ceduo_area area = {.top = 1, .width = width, .height = height - 1};
     struct text title = {0};
     ceduo_plot_title(&title, a->plot, picture);
     char *rows = NULL;
-    if (canvas) {
-        ceduo_plot_draw(a->plot, canvas, &area, picture);
-        ceduo_canvas_label(canvas, 0, 0, CEDUO_ROLE_TITLE, title.bytes ? title.bytes : "");
-        rows = ceduo_canvas_dump(canvas);
+    if (cells) {
+        ceduo_plot_draw(a->plot, &cells->canvas, &area, picture);
+        ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TITLE, title.bytes ? title.bytes : "");
+        rows = ceduo_cells_dump(cells);
     }
     if (out->length > start)
         ceduo_text_char(out, '\n');
@@ -97,7 +97,7 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
     out->failed |= !rows || title.failed;
     free(rows);
     ceduo_text_free(&title);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
 }
 
 /* One picture for each option, belt or control that it depends on. */

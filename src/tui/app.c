@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/intl.h"
+#include "base/utf8.h"
 #include "model/alternatives.h"
 
 /* ---- saying things ---- */
@@ -277,7 +278,7 @@ void ceduo_app_free(struct app *app)
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_free(&app->views[v].form);
     ceduo_rock_way_free(&app->way);
-    ceduo_canvas_free(app->canvas);
+    ceduo_cells_free(app->cells);
     ceduo_document_close(&app->document);
     *app = (struct app){0};
 }
@@ -320,13 +321,13 @@ void ceduo_app_resize(struct app *app, int width, int height)
 {
     width = width < 1 ? 1 : width > CEDUO_CANVAS_MAX_WIDTH ? CEDUO_CANVAS_MAX_WIDTH : width;
     height = height < 1 ? 1 : height > CEDUO_CANVAS_MAX_HEIGHT ? CEDUO_CANVAS_MAX_HEIGHT : height;
-    struct ceduo_canvas *canvas = ceduo_canvas_create(width, height, app->charset);
-    if (!canvas) {
-        app->stopped = app->canvas == NULL;
+    struct ceduo_cells *cells = ceduo_cells_create(width, height, app->charset);
+    if (!cells) {
+        app->stopped = app->cells == NULL;
         return;
     }
-    ceduo_canvas_free(app->canvas);
-    app->canvas = canvas;
+    ceduo_cells_free(app->cells);
+    app->cells = cells;
     app->width = width;
     app->height = height;
 }
@@ -341,42 +342,19 @@ void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const 
     ceduo_text_vformat(&text, format, args);
     va_end(args);
     if (text.bytes)
-        ceduo_canvas_label(app->canvas, x, y, role, text.bytes);
+        ceduo_cells_label(app->cells, x, y, role, text.bytes);
     ceduo_text_free(&text);
-}
-
-/* One line of at most `columns`, broken at a blank where it can be; the bytes it takes. */
-static size_t line_length(const char *text, int columns)
-{
-    size_t n = 0, blank = 0;
-    int width = 0;
-    for (; text[n] && text[n] != '\n'; n++) {
-        if (((unsigned char)text[n] & 0xc0) == 0x80)
-            continue;
-        if (width == columns)
-            return blank > 0 ? blank : n;
-        if (text[n] == ' ')
-            blank = n;
-        width++;
-    }
-    return n;
 }
 
 int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
 {
     int lines = 0;
-    while (*text) {
-        size_t n = line_length(text, area.width);
-        char copy[1024];
-        size_t kept = n < sizeof copy - 1 ? n : sizeof copy - 1;
-        memcpy(copy, text, kept);
-        copy[kept] = '\0';
+    size_t width = area.width > 0 ? (size_t)area.width : 0;
+    for (const char *next; *text; text = next, lines++) {
+        bool goes_on = ceduo_utf8_width_of(text, strcspn(text, "\n")) > width; /* its last column stays free */
+        size_t n = ceduo_utf8_wrap(text, goes_on && width > 0 ? width - 1 : width, &next);
         if (lines >= skip && lines - skip < area.height)
-            ceduo_canvas_label(app->canvas, area.left, area.top + lines - skip, role, copy);
-        lines++;
-        text += n;
-        if (*text == '\n' || *text == ' ')
-            text++;
+            ceduo_app_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
     }
     return lines;
 }
@@ -384,6 +362,5 @@ int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused)
 {
     ceduo_app_state(app)->form_area = area;
-    ceduo_form_draw(ceduo_app_form(app), app->canvas, area.left, area.top, area.width, area.height, focused,
-                    app->editing ? app->line.text : NULL);
+    ceduo_form_draw(ceduo_app_form(app), app->cells, area, focused, app->editing ? app->line.text : NULL);
 }

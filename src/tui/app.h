@@ -8,12 +8,12 @@
 #include "line.h"
 #include "model/document.h"
 #include "rock_way.h"
-#include "view/canvas.h"
+#include "view/cells.h"
 #include "view/plot.h"
 
 /* The terminal program without a terminal: what it knows and what every part of it may do. The parts stand on this in
  * layers: editing of fields and lists; popups; views; the screen, which draws them all; and the program, which takes keys
- * in. The terminal shows the canvas, a script dumps it. */
+ * in. The terminal shows the cells, a script dumps it. */
 
 enum view_number {
 #define V(NAME, name, key, word, help) VIEW_##NAME,
@@ -52,7 +52,7 @@ struct view_state {
 struct app {
     struct document document;
     struct figures figures;
-    struct ceduo_canvas *canvas;
+    struct ceduo_cells *cells;
     int width, height;
     enum ceduo_charset charset;
     int theme; /* 0 dark, 1 light, 2 none */

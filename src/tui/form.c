@@ -8,7 +8,6 @@
 
 #include "base/intl.h"
 #include "base/utf8.h"
-#include "line.h"
 
 #define LABEL       18 /* columns of a line's label */
 #define COLUMN_MOST 22 /* of a table's column */
@@ -266,32 +265,7 @@ static void cell_place(const struct form_row *row, int width, size_t k, int *fro
     *span = each - 1;
 }
 
-/* Bytes of the first `columns` columns. */
-static size_t bytes_of(const char *text, size_t columns)
-{
-    size_t n = 0;
-    for (; text[n] && columns > 0; columns--)
-        do
-            n++;
-        while (((unsigned char)text[n] & 0xc0) == 0x80);
-    return n;
-}
-
-void ceduo_form_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ceduo_role role, const char *text)
-{
-    char cut[512];
-    if (span <= 0)
-        return;
-    bool whole = ceduo_utf8_width(text) <= (size_t)span;
-    size_t n = bytes_of(text, whole ? (size_t)span : (size_t)span - 1);
-    n = n < sizeof cut - 4 ? n : bytes_of(text, 100);
-    memcpy(cut, text, n);
-    /* three dots would take three columns */
-    strcpy(cut + n, whole ? "" : canvas->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6");
-    ceduo_canvas_label(canvas, x, y, role, cut);
-}
-
-static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, int left, int y, int width, size_t k,
+static void draw_cell(const struct form_row *row, struct ceduo_cells *cells, int left, int y, int width, size_t k,
                       bool cursor, const char *edit)
 {
     const struct form_cell *cell = &row->cells[k];
@@ -299,46 +273,45 @@ static void draw_cell(const struct form_row *row, struct ceduo_canvas *canvas, i
     char shown[80];
     cell_place(row, width, k, &from, &span);
     snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
-    const char *text = !cursor || !edit ? shown : span > 1 ? ceduo_line_end(edit, span - 1) : edit;
+    const char *text = cursor && edit ? ceduo_utf8_end(edit, span > 1 ? (size_t)span - 1 : 0) : shown;
     if (cursor)
         for (int i = 0; i < span; i++)
-            ceduo_canvas_label(canvas, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
-    ceduo_form_cut(canvas, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
+            ceduo_cells_label(cells, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
+    ceduo_cells_put(cells, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
             text);
     if (cursor && edit)
-        ceduo_canvas_label(canvas, left + from + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
+        ceduo_cells_label(cells, left + from + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
 }
 
-static void draw_row(const struct form *form, size_t i, struct ceduo_canvas *canvas, int left, int y, int width,
+static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width,
                      bool focused, const char *edit)
 {
     const struct form_row *row = &form->rows[i];
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
-        ceduo_form_cut(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
+        ceduo_cells_put(cells, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
         return;
     }
     bool here = i == form->row && focused;
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : LABEL - 1;
-        ceduo_form_cut(canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_cells_put(cells, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         if (row->kind == FORM_COLUMNS_ROW) {
             int from, span;
             cell_place(row, width, k, &from, &span);
-            ceduo_form_cut(canvas, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
+            ceduo_cells_put(cells, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
         } else {
-            draw_cell(row, canvas, left, y, width, k, here && k == form->column, edit);
+            draw_cell(row, cells, left, y, width, k, here && k == form->column, edit);
         }
     }
 }
 
-void ceduo_form_draw(struct form *form, struct ceduo_canvas *canvas, int left, int top, int width, int height,
-                     bool focused, const char *edit)
+void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, bool focused, const char *edit)
 {
-    if (height <= 0 || width < 8)
+    if (area.height <= 0 || area.width < 8)
         return;
-    size_t lines = (size_t)height, above = form->row;
+    size_t lines = (size_t)area.height, above = form->row;
     while (above > 0 && !can_hold(&form->rows[above - 1])) /* headings belong to what follows */
         above--;
     if (above < form->top)
@@ -348,21 +321,21 @@ void ceduo_form_draw(struct form *form, struct ceduo_canvas *canvas, int left, i
     if (form->top + lines > form->n)
         form->top = form->n > lines ? form->n - lines : 0;
     for (size_t i = 0; i < lines && form->top + i < form->n; i++)
-        draw_row(form, form->top + i, canvas, left, top + (int)i, width, focused, edit);
+        draw_row(form, form->top + i, cells, area.left, area.top + (int)i, area.width, focused, edit);
 }
 
-bool ceduo_form_hit(const struct form *form, int left, int top, int width, int height, int x, int y, size_t *row,
-                    size_t *column)
+bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int y, size_t *row, size_t *column)
 {
-    size_t i = form->top + (size_t)(y - top);
-    if (x < left || x >= left + width || y < top || y >= top + height || i >= form->n || !can_hold(&form->rows[i]))
+    size_t i = form->top + (size_t)(y - area.top);
+    if (x < area.left || x >= area.left + area.width || y < area.top || y >= area.top + area.height || i >= form->n ||
+        !can_hold(&form->rows[i]))
         return false;
     *row = i;
     *column = 0;
     for (size_t k = 0; k < form->rows[i].n; k++) {
         int from, span;
-        cell_place(&form->rows[i], width, k, &from, &span);
-        if (x - left >= from)
+        cell_place(&form->rows[i], area.width, k, &from, &span);
+        if (x - area.left >= from)
             *column = k;
     }
     return true;

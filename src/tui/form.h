@@ -3,7 +3,7 @@
 #define CEDUO_FORM_H
 
 #include "model/document.h"
-#include "view/canvas.h"
+#include "view/cells.h"
 
 /* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
 
@@ -66,17 +66,12 @@ bool ceduo_form_search(struct form *form, const char *word);
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);
 
-/* A text in at most `span` columns, its end as … where it is longer. */
-void ceduo_form_cut(struct ceduo_canvas *canvas, int x, int y, int span, enum ceduo_role role, const char *text);
-
 /* Draws the lines into a rectangle, scrolled so that the cursor is seen. `edit`: text to show in the cell under the
  * cursor instead of its own (NULL: none). */
-void ceduo_form_draw(struct form *form, struct ceduo_canvas *canvas, int left, int top, int width, int height,
-                     bool focused, const char *edit);
+void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, bool focused, const char *edit);
 
 /* The line and cell at a place of the rectangle it was drawn into; false where there is none. */
-bool ceduo_form_hit(const struct form *form, int left, int top, int width, int height, int x, int y, size_t *row,
-                    size_t *column);
+bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int y, size_t *row, size_t *column);
 
 /* What stands below the screen for a cell: meaning, unit, range, default, source. */
 void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text);

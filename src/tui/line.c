@@ -100,12 +100,3 @@ bool ceduo_line_key(struct line *line, int key)
         return key >= ' ' && key < K_SPECIAL && !(key >= 0x7f && key < 0xa0) && insert(line, key);
     }
 }
-
-const char *ceduo_line_end(const char *text, int columns)
-{
-    for (size_t left = ceduo_utf8_width(text); left > 0 && (int)left > columns; left--)
-        do
-            text++;
-        while (((unsigned char)*text & 0xc0) == 0x80);
-    return text;
-}

@@ -17,7 +17,4 @@ void ceduo_line_set(struct line *line, const char *text);
 /* Handles a key; false where the key means nothing to it. */
 bool ceduo_line_key(struct line *line, int key);
 
-/* The end of the text, which stays in sight where it is longer than this many columns. */
-const char *ceduo_line_end(const char *text, int columns);
-
 #endif

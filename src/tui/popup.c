@@ -203,7 +203,7 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
                             : top || bottom   ? "\xe2\x94\x80"
                             : left || right   ? "\xe2\x94\x82"
                                               : " ";
-            ceduo_canvas_label(app->canvas, x, y, CEDUO_ROLE_AXIS, c);
+            ceduo_cells_label(app->cells, x, y, CEDUO_ROLE_AXIS, c);
         }
     struct ceduo_area head = {r.left + 2, r.top, r.width - 4, 1};
     ceduo_app_text(app, head, CEDUO_ROLE_TITLE, title, 0);
@@ -257,7 +257,7 @@ static void draw_list(struct app *app, struct popup *p)
         p->top = p->at + 1 - room;
     for (size_t i = 0; i < room && p->top + i < p->items_count; i++) {
         bool here = p->top + i == p->at;
-        ceduo_form_cut(app->canvas, r.left + 2, r.top + 1 + note_lines + (int)i, r.width - 4,
+        ceduo_cells_put(app->cells, r.left + 2, r.top + 1 + note_lines + (int)i, r.width - 4,
                        here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[p->top + i].text);
     }
     draw_more(app, r, p->top > 0, p->top + room < p->items_count);
@@ -278,10 +278,10 @@ static void draw_fields(struct app *app, struct popup *p)
         int y = r.top + 1 + note_lines + (int)i, x = r.left + 34;
         struct ceduo_area label = {r.left + 2, y, 31, 1}, value = {x, y, r.width - 36, 1};
         ceduo_app_text(app, label, CEDUO_ROLE_DIM, p->labels[i], 0);
-        const char *text = ceduo_line_end(p->fields[i].text, value.width - 1);
-        ceduo_canvas_label(app->canvas, value.left, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
+        const char *text = ceduo_utf8_end(p->fields[i].text, value.width > 1 ? (size_t)value.width - 1 : 0);
+        ceduo_cells_label(app->cells, value.left, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
         if (i == p->at)
-            ceduo_canvas_label(app->canvas, value.left + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
+            ceduo_cells_label(app->cells, value.left + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
     }
     struct ceduo_area foot = {r.left + 2, r.top + r.height - 2, r.width - 4, 1};
     if (p->message[0])

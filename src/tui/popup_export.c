@@ -73,7 +73,7 @@ static void put_json(struct app *app, struct text *text)
 static void put_screen(struct app *app, struct text *text)
 {
     ceduo_screen_draw(app); /* without the popup, which is off already */
-    char *screen = ceduo_canvas_dump(app->canvas);
+    char *screen = ceduo_cells_dump(app->cells);
     ceduo_text_put(text, screen ? screen : "");
     free(screen);
 }

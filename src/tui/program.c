@@ -135,7 +135,6 @@ void ceduo_program_key(struct app *app, int key)
 void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
-    const struct ceduo_area *a = &state->form_area;
     size_t row, column;
     if (app->popup || app->editing)
         return;
@@ -143,7 +142,7 @@ void ceduo_program_click(struct app *app, int x, int y)
         enum view_number view = ceduo_screen_view_at(x);
         if (view < VIEW_COUNT)
             ceduo_app_show(app, view);
-    } else if (ceduo_form_hit(&state->form, a->left, a->top, a->width, a->height, x, y, &row, &column)) {
+    } else if (ceduo_form_hit(&state->form, state->form_area, x, y, &row, &column)) {
         bool again = state->form.row == row && state->form.column == column && state->pane == 0;
         state->form.row = row;
         state->form.column = column;

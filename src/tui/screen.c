@@ -44,7 +44,7 @@ static void draw_title(struct app *app)
     int room = app->width - x - 1;
     if (title.bytes && room > 4) {
         int columns = (int)ceduo_utf8_width(title.bytes);
-        ceduo_form_cut(app->canvas, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
+        ceduo_cells_put(app->cells, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
                        title.bytes);
     }
     ceduo_text_free(&title);
@@ -67,7 +67,7 @@ static void draw_explanation(struct app *app)
     if (two_lines)
         ceduo_app_text(app, lines, role, safe.bytes, 0);
     else if (safe.bytes)
-        ceduo_form_cut(app->canvas, 0, app->height - 2, app->width, role, safe.bytes);
+        ceduo_cells_put(app->cells, 0, app->height - 2, app->width, role, safe.bytes);
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
 }
@@ -104,9 +104,9 @@ static void draw_bar(struct app *app)
 
 void ceduo_screen_draw(struct app *app)
 {
-    if (!app->canvas)
+    if (!app->cells)
         return;
-    ceduo_canvas_clear(app->canvas);
+    ceduo_cells_clear(app->cells);
     if (app->width < WIDTH_LEAST || app->height < HEIGHT_LEAST) {
         struct ceduo_area all = {0, 0, app->width, app->height};
         char text[128];
@@ -120,7 +120,7 @@ void ceduo_screen_draw(struct app *app)
     struct ceduo_area body = {0, 2, app->width - side - 2, app->height - 5};
     draw_title(app);
     for (int y = now.top; y < now.top + now.height; y++)
-        ceduo_canvas_label(app->canvas, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
+        ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
     ceduo_column_draw(app, now);
     ceduo_views[app->view]->draw(app, body);
     draw_explanation(app);

@@ -4,7 +4,7 @@
 
 #include "app.h"
 
-/* Draws everything on app->canvas: titles of the views, the view that is open, the column of figures, what the cursor is
+/* Draws everything on app->cells: titles of the views, the view that is open, the column of figures, what the cursor is
  * on, the bar of keys, and a popup over them. */
 void ceduo_screen_draw(struct app *app);
 

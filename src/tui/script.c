@@ -56,7 +56,7 @@ static enum script_end dump(struct app *app, const char *name, bool roles, const
 {
     ceduo_app_news(app);
     ceduo_screen_draw(app);
-    char *text = roles ? ceduo_canvas_roles(app->canvas) : ceduo_canvas_dump(app->canvas);
+    char *text = roles ? ceduo_cells_roles(app->cells) : ceduo_cells_dump(app->cells);
     bool good = text != NULL;
     if (good && strcmp(name, "-") == 0)
         good = fputs(text, stdout) >= 0 && fflush(stdout) == 0;

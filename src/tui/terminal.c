@@ -129,10 +129,10 @@ static void set_handlers(void)
 
 /* ---- drawing ---- */
 
-static void put_cell(const struct ceduo_canvas *canvas, int x, int y, int theme, bool colours)
+static void put_cell(const struct ceduo_cells *cells, int x, int y, int theme, bool colours)
 {
-    uint32_t code = ceduo_canvas_glyph(canvas, x, y);
-    struct look look = look_of(ceduo_canvas_role(canvas, x, y), theme);
+    uint32_t code = ceduo_cells_glyph(cells, x, y);
+    struct look look = look_of(ceduo_cells_role(cells, x, y), theme);
     wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
     cchar_t cell;
     short pair = colours && theme < 2 && look.colour >= 0 ? (short)(look.colour + 1) : 0;
@@ -142,9 +142,9 @@ static void put_cell(const struct ceduo_canvas *canvas, int x, int y, int theme,
 
 static void show(struct app *app, bool colours)
 {
-    if (app->width != COLS || app->height != LINES || !app->canvas)
+    if (app->width != COLS || app->height != LINES || !app->cells)
         ceduo_app_resize(app, COLS, LINES);
-    if (!app->canvas)
+    if (!app->cells)
         return;
     ceduo_screen_draw(app);
     if (app->redraw)
@@ -152,7 +152,7 @@ static void show(struct app *app, bool colours)
     app->redraw = false;
     for (int y = 0; y < app->height; y++)
         for (int x = 0; x < app->width; x++)
-            put_cell(app->canvas, x, y, app->theme, colours);
+            put_cell(app->cells, x, y, app->theme, colours);
     wnoutrefresh(stdscr);
     doupdate();
 }

@@ -110,8 +110,8 @@ static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
     struct text safe = {0};
     ceduo_text_safe(&safe, app->figures.result->scene->options[i].name);
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
-        ceduo_canvas_label(app->canvas, area.left + x, y, role, " ");
-    ceduo_form_cut(app->canvas, area.left, y, width, role, safe.bytes ? safe.bytes : "");
+        ceduo_cells_label(app->cells, area.left + x, y, role, " ");
+    ceduo_cells_put(app->cells, area.left, y, width, role, safe.bytes ? safe.bytes : "");
     ceduo_text_free(&safe);
 }
 
@@ -135,9 +135,9 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
     else
         ceduo_words_number(&text, value, 3);
     if (text.bytes)
-        ceduo_canvas_label_right(app->canvas, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
+        ceduo_cells_label_right(app->cells, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
     char mark[2] = {mark_of(app, i, column), '\0'};
-    ceduo_canvas_label(app->canvas, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
+    ceduo_cells_label(app->cells, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
     ceduo_text_free(&text);
 }
 
@@ -154,7 +154,7 @@ static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
         }
     const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
     for (int k = 0; k < 3; k++)
-        ceduo_canvas_label(app->canvas, x + 1 + k, y,
+        ceduo_cells_label(app->cells, x + 1 + k, y,
                            lights[k] == CEDUO_PASS   ? CEDUO_ROLE_GOOD
                            : lights[k] == CEDUO_FAIL ? CEDUO_ROLE_BAD
                                                      : CEDUO_ROLE_DIM,
@@ -174,13 +174,13 @@ static void draw_head(struct app *app, struct ceduo_area area)
                                                                                       : simulated;
     int x = area.left + name_columns(area);
     if (lines_of(area) == 1 || area.width >= FIGURES + 8)
-        ceduo_form_cut(app->canvas, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
+        ceduo_cells_put(app->cells, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
     for (int c = 0; c < COLUMNS; c++)
         if (has_room(area, c)) {
-            ceduo_canvas_label_right(app->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
+            ceduo_cells_label_right(app->cells, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
             x += 9;
         }
-    ceduo_canvas_label(app->canvas, x + 1, area.top, CEDUO_ROLE_TITLE, "CFE");
+    ceduo_cells_label(app->cells, x + 1, area.top, CEDUO_ROLE_TITLE, "CFE");
 }
 
 static void put_foot(const struct app *app, size_t options, struct text *words)

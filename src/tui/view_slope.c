@@ -73,14 +73,14 @@ static void draw(struct app *app, struct ceduo_area area)
     if (alone && !app->message[0])
         ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: back to the form"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
-    ceduo_plot_profile(app->canvas, &profile, &picture, &span);
+    ceduo_plot_profile(&app->cells->canvas, &profile, &picture, &span);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
     if (strips > 1) {
-        ceduo_plot_height(app->canvas, &next, &picture, &span, false);
+        ceduo_plot_height(&app->cells->canvas, &next, &picture, &span, false);
         next.top += strip;
     }
     if (strips > 0)
-        ceduo_plot_energy(app->canvas, &next, &picture, &span, strips > 1);
+        ceduo_plot_energy(&app->cells->canvas, &next, &picture, &span, strips > 1);
     struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
     ceduo_app_draw_form(app, below, true);
 }

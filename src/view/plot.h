@@ -10,11 +10,6 @@
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
  * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
 
-/* A rectangle of cells, counted as those of the canvas. */
-struct ceduo_area {
-    int left, top, width, height;
-};
-
 /* What a picture shows. */
 struct ceduo_picture {
     const struct ceduo_scene *scene;       /* checked */

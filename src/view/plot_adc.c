@@ -72,7 +72,7 @@ static void draw_scale(const struct adc_picture *p, int row)
     struct text threshold = {0};
     ceduo_text_format(&threshold, _("%g m"), p->threshold);
     const char *limit = threshold.bytes ? threshold.bytes : "";
-    int at = column_of(p, p->threshold), limit_end = at + ceduo_canvas_label_width(p->canvas->charset, limit);
+    int at = column_of(p, p->threshold), limit_end = at + ceduo_canvas_label_width(p->canvas, limit);
     ceduo_canvas_label(p->canvas, at, row, CEDUO_ROLE_CONTROL, limit);
     for (double v = p->lo; v <= p->hi * (1 + 1e-9); v = round_number(1.5 * v, true)) {
         char text[CEDUO_TICK_LABEL_SIZE];
@@ -98,7 +98,7 @@ static void draw_bar(const struct adc_picture *p, double metres, enum ceduo_role
     int at = column_of(p, p->threshold);
     if (isfinite(metres))
         ceduo_canvas_bar(p->canvas, bar_left(p), p->row, p->bar, share_of(p, metres), role);
-    if (ceduo_canvas_glyph(p->canvas, at, p->row) == ' ')
+    if (ceduo_canvas_is_blank(p->canvas, at, p->row))
         ceduo_canvas_label(p->canvas, at, p->row, CEDUO_ROLE_CONTROL, "\xe2\x94\x82");
     struct text value = {0};
     ceduo_text_format(&value, isfinite(metres) ? _("%s m") : "%s", ceduo_plot_number(metres, 3, room));
@@ -125,7 +125,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
                       ceduo_number_shortest(belt->to_given, to));
     if (r->bare)
         ceduo_text_put(&name, _(": no stems, nothing to meet: NO"));
-    ceduo_plot_put(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, name.bytes ? name.bytes : "");
+    ceduo_canvas_put(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, name.bytes ? name.bytes : "");
     ceduo_text_free(&name);
     for (int f = 0; f < FORMS && !r->bare; f++, p->row++) {
         enum ceduo_rule rule = (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f);
@@ -145,7 +145,7 @@ static void draw_belt_briefly(struct adc_picture *p, const struct ceduo_belt *be
 {
     struct text name = {0};
     ceduo_plot_belt_name(&name, belt);
-    ceduo_plot_put(p->canvas, p->area->left, p->row, p->name, CEDUO_ROLE_BELT, name.bytes ? name.bytes : "");
+    ceduo_canvas_put(p->canvas, p->area->left, p->row, p->name, CEDUO_ROLE_BELT, name.bytes ? name.bytes : "");
     ceduo_text_free(&name);
     draw_bar(p, r->adc_m, r->passes_threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD);
     put_verdict(p, r, "");

@@ -102,10 +102,10 @@ static void draw_value(const struct comparison *c, int i, int row, const struct 
     int limit = (int)fmin(round(v->limit * c->bar), c->bar - 1);
     if (v->limit >= 0 && v->limit <= 1 && c->bar > 2)
         ceduo_canvas_label(c->canvas, left + limit, row, CEDUO_ROLE_CONTROL, "\xe2\x94\x82");
-    int indent = NUMBER - ceduo_canvas_label_width(c->canvas->charset, v->number);
+    int indent = NUMBER - ceduo_canvas_label_width(c->canvas, v->number);
     indent = indent > 0 ? indent : 0;
-    int used = indent + ceduo_plot_put(c->canvas, beside + indent, row, VALUE - indent, CEDUO_ROLE_TEXT, v->number);
-    ceduo_plot_put(c->canvas, beside + used + 1, row, VALUE - used - 1, v->role, v->word);
+    int used = indent + ceduo_canvas_put(c->canvas, beside + indent, row, VALUE - indent, CEDUO_ROLE_TEXT, v->number);
+    ceduo_canvas_put(c->canvas, beside + used + 1, row, VALUE - used - 1, v->role, v->word);
 }
 
 static double adc_share(const struct comparison *c, double adc)
@@ -172,7 +172,7 @@ static void draw_option(const struct comparison *c, size_t i, int row)
 {
     const struct ceduo_option *o = &c->picture->scene->options[i];
     struct measures m = measures_of(c, i);
-    ceduo_plot_put(c->canvas, c->area->left, row, c->name, CEDUO_ROLE_TEXT, o->name ? o->name : "");
+    ceduo_canvas_put(c->canvas, c->area->left, row, c->name, CEDUO_ROLE_TEXT, o->name ? o->name : "");
     row += c->two_rows;
     draw_adc(c, &m, row);
     draw_middle(c, &m, row);
@@ -273,7 +273,7 @@ static void place_columns(struct comparison *c)
     const struct ceduo_scene *scene = c->picture->scene;
     int longest = 6;
     for (size_t i = 0; i < scene->options_count; i++) {
-        int width = ceduo_canvas_label_width(c->canvas->charset, scene->options[i].name ? scene->options[i].name : "");
+        int width = ceduo_canvas_label_width(c->canvas, scene->options[i].name ? scene->options[i].name : "");
         longest = width > longest ? width : longest;
     }
     c->gap = c->area->width >= 100 ? 3 : 1;

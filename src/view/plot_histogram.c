@@ -122,7 +122,7 @@ static int widest(const struct histogram *h, void (*write)(const struct histogra
     for (int i = 0; i < h->bins.count; i++) {
         struct text text = {0};
         write(h, i, &text);
-        int w = text.bytes ? ceduo_canvas_label_width(h->canvas->charset, text.bytes) : 0;
+        int w = text.bytes ? ceduo_canvas_label_width(h->canvas, text.bytes) : 0;
         width = w > width ? w : width;
         ceduo_text_free(&text);
     }
@@ -152,7 +152,7 @@ static void draw_row(const struct histogram *h, int i, double most)
     column += h->bar + 1;
     ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT,
                          number.bytes ? number.bytes : "");
-    ceduo_plot_put(h->canvas, column + h->numbers + 1, row, h->marks, CEDUO_ROLE_TITLE, marks.bytes ? marks.bytes : "");
+    ceduo_canvas_put(h->canvas, column + h->numbers + 1, row, h->marks, CEDUO_ROLE_TITLE, marks.bytes ? marks.bytes : "");
     ceduo_text_free(&label);
     ceduo_text_free(&number);
     ceduo_text_free(&marks);

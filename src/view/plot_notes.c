@@ -22,7 +22,7 @@ __attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ced
     ceduo_text_vformat(&line, format, args);
     va_end(args);
     if (n->row < n->end)
-        ceduo_plot_put(n->canvas, n->left, n->row++, n->width, role, line.bytes ? line.bytes : "");
+        ceduo_canvas_put(n->canvas, n->left, n->row++, n->width, role, line.bytes ? line.bytes : "");
     ceduo_text_free(&line);
 }
 

@@ -10,26 +10,6 @@
 
 /* ---- text ---- */
 
-int ceduo_plot_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text)
-{
-    if (most < 1)
-        return 0;
-    if (ceduo_canvas_label_width(canvas->charset, text) <= most)
-        return ceduo_canvas_label(canvas, column, row, role, text);
-    const char *mark = canvas->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6";
-    struct text cut = {0};
-    ceduo_text_put(&cut, text);
-    while (cut.length > 0 && ceduo_canvas_label_width(canvas->charset, cut.bytes) > most - 1) {
-        while (cut.length > 1 && ((unsigned char)cut.bytes[cut.length - 1] & 0xc0) == 0x80)
-            cut.length--;
-        cut.bytes[--cut.length] = '\0';
-    }
-    ceduo_text_put(&cut, mark);
-    int cells = ceduo_canvas_label(canvas, column, row, role, cut.bytes ? cut.bytes : "");
-    ceduo_text_free(&cut);
-    return cells;
-}
-
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                    ...)
 {
@@ -38,7 +18,7 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    int cells = ceduo_plot_put(canvas, column, row, most, role, text.bytes ? text.bytes : "");
+    int cells = ceduo_canvas_put(canvas, column, row, most, role, text.bytes ? text.bytes : "");
     ceduo_text_free(&text);
     return cells;
 }
@@ -49,25 +29,25 @@ int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int
     const char *bytes = "";
     for (size_t i = 0; i < count; i++) {
         bytes = texts[i].bytes ? texts[i].bytes : "";
-        if (ceduo_canvas_label_width(canvas->charset, bytes) <= most)
+        if (ceduo_canvas_label_width(canvas, bytes) <= most)
             break;
     }
-    return ceduo_plot_put(canvas, column, row, most, role, bytes);
+    return ceduo_canvas_put(canvas, column, row, most, role, bytes);
 }
 
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
                           const char *text)
 {
-    int width = ceduo_canvas_label_width(canvas->charset, text);
+    int width = ceduo_canvas_label_width(canvas, text);
     width = width < most ? width : most;
-    ceduo_plot_put(canvas, column + 1 - width, row, width, role, text);
+    ceduo_canvas_put(canvas, column + 1 - width, row, width, role, text);
 }
 
 void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence)
 {
-    int width = ceduo_canvas_label_width(canvas->charset, sentence);
+    int width = ceduo_canvas_label_width(canvas, sentence);
     int column = width < area->width ? (area->width - width) / 2 : 0;
-    ceduo_plot_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
+    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
                    sentence);
 }
 

@@ -8,10 +8,7 @@
 
 #define KILO 1e-3
 
-/* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
-int ceduo_plot_put(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *text);
-
-/* The same, formatted. */
+/* As ceduo_canvas_put(), formatted. */
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                    ...) __attribute__((format(printf, 6, 7)));
 

@@ -64,9 +64,9 @@ static struct range range_of(const struct ceduo_picture *p)
 }
 
 /* Sets the frame's ranges with heights drawn `factor` times as long as lengths. */
-static bool fit(struct ceduo_frame *f, enum ceduo_charset charset, const struct range *r, double factor)
+static bool fit(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r, double factor)
 {
-    if (!ceduo_frame_true_scale(f, charset, r->x_lo, r->x_hi, factor * r->y_lo, factor * r->y_hi))
+    if (!ceduo_frame_true_scale(f, canvas, r->x_lo, r->x_hi, factor * r->y_lo, factor * r->y_hi))
         return false;
     f->y0 /= factor;
     f->y1 /= factor;
@@ -74,12 +74,12 @@ static bool fit(struct ceduo_frame *f, enum ceduo_charset charset, const struct 
 }
 
 /* 1 where true scale makes use of the area, otherwise a round factor with which the slope does. */
-static double height_factor(const struct ceduo_frame *frame, enum ceduo_charset charset, const struct range *r)
+static double height_factor(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const struct range *r)
 {
     static const double round[] = {0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.8, 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
     const int one = 9, n = sizeof round / sizeof round[0];
     struct ceduo_frame f = *frame;
-    if (!fit(&f, charset, r, 1))
+    if (!fit(&f, canvas, r, 1))
         return 1;
     double across = (r->x_hi - r->x_lo) / (f.x1 - f.x0), up = (r->y_hi - r->y_lo) / (f.y1 - f.y0);
     int i = one;
@@ -94,15 +94,15 @@ static double height_factor(const struct ceduo_frame *frame, enum ceduo_charset 
 
 /* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. Returns the
  * factor of heights, NaN where nothing can be drawn. */
-static double scale(struct ceduo_frame *f, enum ceduo_charset charset, const struct range *r)
+static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r)
 {
-    double factor = height_factor(f, charset, r);
-    if (!fit(f, charset, r, factor))
+    double factor = height_factor(f, canvas, r);
+    if (!fit(f, canvas, r, factor))
         return NAN;
     int needed = (int)ceil(f->width * (r->x_hi - r->x_lo) / (f->x1 - f->x0));
     if (needed < f->width && needed >= 2) {
         f->width = needed;
-        fit(f, charset, r, factor);
+        fit(f, canvas, r, factor);
     }
     f->x1 = r->x_lo + (f->x1 - f->x0);
     f->x0 = r->x_lo;
@@ -124,7 +124,7 @@ struct profile {
 
 static double metres_per_dot(const struct profile *p)
 {
-    return (p->frame.x1 - p->frame.x0) / (p->frame.width * ceduo_canvas_dots_x(p->canvas->charset) - 1);
+    return (p->frame.x1 - p->frame.x0) / (p->frame.width * p->canvas->dots_x - 1);
 }
 
 /* A row of stems at their mean distance in the stand, but no closer than can be told apart. */
@@ -182,10 +182,10 @@ static void draw_passed(const struct profile *p)
 static void draw_ways(const struct profile *p)
 {
     const struct ceduo_sight *s = ceduo_plot_sight(p->picture);
-    if (s && ceduo_canvas_density_start(p->canvas)) {
+    if (s && ceduo_canvas_cloud_start(p->canvas)) {
         for (size_t i = 0; i < s->trails_count; i++)
-            ceduo_canvas_density_add_polyline(p->canvas, &p->frame, s->trails[i].n, s->trails[i].x, s->trails[i].z);
-        ceduo_canvas_density_show(p->canvas, RARE);
+            ceduo_canvas_cloud_add(p->canvas, &p->frame, s->trails[i].n, s->trails[i].x, s->trails[i].z);
+        ceduo_canvas_cloud_show(p->canvas, RARE);
     }
     const struct ceduo_trail *t = p->picture->selected;
     if (t)
@@ -203,7 +203,7 @@ static int area_end(const struct ceduo_area *area)
 static bool is_free(const struct profile *p, int row, int from, int to)
 {
     for (int column = from - 1; column <= to; column++)
-        if (ceduo_canvas_glyph(p->canvas, column, row) != ' ')
+        if (!ceduo_canvas_is_blank(p->canvas, column, row))
             return false;
     return from >= p->area->left && to <= area_end(p->area);
 }
@@ -214,12 +214,12 @@ static bool is_free(const struct profile *p, int row, int from, int to)
 static void name_control(const struct profile *p, const struct ceduo_control *control)
 {
     int column, row;
-    if (!ceduo_frame_cell(&p->frame, p->canvas->charset, control->x, p->frame.y0, &column, &row))
+    if (!ceduo_frame_cell(&p->frame, p->canvas, control->x, p->frame.y0, &column, &row))
         return;
     struct text name = {0};
     ceduo_plot_control_name(&name, control);
     const char *bytes = name.bytes ? name.bytes : "";
-    int width = ceduo_canvas_label_width(p->canvas->charset, bytes);
+    int width = ceduo_canvas_label_width(p->canvas, bytes);
     for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
         int to_right = column + 2, to_left = column - 1 - width, y = p->area->top + i;
         int start = is_free(p, y, to_right, to_right + width) ? to_right : to_left;
@@ -238,9 +238,9 @@ static void mark_release(const struct profile *p)
     const struct ceduo_scene *scene = p->picture->scene;
     double x = scene->release.x.mean, z = ceduo_slope_height(&scene->slope, x) + scene->release.height.mean;
     int column, row;
-    if (!ceduo_frame_cell(&p->frame, p->canvas->charset, x, z, &column, &row) || row - 1 < p->area->top)
+    if (!ceduo_frame_cell(&p->frame, p->canvas, x, z, &column, &row) || row - 1 < p->area->top)
         return;
-    ceduo_plot_put(p->canvas, column, row - 1, area_end(p->area) - column, CEDUO_ROLE_TEXT, _("\xe2\x96\xbc release"));
+    ceduo_canvas_put(p->canvas, column, row - 1, area_end(p->area) - column, CEDUO_ROLE_TEXT, _("\xe2\x96\xbc release"));
 }
 
 static void draw_controls(const struct profile *p)
@@ -258,7 +258,7 @@ static void draw_controls(const struct profile *p)
 static int room_in(const struct profile *p, int row)
 {
     int column = area_end(p->area);
-    while (column > p->area->left && ceduo_canvas_glyph(p->canvas, column - 1, row) == ' ')
+    while (column > p->area->left && ceduo_canvas_is_blank(p->canvas, column - 1, row))
         column--;
     return area_end(p->area) - column - 1;
 }
@@ -272,7 +272,7 @@ static void name_forest(const struct profile *p)
     struct text name = {0};
     ceduo_text_format(&name, _("ways: %s"), option->name);
     const char *bytes = name.bytes ? name.bytes : "";
-    int width = ceduo_canvas_label_width(p->canvas->charset, bytes), most = 0, row = 0;
+    int width = ceduo_canvas_label_width(p->canvas, bytes), most = 0, row = 0;
     for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
         int room = room_in(p, p->area->top + i);
         room = room < width ? room : width;
@@ -304,9 +304,9 @@ static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt
     ceduo_plot_belt_name(&name, belt);
     ceduo_text_char(&name, ' ');
     const char *bytes = name.bytes ? name.bytes : "";
-    int width = ceduo_canvas_label_width(p->canvas->charset, bytes), room = to - from - 2;
+    int width = ceduo_canvas_label_width(p->canvas, bytes), room = to - from - 2;
     int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
-    ceduo_plot_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, bytes);
+    ceduo_canvas_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, bytes);
     ceduo_text_free(&name);
 }
 
@@ -315,7 +315,7 @@ static void draw_belts(const struct profile *p)
     const struct ceduo_option *option = ceduo_plot_option(p->picture);
     int row = p->area->top + p->area->height - 1;
     if (option && option->belts_count == 0)
-        ceduo_plot_put(p->canvas, p->frame.left, row, area_end(p->area) - p->frame.left, CEDUO_ROLE_BELT,
+        ceduo_canvas_put(p->canvas, p->frame.left, row, area_end(p->area) - p->frame.left, CEDUO_ROLE_BELT,
                        _("no forest"));
     for (size_t i = 0; option && i < option->belts_count; i++)
         draw_belt_bar(p, &option->belts[i], row);
@@ -334,11 +334,11 @@ static void place_frame(struct profile *p)
                                         .top = a->top + p->names,
                                         .width = a->width - axis,
                                         .height = a->height - p->names - p->belts - 2};
-        p->factor = scale(&p->frame, p->canvas->charset, &r);
+        p->factor = scale(&p->frame, p->canvas, &r);
         if (isnan(p->factor))
             return;
         struct ceduo_frame given = ceduo_plot_given(&p->frame, &p->picture->scene->slope);
-        needed = ceduo_frame_axis_width(&given, p->canvas->charset);
+        needed = ceduo_frame_axis_width(&given, p->canvas);
     }
 }
 

@@ -45,7 +45,7 @@ static double share_of(const struct rotation *r, const struct ceduo_year *year)
 static void draw_strip(struct rotation *r, int top, int height, double most, double limit, const char *caption,
                        double (*of)(const struct rotation *, const struct ceduo_year *))
 {
-    ceduo_plot_put(r->canvas, r->frame.left, top, r->area->left + r->area->width - r->frame.left, CEDUO_ROLE_AXIS,
+    ceduo_canvas_put(r->canvas, r->frame.left, top, r->area->left + r->area->width - r->frame.left, CEDUO_ROLE_AXIS,
                    caption);
     r->frame.top = top + 1;
     r->frame.height = height - 1;
@@ -57,14 +57,14 @@ static void draw_strip(struct rotation *r, int top, int height, double most, dou
         ceduo_canvas_rule_y(r->canvas, &r->frame, CEDUO_ROLE_CONTROL, limit);
     if (r->picture->year < r->years->count)
         ceduo_canvas_rule_x(r->canvas, &r->frame, CEDUO_ROLE_CURSOR, r->x[r->picture->year]);
-    ceduo_canvas_steps(r->canvas, &r->frame, CEDUO_ROLE_MEAN, r->years->count, r->x, r->y);
+    ceduo_canvas_stairs(r->canvas, &r->frame, CEDUO_ROLE_MEAN, r->years->count, r->x, r->y);
     ceduo_canvas_axis_left(r->canvas, &r->frame);
 }
 
 static int column_of(const struct rotation *r, double year)
 {
     int column, row;
-    return ceduo_frame_cell(&r->frame, r->canvas->charset, year, r->frame.y0, &column, &row) ? column : -1;
+    return ceduo_frame_cell(&r->frame, r->canvas, year, r->frame.y0, &column, &row) ? column : -1;
 }
 
 /* A mark below the axis for each year; of years that share a column the worst is shown. */

@@ -55,19 +55,6 @@ static bool in_strip(const struct plan *p, double y, double radius)
     return fabs(y - p->height / 2) < p->strip / 2 + radius;
 }
 
-/* ---- drawing ---- */
-
-/* A disc of at least one dot. */
-static void draw_disc(const struct plan *p, enum ceduo_role role, double x, double y, double radius)
-{
-    double dot = p->dot;
-    int rows = (int)floor(radius / dot);
-    for (int i = -rows; i <= rows; i++) {
-        double half = sqrt(fmax(radius * radius - i * dot * i * dot, 0));
-        ceduo_canvas_line(p->canvas, &p->frame, role, x - half, y + i * dot, x + half, y + i * dot);
-    }
-}
-
 /* ---- places ---- */
 
 static bool clear_of_others(const struct plan *p, const struct foot *f)
@@ -131,7 +118,7 @@ static void draw_stool(struct plan *p, uint64_t number)
     p->met += met;
     for (int i = 0; i < n; i++) {
         struct foot a = on_ring(&f, ring, turn, i, n), b = on_ring(&f, ring, turn, i + 1, n);
-        draw_disc(p, role, a.x, a.y, cohort_at(p->stand, uniform(&g))->dbh / 2);
+        ceduo_canvas_disc(p->canvas, &p->frame, role, a.x, a.y, cohort_at(p->stand, uniform(&g))->dbh / 2);
         if (p->stand->spacing < JOINED_DOTS * p->dot)
             ceduo_canvas_line(p->canvas, &p->frame, role, a.x, a.y, b.x, b.y);
     }
@@ -143,7 +130,7 @@ static void draw_tree(struct plan *p, uint64_t number, const struct ceduo_stems 
     struct foot f = find_place(p, &g, stems->dbh / 2);
     bool met = in_strip(p, f.y, f.radius);
     p->met += met;
-    draw_disc(p, met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STEM, f.x, f.y, f.radius);
+    ceduo_canvas_disc(p->canvas, &p->frame, met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STEM, f.x, f.y, f.radius);
 }
 
 static void draw_stems(struct plan *p)
@@ -174,7 +161,7 @@ static void draw_strip(const struct plan *p)
 static void put_words(const struct plan *p, const struct ceduo_area *area)
 {
     if (ceduo_stand_is_bare(p->stand)) {
-        ceduo_plot_put(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
+        ceduo_canvas_put(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
                        _("No stems: nothing stands in a rock's way."));
         return;
     }
@@ -276,7 +263,7 @@ static void draw_way(struct plan *p, const struct ceduo_area *area, const struct
             continue;
         t.hit += stem->hit;
         t.flown_over += !stem->hit;
-        draw_disc(p, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from, p->height / 2 + stem->y,
+        ceduo_canvas_disc(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from, p->height / 2 + stem->y,
                   stem->dbh / 2);
     }
     draw_strip(p);
@@ -304,13 +291,13 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
         .stand = &belt->stand,
         .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
         .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
-    if (!ceduo_frame_true_scale(&p.frame, canvas->charset, 0, PATCH_M, 0, 0))
+    if (!ceduo_frame_true_scale(&p.frame, canvas, 0, PATCH_M, 0, 0))
         return;
     p.width = PATCH_M;
     p.height = p.frame.y1 - p.frame.y0;
     p.frame.y1 = p.height;
     p.frame.y0 = 0;
-    p.dot = p.height / (p.frame.height * ceduo_canvas_dots_y(canvas->charset) - 1);
+    p.dot = p.height / (p.frame.height * canvas->dots_y - 1);
     if (find_patch(picture, belt, &from))
         draw_way(&p, area, picture, from, words);
     else

@@ -131,11 +131,11 @@ static const struct ceduo_envelope *cells_of(const struct strip *s, const struct
 }
 
 /* Columns for the names of the curves and a blank on either side. */
-static int name_columns(enum ceduo_charset charset, const struct content *content)
+static int name_columns(const struct ceduo_canvas *canvas, const struct content *content)
 {
     int widest = 4;
     for (int i = 0; i < content->count; i++) {
-        int width = ceduo_canvas_label_width(charset, _(content->curves[i].name));
+        int width = ceduo_canvas_label_width(canvas, _(content->curves[i].name));
         widest = width > widest ? width : widest;
     }
     return widest + 2;
@@ -219,7 +219,7 @@ static bool scale(struct strip *s, struct peak *peak)
 static void draw_strokes(struct strip *s, const struct curve *curve, double ax, double ay, double bx, double by)
 {
     struct ceduo_frame *f = &s->frame;
-    int dots = f->width * ceduo_canvas_dots_x(s->canvas->charset) - 1;
+    int dots = f->width * s->canvas->dots_x - 1;
     double metres = (f->x1 - f->x0) / dots, step = curve->of_dots * metres, length = (curve->on - 1) * metres;
     double slope = (by - ay) / (bx - ax);
     for (double i = floor((ax - f->x0) / step); f->x0 + i * step < bx; i++) {
@@ -255,7 +255,7 @@ static double end_of(const struct strip *s, const struct curve *curve)
         if (!shown(s, i) || isnan(y))
             continue;
         y = fmin(y, s->frame.y1);
-        return ceduo_frame_cell(&s->frame, s->canvas->charset, o->cell_x[i], y, &column, &row) ? y : NAN;
+        return ceduo_frame_cell(&s->frame, s->canvas, o->cell_x[i], y, &column, &row) ? y : NAN;
     }
     return NAN;
 }
@@ -292,9 +292,9 @@ static void name_curves(const struct strip *s)
         return;
     for (int i = 0; i < n; i++) {
         int column, row, lowest = last - (n - 1 - i);
-        ceduo_frame_cell(&s->frame, s->canvas->charset, s->frame.x0, ends[i], &column, &row);
+        ceduo_frame_cell(&s->frame, s->canvas, s->frame.x0, ends[i], &column, &row);
         row = row < next ? next : row > lowest ? lowest : row;
-        ceduo_plot_put(s->canvas, left, row, room, sorted[i]->role, _(sorted[i]->name));
+        ceduo_canvas_put(s->canvas, left, row, room, sorted[i]->role, _(sorted[i]->name));
         next = row + 1;
     }
 }
@@ -305,13 +305,13 @@ static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
 {
     double accepted = c->accepted * KILO, reach = 0.03 * (s->frame.x1 - s->frame.x0);
     int column, row;
-    if (isnan(accepted) || !ceduo_frame_cell(&s->frame, s->canvas->charset, c->x, accepted, &column, &row))
+    if (isnan(accepted) || !ceduo_frame_cell(&s->frame, s->canvas, c->x, accepted, &column, &row))
         return;
     ceduo_canvas_line(s->canvas, &s->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
     struct text label = {0};
     ceduo_text_format(&label, _("bears %g kJ"), accepted);
-    int width = label.bytes ? ceduo_canvas_label_width(s->canvas->charset, label.bytes) : 0;
-    ceduo_frame_cell(&s->frame, s->canvas->charset, fmax(c->x - reach, s->frame.x0), accepted, &column, &row);
+    int width = label.bytes ? ceduo_canvas_label_width(s->canvas, label.bytes) : 0;
+    ceduo_frame_cell(&s->frame, s->canvas, fmax(c->x - reach, s->frame.x0), accepted, &column, &row);
     if (column - 2 - width >= s->frame.left)
         ceduo_canvas_label_right(s->canvas, column - 2, row, CEDUO_ROLE_BAD, label.bytes);
     ceduo_text_free(&label);
@@ -342,8 +342,8 @@ static void place_frame(struct strip *s, const struct ceduo_span *span, bool axi
         s->frame.x1 = span->x1;
         return;
     }
-    int labels = ceduo_frame_axis_width(&s->frame, s->canvas->charset);
-    int names = a->width >= 40 ? name_columns(s->canvas->charset, s->content) : 0;
+    int labels = ceduo_frame_axis_width(&s->frame, s->canvas);
+    int names = a->width >= 40 ? name_columns(s->canvas, s->content) : 0;
     s->frame.left = a->left + labels;
     s->frame.width = a->width - labels - names;
     s->frame.x0 = s->from;
@@ -360,7 +360,7 @@ static int put_legend(const struct strip *s, int column, int room)
                  {CEDUO_ROLE_BARE, N_("  \xc2\xb7\xc2\xb7 bare")}};
     int used = 0;
     for (int i = 0; i < 2; i++)
-        used += ceduo_plot_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, _(parts[i].text));
+        used += ceduo_canvas_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, _(parts[i].text));
     return used;
 }
 
@@ -385,7 +385,7 @@ static void put_caption(const struct strip *s, const struct peak *peak)
     int left = s->frame.left, room = s->area->left + s->area->width - left;
     if (s->frame.top == s->area->top)
         return;
-    int used = ceduo_plot_put(s->canvas, left, s->area->top, room, CEDUO_ROLE_AXIS, _(s->content->caption));
+    int used = ceduo_canvas_put(s->canvas, left, s->area->top, room, CEDUO_ROLE_AXIS, _(s->content->caption));
     if (s->legend)
         used += put_legend(s, left + used, room - used);
     if (peak->largest > s->frame.y1)
@@ -436,7 +436,7 @@ static bool is_small(const struct strip *s, const struct content *full, const st
 {
     int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
     return s->area->height - 1 - 2 * axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
-           names < name_columns(s->canvas->charset, full) - 1;
+           names < name_columns(s->canvas, full) - 1;
 }
 
 /* `contents`: without forest alone; both; both where there is little room. */

@@ -14,6 +14,7 @@
 
 #include "cli/command_line.h"
 #include "cli/options.h"
+#include "view/cells.h"
 #include "view/plot.h"
 
 #define BRAILLE CEDUO_CHARSET_BRAILLE
@@ -203,45 +204,45 @@ static struct ceduo_picture picture_of(const struct site *s)
     return (struct ceduo_picture){.scene = &s->scene, .outlook = &s->outlook};
 }
 
-static struct ceduo_canvas *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
+static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
                                  enum ceduo_charset charset)
 {
-    struct ceduo_canvas *canvas = ceduo_canvas_create(width, height, charset);
-    assert_non_null(canvas);
+    struct ceduo_cells *cells = ceduo_cells_create(width, height, charset);
+    assert_non_null(cells);
     struct ceduo_area area = {0, 0, width, height};
-    ceduo_plot_draw(plot, canvas, &area, p);
-    return canvas;
+    ceduo_plot_draw(plot, &cells->canvas, &area, p);
+    return cells;
 }
 
 static void expect(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
                    enum ceduo_charset charset, const char *expected)
 {
-    struct ceduo_canvas *canvas = draw(plot, p, width, height, charset);
-    char *text = ceduo_canvas_dump(canvas);
+    struct ceduo_cells *cells = draw(plot, p, width, height, charset);
+    char *text = ceduo_cells_dump(cells);
     assert_non_null(text);
     assert_string_equal(text, expected);
     free(text);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
 }
 
 static bool shows(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, const char *words)
 {
-    struct ceduo_canvas *canvas = draw(plot, p, width, height, ASCII);
-    char *text = ceduo_canvas_dump(canvas);
+    struct ceduo_cells *cells = draw(plot, p, width, height, ASCII);
+    char *text = ceduo_cells_dump(cells);
     assert_non_null(text);
     bool found = strstr(text, words) != NULL;
     free(text);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
     return found;
 }
 
 /* Cells of a role. */
-static int cells_of(const struct ceduo_canvas *canvas, enum ceduo_role role)
+static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
 {
     int n = 0;
-    for (int row = 0; row < canvas->height; row++)
-        for (int column = 0; column < canvas->width; column++)
-            n += ceduo_canvas_role(canvas, column, row) == role;
+    for (int row = 0; row < cells->height; row++)
+        for (int column = 0; column < cells->width; column++)
+            n += ceduo_cells_role(cells, column, row) == role;
     return n;
 }
 
@@ -301,20 +302,20 @@ static void span_tells_where_the_slope_stands(void **state)
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
-    struct ceduo_canvas *canvas = ceduo_canvas_create(80, 24, BRAILLE);
+    struct ceduo_cells *cells = ceduo_cells_create(80, 24, BRAILLE);
     struct ceduo_area area = {0, 0, 80, 24};
     struct ceduo_span span;
-    ceduo_plot_profile(canvas, &area, &p, &span);
+    ceduo_plot_profile(&cells->canvas, &area, &p, &span);
     assert_true(span.x0 == 0);
     assert_true(span.x1 >= 100 && span.x1 < 104);
     assert_true(span.left >= 3 && span.left + span.width <= 80);
     p.from = 40;
     p.to = 60;
-    ceduo_canvas_clear(canvas);
-    ceduo_plot_profile(canvas, &area, &p, &span);
+    ceduo_cells_clear(cells);
+    ceduo_plot_profile(&cells->canvas, &area, &p, &span);
     assert_true(span.x0 == 40);
     assert_true(span.x1 >= 60 && span.x1 < 62);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
 }
 
 static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written(void **state)
@@ -353,16 +354,16 @@ static void the_selected_way_is_drawn_over_all(void **state)
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
-    assert_int_equal(cells_of(canvas, CEDUO_ROLE_WAY), 0);
-    assert_true(cells_of(canvas, CEDUO_ROLE_STEM) > 5);
-    assert_true(cells_of(canvas, CEDUO_ROLE_STOOL) > 5);
-    assert_true(cells_of(canvas, CEDUO_ROLE_CLOUD) > 0);
-    ceduo_canvas_free(canvas);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
+    assert_int_equal(cells_of(cells, CEDUO_ROLE_WAY), 0);
+    assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 5);
+    assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
+    assert_true(cells_of(cells, CEDUO_ROLE_CLOUD) > 0);
+    ceduo_cells_free(cells);
     p.selected = &s.trail;
-    canvas = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
-    assert_true(cells_of(canvas, CEDUO_ROLE_WAY) > 10);
-    ceduo_canvas_free(canvas);
+    cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
+    assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
+    ceduo_cells_free(cells);
 }
 
 static void the_wooded_profile_says_whose_forest_it_is(void **state)
@@ -425,10 +426,10 @@ static void ways_that_are_not_known_are_not_drawn(void **state)
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     s.wooded[0] = NULL;
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
-    assert_int_equal(cells_of(canvas, CEDUO_ROLE_CLOUD), 0);
-    assert_true(cells_of(canvas, CEDUO_ROLE_STOOL) > 5);
-    ceduo_canvas_free(canvas);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
+    assert_int_equal(cells_of(cells, CEDUO_ROLE_CLOUD), 0);
+    assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
+    ceduo_cells_free(cells);
     assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "ways not computed yet"));
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "of 1000"));
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 60, 16, "ways:"));
@@ -457,11 +458,11 @@ static const struct ceduo_stem_passed passed[] = {
 };
 
 /* The rows of a column that hold dots of a role. */
-static int rows_of(const struct ceduo_canvas *canvas, int column, enum ceduo_role role)
+static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role role)
 {
     int n = 0;
-    for (int row = 0; row < canvas->height; row++)
-        n += ceduo_canvas_role(canvas, column, row) == role;
+    for (int row = 0; row < cells->height; row++)
+        n += ceduo_cells_role(cells, column, row) == role;
     return n;
 }
 
@@ -474,19 +475,19 @@ static void stems_that_the_rock_came_to_stand_where_they_are(void **state)
     p.outlook = NULL;
     p.stems = passed;
     p.stems_count = 4;
-    struct ceduo_canvas *canvas = ceduo_canvas_create(84, 40, BRAILLE);
+    struct ceduo_cells *cells = ceduo_cells_create(84, 40, BRAILLE);
     struct ceduo_area area = {0, 0, 84, 40};
     struct ceduo_span span;
-    ceduo_plot_profile(canvas, &area, &p, &span);
+    ceduo_plot_profile(&cells->canvas, &area, &p, &span);
     double metres = (span.x1 - span.x0) / (2 * span.width - 1); /* of a dot, either way */
-    assert_int_equal(cells_of(canvas, CEDUO_ROLE_STEM) + cells_of(canvas, CEDUO_ROLE_STOOL), 0);
+    assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
     for (int i = 0; i < 4; i++) {
         int column = span.left + (int)lround((passed[i].x - span.x0) / metres) / 2;
         double rows = passed[i].height / metres / 4;
-        int found = rows_of(canvas, column, passed[i].hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM);
+        int found = rows_of(cells, column, passed[i].hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM);
         assert_true(found >= rows - 2 && found <= rows + 1);
     }
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
     expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII,
            "                      v path (40 m)       v 80 m\n"
            "  |v release  .       '                   '\n"
@@ -524,9 +525,9 @@ static void contacts_without_size_are_drawn_as_high_as_the_stand(void **state)
     struct ceduo_picture p = picture_of(&s);
     p.stems = contact;
     p.stems_count = 3;
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_PROFILE, &p, 84, 40, BRAILLE);
-    assert_in_range(cells_of(canvas, CEDUO_ROLE_WAY), 6, 12);
-    ceduo_canvas_free(canvas);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 84, 40, BRAILLE);
+    assert_in_range(cells_of(cells, CEDUO_ROLE_WAY), 6, 12);
+    ceduo_cells_free(cells);
     assert_true(shows(CEDUO_PLOT_STAND, &p, 84, 20, "One pattern of many"));
 }
 
@@ -625,10 +626,10 @@ static void strips_show_the_wood_beside_the_bare_slope(void **state)
            "  0┤  ⠈⠉                  ⠅           ⠈⠉       ⠨            wood mean\n"
            "   └┬──────────┬──────────┬─────────┬──────────┬──────────┬\n"
            "    0 m        20         40        60         80       100\n");
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
-    assert_true(cells_of(canvas, CEDUO_ROLE_WOOD) > 30);
-    assert_true(cells_of(canvas, CEDUO_ROLE_BARE) > 30);
-    ceduo_canvas_free(canvas);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
+    assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
+    assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
+    ceduo_cells_free(cells);
 }
 
 /* Where there is no room for four curves: the one that matters, with and without forest. */
@@ -660,12 +661,12 @@ static void small_strips_show_one_pair_of_curves(void **state)
     assert_false(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "p95"));
     struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
     struct ceduo_area area = {0, 0, 70, 20};
-    struct ceduo_canvas *canvas = ceduo_canvas_create(70, 20, ASCII);
-    ceduo_plot_energy(canvas, &area, &p, &span, true);
-    char *text = ceduo_canvas_dump(canvas);
+    struct ceduo_cells *cells = ceduo_cells_create(70, 20, ASCII);
+    ceduo_plot_energy(&cells->canvas, &area, &p, &span, true);
+    char *text = ceduo_cells_dump(cells);
     assert_non_null(strstr(text, "mean energy, kJ"));
     free(text);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
 }
 
 /* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
@@ -680,15 +681,15 @@ static void names_of_curves_follow_their_ends(void **state)
         s.wood_envelopes[i].mean_energy = 190e3;
         s.wood_envelopes[i].energy.p95 = 20e3;
     }
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, ASCII);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, ASCII);
     const char *names[] = {"wood mean", "bare p95", "bare mean", "wood p95"};
-    char *text = ceduo_canvas_dump(canvas), *at = text;
+    char *text = ceduo_cells_dump(cells), *at = text;
     for (int i = 0; i < 4; i++) {
         at = strstr(at, names[i]);
         assert_non_null(at);
     }
     free(text);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
 }
 
 /* The wood's own peak is cut as well, and told by name. */
@@ -717,10 +718,10 @@ static void strips_without_wooded_rocks(void **state)
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "not computed yet"));
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "not computed yet"));
     p.option = 1; /* no stems: both runs are one, drawn in strokes */
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_ENERGY, &p, 70, 8, BRAILLE);
-    assert_true(cells_of(canvas, CEDUO_ROLE_WOOD) > 30);
-    assert_in_range(cells_of(canvas, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
-    ceduo_canvas_free(canvas);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 8, BRAILLE);
+    assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
+    assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
+    ceduo_cells_free(cells);
 }
 
 /* Nine places of ten say how high the scale goes; the tenth is told. */
@@ -758,20 +759,20 @@ static void strips_share_the_profiles_columns(void **state)
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
-    struct ceduo_canvas *canvas = ceduo_canvas_create(70, 24, ASCII);
+    struct ceduo_cells *cells = ceduo_cells_create(70, 24, ASCII);
     struct ceduo_area above = {0, 0, 70, 16}, below = {0, 16, 70, 8};
     struct ceduo_span span;
-    ceduo_plot_profile(canvas, &above, &p, &span);
-    ceduo_plot_height(canvas, &below, &p, &span, true);
+    ceduo_plot_profile(&cells->canvas, &above, &p, &span);
+    ceduo_plot_height(&cells->canvas, &below, &p, &span, true);
     int rules[2] = {0, 0};
     for (int column = 0; column < 70; column++) {
-        rules[0] += ceduo_canvas_role(canvas, column, 5) == CEDUO_ROLE_CONTROL;
-        rules[1] += ceduo_canvas_role(canvas, column, 5) == CEDUO_ROLE_CONTROL &&
-                    ceduo_canvas_role(canvas, column, 20) == CEDUO_ROLE_CONTROL;
+        rules[0] += ceduo_cells_role(cells, column, 5) == CEDUO_ROLE_CONTROL;
+        rules[1] += ceduo_cells_role(cells, column, 5) == CEDUO_ROLE_CONTROL &&
+                    ceduo_cells_role(cells, column, 20) == CEDUO_ROLE_CONTROL;
     }
     assert_int_equal(rules[0], 2);
     assert_int_equal(rules[1], 2);
-    ceduo_canvas_free(canvas);
+    ceduo_cells_free(cells);
 }
 
 static void places_without_rocks_stay_empty(void **state)
@@ -1097,19 +1098,19 @@ static void stems_that_stay_do_not_move(void **state)
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     s.belts[0].stand.trees_count = 0;
-    struct ceduo_canvas *few = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    struct ceduo_cells *few = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
     s.belts[0].stand.stools_per_ha *= 1.5;
     s.shoots.per_ha *= 1.5;
-    struct ceduo_canvas *more = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    struct ceduo_cells *more = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
     int dots[2] = {0, 0};
     for (int i = 0; i < 80 * 37; i++) {
-        assert_int_equal(few->cells[i].dots & ~more->cells[i].dots, 0);
-        dots[0] += few->cells[i].dots != 0;
-        dots[1] += more->cells[i].dots != 0;
+        assert_int_equal(few->cell[i].dots & ~more->cell[i].dots, 0);
+        dots[0] += few->cell[i].dots != 0;
+        dots[1] += more->cell[i].dots != 0;
     }
     assert_true(dots[1] > dots[0]);
-    ceduo_canvas_free(few);
-    ceduo_canvas_free(more);
+    ceduo_cells_free(few);
+    ceduo_cells_free(more);
 }
 
 /* Trees of 10 cm and a rock of 3 m: those whose middle is less than 1.55 m off its path are met, no others. A row of
@@ -1124,17 +1125,17 @@ static void what_the_rock_meets_lies_in_its_strip(void **state)
     s.belts[0].stand.shoots_count = 0;
     s.trees.per_ha = 5000;
     s.trees.dbh = 0.1;
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_STAND, &p, 80, 43, BRAILLE);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_STAND, &p, 80, 43, BRAILLE);
     for (int row = 0; row < 40; row++)
         for (int column = 0; column < 80; column++) {
             double off = fabs(0.503 * (row + 0.5 - 20)); /* m */
-            enum ceduo_role role = ceduo_canvas_role(canvas, column, row);
+            enum ceduo_role role = ceduo_cells_role(cells, column, row);
             assert_false(role == CEDUO_ROLE_WAY && off > 1.6 + 0.3);
             assert_false(role == CEDUO_ROLE_STEM && off < 1.5 - 0.3);
         }
-    assert_true(cells_of(canvas, CEDUO_ROLE_WAY) > 10);
-    assert_true(cells_of(canvas, CEDUO_ROLE_STEM) > 50);
-    ceduo_canvas_free(canvas);
+    assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
+    assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 50);
+    ceduo_cells_free(cells);
 }
 
 /* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
@@ -1161,11 +1162,11 @@ static void the_stand_shows_the_way_of_the_rock(void **state)
            "┬─────┬─────┬─────┬─────┬─────┬────┬─────┬─────┬─────┬─────┬\n"
            "22 m  24    26    28    30    32   34    36    38    40   42\n"
            "The way of this rock: 2 stems hit in 20 m; across ×6.5\n");
-    struct ceduo_canvas *canvas = draw(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE);
-    assert_true(cells_of(canvas, CEDUO_ROLE_WAY) >= 2);
-    assert_true(cells_of(canvas, CEDUO_ROLE_DIM) >= 1);
-    assert_int_equal(cells_of(canvas, CEDUO_ROLE_STEM) + cells_of(canvas, CEDUO_ROLE_STOOL), 0);
-    ceduo_canvas_free(canvas);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE);
+    assert_true(cells_of(cells, CEDUO_ROLE_WAY) >= 2);
+    assert_true(cells_of(cells, CEDUO_ROLE_DIM) >= 1);
+    assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
+    ceduo_cells_free(cells);
     p.stems_count = 4; /* the last one near the end of the belt */
     assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 14, "The way of this rock: 1 stem hit in 20 m; across x"));
     assert_true(shows(CEDUO_PLOT_STAND, &p, 50, 14, "The way of this rock: 1 stem hit in 20 m\n"));
@@ -1208,7 +1209,7 @@ static void a_dense_stand_is_drawn_in_time(void **state)
     struct ceduo_picture p = picture_of(&s);
     s.belts[0].stand.stools_per_ha = 1e6;
     s.shoots.per_ha = 1e7;
-    ceduo_canvas_free(draw(CEDUO_PLOT_STAND, &p, 200, 400, BRAILLE));
+    ceduo_cells_free(draw(CEDUO_PLOT_STAND, &p, 200, 400, BRAILLE));
 }
 
 /* ---- all of them ---- */
@@ -1222,23 +1223,23 @@ static void nothing_is_drawn_beside_the_area(void **state)
         enum ceduo_charset charset = (enum ceduo_charset)(i % 3);
         struct ceduo_area area = {7, 3, 4 + i / 3 % 40 * 3, 1 + i / 120 * 2};
         for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
-            struct ceduo_canvas *canvas = ceduo_canvas_create(area.width + 14, area.height + 6, charset);
+            struct ceduo_cells *cells = ceduo_cells_create(area.width + 14, area.height + 6, charset);
             struct ceduo_picture p = picture_of(&s);
             s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_STEMS : CEDUO_INDEX;
             p.outlook = i % 7 == 0 ? NULL : p.outlook;
             p.stems = i % 11 < 3 ? passed : NULL;
             p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);
-            ceduo_plot_draw((enum ceduo_plot)plot, canvas, &area, &p);
-            for (int row = 0; row < canvas->height; row++)
-                for (int column = 0; column < canvas->width; column++) {
+            ceduo_plot_draw((enum ceduo_plot)plot, &cells->canvas, &area, &p);
+            for (int row = 0; row < cells->height; row++)
+                for (int column = 0; column < cells->width; column++) {
                     bool in = column >= area.left && column < area.left + area.width && row >= area.top &&
                               row < area.top + area.height;
-                    if (!in && ceduo_canvas_role(canvas, column, row) != CEDUO_ROLE_BLANK)
+                    if (!in && ceduo_cells_role(cells, column, row) != CEDUO_ROLE_BLANK)
                         fail_msg("plot %d, charset %d, %dx%d: drawn at %d, %d", plot, (int)charset, area.width,
                                  area.height, column - area.left, row - area.top);
                 }
-            ceduo_canvas_free(canvas);
+            ceduo_cells_free(cells);
         }
     }
 }

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ticks at round numbers, and axes whose labels never touch. */
+#include "canvas.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Ticks ---- */
+
+/* An interval of 1, 2 or 5 times a power of ten, kept in parts: 3 / 10 is 0.3, but 3 * 0.1 is not. */
+struct interval {
+    int mantissa, exponent;
+};
+
+static double tick_value(double index, struct interval interval)
+{
+    double tens = index * interval.mantissa;
+    return interval.exponent < 0 ? tens / pow(10.0, -interval.exponent) : tens * pow(10.0, interval.exponent);
+}
+
+static struct interval coarser(struct interval interval)
+{
+    switch (interval.mantissa) {
+    case 1:
+        return (struct interval){2, interval.exponent};
+    case 2:
+        return (struct interval){5, interval.exponent};
+    default:
+        return (struct interval){1, interval.exponent + 1};
+    }
+}
+
+/* The first and last multiple of the interval in lo..hi; returns how many there are. */
+static double multiples(double lo, double hi, struct interval interval, double *first)
+{
+    const double slack = 1e-9; /* of an interval: 0.3 belongs to 0..3 * 0.1 */
+    double size = tick_value(1.0, interval);
+    *first = ceil(lo / size - slack);
+    return floor(hi / size + slack) - *first + 1.0;
+}
+
+static int one_tick(double value, double *out, double *interval)
+{
+    *out = value == 0.0 ? 0.0 : value;
+    *interval = 0.0;
+    return 1;
+}
+
+int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interval)
+{
+    double ignored;
+    interval = interval == NULL ? &ignored : interval;
+    *interval = 0.0;
+    double from = fmin(lo, hi);
+    double to = fmax(lo, hi);
+    double range = to - from;
+    if (max_count < 1 || !isfinite(lo) || !isfinite(hi) || range > 1e300)
+        return 0;
+    if (range < 1e-300 || range < 1e-12 * fmax(fabs(from), fabs(to)))
+        return one_tick(lo, out, interval);
+    max_count = max_count < CEDUO_TICKS_MAX ? max_count : CEDUO_TICKS_MAX;
+    struct interval size = {1, (int)floor(log10(range / max_count))};
+    double first;
+    double count = multiples(from, to, size, &first);
+    while (count > max_count) {
+        double next_first;
+        double next = multiples(from, to, coarser(size), &next_first);
+        if (next < 1.0)
+            break; /* 6..8 has no multiple of 5; a tick at 6 alone is better than none */
+        size = coarser(size);
+        count = next;
+        first = next_first;
+    }
+    int n = (int)fmin(count, max_count);
+    for (int i = 0; i < n; ++i)
+        out[i] = tick_value(first + i, size); /* ceil may have made first -0; -0 + 0 is 0 */
+    *interval = tick_value(1.0, size);
+    return n;
+}
+
+/* 2e+11 and 5e-09 as 2e11 and 5e-9. */
+static void shorten_exponent(char *text)
+{
+    char *exponent = strchr(text, 'e');
+    if (exponent == NULL)
+        return;
+    char *to = exponent + 1;
+    const char *from = to;
+    if (*from == '-') {
+        ++to;
+        ++from;
+    }
+    from += strspn(from, "+0");
+    memmove(to, from, strlen(from) + 1);
+}
+
+size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer)
+{
+    char text[CEDUO_TICK_LABEL_SIZE];
+    double place_of_interval = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0;
+    int decimals = place_of_interval < 0.0 ? (int)-place_of_interval : 0;
+    if (!(interval > 0.0)) {
+        snprintf(text, sizeof text, "%.6g", value);
+    } else if (decimals <= 6 && fabs(value) < 1e7) {
+        snprintf(text, sizeof text, "%.*f", decimals, value);
+    } else {
+        double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - place_of_interval + 1.0;
+        snprintf(text, sizeof text, "%.*g", (int)fmin(fmax(digits, 1.0), 17.0), value);
+    }
+    shorten_exponent(text);
+    const char *from = text;
+    if (*from == '-' && strpbrk(from, "123456789in") == NULL)
+        ++from; /* rounded to "-0.0" */
+    size_t length = strlen(from);
+    if (size == 0)
+        return 0;
+    length = length < size ? length : size - 1;
+    memcpy(buffer, from, length);
+    buffer[length] = '\0';
+    return length;
+}
+
+/* ---- Axes ---- */
+
+/* The labels of an axis: where each tick is (column or row), and on the bottom axis the columns of its text. */
+struct scale {
+    int count;
+    double interval;
+    double value[CEDUO_TICKS_MAX];
+    int tick[CEDUO_TICKS_MAX];
+    int start[CEDUO_TICKS_MAX], end[CEDUO_TICKS_MAX];
+};
+
+/* False if two labels would stand closer than they should. */
+static bool left_scale_fits(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
+{
+    int apart = frame->height > 3 ? 2 : 1;
+    for (int i = 0; i < scale->count; ++i) {
+        int column;
+        if (!ceduo_frame_cell(frame, canvas, frame->x0, scale->value[i], &column, &scale->tick[i]))
+            return false;
+        if (i > 0 && abs(scale->tick[i] - scale->tick[i - 1]) < apart)
+            return false;
+    }
+    return true;
+}
+
+static struct scale left_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
+{
+    struct scale scale = {0};
+    for (int n = frame->height / 2 + 1; n > 0; --n) {
+        scale.count = ceduo_ticks(frame->y0, frame->y1, n, scale.value, &scale.interval);
+        if (left_scale_fits(&scale, frame, canvas))
+            return scale;
+    }
+    scale.count = 0;
+    return scale;
+}
+
+int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
+{
+    /* The columns are still to be found: any valid ones, and any x, give the same labels. */
+    struct ceduo_frame rows = *frame;
+    rows.left = 0;
+    rows.width = 2;
+    rows.x0 = 0.0;
+    rows.x1 = 1.0;
+    if (!ceduo_frame_valid(&rows))
+        return 0;
+    struct scale scale = left_scale(&rows, canvas);
+    size_t widest = 0;
+    for (int i = 0; i < scale.count; ++i) {
+        char text[CEDUO_TICK_LABEL_SIZE];
+        size_t length = ceduo_tick_label(scale.value[i], scale.interval, sizeof text, text);
+        widest = length > widest ? length : widest;
+    }
+    return (int)widest + 1;
+}
+
+void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
+{
+    if (!ceduo_frame_valid(frame))
+        return;
+    int column = frame->left - 1;
+    struct scale scale = left_scale(frame, canvas);
+    canvas->surface->axis_left(canvas->to, frame, scale.count, scale.tick);
+    for (int i = 0; i < scale.count; ++i) {
+        char text[CEDUO_TICK_LABEL_SIZE];
+        int length = (int)ceduo_tick_label(scale.value[i], scale.interval, sizeof text, text);
+        if (length <= column)
+            ceduo_canvas_label_right(canvas, column - 1, scale.tick[i], CEDUO_ROLE_AXIS, text);
+    }
+}
+
+/* Which label stands i-th from the left. */
+static int from_left(const struct scale *scale, const struct ceduo_frame *frame, int i)
+{
+    return frame->x0 > frame->x1 ? scale->count - 1 - i : i;
+}
+
+enum { LABEL_GAP = 2 }; /* blanks between labels */
+
+/* Sets where each label goes; false if two would collide or one leave the frame. */
+static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
+{
+    int least = frame->left > 0 ? frame->left - 1 : frame->left;
+    int end = frame->left + frame->width;
+    for (int i = 0; i < scale->count; ++i) {
+        int k = from_left(scale, frame, i);
+        char text[CEDUO_TICK_LABEL_SIZE];
+        int length = (int)ceduo_tick_label(scale->value[k], scale->interval, sizeof text, text);
+        int row;
+        if (!ceduo_frame_cell(frame, canvas, scale->value[k], frame->y0, &scale->tick[k], &row))
+            return false;
+        int start = scale->tick[k] - (length - 1) / 2;
+        start = start + length > end ? end - length : start;
+        start = start < least && i == 0 ? least : start;
+        if (start < least || start + length > end)
+            return false;
+        scale->start[k] = start;
+        scale->end[k] = start + length;
+        least = start + length + LABEL_GAP;
+    }
+    return true;
+}
+
+/* Where the unit goes: after the last number or else after the first, moving none. -1 if neither has room. */
+static int unit_column(const struct scale *scale, const struct ceduo_frame *frame, int unit_width)
+{
+    if (scale->count < 1)
+        return -1;
+    int after_last = scale->end[from_left(scale, frame, scale->count - 1)] + 1;
+    if (after_last + unit_width <= frame->left + frame->width)
+        return after_last;
+    int after_first = scale->end[from_left(scale, frame, 0)] + 1;
+    if (scale->count > 1 && after_first + unit_width + LABEL_GAP <= scale->start[from_left(scale, frame, 1)])
+        return after_first;
+    return -1;
+}
+
+/* The most labels that leave room for the unit too, but two at least; the most of all if there is no such. */
+static struct scale bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, int unit_width,
+                                 int *unit_start)
+{
+    struct scale most = {0};
+    *unit_start = -1;
+    for (int n = frame->width / 3 + 1; n > 0; --n) {
+        struct scale scale = {0};
+        scale.count = ceduo_ticks(frame->x0, frame->x1, n, scale.value, &scale.interval);
+        if (!bottom_scale_fits(&scale, frame, canvas) || (scale.count < 2 && most.count > 1))
+            continue;
+        most = most.count == 0 ? scale : most;
+        *unit_start = unit_column(&scale, frame, unit_width);
+        if (unit_width == 0 || *unit_start >= 0)
+            return scale;
+    }
+    return most;
+}
+
+void ceduo_canvas_axis_bottom(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, const char *unit)
+{
+    if (!ceduo_frame_valid(frame))
+        return;
+    int row = frame->top + frame->height + 1;
+    int unit_start;
+    int unit_width = unit == NULL ? 0 : ceduo_canvas_label_width(canvas, unit);
+    struct scale scale = bottom_scale(frame, canvas, unit_width, &unit_start);
+    canvas->surface->axis_bottom(canvas->to, frame, scale.count, scale.tick);
+    for (int i = 0; i < scale.count; ++i) {
+        char text[CEDUO_TICK_LABEL_SIZE];
+        ceduo_tick_label(scale.value[i], scale.interval, sizeof text, text);
+        ceduo_canvas_label(canvas, scale.start[i], row, CEDUO_ROLE_AXIS, text);
+    }
+    if (unit != NULL && unit_start >= 0)
+        ceduo_canvas_label(canvas, unit_start, row, CEDUO_ROLE_AXIS, unit);
+}

@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The grid, text in it, what it shows; and how pictures draw on it (ceduo_surface, canvas.h). */
+#include "cells.h"
+
+#include <assert.h>
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/utf8.h"
+
+/* ---- The grid ---- */
+
+static size_t cell_count(const struct ceduo_cells *cells)
+{
+    return (size_t)cells->width * (size_t)cells->height;
+}
+
+static size_t dot_count(const struct ceduo_cells *cells)
+{
+    return cell_count(cells) * (size_t)(cells->canvas.dots_x * cells->canvas.dots_y);
+}
+
+static const struct ceduo_surface surface;
+
+struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset charset)
+{
+    if (width < 1 || width > CEDUO_CANVAS_MAX_WIDTH || height < 1 || height > CEDUO_CANVAS_MAX_HEIGHT)
+        return NULL;
+    struct ceduo_cells *cells = calloc(1, sizeof *cells);
+    if (!cells)
+        return NULL;
+    cells->width = width;
+    cells->height = height;
+    cells->charset = charset;
+    cells->canvas = (struct ceduo_canvas){&surface, cells, charset == CEDUO_CHARSET_ASCII ? 1 : 2,
+                                          charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};
+    cells->cell = calloc(cell_count(cells), sizeof *cells->cell);
+    if (!cells->cell) {
+        free(cells);
+        return NULL;
+    }
+    return cells;
+}
+
+void ceduo_cells_free(struct ceduo_cells *cells)
+{
+    if (cells == NULL)
+        return;
+    free(cells->density);
+    free(cells->cell);
+    free(cells);
+}
+
+void ceduo_cells_clear(struct ceduo_cells *cells)
+{
+    memset(cells->cell, 0, cell_count(cells) * sizeof *cells->cell);
+    if (cells->density != NULL)
+        memset(cells->density, 0, dot_count(cells) * sizeof *cells->density);
+}
+
+/* NULL outside. */
+static struct ceduo_cell *cell_at(const struct ceduo_cells *cells, int column, int row)
+{
+    if (column < 0 || column >= cells->width || row < 0 || row >= cells->height)
+        return NULL;
+    return &cells->cell[(size_t)row * (size_t)cells->width + (size_t)column];
+}
+
+/* The higher rank gives the cell its role. */
+static int role_rank(unsigned role)
+{
+    static const uint8_t ranks[CEDUO_ROLE_COUNT] = {
+#define X(NAME, letter, rank) [CEDUO_ROLE_##NAME] = rank,
+        CEDUO_ROLES(X)
+#undef X
+    };
+    assert(role < CEDUO_ROLE_COUNT);
+    return ranks[role];
+}
+
+/* x and y in dots of the whole grid. */
+static void set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_role role)
+{
+    if (x < 0 || y < 0 || role == CEDUO_ROLE_BLANK)
+        return;
+    int across = cells->canvas.dots_x, down = cells->canvas.dots_y;
+    struct ceduo_cell *cell = cell_at(cells, x / across, y / down);
+    if (cell == NULL)
+        return;
+    unsigned bit = (unsigned)(y % down * across + x % across);
+    cell->dots = (uint8_t)(cell->dots | 1U << bit);
+    if (cell->code == 0 && role_rank(role) > role_rank(cell->role))
+        cell->role = (uint8_t)role;
+}
+
+static void set_code(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, uint32_t code)
+{
+    struct ceduo_cell *cell = cell_at(cells, column, row);
+    if (cell == NULL || role == CEDUO_ROLE_BLANK)
+        return;
+    cell->code = code;
+    cell->role = (uint8_t)role;
+}
+
+/* ---- Text ---- */
+
+/* What stands for a character that is not ASCII; of the degree a blank, as "35o" reads like 350. */
+static const char *ascii_for(uint32_t code)
+{
+    static const struct {
+        uint16_t first, last;
+        char text[4];
+    } table[] = {
+        {0xA0, 0xA0, " "},      {0xAB, 0xAB, "\""},     {0xB0, 0xB0, " "},       {0xB1, 0xB1, "+-"},
+        {0xB2, 0xB2, "2"},      {0xB3, 0xB3, "3"},      {0xB5, 0xB5, "u"},       {0xB7, 0xB7, "."},
+        {0xBB, 0xBB, "\""},     {0xC0, 0xC3, "A"},      {0xC4, 0xC4, "Ae"},      {0xC5, 0xC5, "A"},
+        {0xC6, 0xC6, "AE"},     {0xC7, 0xC7, "C"},      {0xC8, 0xCB, "E"},       {0xCC, 0xCF, "I"},
+        {0xD1, 0xD1, "N"},      {0xD2, 0xD5, "O"},      {0xD6, 0xD6, "Oe"},      {0xD7, 0xD7, "x"},
+        {0xD8, 0xD8, "O"},      {0xD9, 0xDB, "U"},      {0xDC, 0xDC, "Ue"},      {0xDD, 0xDD, "Y"},
+        {0xDF, 0xDF, "ss"},     {0xE0, 0xE3, "a"},      {0xE4, 0xE4, "ae"},      {0xE5, 0xE5, "a"},
+        {0xE6, 0xE6, "ae"},     {0xE7, 0xE7, "c"},      {0xE8, 0xEB, "e"},       {0xEC, 0xEF, "i"},
+        {0xF1, 0xF1, "n"},      {0xF2, 0xF5, "o"},      {0xF6, 0xF6, "oe"},      {0xF7, 0xF7, "/"},
+        {0xF8, 0xF8, "o"},      {0xF9, 0xFB, "u"},      {0xFC, 0xFC, "ue"},      {0xFD, 0xFD, "y"},
+        {0xFF, 0xFF, "y"},      {0x2002, 0x200A, " "},  {0x2010, 0x2015, "-"},   {0x2018, 0x2019, "'"},
+        {0x201C, 0x201E, "\""}, {0x2022, 0x2022, "*"},  {0x2026, 0x2026, "..."}, {0x202F, 0x202F, " "},
+        {0x2032, 0x2032, "'"},  {0x2190, 0x2190, "<-"}, {0x2191, 0x2191, "^"},   {0x2192, 0x2192, "->"},
+        {0x2193, 0x2193, "v"},  {0x2205, 0x2205, "O"},  {0x2212, 0x2212, "-"},   {0x221E, 0x221E, "inf"},
+        {0x2248, 0x2248, "~"},  {0x2260, 0x2260, "!="}, {0x2264, 0x2264, "<="},  {0x2265, 0x2265, ">="},
+        {0x2500, 0x2501, "-"},  {0x2502, 0x2503, "|"},  {0x250C, 0x254B, "+"},   {0x2550, 0x2550, "="},
+        {0x2551, 0x2551, "|"},  {0x2552, 0x2570, "+"},  {0x2580, 0x2590, "#"},   {0x2591, 0x2591, "."},
+        {0x2592, 0x2592, ":"},  {0x2593, 0x2593, "#"},  {0x25A0, 0x25A0, "#"},   {0x25B2, 0x25B3, "^"},
+        {0x25B6, 0x25B8, ">"},  {0x25BC, 0x25BD, "v"},  {0x25C0, 0x25C2, "<"},   {0x25C6, 0x25C7, "*"},
+        {0x25CB, 0x25CB, "o"},  {0x25CF, 0x25CF, "o"},  {0x2660, 0x2660, "Y"},   {0x2663, 0x2663, "Y"},
+        {0x26A0, 0x26A0, "!"},  {0x2713, 0x2714, "+"},  {0x2717, 0x2718, "x"},
+    };
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i)
+        if (code >= table[i].first && code <= table[i].last)
+            return table[i].text;
+    return "?";
+}
+
+/* C0 and C1. */
+static bool is_control(uint32_t code)
+{
+    return code < ' ' || (code >= 0x7f && code < 0xa0);
+}
+
+/* Walks through a text as it will be written, one cell after the other. */
+struct reader {
+    enum ceduo_charset charset;
+    const char *text;
+    const char *pending; /* the rest of an ASCII equivalent, in a constant table */
+};
+
+/* 0 at the end. */
+static uint32_t next_code(struct reader *reader)
+{
+    if (*reader->pending != '\0')
+        return (uint32_t)*reader->pending++;
+    if (*reader->text == '\0')
+        return 0;
+    uint32_t code;
+    size_t n = ceduo_utf8_decode(reader->text, strlen(reader->text), &code);
+    reader->text += n > 0 ? n : 1;
+    if (n == 0 || is_control(code) || ceduo_utf8_columns(code) != 1)
+        return '?';
+    if (reader->charset != CEDUO_CHARSET_ASCII || code < 0x80)
+        return code;
+    reader->pending = ascii_for(code);
+    return (uint32_t)*reader->pending++;
+}
+
+int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text)
+{
+    struct reader reader = {cells->charset, text, ""};
+    int count = 0;
+    uint32_t code;
+    while (count < INT_MAX && (code = next_code(&reader)) != 0) {
+        if (column < cells->width)
+            set_code(cells, column++, row, role, code);
+        ++count;
+    }
+    return count;
+}
+
+int ceduo_cells_label_right(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text)
+{
+    return ceduo_canvas_label_right(&cells->canvas, column, row, role, text);
+}
+
+int ceduo_cells_put(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
+{
+    return ceduo_canvas_put(&cells->canvas, column, row, most, role, text);
+}
+
+int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
+{
+    struct reader reader = {charset, text, ""};
+    int count = 0;
+    while (count < INT_MAX && next_code(&reader) != 0)
+        ++count;
+    return count;
+}
+
+/* ---- Output ---- */
+
+static uint32_t braille_glyph(unsigned dots)
+{
+    /* Braille counts its upper six dots column by column, and the lowest two after them. */
+    static const uint8_t bits[8] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
+    uint32_t code = 0x2800;
+    for (unsigned i = 0; i < 8; ++i)
+        if (dots >> i & 1U)
+            code |= bits[i];
+    return code;
+}
+
+static uint32_t block_glyph(unsigned dots)
+{
+    /* Bits: 1 upper left, 2 upper right, 4 lower left, 8 lower right. */
+    static const uint16_t glyphs[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,
+                                        0x2597, 0x259A, 0x2590, 0x259C, 0x2584, 0x2599, 0x259F, 0x2588};
+    return glyphs[dots & 15U];
+}
+
+static uint32_t glyph_of(const struct ceduo_cell *cell, enum ceduo_charset charset)
+{
+    if (cell->code != 0)
+        return cell->code;
+    if (cell->dots == 0)
+        return ' ';
+    switch (charset) {
+    case CEDUO_CHARSET_BRAILLE:
+        return braille_glyph(cell->dots);
+    case CEDUO_CHARSET_BLOCK:
+        return block_glyph(cell->dots);
+    case CEDUO_CHARSET_ASCII:
+        break;
+    }
+    return (uint32_t) " '.:"[cell->dots & 3U];
+}
+
+uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row)
+{
+    const struct ceduo_cell *cell = cell_at(cells, column, row);
+    return cell == NULL ? ' ' : glyph_of(cell, cells->charset);
+}
+
+enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, int row)
+{
+    const struct ceduo_cell *cell = cell_at(cells, column, row);
+    return cell == NULL ? CEDUO_ROLE_BLANK : (enum ceduo_role)cell->role;
+}
+
+size_t ceduo_cells_text(const struct ceduo_cells *cells, int row, size_t size, char *buffer)
+{
+    int end = cells->width;
+    while (end > 0 && ceduo_cells_glyph(cells, end - 1, row) == ' ')
+        --end;
+    size_t needed = 0;
+    size_t written = 0;
+    for (int column = 0; column < end; ++column) {
+        char bytes[4];
+        size_t length = ceduo_utf8_encode(ceduo_cells_glyph(cells, column, row), bytes);
+        needed += length;
+        if (needed < size) {
+            memcpy(buffer + written, bytes, length);
+            written = needed;
+        }
+    }
+    if (size > 0)
+        buffer[written] = '\0';
+    return needed;
+}
+
+char *ceduo_cells_dump(const struct ceduo_cells *cells)
+{
+    size_t size = 1;
+    for (int row = 0; row < cells->height; ++row)
+        size += ceduo_cells_text(cells, row, 0, NULL) + 1;
+    char *dump = malloc(size);
+    if (dump == NULL)
+        return NULL;
+    char *to = dump;
+    for (int row = 0; row < cells->height; ++row) {
+        to += ceduo_cells_text(cells, row, size - (size_t)(to - dump), to);
+        *to++ = '\n';
+    }
+    *to = '\0';
+    return dump;
+}
+
+char *ceduo_cells_roles(const struct ceduo_cells *cells)
+{
+    static const char letters[] = {
+#define X(NAME, letter, rank) letter,
+        CEDUO_ROLES(X)
+#undef X
+    };
+    char *roles = malloc(((size_t)cells->width + 1) * (size_t)cells->height + 1);
+    if (roles == NULL)
+        return NULL;
+    char *to = roles;
+    for (int row = 0; row < cells->height; ++row) {
+        char *end = to;
+        for (int column = 0; column < cells->width; ++column) {
+            *to++ = letters[ceduo_cells_role(cells, column, row)];
+            end = to[-1] == ' ' ? end : to;
+        }
+        to = end;
+        *to++ = '\n';
+    }
+    *to = '\0';
+    return roles;
+}
+
+/* ---- Pictures ---- */
+
+/* The nearest of n dots. */
+static int nearest(double position, int n)
+{
+    return (int)lround(fmin(fmax(position, 0.0), n - 1));
+}
+
+/* Counts in how many ways a dot lies; once in a dot in which one part of a way ends and the next begins. */
+static void count_dot(struct ceduo_cells *cells, struct ceduo_pen *pen, int x, int y)
+{
+    int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;
+    if (!cells->density || x < 0 || x >= width || y < 0 || y >= height || (x == pen->last_x && y == pen->last_y))
+        return;
+    pen->last_x = x;
+    pen->last_y = y;
+    uint32_t *count = &cells->density[(size_t)y * (size_t)width + (size_t)x];
+    *count += *count < UINT32_MAX;
+}
+
+static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
+{
+    const struct ceduo_raster *r = &pen->raster;
+    int x = nearest(a.x, r->nx), y = nearest(a.y, r->ny);
+    int dx = nearest(b.x, r->nx) - x, dy = nearest(b.y, r->ny) - y;
+    int dots = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
+    for (int i = 0; i <= dots; i += pen->stroke == CEDUO_STROKE_DOTTED ? 2 : 1) {
+        double part = dots > 0 ? (double)i / dots : 0;
+        int at_x = r->left + x + (int)lround(part * dx), at_y = r->top + y + (int)lround(part * dy);
+        if (pen->stroke == CEDUO_STROKE_WAY)
+            count_dot(to, pen, at_x, at_y);
+        else
+            set_dot(to, at_x, at_y, pen->role);
+    }
+}
+
+/* To an eighth of a cell, in ASCII to a cell. */
+static void draw_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
+{
+    enum { full_block = 0x2588, eighth_block = 0x258F };
+    const struct ceduo_cells *cells = to;
+    bool ascii = cells->charset == CEDUO_CHARSET_ASCII;
+    int parts = ascii ? 1 : 8; /* of a cell */
+    int length = (int)lround(fraction * width * parts);
+    length = length < 1 ? 1 : length;
+    for (int i = 0; i < length / parts; ++i)
+        set_code(to, column + i, row, role, ascii ? '#' : full_block);
+    if (length % parts > 0)
+        set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
+}
+
+static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const int *rows)
+{
+    for (int row = frame->top; row < frame->top + frame->height; ++row)
+        ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
+    for (int i = 0; i < count; ++i)
+        ceduo_cells_label(to, frame->left - 1, rows[i], CEDUO_ROLE_AXIS, "\xe2\x94\xa4");
+}
+
+/* Meets the left axis in a corner if that was drawn before. */
+static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count, const int *columns)
+{
+    int row = frame->top + frame->height;
+    const struct ceduo_cell *above = cell_at(to, frame->left - 1, row - 1);
+    if (above && above->code != 0 && above->role == CEDUO_ROLE_AXIS)
+        ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x94");
+    for (int column = frame->left; column < frame->left + frame->width; ++column)
+        ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, "\xe2\x94\x80");
+    for (int i = 0; i < count; ++i)
+        ceduo_cells_label(to, columns[i], row, CEDUO_ROLE_AXIS, "\xe2\x94\xac");
+}
+
+static bool start_cloud(void *to)
+{
+    struct ceduo_cells *cells = to;
+    free(cells->density);
+    cells->density = calloc(dot_count(cells), sizeof *cells->density);
+    return cells->density != NULL;
+}
+
+/* How many dots were passed, but no more than `limit` times. */
+static size_t passed_dots(const struct ceduo_cells *cells, uint32_t limit)
+{
+    size_t n = dot_count(cells);
+    size_t passed = 0;
+    for (size_t i = 0; i < n; ++i)
+        passed += cells->density[i] > 0 && cells->density[i] <= limit;
+    return passed;
+}
+
+/* Halves the range of counts rather than sorting them: no memory, and at most 32 passes. */
+static uint32_t density_level(const struct ceduo_cells *cells, double quantile)
+{
+    size_t all = passed_dots(cells, UINT32_MAX);
+    if (all == 0)
+        return 0;
+    double wanted = quantile > 0.0 ? fmax(fmin(quantile, 1.0) * (double)all, 1.0) : 1.0;
+    uint32_t lo = 1;
+    uint32_t hi = UINT32_MAX;
+    while (lo < hi) {
+        uint32_t middle = lo + (hi - lo) / 2;
+        if ((double)passed_dots(cells, middle) >= wanted)
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    return lo;
+}
+
+static void show_cloud(void *to, double quantile)
+{
+    struct ceduo_cells *cells = to;
+    uint32_t level = cells->density ? density_level(cells, quantile) : 0;
+    int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;
+    const uint32_t *count = cells->density;
+    for (int y = 0; level > 0 && y < height; ++y)
+        for (int x = 0; x < width; ++x, ++count)
+            if (*count >= level)
+                set_dot(cells, x, y, CEDUO_ROLE_CLOUD);
+}
+
+static int put_label(void *to, int column, int row, enum ceduo_role role, const char *text)
+{
+    return ceduo_cells_label(to, column, row, role, text);
+}
+
+static int label_width(const void *to, const char *text)
+{
+    const struct ceduo_cells *cells = to;
+    return ceduo_cells_label_width(cells->charset, text);
+}
+
+static bool is_blank(const void *to, int column, int row)
+{
+    return ceduo_cells_glyph(to, column, row) == ' ';
+}
+
+static const struct ceduo_surface surface = {put_label,      label_width,      is_blank,    draw_line, draw_bar,
+                                             draw_axis_left, draw_axis_bottom, start_cloud, show_cloud};

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_VIEW_CELLS_H
+#define CEDUO_VIEW_CELLS_H
+
+/*
+ * A grid of character cells. It writes to no terminal and to no file: the terminal program shows its cells, the batch mode
+ * prints its text, the tests compare that text.
+ *
+ * A cell holds a few dots (how many depends on the character set), one role, and perhaps one character of text.
+ * - A cell has one role. Dots of several roles in one cell are all seen, in the role that ranks highest, whoever drew
+ *   first.
+ * - Text hides the dots of its cell, those drawn later too; a blank inside a text does so as well.
+ *   Text over text: the last one stays.
+ */
+
+#include <stdint.h>
+
+#include "canvas.h"
+
+enum ceduo_charset {
+    CEDUO_CHARSET_BRAILLE, /* UTF-8, 2 x 4 dots a cell, square where a cell is twice as high as wide */
+    CEDUO_CHARSET_BLOCK,   /* UTF-8, 2 x 2 dots a cell, each twice as high as wide */
+    CEDUO_CHARSET_ASCII,   /* 1 x 2 dots a cell (' . :), square; text is brought down to ASCII too */
+};
+
+struct ceduo_cell {
+    uint32_t code; /* Unicode code point of the text here, 0 where there is none */
+    uint8_t dots;  /* bit (y * dots across + x), y down from the top of the cell */
+    uint8_t role;  /* enum ceduo_role */
+};
+
+struct ceduo_cells {
+    int width, height;
+    enum ceduo_charset charset;
+    struct ceduo_canvas canvas; /* to draw pictures on it */
+    struct ceduo_cell *cell;    /* width * height, row after row */
+    uint32_t *density;          /* of ways, one count a dot, row after row; NULL before a cloud is started */
+};
+
+/*
+ * A new, blank grid of width x height cells (1..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT),
+ * to be freed by ceduo_cells_free. NULL if there is no memory or a size is out of range.
+ */
+struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset charset);
+
+/* Free a grid and what belongs to it. NULL is allowed. */
+void ceduo_cells_free(struct ceduo_cells *cells);
+
+/* Make every cell blank, and every count of the density 0. */
+void ceduo_cells_clear(struct ceduo_cells *cells);
+
+/* ---- Text ---- */
+
+/*
+ * Write UTF-8 text from a cell on; returns the number of cells it takes, cut off or not. One '?' each
+ * for an invalid byte, a control character, and a character that takes no cell (combining marks)
+ * or two (East Asian, emoji). In ASCII the others become a near equivalent, of up to three
+ * characters, or '?'.
+ */
+int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
+
+/* The same, with the last character in cell `column`. */
+int ceduo_cells_label_right(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
+
+/* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
+int ceduo_cells_put(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
+
+/* The number of cells a text takes in a character set. */
+int ceduo_cells_label_width(enum ceduo_charset charset, const char *text);
+
+/* ---- Output ---- */
+
+/* What a cell shows: a code point, ' ' where it is empty or outside the grid; and its role. */
+uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row);
+enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, int row);
+
+/*
+ * Write one row as UTF-8 without its trailing blanks. Writes at most size bytes, the final NUL among
+ * them (unless size is 0), and no part of a character. Returns the bytes the whole row needs without
+ * the NUL, as snprintf does; 0 for a row outside the grid.
+ */
+size_t ceduo_cells_text(const struct ceduo_cells *cells, int row, size_t size, char *buffer);
+
+/* All rows as one UTF-8 string, each ended by a newline; to be freed by the caller. NULL: no memory. */
+char *ceduo_cells_dump(const struct ceduo_cells *cells);
+
+/* The role of each cell as its letter, in rows like those of ceduo_cells_dump; to be freed by the caller. NULL: no memory. */
+char *ceduo_cells_roles(const struct ceduo_cells *cells);
+
+#endif
