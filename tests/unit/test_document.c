@@ -1,15 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "folder.h"
+
 #include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -32,12 +24,12 @@ static const char scene[] = "# my comment\n"
 static const char stand[] = "ceduo: stand/1\nname: S\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
                             "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
 
-static char folder[64], path[128];
+static char path[256];
 
 static void write_file(const char *name, const char *text)
 {
     char whole[256];
-    snprintf(whole, sizeof whole, "%s/%s", folder, name);
+    in_folder(whole, name);
     assert_true(ceduo_file_write(whole, text, strlen(text)));
 }
 
@@ -45,7 +37,7 @@ static char *read_file(const char *name)
 {
     char whole[256];
     static char text[65536];
-    snprintf(whole, sizeof whole, "%s/%s", folder, name);
+    in_folder(whole, name);
     FILE *f = fopen(whole, "r");
     assert_non_null(f);
     text[fread(text, 1, sizeof text - 1, f)] = '\0';
@@ -56,18 +48,17 @@ static char *read_file(const char *name)
 static int set_up(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    folder_make();
     setenv("XDG_STATE_HOME", folder, 1);
-    char share[128], *profiles = realpath("profiles", NULL); /* the shipped stands, as if they were installed */
-    snprintf(share, sizeof share, "%s/share", folder);
-    assert_int_equal(mkdir(share, 0700), 0);
+    char share[256], *profiles = realpath("profiles", NULL); /* the shipped stands, as if they were installed */
+    make_folder("share");
+    in_folder(share, "share");
     setenv("XDG_DATA_HOME", share, 1);
-    snprintf(share, sizeof share, "%s/share/ceduo", folder);
+    in_folder(share, "share/ceduo");
     assert_non_null(profiles);
     assert_int_equal(symlink(profiles, share), 0);
     free(profiles);
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    in_folder(path, "scene.yaml");
     write_file("scene.yaml", scene);
     write_file("stand.yaml", stand);
     return 0;
@@ -76,9 +67,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return folder_remove();
 }
 
 static void open_scene(struct document *d)
@@ -517,7 +506,7 @@ static void what_a_killed_save_left_is_taken_away(void **state)
     open_scene(&d);
     for (int i = 0; i < 3; i++) {
         char left[256];
-        snprintf(left, sizeof left, "%s/%s", folder, names[i]);
+        in_folder(left, names[i]);
         assert_int_equal(access(left, F_OK) == 0, i == 2); /* the program saves no stand */
     }
     ceduo_document_close(&d);
@@ -652,13 +641,6 @@ static void a_file_of_the_same_length_is_noticed(void **state)
 
 /* ---- saved elsewhere ---- */
 
-static void make_folder(const char *name)
-{
-    char whole[256];
-    snprintf(whole, sizeof whole, "%s/%s", folder, name);
-    assert_int_equal(mkdir(whole, 0700), 0);
-}
-
 /* A scene in a/scenes whose files lie in a/slopes and a/stands; b/stands has another stand of the same name. */
 static void scatter(const char *slope_reference)
 {
@@ -678,7 +660,7 @@ static void scatter(const char *slope_reference)
     write_file("a/slopes/by-csv.yaml", "ceduo: slope/1\ncsv: line.csv\nsegments: [{rn: 0.3, rt: 0.8}]\n");
     write_file("a/stands/wood.yaml", stand);
     write_file("b/stands/wood.yaml", "ceduo: stand/1\ntrees: [{per_ha: 7, dbh_m: 0.2, height_m: 12}]\n");
-    snprintf(path, sizeof path, "%s/a/scenes/s.yaml", folder);
+    in_folder(path, "a/scenes/s.yaml");
 }
 
 /* What the files lead to, whatever else was changed. */
@@ -707,12 +689,12 @@ static void references_lead_to_the_same_files_from_elsewhere(void **state)
 {
     for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
         struct document d;
-        char there[96], text[4096], wanted[256];
+        char there[256], text[4096], wanted[256];
         if (i > 0)
             assert_true(tear_down(state) == 0 && set_up(state) == 0);
         scatter(slopes[i]);
         open_scene(&d);
-        snprintf(there, sizeof there, "%s/b/scenes/t.yaml", folder);
+        in_folder(there, "b/scenes/t.yaml");
         save(&d, there);
         strcpy(text, read_file("b/scenes/t.yaml"));
         assert_non_null(strstr(text, "# mine\n"));
@@ -735,10 +717,10 @@ static void references_stay_where_they_lead_to_the_same(void **state)
 {
     (void)state;
     struct document d;
-    char there[96], text[4096];
+    char there[256], text[4096];
     scatter(slopes[0]);
     open_scene(&d);
-    snprintf(there, sizeof there, "%s/a/more/t.yaml", folder);
+    in_folder(there, "a/more/t.yaml");
     save(&d, there);
     strcpy(text, read_file("a/more/t.yaml"));
     assert_string_equal(text, read_file("a/scenes/s.yaml"));
@@ -767,7 +749,7 @@ static void a_typed_profile_lies_beside_the_scene(void **state)
 {
     (void)state;
     struct document d;
-    char there[96];
+    char there[256];
     scatter(slopes[2]);
     write_file("a/slopes/low.csv", "distance,elevation\n0,40\n40,10\n80,5\n100,0\n");
     write_file("a/stands/low.yaml", "ceduo: stand/1\ntrees: [{per_ha: 9, dbh_m: 0.2, height_m: 12}]\n");
@@ -778,7 +760,7 @@ static void a_typed_profile_lies_beside_the_scene(void **state)
     assert_int_equal(d.file.scene.slope.vertices, 3);
     set(&d, "slope", "{csv: ../slopes/low.csv, segments: [{rn: 0.3, rt: 0.8}]}");
     set(&d, "forest[0].stand", "../stands/low.yaml");
-    snprintf(there, sizeof there, "%s/b/scenes/t.yaml", folder);
+    in_folder(there, "b/scenes/t.yaml");
     save(&d, there);
     ceduo_document_close(&d);
     strcpy(path, there);
@@ -794,10 +776,10 @@ static void the_copy_leads_to_the_same_files(void **state)
     (void)state;
     struct document d;
     struct problems problems = {0};
-    char there[96], text[4096];
+    char there[256], text[4096];
     scatter("../slopes/by-csv.yaml");
     open_scene(&d);
-    snprintf(there, sizeof there, "%s/b/scenes/t.yaml", folder);
+    in_folder(there, "b/scenes/t.yaml");
     save(&d, there);
     set(&d, "slope.facets", "both");
     set(&d, "forest[0].stand.trees[0].per_ha", "50");

@@ -2,10 +2,10 @@
 /* Files, documents and parts without memory. */
 #include "unit/failing.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "ceduo/key.h"
+#include "folder.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/part_file.h"
@@ -33,35 +33,23 @@ static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\ns
 
 static const char by_csv[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
 
-static char folder[64], scene_path[128], faulty_path[128], csv_path[128], link_path[128], linked_path[128],
-    elsewhere_path[128];
-
-static void put(const char *name, const char *text)
-{
-    char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    assert_true(ceduo_file_write(path, text, strlen(text)));
-}
+static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256], elsewhere_path[256];
 
 static int set_up(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    folder_make();
     setenv("XDG_STATE_HOME", folder, 1);
     setenv("XDG_DATA_HOME", folder, 1);
-    const struct {
-        char *path;
-        const char *name;
-        bool made; /* a folder */
-    } paths[] = {{scene_path, "scene.yaml", false},   {faulty_path, "faulty.yaml", false}, {csv_path, "csv.yaml", false},
-                 {linked_path, "ceduo", true},        {linked_path, "ceduo/scenes", true}, {link_path, "link", false},
-                 {linked_path, "linked", false},      {elsewhere_path, "elsewhere", true},
-                 {elsewhere_path, "elsewhere/scene.yaml", false}};
-    for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
-        snprintf(paths[i].path, sizeof scene_path, "%s/%s", folder, paths[i].name);
-        assert_true(!paths[i].made || mkdir(paths[i].path, 0700) == 0);
-    }
+    make_folder("ceduo");
+    make_folder("ceduo/scenes");
+    make_folder("elsewhere");
+    in_folder(scene_path, "scene.yaml");
+    in_folder(faulty_path, "faulty.yaml");
+    in_folder(csv_path, "csv.yaml");
+    in_folder(link_path, "link");
+    in_folder(linked_path, "linked");
+    in_folder(elsewhere_path, "elsewhere/scene.yaml");
     assert_int_equal(symlink("linked", link_path), 0);
     put("scene.yaml", scene);
     put("slope.yaml", slope);
@@ -76,14 +64,21 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return folder_remove();
 }
 
 static void add_text(const struct text *text)
 {
     add(text->bytes, text->length);
+}
+
+/* Nothing here is asked of the disk, and it would be waited for some thousand times. */
+int __wrap_fsync(int fd);
+
+int __wrap_fsync(int fd)
+{
+    (void)fd;
+    return 0;
 }
 
 /* What stands in an arena comes from few pages: here each piece of it can fail. */

@@ -1,60 +1,45 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "folder.h"
+
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "io/emit.h"
-#include "io/file.h"
 #include "io/resolve.h"
 #include "io/scene_file.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static char folder[64];
-
 static int set_up(void **state)
 {
     (void)state;
-    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
-    assert_non_null(mkdtemp(folder));
+    folder_make();
     return 0;
 }
 
 static int tear_down(void **state)
 {
     (void)state;
-    char command[128];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command);
+    return folder_remove();
 }
 
 __attribute__((format(printf, 2, 3))) static void write_file(const char *name, const char *format, ...)
 {
-    char path[128];
     struct text text = {0};
     va_list args;
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    assert_true(ceduo_file_write(path, text.bytes, text.length));
+    put(name, text.bytes);
     ceduo_text_free(&text);
 }
 
 /* Reads scene.yaml; what is wrong with it is put into `told`. */
 static bool read_scene(struct scene_file *file, char told[4096])
 {
-    char path[128];
+    char path[256];
     struct problems problems = {0};
-    snprintf(path, sizeof path, "%s/scene.yaml", folder);
+    in_folder(path, "scene.yaml");
     bool good = ceduo_scene_read(file, path, NULL, 0, &problems);
     snprintf(told, 4096, "%s", problems.text.bytes ? problems.text.bytes : "");
     ceduo_problems_free(&problems);

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A temporary folder for a test, which goes with all that is in it. */
+#ifndef FOLDER_H
+#define FOLDER_H
+
+#include "expect.h"
+
+#include <ftw.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static char folder[64];
+
+static inline void folder_make(void)
+{
+    snprintf(folder, sizeof folder, "/tmp/ceduo-test-XXXXXX");
+    assert_non_null(mkdtemp(folder));
+}
+
+static inline int folder_remove_one(const char *path, const struct stat *about, int kind, struct FTW *place)
+{
+    (void)about;
+    (void)kind;
+    (void)place;
+    return remove(path);
+}
+
+/* What the tear-down of a test returns. */
+static inline int folder_remove(void)
+{
+    return nftw(folder, folder_remove_one, 16, FTW_DEPTH | FTW_PHYS);
+}
+
+static inline void in_folder(char path[256], const char *name)
+{
+    snprintf(path, 256, "%s/%s", folder, name);
+}
+
+/* A folder in it. */
+static inline void make_folder(const char *name)
+{
+    char path[256];
+    in_folder(path, name);
+    assert_int_equal(mkdir(path, 0700), 0);
+}
+
+/* A file in it; nothing waits for the disk. */
+static inline void put(const char *name, const char *text)
+{
+    char path[256];
+    in_folder(path, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_int_equal(fputs(text, file) == EOF, 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+#endif

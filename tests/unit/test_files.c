@@ -1,0 +1,421 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files: where they are found, what is read of them, how they are written and what is left beside them. */
+#include "folder.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "io/file.h"
+#include "io/node.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+static int set_up(void **state)
+{
+    (void)state;
+    folder_make();
+    make_folder("ceduo");
+    make_folder("ceduo/stands");
+    make_folder("ceduo/stands/folder.yaml");
+    setenv("XDG_DATA_HOME", folder, 1);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return folder_remove();
+}
+
+static void files_are_found(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    put("ceduo/stands/own.yaml", "x");
+    put("ceduo/top.yaml", "x");
+    put("beside.yaml", "x");
+    char beside[256], wanted[256];
+    in_folder(beside, "scene.yaml");
+    const struct {
+        const char *name, *found;
+        bool folder;
+    } rows[] = {{"beside.yaml", "beside.yaml", true},
+                {"own.yaml", "ceduo/stands/own.yaml", true},
+                {"own", "ceduo/stands/own.yaml", true},
+                {"own", NULL, false},
+                {"./top.yaml", "ceduo/top.yaml", true},
+                {"../top.yaml", "ceduo/top.yaml", true},
+                {"../.././stands/own.yaml", "ceduo/stands/own.yaml", false},
+                {"stands/own", NULL, true},
+                {"folder.yaml", NULL, true}, /* a folder is no file */
+                {"nothing", NULL, true},
+                {"/nothing", NULL, true}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const char *found = ceduo_file_find(&arena, rows[i].name, beside, rows[i].folder ? "stands" : NULL);
+        if (!rows[i].found) {
+            assert_null(found);
+            continue;
+        }
+        in_folder(wanted, rows[i].found);
+        assert_non_null(found);
+        assert_string_equal(found, wanted);
+    }
+    in_folder(wanted, "beside.yaml");
+    assert_string_equal(ceduo_file_find(&arena, wanted, NULL, NULL), wanted);
+    ceduo_arena_free(&arena);
+}
+
+static void folders_of_the_environment(void **state)
+{
+    (void)state;
+    char own[256], home[256], path[256];
+    in_folder(own, "ceduo");
+    in_folder(home, "home");
+    const char *const parts[] = {"home", "home/.local", "home/.local/share", "home/.local/share/ceduo"};
+    for (size_t i = 0; i < LENGTH(parts); i++) {
+        in_folder(path, parts[i]);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    char file[256]; /* what should be the folder is a file */
+    in_folder(file, "file");
+    assert_int_equal(mkdir(file, 0700), 0);
+    put("file/ceduo", "x");
+    const struct {
+        const char *data, *home, *first;
+    } rows[] = {{folder, home, own}, {file, home, NULL}, {NULL, home, path}, {"relative", home, path}, {"", home, path}, {NULL, "", NULL}, {NULL, NULL, NULL}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct arena arena = {0};
+        rows[i].data ? setenv("XDG_DATA_HOME", rows[i].data, 1) : unsetenv("XDG_DATA_HOME");
+        rows[i].home ? setenv("HOME", rows[i].home, 1) : unsetenv("HOME");
+        const char *const *folders = ceduo_file_folders(&arena);
+        bool is_first = folders[0] && rows[i].first && strcmp(folders[0], rows[i].first) == 0;
+        assert_int_equal(is_first, rows[i].first != NULL);
+        for (size_t k = is_first; folders[k]; k++)
+            assert_null(strstr(folders[k], folder));
+        ceduo_arena_free(&arena);
+    }
+    setenv("XDG_DATA_HOME", folder, 1);
+}
+
+static void folders_are_listed(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    char own[256];
+    in_folder(own, "ceduo");
+    size_t n = 1;
+    assert_null(ceduo_file_list(&arena, own, "slopes", &n));
+    assert_int_equal(n, 0);
+    const char *const names[] = {"ceduo/stands/a-b.yaml", "ceduo/stands/a.yaml", "ceduo/stands/letter.txt", "ceduo/stands/.yaml",
+                                 "ceduo/stands/.c.yaml", "ceduo/stands/B.yaml", "ceduo/stands/x", "ceduo/stands/aaaa.yaml",
+                                 "ceduo/stands/aa.yaml", "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
+    for (size_t i = 0; i < LENGTH(names); i++)
+        put(names[i], "x");
+    const char *const wanted[] = {"B.yaml", "a.yaml", "a-b.yaml", "aa.yaml", "aaa.yaml", "aaaa.yaml", "aaaaa.yaml", "folder.yaml"};
+    const char *const *list = ceduo_file_list(&arena, own, "stands", &n);
+    assert_int_equal(n, LENGTH(wanted));
+    for (size_t i = 0; i < n; i++)
+        assert_string_equal(list[i], wanted[i]);
+    for (int i = 0; i < 100; i++) { /* more than are first made room for */
+        char name[64];
+        snprintf(name, sizeof name, "ceduo/stands/n%02d.yaml", i);
+        put(name, "x");
+    }
+    list = ceduo_file_list(&arena, own, "stands", &n);
+    assert_int_equal(n, 108);
+    for (size_t i = 8; i < n; i++)
+        assert_int_equal(atoi(list[i] + 1), (int)i - 8);
+    ceduo_arena_free(&arena);
+}
+
+/* Names as long as a file system takes them, of characters of two bytes: its temporary's name is cut between two. */
+static void long_names_are_written(void **state)
+{
+    (void)state;
+    char name[256] = "", path[512];
+    for (int i = 0; i < 127; i++)
+        strcat(name, "\xc3\xa4");
+    for (int longer = 0; longer < 2; longer++) {
+        snprintf(path, sizeof path, "%s/%s%s", folder, longer ? "x" : "", name);
+        for (int twice = 0; twice < 2; twice++)
+            assert_true(ceduo_file_write(path, "some", 4));
+        assert_int_equal(access(path, F_OK), 0);
+        char dead[512];
+        snprintf(dead, sizeof dead, "%s/%s%.218s.ceduo-tmp-4194304-12", folder, longer ? "x" : "", name);
+        int fd = open(dead, O_CREAT | O_WRONLY, 0600);
+        assert_true(fd >= 0 && close(fd) == 0);
+        ceduo_file_tidy(path);
+        assert_int_equal(access(dead, F_OK), -1);
+    }
+}
+
+/* Of what lies beside a file only that goes which bears the name of a temporary of this file and has no living writer. */
+static void only_dead_temporaries_are_removed(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        bool goes;
+    } rows[] = {{"out.ceduo-tmp-17-0", true},    {"out.ceduo-tmp-4194304-99", true}, {"out.ceduo-tmp-17-1", false},
+                {"out.ceduo-tmp-17", false},     {"out.ceduo-tmp-17-", false},       {"out.ceduo-tmp--1", false},
+                {"out.ceduo-tmp-17-0x", false},  {"out.ceduo-tmp-x-0", false},       {"out.ceduo-tmp-17-0.yaml", false},
+                {"other.ceduo-tmp-17-0", false}, {"out.bak.ceduo-tmp-17-0", false},  {"out.AbCdEf", false},
+                {"out.ceduo-tmp-12345678901234567890-12345678", false}};
+    char path[256], link[256];
+    int held = -1;
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        in_folder(path, rows[i].name);
+        int fd = open(path, O_CREAT | O_WRONLY, 0600);
+        assert_true(fd >= 0);
+        if (i == 2) {
+            assert_int_equal(flock(fd, LOCK_EX), 0); /* that of a living writer */
+            held = fd;
+        } else {
+            close(fd);
+        }
+    }
+    in_folder(path, "victim");
+    in_folder(link, "out.ceduo-tmp-18-0");
+    put("victim", "x");
+    assert_int_equal(symlink(path, link), 0);
+    in_folder(link, "out.ceduo-tmp-19-0");
+    assert_int_equal(mkfifo(link, 0600), 0);
+    in_folder(path, "out");
+    ceduo_file_tidy(path); /* whether the file itself is there or not */
+    for (int again = 0; again < 2; again++) {
+        for (size_t i = 0; i < LENGTH(rows); i++) {
+            char there[256];
+            in_folder(there, rows[i].name);
+            assert_int_equal(access(there, F_OK) == 0, !rows[i].goes);
+        }
+        for (int i = 0; i < 2; i++) {
+            struct stat st;
+            in_folder(link, i == 0 ? "out.ceduo-tmp-18-0" : "out.ceduo-tmp-19-0");
+            assert_int_equal(lstat(link, &st), 0);
+        }
+        put("out", "x");
+    }
+    close(held);
+    in_folder(link, "link");
+    assert_int_equal(symlink("out", link), 0);
+    ceduo_file_tidy(link); /* those of what a link leads to */
+    in_folder(path, "out.ceduo-tmp-17-1");
+    assert_int_equal(access(path, F_OK), -1);
+}
+
+static void files_are_taken(void **state)
+{
+    (void)state;
+    char path[256], link[256], to[256];
+    struct text text = {0};
+    put("some", "twelve bytes");
+    in_folder(path, "some");
+    assert_true(ceduo_file_take(path, &text, 12));
+    assert_string_equal(text.bytes, "twelve bytes");
+    ceduo_text_free(&text);
+    assert_false(ceduo_file_take(path, &text, 11));
+    assert_int_equal(errno, EFBIG);
+    ceduo_text_free(&text);
+    assert_false(ceduo_file_take(folder, &text, 11));
+    assert_int_equal(errno, EISDIR);
+    in_folder(path, "none");
+    assert_false(ceduo_file_take(path, &text, 11));
+    assert_int_equal(errno, ENOENT);
+    assert_false(ceduo_file_take("/proc/self/mem", &text, 11)); /* nothing is at address 0 */
+    assert_int_equal(errno, EIO);
+    /* through links to a file that is not there yet, by relative and absolute ways; one that leads to itself is refused */
+    in_folder(link, "link");
+    in_folder(to, "link2");
+    assert_int_equal(symlink("link2", link), 0);
+    in_folder(path, "target");
+    assert_int_equal(symlink(path, to), 0);
+    assert_true(ceduo_file_write(link, "x", 1));
+    assert_true(ceduo_file_take(path, &text, 9));
+    assert_string_equal(text.bytes, "x");
+    ceduo_text_free(&text);
+    in_folder(link, "loop");
+    assert_int_equal(symlink("loop", link), 0);
+    assert_false(ceduo_file_write(link, "x", 1));
+    assert_int_equal(errno, ELOOP);
+    /* without a folder in its name: in the one that is the present */
+    char here[4096];
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(folder), 0);
+    assert_int_equal(symlink("bare", "bare-link"), 0);
+    assert_true(ceduo_file_write("bare-link", "y", 1));
+    assert_true(ceduo_file_take("bare", &text, 9));
+    assert_string_equal(text.bytes, "y");
+    ceduo_text_free(&text);
+    assert_int_equal(chdir(here), 0);
+}
+
+static void files_are_the_same(void **state)
+{
+    (void)state;
+    char path[256], link[256], other[256], none[256];
+    put("some", "x");
+    put("other", "x");
+    in_folder(path, "some");
+    in_folder(link, "link");
+    in_folder(other, "other");
+    in_folder(none, "none");
+    assert_int_equal(symlink("some", link), 0);
+    assert_true(ceduo_file_same(path, path) && ceduo_file_same(path, link) && ceduo_file_same(link, path));
+    assert_false(ceduo_file_same(path, other) || ceduo_file_same(path, none) || ceduo_file_same(none, path));
+    assert_false(ceduo_file_same(folder, folder)); /* nothing is read from one, or written */
+    int was = dup(STDIN_FILENO), fd = open(path, O_RDONLY);
+    assert_int_equal(dup2(fd, STDIN_FILENO), STDIN_FILENO);
+    close(fd);
+    assert_true(ceduo_file_same(link, "-"));
+    assert_false(ceduo_file_same(other, "-"));
+    close(STDIN_FILENO);
+    assert_false(ceduo_file_same(link, "-"));
+    dup2(was, STDIN_FILENO);
+    close(was);
+}
+
+/* What was set aside goes before: where it cannot be read, or there is no room for it, that is told. */
+static void what_was_set_aside_goes_before(void **state)
+{
+    (void)state;
+    char path[256];
+    struct text text = {0};
+    int ends[2];
+    put("aside", "before ");
+    in_folder(path, "aside");
+    int aside = open(path, O_RDONLY);
+    put("to", "old");
+    in_folder(path, "to");
+    assert_int_equal(pipe(ends), 0);
+    assert_false(ceduo_file_write_after(ends[0], path, "after", 5)); /* a pipe has no place 0 */
+    assert_int_equal(errno, ESPIPE);
+    assert_true(ceduo_file_take(path, &text, 99));
+    assert_string_equal(text.bytes, "old");
+    ceduo_text_free(&text);
+    assert_false(ceduo_file_write_after(aside, "/dev/full", "", 0));
+    assert_int_equal(errno, ENOSPC);
+    assert_true(ceduo_file_write_after(aside, path, "after", 5));
+    assert_true(ceduo_file_take(path, &text, 99));
+    assert_string_equal(text.bytes, "before after");
+    ceduo_text_free(&text);
+    close(aside);
+    close(ends[0]);
+    close(ends[1]);
+}
+
+/* A socket is no file, and one that may not be written is not replaced. */
+static void what_cannot_be_written(void **state)
+{
+    (void)state;
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    int s = socket(AF_UNIX, SOCK_STREAM, 0);
+    snprintf(address.sun_path, sizeof address.sun_path, "%s/socket", folder);
+    assert_int_equal(bind(s, (struct sockaddr *)&address, sizeof address), 0);
+    assert_false(ceduo_file_write(address.sun_path, "x", 1));
+    assert_int_equal(errno, ENXIO);
+    close(s);
+    char path[256];
+    struct text text = {0};
+    put("kept", "old");
+    in_folder(path, "kept");
+    assert_int_equal(chmod(folder, 0755), 0);
+    for (int may = 0; may < 2; may++) {
+        assert_int_equal(chmod(path, may ? 0666 : 0444), 0);
+        bool root = geteuid() == 0; /* who may write anything: asked for as another user */
+        if (root)
+            assert_int_equal(setreuid(65534, 0), 0);
+        bool written = ceduo_file_write(path, "new", 3);
+        int why = errno;
+        if (root)
+            assert_int_equal(setreuid(0, 0), 0);
+        assert_int_equal(written, may);
+        if (!may)
+            assert_int_equal(why, EACCES);
+        assert_true(ceduo_file_take(path, &text, 9));
+        assert_string_equal(text.bytes, may ? "new" : "old");
+        ceduo_text_free(&text);
+    }
+}
+
+static int pipe_in;
+
+static void write_to_pipe(int signal)
+{
+    (void)signal;
+    if (write(pipe_in, "late", 4) == 4)
+        close(pipe_in);
+}
+
+/* A signal interrupts the reading, which goes on: what the pipe says is written by the signal's handler. */
+static void an_interrupted_reader_goes_on(void **state)
+{
+    (void)state;
+    int ends[2], was = dup(STDIN_FILENO);
+    struct text text = {0};
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(dup2(ends[0], STDIN_FILENO), STDIN_FILENO);
+    pipe_in = ends[1];
+    const struct sigaction action = {.sa_handler = write_to_pipe};
+    const struct itimerval soon = {.it_value = {.tv_usec = 100000}};
+    assert_int_equal(sigaction(SIGALRM, &action, NULL), 0);
+    assert_int_equal(setitimer(ITIMER_REAL, &soon, NULL), 0);
+    assert_true(ceduo_file_take("-", &text, 100));
+    assert_string_equal(text.bytes, "late");
+    ceduo_text_free(&text);
+    close(ends[0]);
+    dup2(was, STDIN_FILENO);
+    close(was);
+}
+
+static void a_closed_shelf_is_all_there_is(void **state)
+{
+    (void)state;
+    char path[256];
+    put("real.yaml", "1234567890");
+    in_folder(path, "real.yaml");
+    struct shelf shelf = {0};
+    struct arena arena = {.shelf = &shelf};
+    struct problems problems = {0};
+    assert_null(ceduo_file_find(&arena, "nothing", path, NULL));
+    assert_non_null(ceduo_file_find(&arena, "real.yaml", path, NULL));
+    const struct source *first = ceduo_file_read(&arena, path, 100, &problems);
+    put("real.yaml", "changed");
+    shelf.closed = true;
+    const struct source *again = ceduo_file_read(&arena, path, 100, &problems);
+    assert_int_equal(again->length, 10);
+    assert_ptr_equal(again->bytes, first->bytes);
+    assert_null(ceduo_file_read(&arena, path, 9, &problems)); /* larger than is asked for */
+    assert_non_null(strstr(problems.text.bytes, "larger than"));
+    assert_null(ceduo_file_read(&arena, folder, 100, &problems));
+    assert_non_null(strstr(problems.text.bytes, "cannot read it"));
+    assert_non_null(ceduo_file_find(&arena, "real.yaml", path, NULL));
+    assert_null(ceduo_file_find(&arena, "real.yaml", NULL, NULL));  /* other words */
+    assert_null(ceduo_file_find(&arena, "real.yaml", path, "stands"));
+    assert_null(ceduo_file_find(&arena, path, NULL, NULL));
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(files_are_found, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(folders_of_the_environment, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(folders_are_listed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(long_names_are_written, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(only_dead_temporaries_are_removed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_are_taken, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_are_the_same, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_was_set_aside_goes_before, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_cannot_be_written, set_up, tear_down),
+        cmocka_unit_test(an_interrupted_reader_goes_on),
+        cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Trees of YAML: what is written is read back, compared, walked along a path, and patched into a text. */
+#include "expect.h"
+
+#include <string.h>
+
+#include "io/emit.h"
+#include "io/node.h"
+#include "io/resolve.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+static const struct node *parse(struct arena *arena, const struct text *text)
+{
+    struct source *source = ceduo_arena_take(arena, sizeof *source);
+    struct problems problems = {0};
+    *source = (struct source){
+        .name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};
+    const struct node *root = ceduo_yaml_read(arena, source, &problems);
+    if (!root)
+        fail_msg("%s\n%s", text->bytes, problems.text.bytes);
+    ceduo_problems_free(&problems);
+    return root;
+}
+
+static const struct node *parsed(struct arena *arena, const char *bytes)
+{
+    struct text text = {.bytes = (char *)(uintptr_t)bytes, .length = strlen(bytes)};
+    return parse(arena, &text);
+}
+
+/* Written in its two ways, a tree is read back as it is. */
+static void expect_back(struct arena *arena, const struct node *node)
+{
+    for (int way = 0; way < 2; way++) {
+        struct text text = {0};
+        if (way == 0)
+            ceduo_emit(&text, node);
+        else
+            ceduo_emit_flow(&text, node);
+        const struct node *back = parse(arena, &text);
+        if (!ceduo_node_equal(back, node) || (node->kind == NODE_SCALAR && strcmp(back->text, node->text) != 0))
+            fail_msg("not read back: %s", text.bytes);
+        ceduo_text_free(&text);
+    }
+}
+
+static void scalars_are_read_back(void **state)
+{
+    (void)state;
+    const char *const words[] = {
+        "",     " a",   "a ",  "true", "false", "null", "yes", "~",    "y",   "-",   "- a", "-a",   "--",  "a-b", "a:b",
+        "a: b", "#x",   "a #b", "\"q\"", "\\",  "\n",   "a\nb", "\x01", "\x7f", "0.5", "1e5", "007", "+1",  "\xc3\xa0", "[a]",
+        "{a}",  "&a",   "*a",  "!a",   "%a",    "@a",   "`a`", "|",    ">",   "?",   "? a", ":",    "a,b", "=",   "<<",
+        "_",    ".",    "/",   "a/b",  "..",    "---",  "...", "'",    "a'b", "AZaz09", "on", "null x", "a\tb", "\\n", "no",
+        "a\xc2\x80", "a\xc2\x85z", "\xc2\x9f", "\xc2\xa0", "a\xe2\x80\xa8z", "\xe2\x80\xa9", "\xef\xbb\xbf" "a", "\xef\xbf\xbe", "\xef\xbf\xbf",
+        "\xf4\x8f\xbf\xbf", "a\rb", "a  b", " ", "\t"};
+    struct arena arena = {0};
+    const struct node *empty = parsed(&arena, "{}");
+    for (size_t i = 0; i < LENGTH(words); i++)
+        for (int quoted = 0; quoted < 2; quoted++) {
+            const struct node *word = ceduo_node_scalar(&arena, NULL, words[i], quoted);
+            expect_back(&arena, ceduo_node_with(&arena, empty, "key", word));
+            const struct node *list = parsed(&arena, "[a, [b], {c: d}]");
+            expect_back(&arena, ceduo_node_replaced(&arena, list, 0, word));
+            expect_back(&arena, ceduo_node_replaced(&arena, parsed(&arena, "[[a, b]]"), 0, ceduo_node_replaced(&arena, list, 2, word)));
+        }
+    ceduo_arena_free(&arena);
+}
+
+static void trees_are_read_back(void **state)
+{
+    (void)state;
+    const char *const trees[] = {
+        "a: {}\nb: []\n", "- - - 1\n    - 2\n  - []\n", "- {}\n- a: 1\n  b: [1, 2]\n",
+        "a: [[1, 2], [3, 4], {b: [5, {c: 6}]}]\n",
+        "a: [aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, ccccccccccccccccccccccccccccccc]\n",
+        "a: [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
+        "- [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
+        "- {a: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, b: bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c: ccccccccccc}\n"};
+    struct arena arena = {0};
+    for (size_t i = 0; i < LENGTH(trees); i++)
+        expect_back(&arena, parsed(&arena, trees[i]));
+    ceduo_arena_free(&arena);
+}
+
+static void trees_are_compared(void **state)
+{
+    (void)state;
+    const struct {
+        const char *a, *b;
+        bool equal;
+    } rows[] = {{"1", "1", true},           {"1", "1.0", false},     {"1", "'1'", false},      {"a", "'a'", true},
+                {"a", "[a]", false},        {"[a]", "[a, b]", false}, {"[a, b]", "[a, c]", false}, {"{a: 1}", "{a: 1}", true},
+                {"{a: 1}", "{b: 1}", false}, {"{a: 1}", "{a: 2}", false}, {"'1'", "'1'", true},  {"{a: 1}", "[1]", false}};
+    struct arena arena = {0};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct node *a = parsed(&arena, rows[i].a), *b = parsed(&arena, rows[i].b);
+        assert_int_equal(ceduo_node_equal(a, b), rows[i].equal);
+        assert_int_equal(ceduo_node_equal(b, a), rows[i].equal);
+        assert_true(ceduo_node_equal(a, a));
+        assert_false(ceduo_node_equal(a, NULL));
+        assert_false(ceduo_node_equal(NULL, a));
+    }
+    const struct node *map = parsed(&arena, "{a: 1, b: [1, 2, 3]}"), *b = ceduo_node_get(map, "b");
+    assert_false(ceduo_node_equal(ceduo_node_renamed(&arena, b, NULL), b)); /* one has a key */
+    assert_null(ceduo_node_get(NULL, "a"));
+    assert_null(ceduo_node_get(b, "a"));
+    assert_null(ceduo_node_text(map, "b"));
+    assert_null(ceduo_node_text(map, "c"));
+    assert_string_equal(ceduo_node_text(map, "a"), "1");
+    assert_ptr_equal(ceduo_node_without(&arena, map, "c"), map);
+    assert_true(ceduo_node_equal(ceduo_node_without(&arena, map, "b"), parsed(&arena, "{a: 1}")));
+    const char *const less[] = {"[2, 3]", "[1, 3]", "[1, 2]"};
+    const char *const more[] = {"[9, 1, 2, 3]", "[1, 9, 2, 3]", "[1, 2, 9, 3]", "[1, 2, 3, 9]"};
+    const struct node *list = parsed(&arena, "[1, 2, 3]"), *nine = parsed(&arena, "9");
+    for (size_t i = 0; i < 3; i++)
+        assert_true(ceduo_node_equal(ceduo_node_removed(&arena, list, i), parsed(&arena, less[i])));
+    for (size_t i = 0; i < 4; i++)
+        assert_true(ceduo_node_equal(ceduo_node_inserted(&arena, list, i, nine), parsed(&arena, more[i])));
+    ceduo_arena_free(&arena);
+}
+
+/* Values put into a text, the rest of it left as it is: NULL where more has changed than values. */
+static void texts_are_patched(void **state)
+{
+    (void)state;
+    const struct {
+        const char *before, *now, *wanted;
+    } rows[] = {
+        {"a: 1 # c\n", "a: 2", "a: 2 # c\n"},
+        {"\xef\xbb\xbf" "a: 1 # c\n", "a: 2", "\xef\xbb\xbf" "a: 2 # c\n"},
+        {"'\xc3\xa0': 1 # c\nb: [1, 2] # d", "{'\xc3\xa0': 5, b: [1, 3]}", "'\xc3\xa0': 5 # c\nb: [1, 3] # d"},
+        {"a: [1, 2] # c\n", "a: [1, 2, 3]", "a: [1, 2, 3] # c\n"},
+        {"a: {b: 1} # c\n", "a: {c: 1}", "a: {c: 1} # c\n"},
+        {"a: [1] # c\n", "a: x", "a: x # c\n"},
+        {"a: 1 # c\n", "a: [x, z]", "a: [x, z] # c\n"},
+        {"a: 1\n", "a: 1", "a: 1\n"},
+        {"a: 1\n", "{a: 1, b: 2}", NULL},
+        {"a:\n  b: 1\n", "a: {b: 1, c: 2}", NULL},
+        {"a:\n  b: 1\n", "a: {c: 1}", NULL},
+        {"a:\n  - 1\n", "a: x", NULL},
+        {"5", "6", "6"},
+        {"a: 1", "a: 2", "a: 2"},
+        /* libyaml ends a line at U+2028, too: its places are others than those that are patched */
+        {"# \xe2\x80\xa8# c\na: 1", "a: 2", NULL},
+        {"# \xe2\x80\xa8# c\na: 1\n", "a: 2", NULL},
+        {"#\xe2\x80\xa8#\na:                    1\nb: 2\n# a line of some length\n", "{a: 3, b: 4}", NULL},
+        {"#\xe2\x80\xa8#\na:                    1\nb: [2]\n# a line of some length\n", "{a: 3, b: [2, 4]}", NULL},
+        {"#\xe2\x80\xa8#\na:                    \"x\n y\"\n# a line of some length\n", "a: z", NULL},
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct arena arena = {0};
+        struct text text = {0};
+        const struct node *old = parsed(&arena, rows[i].before), *now = parsed(&arena, rows[i].now);
+        bool good = ceduo_emit_patched(&text, old->source, old, now);
+        assert_int_equal(good, rows[i].wanted != NULL);
+        if (good)
+            assert_string_equal(text.bytes, rows[i].wanted);
+        else
+            assert_int_equal(text.length, 0);
+        ceduo_text_free(&text);
+        ceduo_arena_free(&arena);
+    }
+}
+
+static void walks_end_where_there_is_nothing(void **state)
+{
+    (void)state;
+    struct arena arena = {0};
+    const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"), *forest = ceduo_node_get(root, "forest");
+    const char *within;
+    size_t used;
+    assert_string_equal(ceduo_resolve_walk(root, "forest[1].to_m", &within, &used)->text, "2");
+    assert_int_equal(used, strlen("forest[1].to_m"));
+    assert_ptr_equal(ceduo_resolve_walk(root, "forest[2].to_m", &within, &used), forest);
+    assert_int_equal(used, strlen("forest"));
+    assert_ptr_equal(ceduo_resolve_walk(root, "rock.b", &within, &used), ceduo_node_get(root, "rock"));
+    assert_int_equal(used, strlen("rock"));
+    ceduo_arena_free(&arena);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scalars_are_read_back),
+        cmocka_unit_test(trees_are_read_back),
+        cmocka_unit_test(trees_are_compared),
+        cmocka_unit_test(texts_are_patched),
+        cmocka_unit_test(walks_end_where_there_is_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
