@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "page.h"
+
+#include <stdlib.h>
+
+#include "base/intl.h"
+
+static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_page_kind kind)
+{
+    struct ceduo_page_block *block = calloc(1, sizeof *block);
+    if (!block) {
+        page->failed = page->lost.text.failed = page->lost.shorter.failed = true;
+        return NULL;
+    }
+    block->kind = kind;
+    *(page->last ? &page->last->next : &page->first) = block;
+    page->last = block;
+    return block;
+}
+
+struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind)
+{
+    struct ceduo_page_block *block = add_block(page, kind);
+    return block ? &block->text : &page->lost.text;
+}
+
+struct text *ceduo_page_fact(struct ceduo_page *page, const char *label)
+{
+    struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_FACT);
+    if (!block)
+        return &page->lost.text;
+    block->label = label;
+    return &block->text;
+}
+
+void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n)
+{
+    struct ceduo_page_block *table = add_block(page, CEDUO_PAGE_TABLE);
+    if (!table)
+        return;
+    table->columns = columns;
+    table->columns_count = n;
+    for (size_t i = 0; i < n; i++) {
+        struct text *head = ceduo_page_text(page);
+        if (columns[i].head && columns[i].head[0])
+            ceduo_text_put(head, _(columns[i].head));
+    }
+}
+
+struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page)
+{
+    const struct ceduo_page_block *table = page->last;
+    for (size_t i = 0; !page->failed && i < table->columns_count; i++)
+        if (!table->columns[i].head)
+            return &table->cells[i];
+    return &page->lost;
+}
+
+struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page)
+{
+    struct ceduo_page_block *table = page->last;
+    size_t n = page->failed ? 0 : table->cells_count;
+    if (!page->failed && (n & (n - 1)) == 0) { /* full: 0, 1, 2, 4, 8 … */
+        struct ceduo_page_cell *cells = realloc(table->cells, (n > 0 ? 2 * n : 1) * sizeof *cells);
+        table->cells = cells ? cells : table->cells;
+        page->failed = page->lost.text.failed = page->lost.shorter.failed = !cells;
+    }
+    if (page->failed)
+        return &page->lost;
+    table->cells[n] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
+    table->cells_count++;
+    return &table->cells[n];
+}
+
+struct text *ceduo_page_text(struct ceduo_page *page)
+{
+    return &ceduo_page_cell(page)->text;
+}
+
+void ceduo_page_number(struct ceduo_page *page, double value, int digits)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->kind = CEDUO_CELL_NUMBER;
+    cell->value = value;
+    cell->digits = digits;
+}
+
+void ceduo_page_free(struct ceduo_page *page)
+{
+    for (struct ceduo_page_block *block = page->first, *next; block; block = next) {
+        next = block->next;
+        for (size_t i = 0; i < block->cells_count; i++) {
+            ceduo_text_free(&block->cells[i].text);
+            ceduo_text_free(&block->cells[i].shorter);
+        }
+        free(block->cells);
+        ceduo_text_free(&block->text);
+        free(block);
+    }
+    *page = (struct ceduo_page){.width = page->width};
+}

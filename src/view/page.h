@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_PAGE_H
+#define CEDUO_PAGE_H
+
+#include "base/text.h"
+
+/* A page as a list of blocks, before anybody knows how it will look. page_result.c and its neighbours build it from a result;
+ * page_text.c prints it for a terminal. Another sink is one more file that walks the same blocks. */
+
+enum ceduo_page_kind {
+    CEDUO_PAGE_TITLE,
+    CEDUO_PAGE_FACT,     /* a label and what it is */
+    CEDUO_PAGE_SECTION,  /* heading of an option, of a comparison */
+    CEDUO_PAGE_PLACE,    /* heading of a control in it */
+    CEDUO_PAGE_CAPTION,  /* of the table that follows */
+    CEDUO_PAGE_TABLE,
+    CEDUO_PAGE_SENTENCE, /* of a place */
+    CEDUO_PAGE_DETAIL,   /* of what stands before */
+    CEDUO_PAGE_NOTE,     /* of a section */
+    CEDUO_PAGE_ITEM,     /* of a list in a section */
+    CEDUO_PAGE_WARNING,
+    CEDUO_PAGE_GAP
+};
+
+struct ceduo_page_column {
+    const char *head; /* NULL: the page's own, see ceduo_page_head() */
+    int width;        /* in characters; negative: set to the right; 0: the last, as wide as it comes */
+    int gap;          /* blanks before it */
+    unsigned flags;
+};
+
+enum ceduo_page_flag {
+    CEDUO_SPAN = 1 << 0, /* the head stands over the next column, too */
+    CEDUO_WHOLE = 1 << 1 /* never cut: the row goes on in a line below */
+};
+
+enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN };
+
+struct ceduo_page_cell {
+    enum ceduo_page_cell_kind kind;
+    struct text text, shorter; /* shorter: where there is no room for the other; may be empty */
+    double value, half;        /* a number; half the width of a mean's interval, NaN where it has none */
+    int digits;                /* of the number, where there is room for them */
+};
+
+struct ceduo_page_block {
+    enum ceduo_page_kind kind;
+    const char *label; /* of a fact */
+    struct text text;  /* UTF-8 with the signs – − ± as they should be; a sink makes it safe to print */
+    const struct ceduo_page_column *columns;
+    size_t columns_count;
+    size_t cells_count; /* row by row, the heads first */
+    struct ceduo_page_cell *cells;
+    struct ceduo_page_block *next;
+};
+
+/* Starts zeroed but for its width. Once memory fails, `failed` stays set and what is missing is missing. */
+struct ceduo_page {
+    size_t width; /* columns that there are: a table that is wider should be told in sentences */
+    struct ceduo_page_block *first, *last;
+    struct ceduo_page_cell lost; /* takes what there was no memory for */
+    bool failed;
+};
+
+/* A new block; its text is to be filled. */
+struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
+struct text *ceduo_page_fact(struct ceduo_page *page, const char *label);
+
+/* A new table, with its heads; then cell by cell into the table that was added last. */
+void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);
+struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page); /* of the one column without a head of its own */
+struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
+struct text *ceduo_page_text(struct ceduo_page *page); /* of a new cell */
+void ceduo_page_number(struct ceduo_page *page, double value, int digits);
+
+void ceduo_page_free(struct ceduo_page *page);
+
+/* Prints the page, `page->width` columns wide. `plain`: its signs in ASCII. */
+void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain);
+
+#endif

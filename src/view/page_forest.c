@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the index says of an option's belts, and of what is left behind them; and blocks of other sizes. */
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "page_parts.h"
+
+#define KILO 1e-3
+
+/* ---- belts ---- */
+
+static void add_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
+{
+    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
+    ceduo_text_format(ceduo_page_text(page), "%s\xe2\x80\x93%s", ceduo_number_shortest(b->from_given, from),
+                      ceduo_number_shortest(b->to_given, to));
+    ceduo_text_format(ceduo_page_text(page), "%s%s", b->name, b->assumed ? "*" : "");
+    ceduo_page_number(page, s->adc_m, 3);
+    ceduo_text_put(ceduo_page_text(page), s->passes_threshold ? _("yes") : _("NO"));
+    ceduo_page_percent(page, s->free_run_probability);
+    ceduo_page_number(page, s->dissipated * KILO, 3);
+    ceduo_page_number(page, s->dissipated / s->length * 100 * KILO, 3);
+}
+
+static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
+                            const struct ceduo_option_result *found)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("m"), 10, 4, CEDUO_WHOLE}, {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0}, {NULL, 6, 1, 0},
+        {N_("free run"), -9, 0, 0},                   {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
+    char room[CEDUO_NUMBER_ROOM];
+    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", ceduo_number_shortest(scene->simulation.threshold, room));
+    for (size_t i = 0; i < o->belts_count; i++)
+        add_belt(page, &o->belts[i], &found->stands[i]);
+}
+
+/* The same in a sentence. */
+static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
+{
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_format(line, "%s%s: ADC ", b->name, b->assumed ? "*" : "");
+    ceduo_words_number(line, s->adc_m, 3);
+    ceduo_text_format(line, _(" m, free run %.1f %%, "), s->free_run_probability * 100);
+    ceduo_words_number(line, s->dissipated / s->length * 100 * KILO, 3);
+    ceduo_text_format(line, _(" kJ per 100 m (%s)"), s->bare ? _("no stems") : ceduo_words_rule(s->rule));
+}
+
+static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
+{
+    static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION, CEDUO_CROFTON};
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
+    ceduo_text_format(line, _("%s by %s; other forms:"), b->name, ceduo_words_rule(s->rule));
+    for (size_t k = 0, n = 0; k < sizeof rules / sizeof rules[0]; k++) {
+        if (rules[k] == s->rule)
+            continue;
+        ceduo_text_format(line, "%s %s ", n++ ? "," : "", ceduo_words_rule(rules[k]));
+        ceduo_words_number(line, ceduo_adc_value(&s->adc, rules[k]), 3);
+        ceduo_text_put(line, " m");
+    }
+}
+
+void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
+{
+    const struct ceduo_scene *scene = report->result->scene;
+    const struct ceduo_option *o = &scene->options[option];
+    const struct ceduo_option_result *found = &report->result->options[option];
+    bool wide = page->width >= CEDUO_PAGE_WIDTH;
+    if (wide && o->belts_count > 0)
+        add_belts_table(page, scene, o, found);
+    for (size_t i = 0; i < o->belts_count && !wide; i++)
+        say_belt(page, &o->belts[i], &found->stands[i]);
+    for (size_t i = 0; i < o->belts_count; i++)
+        if (!found->stands[i].bare)
+            say_other_forms(page, &o->belts[i], &found->stands[i]);
+}
+
+/* ---- what is left ---- */
+
+/* The rule that was applied in all belts, or a word that says that it differs. */
+static const char *rule_of(const struct ceduo_option *o, const struct ceduo_option_result *found)
+{
+    const char *rule = NULL;
+    for (size_t i = 0; i < o->belts_count; i++) {
+        if (found->stands[i].bare)
+            continue;
+        const char *here = ceduo_words_rule(found->stands[i].rule);
+        if (rule && strcmp(rule, here) != 0)
+            return _("each belt's own rule");
+        rule = here;
+    }
+    return rule ? rule : _("no rule");
+}
+
+static void say_measured(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_index *index)
+{
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_put(line, _("Measured here on one rock: "));
+    ceduo_words_number(line, index->measured * KILO, 3);
+    ceduo_text_format(line, _(" kJ (%g m/s). One rock is no validation."), c->measured_speed);
+}
+
+void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+{
+    const char *rule = rule_of(&r->scene->options[option], &r->options[option]);
+    const struct ceduo_index *index = &r->options[option].controls[control];
+    const struct ceduo_arrivals *a = &r->bare.arrivals[control];
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take "), rule);
+    ceduo_words_number(line, index->dissipated * KILO, 3);
+    ceduo_text_put(line, " kJ");
+    if (index->length > 0) {
+        ceduo_text_put(line, ", ");
+        ceduo_words_number(line, ceduo_page_per_100m(index), 3);
+        ceduo_text_format(line, _(" kJ per 100 m (%s)"), rule);
+    }
+    if (a->reached == 0) {
+        ceduo_text_put(line, _("; no rock arrives, nothing is left to compare."));
+    } else if (index->exhausted) {
+        ceduo_text_put(line, _(", more than the mean rock brings: used up on average. Some rocks still pass."));
+    } else {
+        ceduo_text_put(line, _("; left (Eq. 5): "));
+        ceduo_words_number(line, a->energy.mean * KILO, 4);
+        ceduo_text_put(line, " \xe2\x88\x92 ");
+        ceduo_words_number(line, index->dissipated * KILO, 3);
+        ceduo_text_put(line, " = ");
+        ceduo_words_number(line, index->residual * KILO, 3);
+        ceduo_text_put(line, " kJ.");
+    }
+    if (!isnan(index->measured))
+        say_measured(page, &r->scene->controls[control], index);
+}
+
+/* ---- blocks of other sizes ---- */
+
+static void add_size(struct ceduo_page *page, const struct ceduo_block *b)
+{
+    ceduo_text_put(ceduo_page_text(page), b->own ? "  >" : "");
+    ceduo_page_number(page, b->volume, 3);
+    ceduo_page_number(page, b->mass, 3);
+    ceduo_page_number(page, b->diameter, 3);
+    ceduo_page_number(page, b->adc, 3);
+    ceduo_page_number(page, b->contacts, 3);
+    const struct ceduo_arrivals share = {.exceed_probability = b->exceed_probability, .exceed_lo = b->exceed_lo,
+                                         .exceed_hi = b->exceed_hi, .reach_probability = b->reach_probability,
+                                         .reach_lo = b->reach_lo, .reach_hi = b->reach_hi};
+    ceduo_page_share(page, isnan(b->reach_probability) ? NULL : &share);
+}
+
+#define SIZES_WIDTH 68
+
+void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_block *blocks)
+{
+    static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},           {"m3", -8, 0, 0},           {"kg", -9, 0, 0}, {N_("wide m"), -8, 0, 0},
+                                                       {N_("ADC m"), -8, 0, 0}, {N_("contacts"), -10, 0, 0}, {NULL, -18, 0, 0}};
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    char room[CEDUO_NUMBER_ROOM];
+    if (page->width < SIZES_WIDTH)
+        return;
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
+                      _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
+                      ceduo_number_shortest(c->x_given, room));
+    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    ceduo_page_limit(page, c, _("of 1000 arrive"));
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+        add_size(page, &blocks[i]);
+}

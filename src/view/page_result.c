@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The page of a result: what was flown, then each option at each control, then the options side by side. */
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "page_parts.h"
+#include "scene/words.h"
+
+#define KILO 1e-3
+
+/* ---- head ---- */
+
+static const char *assumed_mark(const struct ceduo_report *report, const char *path)
+{
+    return ceduo_scene_assumes(report->file, path) ? "*" : "";
+}
+
+static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    struct text *line = ceduo_page_fact(page, _("Rock"));
+    ceduo_text_format(line, "%s, ", ceduo_words_shape(r->scene->rock.shape));
+    ceduo_words_number(line, r->rock.mass, 4);
+    ceduo_text_put(line, _(" kg, mean diameter "));
+    ceduo_words_number(line, r->rock.mean_diameter, 3);
+    ceduo_text_format(line, " m%s%s", ceduo_rock_varies(&r->scene->rock) ? _(" (means of its spread)") : "",
+                      assumed_mark(report, "rock"));
+}
+
+static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_scene *s = report->result->scene;
+    const struct ceduo_slope *slope = &s->slope;
+    double low = 0, high = 0;
+    for (size_t i = 0; i < slope->vertices; i++) {
+        low = fmin(low, slope->z[i]);
+        high = fmax(high, slope->z[i]);
+    }
+    struct text *line = ceduo_page_fact(page, _("Slope"));
+    ceduo_words_number(line, slope->x[slope->vertices - 1], 4);
+    ceduo_text_put(line, _(" m long, "));
+    ceduo_words_number(line, high - low, 4);
+    ceduo_text_format(line, ngettext(" m high, %zu segment; law %s, facets %s%s", " m high, %zu segments; law %s, facets %s%s",
+                                     slope->vertices - 1),
+                      slope->vertices - 1, ceduo_words_law(s->simulation.law), ceduo_facets_words.names[slope->facets],
+                      assumed_mark(report, "slope"));
+}
+
+static void add_head(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), r->scene->title);
+    add_rock(page, report);
+    add_slope(page, report);
+    ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"),
+                      (unsigned long long)ceduo_result_rocks(r), (unsigned long long)r->scene->simulation.seed);
+}
+
+/* ---- what arrives at a control ---- */
+
+static void add_place(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+{
+    const struct ceduo_control *c = &report->result->scene->controls[i];
+    char room[CEDUO_NUMBER_ROOM];
+    struct text *place = ceduo_page_add(page, CEDUO_PAGE_PLACE), where = {0};
+    ceduo_text_format(place, _("At %s m"), ceduo_number_shortest(c->x_given, room));
+    if (c->name)
+        ceduo_text_format(place, ", %s", c->name);
+    ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
+    if (!isnan(c->accepted))
+        ceduo_text_format(place, _(", bears %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
+                          where.bytes && ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
+    ceduo_text_free(&where);
+}
+
+static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
+{
+    ceduo_text_put(ceduo_page_text(page), name);
+    ceduo_page_of_1000(ceduo_page_text(page), a->reach_probability, a->reach_lo, a->reach_hi);
+    struct text *exceed = ceduo_page_text(page);
+    if (isnan(a->exceed_probability))
+        ceduo_text_put(exceed, "-");
+    else
+        ceduo_page_of_1000(exceed, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+    struct ceduo_page_cell *mean = ceduo_page_cell(page);
+    if (a->reached > 0) {
+        mean->kind = CEDUO_CELL_MEAN;
+        mean->value = a->energy.mean * KILO;
+        mean->half = ceduo_half_width(a->energy.se, a->reached) * KILO;
+    } else {
+        ceduo_text_put(&mean->text, "-");
+    }
+    ceduo_page_number(page, a->energy.p95 * KILO, 3);
+    ceduo_page_number(page, a->speed.mean, 3);
+    ceduo_page_number(page, a->height.p95, 2);
+}
+
+/* The two runs below one another. */
+static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
+                               const struct ceduo_arrivals *bare)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0}, {N_("mean kJ"), -12, 0, 0},
+        {N_("95 %"), -6, 0, 0},              {N_("m/s"), -5, 0, 0},     {N_("m up"), -5, 0, 0}};
+    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    ceduo_page_limit(page, c, "");
+    if (wooded)
+        add_arrivals_row(page, _("through the wood"), wooded);
+    add_arrivals_row(page, _("without forest"), bare);
+}
+
+/* The same in sentences. */
+static void say_arrivals(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
+{
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_format(line, "%s: ", name);
+    ceduo_page_of_1000(line, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_text_put(line, _(" of 1000 arrive"));
+    if (!isnan(a->exceed_probability)) {
+        ceduo_text_put(line, ", ");
+        ceduo_page_of_1000(line, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_text_put(line, _(" with more than it bears"));
+    }
+    if (a->reached > 0) {
+        ceduo_text_put(line, _("; mean "));
+        ceduo_words_number(line, a->energy.mean * KILO, 4);
+        ceduo_text_put(line, " \xc2\xb1 ");
+        ceduo_words_number(line, ceduo_half_width(a->energy.se, a->reached) * KILO, 2);
+        ceduo_text_put(line, _(" kJ, 95 % below "));
+        ceduo_words_number(line, a->energy.p95 * KILO, 3);
+    }
+    ceduo_text_char(line, '.');
+}
+
+/* What became of the rocks on their way through the wood. */
+static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, const struct ceduo_arrivals *a)
+{
+    const struct ceduo_ends *e = &f->ends;
+    double n = (double)f->rocks;
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_format(line, _("Of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave the slope"),
+                      (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000,
+                      (double)e->count[CEDUO_AT_REST] / n * 1000, (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
+    if (e->count[CEDUO_UNFINISHED] > 0)
+        ceduo_text_format(line, _("; %llu of %llu never come to an end"),
+                          (unsigned long long)e->count[CEDUO_UNFINISHED], (unsigned long long)f->rocks);
+    if (a->reached > 0)
+        ceduo_text_format(line, _("; one that arrives here has hit %.3g stems"), a->contacts);
+    ceduo_text_char(line, '.');
+}
+
+static bool none_arrives(const struct ceduo_arrivals *a)
+{
+    return a->reached == 0 && a->unfinished == 0;
+}
+
+static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+{
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    if (page->width >= CEDUO_PAGE_WIDTH) {
+        add_arrivals_table(page, &r->scene->controls[control], wooded, bare);
+    } else {
+        if (wooded)
+            say_arrivals(page, _("Through the wood"), wooded);
+        say_arrivals(page, _("Without forest"), bare);
+    }
+    if (wooded)
+        say_fates(page, &r->options[option].wooded, wooded);
+    if (none_arrives(bare))
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("Without forest no rock arrives (of 1000, below %.1f with 95 %%)."), bare->reach_hi * 1000);
+    else if (wooded && none_arrives(wooded))
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."), wooded->reach_hi * 1000);
+}
+
+static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+{
+    ceduo_words_contact(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+    ceduo_words_free_run(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+    ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+}
+
+/* ---- an option ---- */
+
+/* Warnings of stands, after the block `since`. */
+struct stand_warnings {
+    struct ceduo_page *page;
+    const struct ceduo_page_block *since;
+};
+
+/* Belts of one stand share their warnings: each stands on the page once. */
+static void warn_once(void *context, const char *sentence)
+{
+    const struct stand_warnings *w = context;
+    for (const struct ceduo_page_block *b = w->since ? w->since->next : NULL; b; b = b->next)
+        if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
+            return;
+    ceduo_page_warn(w->page, sentence);
+}
+
+void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_option *o = &r->scene->options[i];
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), o->name);
+    for (size_t k = 0; k < r->scene->controls_count; k++) {
+        add_place(page, report, k);
+        add_arrivals(page, r, i, k);
+        say_lights(page, r, i, k);
+        if (k == 0)
+            ceduo_page_belts(page, report, i);
+        ceduo_page_residual(page, r, i, k);
+    }
+    if (report->blocks && !report->years)
+        ceduo_page_sizes(page, r, &report->blocks[i * CEDUO_BLOCKS]);
+    if (report->years)
+        ceduo_page_years(page, report, i);
+    struct stand_warnings w = {page, page->last};
+    for (size_t k = 0; k < o->belts_count; k++)
+        ceduo_words_stand_warnings(r->scene, &o->belts[k], &r->options[i].stands[k], warn_once, &w);
+}
+
+/* ---- the page ---- */
+
+void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
+{
+    const struct ceduo_scene *scene = report->result->scene;
+    struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
+    add_head(&page, report);
+    for (size_t i = 0; i < scene->options_count; i++)
+        ceduo_page_option(&page, report, i);
+    if (scene->options_count > 1 && scene->controls_count > 0 && report->years)
+        ceduo_page_rotations(&page, report);
+    else if (scene->options_count > 1 && scene->controls_count > 0)
+        ceduo_page_comparison(&page, report->result);
+    ceduo_page_notes(&page, report);
+    ceduo_page_print(text, &page, plain);
+    ceduo_page_free(&page);
+}
+
+void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width)
+{
+    struct ceduo_page page = {.width = width > 20 ? (size_t)width : 20};
+    ceduo_page_option(&page, report, option);
+    ceduo_page_print(text, &page, false);
+    ceduo_page_free(&page);
+}
