@@ -6,15 +6,14 @@
 
 #include "scene.h"
 
-/* Numbers that stand for all that decides a run (FNV-1a over the numbers themselves): where they are the same the same
- * rocks go the same ways. */
+/* Hashes of all that decides a run: where they are the same the same rocks go the same ways. */
 
 /* Of what lies outside the forest: rock, release, slope, controls, law, seed, gravity. */
 uint64_t ceduo_scene_key(const struct ceduo_scene *scene);
 
-/* Of the forest of an option as rocks meet it by the contact model of `simulation`; 0 where they meet nothing: no
- * option, no stems, or the model `index`. */
-uint64_t ceduo_option_key(const struct ceduo_simulation *simulation, const struct ceduo_option *option);
+/* Of the forest of an option as rocks meet it by the scene's contact model; 0 where they meet nothing: no option, no stems,
+ * or the model `index`. */
+uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_option *option);
 
 /* Of what becomes of the forest of an option in the years to come: growth, cuts, and the forest itself whatever the contact
  * model. */

@@ -2,12 +2,13 @@
 #ifndef CEDUO_ENERGY_H
 #define CEDUO_ENERGY_H
 
+#include "base/hash.h"
 #include "energy_brauner.h"
 #include "energy_dorren.h"
 
 /* What a hit takes from a rock, by one of CEDUO_ENERGY_MODELS, made ready for many hits of stems of one kind. A law is a
  * header energy_NAME.h with
- *     struct energy_NAME                            what it keeps of stand and stems
+ *     struct energy_NAME                            what it keeps of stand and stems: doubles alone, which are hashed
  *     energy_NAME(stand, stems)                     makes that
  *     NAME_mean(energy)                             J: the mean stem, over all places where it can be hit
  *     NAME_hit(energy, dbh, eccentricity)           J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle
@@ -34,6 +35,20 @@ static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand,
 #undef X
     }
     return e;
+}
+
+/* Mixes in all that a hit depends on. */
+static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
+{
+    hash_count(hash, (uint64_t)e->model);
+    switch (e->model) {
+#define X(NAME, name)                                                                          \
+    case CEDUO_##NAME:                                                                         \
+        hash_doubles(hash, &e->by.name, sizeof e->by.name / sizeof(double));                   \
+        break;
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
 }
 
 static inline double stem_energy_mean(const struct stem_energy *e)

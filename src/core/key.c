@@ -1,159 +1,111 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/key.h"
 
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
+#include "base/hash.h"
+#include "scene/schema.h"
+#include "wood.h"
 
-#define START 14695981039346656037u
+/* Ground, rock, release and controls are hashed as the table of the scene has them: walkers read those members, and a new
+ * row is in the key unless it says that it decides about something else. A forest is hashed as it is made ready. */
 
-static void mix(uint64_t *key, uint64_t value)
+static void hash_number(uint64_t *key, const struct ceduo_number *n)
 {
-    for (int i = 0; i < 8; i++)
-        *key = (*key ^ (value >> (8 * i) & 0xff)) * 1099511628211u;
+    hash_double(key, n->mean);
+    hash_double(key, n->spread);
+    hash_count(key, n->spread > 0 ? (uint64_t)n->kind : 0);
 }
 
-static void mix_double(uint64_t *key, double value)
+static void hash_member(uint64_t *key, const struct field *f, const char *item)
 {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    mix(key, bits);
-}
-
-static void mix_number(uint64_t *key, const struct ceduo_number *n)
-{
-    mix_double(key, n->mean);
-    mix_double(key, n->spread);
-    mix(key, n->spread > 0 ? (uint64_t)n->kind : 0);
-}
-
-static void mix_slope(uint64_t *key, const struct ceduo_slope *s)
-{
-    mix(key, (uint64_t)s->facets);
-    mix(key, s->vertices);
-    for (size_t i = 0; i < s->vertices; i++) {
-        mix_double(key, s->x[i]);
-        mix_double(key, s->z[i]);
+    const char *at = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->beside : f->offset);
+    const struct ceduo_number *numbers = (const void *)at;
+    uint64_t word = 0;
+    switch (f->type) {
+    case FIELD_NUMBER:
+        hash_doubles(key, at, 1);
+        break;
+    case FIELD_SPREAD:
+    case FIELD_SPREADS:
+        for (size_t i = 0; i < f->size / sizeof *numbers; i++)
+            hash_number(key, &numbers[i]);
+        break;
+    default:
+        memcpy(&word, at, f->size);
+        hash_count(key, word);
+        break;
     }
-    for (size_t i = 0; i + 1 < s->vertices; i++) {
-        mix_number(key, &s->segments[i].rn);
-        mix_number(key, &s->segments[i].rt);
-        mix_double(key, s->segments[i].roughness_m);
-        mix_double(key, s->segments[i].roughness_rad);
-        mix_double(key, s->segments[i].friction);
+}
+
+#define OF_OTHERS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_UNFLOWN)
+
+/* The members of `object` that decide about the years to come, or those that decide about flights now. */
+static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years);
+
+static void hash_field(uint64_t *key, const struct field *f, const char *item, bool years)
+{
+    size_t n;
+    char *items;
+    bool whole = f->type == FIELD_GROUP || f->type == FIELD_LIST;
+    if (!whole && !(f->flags & FIELD_YEARS) == years)
+        return;
+    memcpy(&n, item + f->beside, sizeof n);
+    switch (f->type) {
+    case FIELD_GROUP:
+        hash_fields(key, f->object, item + f->offset, years);
+        break;
+    case FIELD_LIST:
+        memcpy(&items, item + f->offset, sizeof items);
+        hash_count(key, n);
+        for (size_t i = 0; i < n; i++)
+            hash_fields(key, f->object, items + i * f->object->size, years);
+        break;
+    case FIELD_NUMBERS:
+    case FIELD_POINTS:
+        hash_count(key, n);
+        for (size_t at = 0; at < f->size; at += sizeof items) {
+            memcpy(&items, item + f->offset + at, sizeof items);
+            hash_doubles(key, items, n);
+        }
+        break;
+    default:
+        hash_member(key, f, item);
     }
+}
+
+static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years)
+{
+    for (size_t i = 0; i < object->n; i++)
+        if (!(object->fields[i].flags & OF_OTHERS))
+            hash_field(key, &object->fields[i], item, years);
 }
 
 uint64_t ceduo_scene_key(const struct ceduo_scene *scene)
 {
-    uint64_t key = START;
-    const struct ceduo_rock_def *r = &scene->rock;
-    const struct ceduo_number *const numbers[] = {
-        &r->diameter,       &r->height,           &r->volume,          &r->mass,
-        &r->density,        &r->axes[0],          &r->axes[1],         &r->axes[2],
-        &scene->release.x,  &scene->release.height, &scene->release.vx, &scene->release.vz,
-        &scene->release.spin};
-    mix(&key, (uint64_t)r->shape);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        mix_number(&key, numbers[i]);
-    mix_slope(&key, &scene->slope);
-    for (size_t i = 0; i < scene->controls_count; i++) {
-        mix_double(&key, scene->controls[i].x);
-        mix_double(&key, scene->controls[i].accepted);
-    }
-    mix(&key, (uint64_t)scene->simulation.law);
-    mix(&key, scene->simulation.seed);
-    mix_double(&key, scene->simulation.gravity);
-    mix(&key, scene->simulation.scale_rn);
+    uint64_t key = HASH_START;
+    hash_fields(&key, ceduo_schema_scene(), (const char *)scene, false);
+    for (size_t i = 0; i + 1 < scene->slope.vertices; i++)
+        hash_fields(&key, ceduo_schema_segment(), (const char *)&scene->slope.segments[i], false);
     return key;
 }
 
-/* ---- forests ---- */
-
-/* What a hit takes goes in by what a hit of the mean stem takes. */
-static void mix_stems(uint64_t *key, const struct ceduo_stand *stand, const struct ceduo_stems *s)
+uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
-    mix_double(key, s->per_ha);
-    mix_double(key, s->dbh);
-    mix_double(key, s->dbh_sd);
-    mix_double(key, s->height);
-    mix_double(key, ceduo_contact_energy(stand, s));
-    mix(key, s->dbh_sd > 0 ? (uint64_t)(int64_t)stand->species : 0);
-    mix(key, s->dbh_sd > 0 && !isnan(s->volume));
-}
-
-static void mix_stand(uint64_t *key, const struct ceduo_stand *s)
-{
-    mix(key, (uint64_t)s->energy);
-    mix(key, s->shoots_count);
-    mix(key, s->trees_count);
-    if (s->shoots_count > 0) {
-        mix_double(key, s->stools_per_ha);
-        mix_double(key, s->spacing);
-    }
-    for (size_t i = 0; i < s->shoots_count; i++)
-        mix_stems(key, s, &s->shoots[i]);
-    for (size_t i = 0; i < s->trees_count; i++)
-        mix_stems(key, s, &s->trees[i]);
-}
-
-uint64_t ceduo_option_key(const struct ceduo_simulation *simulation, const struct ceduo_option *option)
-{
-    uint64_t key = START;
-    size_t stems = 0;
-    mix(&key, (uint64_t)simulation->contact_model);
-    mix(&key, simulation->contact_model == CEDUO_POISSON ? (uint64_t)simulation->rule : 0);
-    for (size_t i = 0; option && simulation->contact_model != CEDUO_INDEX && i < option->belts_count; i++) {
-        const struct ceduo_belt *b = &option->belts[i];
-        if (ceduo_stand_is_bare(&b->stand))
-            continue;
-        mix_double(&key, b->from);
-        mix_double(&key, b->to);
-        mix_stand(&key, &b->stand);
-        stems++;
-    }
-    return stems > 0 ? key : 0;
-}
-
-/* ---- years ---- */
-
-static void mix_curve(uint64_t *key, const struct ceduo_curve *c)
-{
-    mix_double(key, c->dbh_most);
-    mix_double(key, c->dbh_rate);
-    mix_double(key, c->height_most);
-    mix_double(key, c->height_rate);
-}
-
-static void mix_future(uint64_t *key, const struct ceduo_stand *s)
-{
-    mix_curve(key, &s->growth.shoots);
-    mix_curve(key, &s->growth.trees);
-    mix_double(key, s->growth.shoots_young);
-    mix_double(key, s->growth.shoots_old);
-    mix_double(key, s->growth.sdi_most);
-    mix(key, s->cutting.rotation);
-    mix(key, s->cutting.cohorts);
-    mix(key, s->cutting.stay_count);
-    for (size_t i = 0; i < s->cutting.stay_count; i++)
-        mix_double(key, s->cutting.stay_per_ha[i]);
-    for (size_t i = 0; i < s->shoots_count; i++)
-        mix_double(key, s->shoots[i].age);
-    for (size_t i = 0; i < s->trees_count; i++)
-        mix_double(key, s->trees[i].age);
-    mix(key, (uint64_t)(int64_t)s->species);
+    uint64_t key = HASH_START;
+    struct ceduo_rock mean = {0};
+    ceduo_rock_of_means(&scene->rock, &mean);
+    return ceduo_wood_hash(&key, &scene->simulation, option, mean.mean_diameter) ? key : 0;
 }
 
 uint64_t ceduo_years_key(const struct ceduo_option *option)
 {
-    uint64_t key = START;
+    uint64_t key = HASH_START;
+    const struct ceduo_simulation stems = {.contact_model = CEDUO_STEMS};
+    ceduo_wood_hash(&key, &stems, option, 0);
     for (size_t i = 0; i < option->belts_count; i++) {
-        const struct ceduo_belt *b = &option->belts[i];
-        mix_double(&key, b->from);
-        mix_double(&key, b->to);
-        mix_double(&key, b->cut_year);
-        mix_stand(&key, &b->stand);
-        mix_future(&key, &b->stand);
+        const struct ceduo_belt *belt = &option->belts[i];
+        hash_double(&key, belt->from);
+        hash_double(&key, belt->to);
+        hash_fields(&key, ceduo_schema_belt(), (const char *)belt, true);
     }
     return key;
 }

@@ -92,13 +92,13 @@ static struct pooled *find(const struct ceduo_pool *pool, uint64_t key)
 
 struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option)
 {
-    const struct pooled *p = find(pool, ceduo_option_key(&pool->scene.simulation, option));
+    const struct pooled *p = find(pool, ceduo_option_key(&pool->scene, option));
     return p ? p->run : NULL;
 }
 
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run)
 {
-    uint64_t key = ceduo_option_key(&pool->scene.simulation, option);
+    uint64_t key = ceduo_option_key(&pool->scene, option);
     struct pooled *p = find(pool, key);
     if (!p)
         return add_run(pool, option, key, run);
@@ -118,7 +118,7 @@ enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_opt
 static bool is_needed(const struct ceduo_pool *pool, uint64_t key)
 {
     for (size_t i = 0; i < pool->scene.options_count; i++)
-        if (ceduo_option_key(&pool->scene.simulation, &pool->scene.options[i]) == key)
+        if (ceduo_option_key(&pool->scene, &pool->scene.options[i]) == key)
             return true;
     return key == 0;
 }

@@ -47,6 +47,32 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
     return k;
 }
 
+/* Cohort i of the shoots. `upto`: shoots per ha of those before it, then with it. */
+static struct wood_kind shoot_kind(const struct ceduo_stand *stand, size_t i, double *upto)
+{
+    struct wood_kind k = kind_of(stand, &stand->shoots[i]);
+    *upto += stand->shoots[i].per_ha;
+    k.share_to = i + 1 < stand->shoots_count ? *upto / ceduo_stand_shoots(stand) : 1;
+    return k;
+}
+
+/* Trees of class i. */
+static struct wood_stratum tree_stratum(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
+{
+    double per_m2 = stand->trees[i].per_ha / HECTARE;
+    *kind = kind_of(stand, &stand->trees[i]);
+    return (struct wood_stratum){per_m2 * kind->dbh, per_m2, kind};
+}
+
+/* Contacts with stratum i of a rule as a Poisson process along the way (Eq. 2 of Ciabocco et al. 2009). */
+static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i,
+                                           struct wood_kind *kind)
+{
+    struct stratum s = ceduo_stratum(stand, rule, i);
+    *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .energy = s.energy};
+    return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind};
+}
+
 /* ---- stools ---- */
 
 /* Places of n shoots on a ring of radius 1, as cosine and sine. */
@@ -90,12 +116,9 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
 static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *stand, struct wood_kind *kinds,
                        struct wood_stratum *strata, struct wood_belt *to)
 {
-    double shoots = ceduo_stand_shoots(stand), before = 0;
-    for (size_t i = 0; i < stand->shoots_count; i++) {
-        kinds[i] = kind_of(stand, &stand->shoots[i]);
-        before += stand->shoots[i].per_ha;
-        kinds[i].share_to = i + 1 < stand->shoots_count ? before / shoots : 1;
-    }
+    double upto = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        kinds[i] = shoot_kind(stand, i, &upto);
     if (stand->shoots_count > 0) {
         if (!make_stools(w, belt, stand, kinds))
             return false;
@@ -103,26 +126,18 @@ static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *st
         double per_m2 = stand->stools_per_ha / HECTARE;
         strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->most), per_m2, NULL};
     }
-    for (size_t i = 0; i < stand->trees_count; i++) {
-        struct wood_kind *k = &kinds[stand->shoots_count + i];
-        *k = kind_of(stand, &stand->trees[i]);
-        double per_m2 = stand->trees[i].per_ha / HECTARE;
-        strata[1 + i] = (struct wood_stratum){per_m2 * k->dbh, per_m2, k};
-    }
+    for (size_t i = 0; i < stand->trees_count; i++)
+        strata[1 + i] = tree_stratum(stand, i, &kinds[stand->shoots_count + i]);
     to->strata_count = 1 + stand->trees_count;
     return true;
 }
 
-/* Contacts of a belt as a Poisson process along the way, by the rule's rates (Eq. 2 of Ciabocco et al. 2009). */
 static void make_contacts(const struct ceduo_stand *stand, enum ceduo_rule rule, struct wood_kind *kinds,
                           struct wood_stratum *strata, struct wood_belt *to)
 {
     to->strata_count = ceduo_strata_count(stand, rule);
-    for (size_t i = 0; i < to->strata_count; i++) {
-        struct stratum s = ceduo_stratum(stand, rule, i);
-        kinds[i] = (struct wood_kind){.dbh = NAN, .height = INFINITY, .energy = s.energy};
-        strata[i] = (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, &kinds[i]};
-    }
+    for (size_t i = 0; i < to->strata_count; i++)
+        strata[i] = contact_stratum(stand, rule, i, &kinds[i]);
 }
 
 static size_t kinds_in(const struct ceduo_belt *belt)
@@ -215,4 +230,74 @@ void ceduo_wood_release(struct wood *wood)
     free(wood->along[0]);
     free(wood->along[1]);
     *wood = (struct wood){.bare = true};
+}
+
+/* ---- hashing ---- */
+
+/* Made of the same kinds and strata as the wood itself, but without its memory: it cannot fail. */
+
+static void hash_kind(uint64_t *hash, const struct wood_kind *k)
+{
+    hash_doubles(hash, k, offsetof(struct wood_kind, most) / sizeof(double));
+    if (isnan(k->energy))
+        stem_energy_hash(hash, &k->by_hit);
+}
+
+static void hash_stratum(uint64_t *hash, const struct wood_stratum *s)
+{
+    hash_doubles(hash, s, offsetof(struct wood_stratum, kind) / sizeof(double));
+    hash_kind(hash, s->kind);
+}
+
+static void hash_stems(uint64_t *hash, const struct ceduo_stand *stand)
+{
+    struct wood_kind kind;
+    double upto = 0;
+    hash_count(hash, stand->shoots_count);
+    if (stand->shoots_count > 0) {
+        hash_double(hash, stand->stools_per_ha);
+        hash_double(hash, ceduo_stand_shoots(stand));
+        hash_double(hash, stand->spacing);
+    }
+    for (size_t i = 0; i < stand->shoots_count; i++) {
+        kind = shoot_kind(stand, i, &upto);
+        hash_kind(hash, &kind);
+    }
+    hash_count(hash, stand->trees_count);
+    for (size_t i = 0; i < stand->trees_count; i++) {
+        struct wood_stratum stratum = tree_stratum(stand, i, &kind);
+        hash_stratum(hash, &stratum);
+    }
+}
+
+static void hash_contacts(uint64_t *hash, const struct ceduo_stand *stand, enum ceduo_rule rule)
+{
+    size_t n = ceduo_strata_count(stand, rule);
+    struct wood_kind kind;
+    hash_count(hash, n);
+    for (size_t i = 0; i < n; i++) {
+        struct wood_stratum stratum = contact_stratum(stand, rule, i, &kind);
+        hash_stratum(hash, &stratum);
+    }
+}
+
+bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option, double b)
+{
+    bool bare = true;
+    if (!option || simulation->contact_model == CEDUO_INDEX)
+        return false;
+    hash_count(hash, (uint64_t)simulation->contact_model);
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        if (ceduo_stand_is_bare(&belt->stand))
+            continue;
+        bare = false;
+        hash_double(hash, belt->from);
+        hash_double(hash, belt->to);
+        if (simulation->contact_model == CEDUO_POISSON)
+            hash_contacts(hash, &belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule));
+        else
+            hash_stems(hash, &belt->stand);
+    }
+    return !bare;
 }

@@ -10,18 +10,20 @@
 /* Stems of one kind as rocks meet them: a cohort of shoots, a class of trees, or all that one stratum of a form of the
  * ADC stands for. */
 struct wood_kind {
-    double dbh;     /* m, mean; NaN: a contact of a Poisson process */
-    double most;    /* m: no stem is thicker */
-    double height;  /* m; infinite where height does not matter */
-    double energy;  /* J that every hit takes; NaN: it depends on diameter or eccentricity, */
-    struct stem_energy by_hit; /* in this way */
+    /* Doubles that decide what a rock meets: they go into the key of the forest as they stand. */
+    double dbh;          /* m, mean; NaN: a contact of a Poisson process */
+    double height;       /* m; infinite where height does not matter */
+    double energy;       /* J that every hit takes; NaN: it depends on diameter or eccentricity, by_hit */
     double shape, scale; /* of the gamma law of diameters; shape 0: all alike */
     double share_to;     /* of shoots: the share of all that this cohort and those before it make up */
+    /* Of those, or hashed in their own way. */
+    double most; /* m: no stem is thicker */
+    struct stem_energy by_hit;
 };
 
 /* What is met at random places along the way: so many per metre for a rock of diameter b: still + per_b·b. */
 struct wood_stratum {
-    double still, per_b;
+    double still, per_b; /* hashed as they stand */
     const struct wood_kind *kind; /* NULL: stools */
 };
 
@@ -82,5 +84,8 @@ static inline void wood_direction(const struct wood *wood, double angle, double 
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
                      double b);
 void ceduo_wood_release(struct wood *wood);
+
+/* Mixes in what such a wood would be made of; false where there is nothing to be met. */
+bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option, double b);
 
 #endif

@@ -275,7 +275,7 @@ uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks)
     add_number(&text, scene->slope.origin_z);
     add_count(&text, ceduo_scene_key(scene));
     for (size_t i = 0; i < scene->options_count; i++)
-        add_count(&text, ceduo_option_key(&scene->simulation, &scene->options[i]));
+        add_count(&text, ceduo_option_key(scene, &scene->options[i]));
     add_node(&text, file->root);
     uint64_t key = text.bytes ? ceduo_bytes_sum(text.bytes, text.length) : 0;
     ceduo_text_free(&text);

@@ -324,7 +324,7 @@ uint64_t ceduo_worker_key(const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
     for (size_t i = 0; i < scene->options_count; i++)
-        key = key * 1099511628211u ^ ceduo_option_key(&scene->simulation, &scene->options[i]);
+        key = key * 1099511628211u ^ ceduo_option_key(scene, &scene->options[i]);
     return key * 1099511628211u ^ scene->options_count ^ (uint64_t)scene->simulation.contact_model << 32;
 }
 

@@ -16,6 +16,8 @@
 #define AT(type, member) offsetof(struct type, member), sizeof((struct type *)0)->member, 0
 #define LIST(type, items, count) PAIR(type, items, count)
 #define PLACE(type, given, relative) PAIR(type, given, relative)
+#define POINTS(type, x, z, count) \
+    offsetof(struct type, x), offsetof(struct type, z) + sizeof(double *) - offsetof(struct type, x), offsetof(struct type, count)
 #define SAME 0, 0, 0 /* a group whose members are of the structure around it */
 #define NOWHERE 0, 0, 0
 /* Of the draft, but within the slope. */
@@ -98,9 +100,9 @@ static const struct field slope_fields[] = {
     OTHER("ceduo", FIELD_TAG, NOWHERE, FIELD_REQUIRED | FIELD_NOWHERE, "slope/1", N_("what kind of file this is"), NULL),
     OTHER("name", FIELD_TEXT, NOWHERE, FIELD_NOWHERE | FIELD_UNFLOWN, NULL, N_("name of the slope"), NULL),
     WORD("facets", AT(ceduo_slope, facets), 0, "against", N_("which way the ground's small facets are turned"), &ceduo_facets_words),
-    NUM("vertices_m", FIELD_POINTS, LIST(ceduo_slope, x, vertices), "m", 1, -FAR, FAR, 0, NULL,
+    NUM("vertices_m", FIELD_POINTS, POINTS(ceduo_slope, x, z, vertices), "m", 1, -FAR, FAR, 0, NULL,
         N_("the profile: pairs [x, z], x rising")),
-    OTHER("segments", FIELD_LIST, LIST(ceduo_slope, segments, segments_given), 0, NULL,
+    OTHER("segments", FIELD_LIST, LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT, NULL,
           N_("the ground: one for each segment, or one for all"), &segment_object),
     OTHER("materials", FIELD_LIST, OF_SLOPE(materials, materials_count), FIELD_DRAFT, NULL,
           N_("the ground from the library, instead of segments"), &material_object),
@@ -146,13 +148,13 @@ static const struct field energy_fields[] = {
 static const struct object energy_object = OBJECT("energy", struct ceduo_stand, energy_fields, NULL);
 
 static const struct field curve_fields[] = {
-    NUM("dbh_most_m", FIELD_NUMBER, AT(ceduo_curve, dbh_most), "m", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO, NULL,
+    NUM("dbh_most_m", FIELD_NUMBER, AT(ceduo_curve, dbh_most), "m", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO | FIELD_YEARS, NULL,
         N_("diameter that the oldest come near: d(t) = D(1 - exp(-kt))")),
-    NUM("dbh_rate_1_y", FIELD_NUMBER, AT(ceduo_curve, dbh_rate), "1/y", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO, NULL,
+    NUM("dbh_rate_1_y", FIELD_NUMBER, AT(ceduo_curve, dbh_rate), "1/y", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO | FIELD_YEARS, NULL,
         N_("k of the diameter")),
-    NUM("height_most_m", FIELD_NUMBER, AT(ceduo_curve, height_most), "m", 1, 0, 150, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO, NULL,
+    NUM("height_most_m", FIELD_NUMBER, AT(ceduo_curve, height_most), "m", 1, 0, 150, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO | FIELD_YEARS, NULL,
         N_("height that the oldest come near: h(t) = H(1 - exp(-mt))")),
-    NUM("height_rate_1_y", FIELD_NUMBER, AT(ceduo_curve, height_rate), "1/y", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO,
+    NUM("height_rate_1_y", FIELD_NUMBER, AT(ceduo_curve, height_rate), "1/y", 1, 0, 10, FIELD_REQUIRED | FIELD_ABOVE | FIELD_ZERO | FIELD_YEARS,
         NULL, N_("m of the height")),
 };
 static const struct object curve_object = OBJECT("curve", struct ceduo_curve, curve_fields, NULL);
@@ -160,21 +162,21 @@ static const struct object curve_object = OBJECT("curve", struct ceduo_curve, cu
 static const struct field growth_fields[] = {
     OTHER("shoots", FIELD_GROUP, AT(ceduo_growth, shoots), 0, NULL, N_("growth of shoots"), &curve_object),
     OTHER("trees", FIELD_GROUP, AT(ceduo_growth, trees), 0, NULL, N_("growth of single trees"), &curve_object),
-    NUM("shoots_young", FIELD_NUMBER, AT(ceduo_growth, shoots_young), "", 1, 1, 1000, FIELD_ZERO, NULL,
+    NUM("shoots_young", FIELD_NUMBER, AT(ceduo_growth, shoots_young), "", 1, 1, 1000, FIELD_ZERO | FIELD_YEARS, NULL,
         N_("shoots that come up on a stool after a cut")),
-    NUM("shoots_old", FIELD_NUMBER, AT(ceduo_growth, shoots_old), "", 1, 1, 1000, FIELD_ZERO, NULL,
+    NUM("shoots_old", FIELD_NUMBER, AT(ceduo_growth, shoots_old), "", 1, 1, 1000, FIELD_ZERO | FIELD_YEARS, NULL,
         N_("shoots of a stool that are left in the end: n(t) = old + (young - old)exp(-t/5)")),
-    NUM("sdi_most", FIELD_NUMBER, AT(ceduo_growth, sdi_most), "", 1, 0, 1e5, FIELD_ZERO, NULL,
+    NUM("sdi_most", FIELD_NUMBER, AT(ceduo_growth, sdi_most), "", 1, 0, 1e5, FIELD_ZERO | FIELD_YEARS, NULL,
         N_("stand density index to which shoots thin themselves; without it or 0 they do not")),
 };
 static const struct object growth_object = OBJECT("growth", struct ceduo_growth, growth_fields, NULL);
 
 static const struct field cutting_fields[] = {
-    NUM("rotation_years", FIELD_COUNT, AT(ceduo_stand, cutting.rotation), "y", 1, 1, 500, FIELD_REQUIRED, NULL,
+    NUM("rotation_years", FIELD_COUNT, AT(ceduo_stand, cutting.rotation), "y", 1, 1, 500, FIELD_REQUIRED | FIELD_YEARS, NULL,
         N_("years between two cuts")),
-    NUM("cohorts", FIELD_COUNT, AT(ceduo_stand, cutting.cohorts), "", 1, 1, 20, 0, "1",
+    NUM("cohorts", FIELD_COUNT, AT(ceduo_stand, cutting.cohorts), "", 1, 1, 20, FIELD_YEARS, "1",
         N_("cohorts of shoots on a stool, of which each cut takes the oldest; 1: all shoots are cut")),
-    NUM("stay_per_ha", FIELD_NUMBERS, LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, 0, NULL,
+    NUM("stay_per_ha", FIELD_NUMBERS, LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, FIELD_YEARS, NULL,
         N_("single trees that a cut leaves: those one rotation old, two rotations old, …")),
 };
 static const struct object cutting_object = OBJECT("cutting", struct ceduo_stand, cutting_fields, NULL);
@@ -185,16 +187,16 @@ static const struct field stand_fields[] = {
     OTHER("base", FIELD_FILE, NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL),
     WORD("system", AT(ceduo_stand, system), FIELD_UNFLOWN, NULL, N_("silvicultural system; without it as the stems say"), &ceduo_system_words),
-    WORD("species", AT(ceduo_stand, species), 0, NULL, N_("main species: volume of its stems and work of breaking"),
+    WORD("species", AT(ceduo_stand, species), FIELD_YEARS, NULL, N_("main species: volume of its stems and work of breaking"),
          &ceduo_species_words),
     OTHER("stools", FIELD_GROUP, SAME, 0, NULL, N_("stools"), &stools_object),
     OTHER("shoots", FIELD_LIST, LIST(ceduo_stand, shoots, shoots_count), 0, NULL, N_("cohorts of shoots on the stools"), &stems_object),
     OTHER("trees", FIELD_LIST, LIST(ceduo_stand, trees, trees_count), 0, NULL, N_("classes of single trees: standards, reserves"),
           &stems_object),
     OTHER("energy", FIELD_GROUP, SAME, 0, NULL, N_("energy of a contact"), &energy_object),
-    OTHER("growth", FIELD_GROUP, AT(ceduo_stand, growth), FIELD_YEARS, NULL, N_("how it grows; without it the stand stays as it is"),
+    OTHER("growth", FIELD_GROUP, AT(ceduo_stand, growth), 0, NULL, N_("how it grows; without it the stand stays as it is"),
           &growth_object),
-    OTHER("cutting", FIELD_GROUP, SAME, FIELD_YEARS, NULL, N_("how it is cut; without it never"), &cutting_object),
+    OTHER("cutting", FIELD_GROUP, SAME, 0, NULL, N_("how it is cut; without it never"), &cutting_object),
 };
 
 static const struct object stand_object = OBJECT("stand", struct ceduo_stand, stand_fields, "stands");
@@ -293,6 +295,11 @@ const struct object *ceduo_schema_slope(void)
 const struct object *ceduo_schema_segment(void)
 {
     return &segment_object;
+}
+
+const struct object *ceduo_schema_belt(void)
+{
+    return &belt_object;
 }
 
 const struct object *ceduo_schema_stand(void)

@@ -38,9 +38,9 @@ enum field_flag {
     FIELD_ONE_OF = 1 << 6,   /* another key may be given instead: the default holds where neither is */
     FIELD_PLACE = 1 << 7,    /* an x in the slope's coordinates; relative to its first vertex beside, or itself */
     FIELD_NOWHERE = 1 << 8,  /* no member holds it: what reads the files takes it from them */
-    FIELD_DRAFT = 1 << 9,    /* of struct scene_draft: the scene holds what follows from it */
+    FIELD_DRAFT = 1 << 9,    /* as the files have it: the scene holds what follows from it */
     FIELD_WOOD = 1 << 10,    /* it decides about stems, not about the ways of rocks without them */
-    FIELD_YEARS = 1 << 11,   /* it decides about the years to come, not about the forest as it is */
+    FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
     FIELD_UNFLOWN = 1 << 12  /* it decides about no rock: a name, a limit that figures are held against */
 };
 
@@ -86,6 +86,7 @@ struct scene_draft {
 const struct object *ceduo_schema_scene(void);
 const struct object *ceduo_schema_slope(void);
 const struct object *ceduo_schema_segment(void);
+const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);

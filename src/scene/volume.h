@@ -13,8 +13,8 @@ struct stem_volume {
     double squares;    /* m2: the mean of dbh2 */
     double dbh;        /* m, of the mean stem */
     double height;     /* m */
-    bool has_equation; /* for stems of this height */
-    double b0, b1, b2, d_lo, d_hi; /* of the equation; d in cm */
+    double b0, b1, b2; /* of the equation, which holds for d (cm) from d_lo to d_hi; none: from infinity on */
+    double d_lo, d_hi;
 };
 
 static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
@@ -22,11 +22,11 @@ static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand,
     struct stem_volume v = {.given = stems->volume,
                             .squares = stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd,
                             .dbh = stems->dbh,
-                            .height = stems->height};
+                            .height = stems->height,
+                            .d_lo = INFINITY};
     size_t count;
     const struct ceduo_species *s = stand->species >= 0 ? &ceduo_species_list(&count)[stand->species] : NULL;
-    v.has_equation = s && s->has_volume && v.height >= s->h_lo && v.height <= s->h_hi;
-    if (v.has_equation) {
+    if (s && s->has_volume && v.height >= s->h_lo && v.height <= s->h_hi) {
         v.b0 = s->b0;
         v.b1 = s->b1;
         v.b2 = s->b2;
@@ -41,9 +41,7 @@ static inline double stem_volume_computed(const struct stem_volume *v, double db
 {
     const double pi = 3.14159265358979323846;
     double d = dbh * 100;
-    double equation = v->has_equation && d >= v->d_lo && d <= v->d_hi
-                          ? (v->b0 + v->b1 * d * d * v->height + v->b2 * d) / 1000
-                          : 0;
+    double equation = d >= v->d_lo && d <= v->d_hi ? (v->b0 + v->b1 * d * d * v->height + v->b2 * d) / 1000 : 0;
     if (from)
         *from = equation > 0 ? CEDUO_VOLUME_EQUATION : CEDUO_VOLUME_FORM_FACTOR;
     return equation > 0 ? equation : CEDUO_FORM_FACTOR * pi / 4 * dbh * dbh * v->height;

@@ -236,7 +236,7 @@ static enum ceduo_status get_sight(const struct ceduo_outlook_def *def, const st
     *sight = NULL;
     if (!run)
         return CEDUO_OK;
-    uint64_t key = ceduo_option_key(&def->scene->simulation, option), rocks = ceduo_run_rocks(run);
+    uint64_t key = ceduo_option_key(def->scene, option), rocks = ceduo_run_rocks(run);
     uint64_t picture_rocks = pictures ? ceduo_run_rocks(pictures) : 0;
     struct ceduo_sight *s = find_sight(o, key, rocks, picture_rocks);
     s = s ? s : find_sight(def->last, key, rocks, picture_rocks);
@@ -317,16 +317,15 @@ const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, con
 {
     if (!o || scene->simulation.contact_model == CEDUO_INDEX)
         return o ? o->bare : NULL;
-    const struct ceduo_simulation *simulation = &scene->simulation;
     if (option >= scene->options_count)
         return NULL;
-    uint64_t key = ceduo_option_key(simulation, &scene->options[option]);
+    uint64_t key = ceduo_option_key(scene, &scene->options[option]);
     for (size_t i = 0; i < o->options; i++)
         if (o->wooded[i] && o->wooded[i]->key == key)
             return o->wooded[i];
     struct ceduo_sight *last = option < o->options ? o->wooded[option] : NULL;
     for (size_t i = 0; last && i < scene->options_count; i++)
-        if (ceduo_option_key(simulation, &scene->options[i]) == last->key)
+        if (ceduo_option_key(scene, &scene->options[i]) == last->key)
             return NULL; /* it is another's */
     return last;
 }

@@ -30,7 +30,7 @@ static uint64_t key_of(enum about about)
 {
     return about == FLIGHT  ? ceduo_scene_key(&site.scene)
            : about == YEARS ? ceduo_years_key(&site.option)
-                            : ceduo_option_key(&site.scene.simulation, &site.option);
+                            : ceduo_option_key(&site.scene, &site.option);
 }
 
 /* ---- fields ---- */
@@ -232,7 +232,7 @@ static const struct field belt_fields[] = {
     FIELD(ceduo_belt, cut_year, NUMBER, YEARS), FIELD(ceduo_belt, stand, ELSEWHERE, 0),
 };
 
-/* The species says the volume of each stem where diameters spread, and of what comes up after a cut. */
+/* The species says the volume of each stem where diameters spread, by its equation, and of what comes up after a cut. */
 static const struct field stand_fields[] = {
     FIELD(ceduo_stand, system, WORD, 0),
     FIELD(ceduo_stand, species, WORD, DBHS | YEARS),
@@ -302,9 +302,13 @@ static void walk_option(enum about about)
 static void open_site(void)
 {
     paper_site_init(&site);
-    for (size_t i = 0; i < 2; i++)
+    for (size_t i = 0; i < 2; i++) {
+        /* of another volume than the species before it, where stems are high enough for its equation */
+        site.belts[i].stand.species = ceduo_species_find("fraxinus-ornus");
+        site.plots[i].shoots.height = site.plots[i].trees.height = 8;
         site.belts[i].stand.cutting =
             (struct ceduo_cutting){.rotation = 25, .cohorts = 3, .stay_count = LENGTH(stay), .stay_per_ha = stay};
+    }
 }
 
 static void whatever_decides_about_a_flight_makes_another_scene(void **state)

@@ -379,7 +379,7 @@ static uint64_t key_with(enum change change)
                                       &sides.belts[0].to};
     if (changed[change])
         *changed[change] *= .9;
-    return ceduo_option_key(&site.scene.simulation, &sides.options[1]);
+    return ceduo_option_key(&site.scene, &sides.options[1]);
 }
 
 static void whatever_decides_about_stems_makes_another_run(void **state)

@@ -529,7 +529,7 @@ static void belts_beside_the_way(void **state)
 
 static uint64_t key_of(void)
 {
-    return ceduo_option_key(&site.scene.simulation, &site.option);
+    return ceduo_option_key(&site.scene, &site.option);
 }
 
 /* Whether a number matters to the rocks: it is changed, and put back. */
@@ -572,7 +572,7 @@ static void keys_tell_what_rocks_meet(void **state)
     assert_true(matters(&shoots->volume, NAN));
     int species = stand->species;
     key = key_of();
-    stand->species = species == 0 ? 1 : 0;
+    stand->species = ceduo_species_find("acer");
     assert_true(key_of() != key);
     stand->species = species;
     site.scene.simulation.contact_model = CEDUO_POISSON;

@@ -253,7 +253,7 @@ static void add_scene(const struct scene_file *file)
     uint64_t key = ceduo_scene_key(&file->scene);
     add(&key, sizeof key);
     for (size_t i = 0; i < file->scene.options_count; i++) {
-        key = ceduo_option_key(&file->scene.simulation, &file->scene.options[i]);
+        key = ceduo_option_key(&file->scene, &file->scene.options[i]);
         add(&key, sizeof key);
     }
 }
