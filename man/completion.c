@@ -11,7 +11,7 @@ static const char *words_of(const struct option_row *row)
 {
     static char words[256];
     words[0] = '\0';
-    const char *from = strcmp(row->name, "plot") == 0 ? CEDUO_PLOT_NAMES : row->value;
+    const char *from = strcmp(row->name, "plot") == 0 ? ceduo_plot_names : row->value;
     if (strcmp(row->name, "goal") == 0)
         for (int i = 0; i < CEDUO_GOALS; i++)
             snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", i > 0 ? " " : "", ceduo_goals[i].word);

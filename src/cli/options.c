@@ -102,7 +102,7 @@ static enum exit_status set_plot(struct arguments *a, const struct option_row *r
 {
     a->plot = ceduo_plot_find(value);
     if (a->plot == CEDUO_PLOT_NONE)
-        return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, CEDUO_PLOT_NAMES);
+        return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_plot_names);
     return EXIT_DONE;
 }
 

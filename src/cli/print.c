@@ -87,7 +87,7 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
     ceduo_plot_title(&title, a->plot, picture);
     char *rows = NULL;
     if (cells) {
-        ceduo_plot_draw(a->plot, &cells->canvas, &area, picture);
+        ceduo_plot_kinds[a->plot].draw(&cells->canvas, &area, picture);
         ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TITLE, title.bytes ? title.bytes : "");
         rows = ceduo_cells_dump(cells);
     }
@@ -106,7 +106,7 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
 {
     struct ceduo_picture picture = {.scene = scene, .outlook = outlook, .control = ceduo_plot_last_control(scene)};
     size_t start = out->length;
-    size_t options = ceduo_plot_by_option(a->plot) ? scene->options_count : 1;
+    size_t options = ceduo_plot_kinds[a->plot].by_option ? scene->options_count : 1;
     for (size_t o = 0; o < options; o++) {
         size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
         size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
@@ -147,7 +147,7 @@ static enum ceduo_status add_flown_plots(const struct arguments *a, const struct
 
 enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene_file *file, struct text *out)
 {
-    if (!ceduo_plot_needs_run(a->plot)) {
+    if (!ceduo_plot_kinds[a->plot].needs_run) {
         add_plots(a, &file->scene, NULL, NULL, out);
         return EXIT_DONE;
     }
@@ -156,7 +156,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene
     struct ceduo_pool *pool = NULL;
     double cell_x[CEDUO_OUTLOOK_CELLS];
     enum exit_status done = EXIT_DONE;
-    q.run.cells = ceduo_plot_needs_cells(a->plot) ? ceduo_outlook_places(&file->scene, cell_x) : 0;
+    q.run.cells = ceduo_plot_kinds[a->plot].needs_cells ? ceduo_outlook_places(&file->scene, cell_x) : 0;
     q.run.cell_x = cell_x;
     if (a->plot == CEDUO_PLOT_ROTATION && !a->years) {
         q.years = true;

@@ -108,10 +108,8 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
 {
-    const char *mark = light == CEDUO_PASS ? "\xe2\x9c\x94" : light == CEDUO_FAIL ? "\xe2\x9c\x98" : "?";
     const char *word = light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
-    enum ceduo_role role = light == CEDUO_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_DIM;
-    line(pen, role, "%s %-8s %s %s", mark, name, word, what);
+    line(pen, ceduo_plot_light_role(light), "%s %-8s %s %s", ceduo_plot_light_mark(light), name, word, what);
 }
 
 static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood,

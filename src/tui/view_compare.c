@@ -154,13 +154,7 @@ static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
         }
     const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
     for (int k = 0; k < 3; k++)
-        ceduo_cells_label(app->cells, x + 1 + k, y,
-                           lights[k] == CEDUO_PASS   ? CEDUO_ROLE_GOOD
-                           : lights[k] == CEDUO_FAIL ? CEDUO_ROLE_BAD
-                                                     : CEDUO_ROLE_DIM,
-                           lights[k] == CEDUO_PASS   ? "\xe2\x9c\x94"
-                           : lights[k] == CEDUO_FAIL ? "\xe2\x9c\x98"
-                                                     : "?");
+        ceduo_cells_label(app->cells, x + 1 + k, y, ceduo_plot_light_role(lights[k]), ceduo_plot_light_mark(lights[k]));
 }
 
 static void draw_head(struct app *app, struct ceduo_area area)

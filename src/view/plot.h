@@ -8,7 +8,7 @@
 #include "study/outlook.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
- * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
+ * out, never squeezed. None has a title of its own; ceduo_plot_title() (plots.h) says what stands above it. */
 
 /* What a picture shows. */
 struct ceduo_picture {
@@ -70,37 +70,9 @@ void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *ar
 void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                          const struct ceduo_picture *picture);
 
-/* ---- by name ---- */
-
-enum ceduo_plot {
-    CEDUO_PLOT_NONE,
-    CEDUO_PLOT_PROFILE,
-    CEDUO_PLOT_ENERGY,
-    CEDUO_PLOT_HEIGHT,
-    CEDUO_PLOT_HISTOGRAM,
-    CEDUO_PLOT_ADC,
-    CEDUO_PLOT_ROTATION,
-    CEDUO_PLOT_STAND,
-    CEDUO_PLOT_COMPARE,
-    CEDUO_PLOTS
-};
-
-#define CEDUO_PLOT_NAMES "profile, energy, height, histogram, adc, rotation, stand, compare"
-
-/* CEDUO_PLOT_NONE for a word that names none. */
-enum ceduo_plot ceduo_plot_find(const char *name);
-
-/* What a kind of picture needs, and of what there is one each. */
-bool ceduo_plot_needs_run(enum ceduo_plot plot);
-bool ceduo_plot_needs_cells(enum ceduo_plot plot);
-bool ceduo_plot_by_option(enum ceduo_plot plot);
-
-/* Draws any of them. */
-void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                     const struct ceduo_picture *picture);
-
-/* One line that says what the picture shows. */
-void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);
+/* The colour and the sign of a light. */
+enum ceduo_role ceduo_plot_light_role(enum ceduo_light light);
+const char *ceduo_plot_light_mark(enum ceduo_light light);
 
 /* The control farthest along the slope; 0 where there is none. */
 size_t ceduo_plot_last_control(const struct ceduo_scene *scene);

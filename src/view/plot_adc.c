@@ -37,17 +37,6 @@ static int column_of(const struct adc_picture *p, double metres)
 
 /* ---- the scale ---- */
 
-/* The largest 1, 2 or 5 times a power of ten that is not above `value`, or the least that is not below. */
-static double round_number(double value, bool up)
-{
-    static const double round[] = {1, 2, 5, 10};
-    double power = pow(10, floor(log10(value)));
-    for (int i = 0; i < 4; i++)
-        if (round[i] * power * (1 + 1e-9) >= value)
-            return up || round[i] * power <= value * (1 + 1e-9) ? round[i] * power : round[i - 1] * power;
-    return 10 * power;
-}
-
 static void find_scale(struct adc_picture *p, const struct ceduo_option *option)
 {
     double least = p->threshold, most = p->threshold;
@@ -61,8 +50,8 @@ static void find_scale(struct adc_picture *p, const struct ceduo_option *option)
             most = fmax(most, v);
         }
     }
-    p->lo = round_number(least / 1.5, false);
-    p->hi = round_number(1.5 * most, true);
+    p->lo = ceduo_plot_round(least / 1.5, false);
+    p->hi = ceduo_plot_round(1.5 * most, true);
 }
 
 /* Marks of the scale below the bars, as many as stand clear of each other. */
@@ -74,7 +63,7 @@ static void draw_scale(const struct adc_picture *p, int row)
     const char *limit = threshold.bytes ? threshold.bytes : "";
     int at = column_of(p, p->threshold), limit_end = at + ceduo_canvas_label_width(p->canvas, limit);
     ceduo_canvas_label(p->canvas, at, row, CEDUO_ROLE_CONTROL, limit);
-    for (double v = p->lo; v <= p->hi * (1 + 1e-9); v = round_number(1.5 * v, true)) {
+    for (double v = p->lo; v <= p->hi * (1 + 1e-9); v = ceduo_plot_round(1.5 * v, true)) {
         char text[CEDUO_TICK_LABEL_SIZE];
         int column = column_of(p, v), width = (int)ceduo_tick_label(v, v, sizeof text, text);
         bool hidden = column + width + 1 > at && column < limit_end + 1;

@@ -15,17 +15,6 @@ struct bins {
     bool over; /* the last one holds all that is larger */
 };
 
-/* The least of 1, 2, 5 times a power of ten that is not below `width`. */
-static double round_width(double width)
-{
-    static const double round[] = {1, 2, 5, 10};
-    double power = pow(10, floor(log10(width)));
-    for (int i = 0; i < 4; i++)
-        if (round[i] * power >= width * (1 - 1e-9))
-            return round[i] * power;
-    return 10 * power;
-}
-
 /* Bins from the least to the largest energy, at most `most`; a long tail goes into the last one. */
 static struct bins bins_for(double least, double p99, double largest, int most)
 {
@@ -33,7 +22,7 @@ static struct bins bins_for(double least, double p99, double largest, int most)
     double top = b.over ? p99 : largest;
     int room = most - b.over > 1 ? most - b.over : 1;
     double range = top - least > 1e-6 * fabs(top) ? top - least : fmax(fabs(top) / 10, 1e-3);
-    for (b.width = round_width(range / room);; b.width = round_width(1.5 * b.width)) {
+    for (b.width = ceduo_plot_round(range / room, true);; b.width = ceduo_plot_round(1.5 * b.width, true)) {
         b.first = floor(least / b.width + 1e-9) * b.width;
         b.count = (int)floor((top - b.first) / b.width + 1e-9) + 1 + b.over;
         if (b.count <= room + b.over || b.width > top)
@@ -249,12 +238,6 @@ static void put_head(const struct histogram *h)
         ceduo_text_free(&heads[i]);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)
 {
     size_t *counts = calloc((size_t)bins->count, sizeof *counts);
@@ -274,7 +257,7 @@ static bool count(struct histogram *h, const struct ceduo_energies *e, const str
         memcpy(sorted, e->values, e->n * sizeof *sorted);
     if (bare && bare->n > 0)
         memcpy(sorted + e->n, bare->values, bare->n * sizeof *sorted);
-    qsort(sorted, n, sizeof *sorted, by_value);
+    ceduo_plot_sort(sorted, n);
     double p99 = sorted[ceduo_quantile_rank(n, 0.99) - 1];
     h->bins = bins_for(sorted[0] * KILO, p99 * KILO, sorted[n - 1] * KILO, rows);
     free(sorted);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/intl.h"
@@ -140,14 +141,53 @@ void ceduo_plot_stretch(const struct ceduo_picture *p, double *from, double *to)
     *to = whole ? slope->x[slope->vertices - 1] : fmin(p->to, slope->x[slope->vertices - 1]);
 }
 
-struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, const struct ceduo_slope *slope)
+struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y)
 {
     struct ceduo_frame given = *frame;
-    given.x0 += slope->origin_x;
-    given.x1 += slope->origin_x;
-    given.y0 += slope->origin_z;
-    given.y1 += slope->origin_z;
+    given.x0 += x;
+    given.x1 += x;
+    given.y0 += y;
+    given.y1 += y;
     return given;
+}
+
+void ceduo_plot_axes(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double x, double y, const char *unit)
+{
+    struct ceduo_frame given = ceduo_plot_given(frame, x, y);
+    ceduo_canvas_axis_left(canvas, &given);
+    if (unit)
+        ceduo_canvas_axis_bottom(canvas, &given, unit);
+}
+
+double ceduo_plot_round(double value, bool up)
+{
+    static const double round[] = {1, 2, 5, 10};
+    double power = pow(10, floor(log10(value)));
+    for (int i = 0; i < 4; i++)
+        if (round[i] * power * (1 + 1e-9) >= value)
+            return up || round[i] * power <= value * (1 + 1e-9) ? round[i] * power : round[i - 1] * power;
+    return 10 * power;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void ceduo_plot_sort(double *values, size_t n)
+{
+    qsort(values, n, sizeof *values, by_value);
+}
+
+enum ceduo_role ceduo_plot_light_role(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_DIM;
+}
+
+const char *ceduo_plot_light_mark(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? "\xe2\x9c\x94" : light == CEDUO_FAIL ? "\xe2\x9c\x98" : "?";
 }
 
 double ceduo_plot_tallest(const struct ceduo_stand *stand)

@@ -50,8 +50,17 @@ bool ceduo_plot_has_stems(const struct ceduo_option *option);
 /* The stretch of slope to show. */
 void ceduo_plot_stretch(const struct ceduo_picture *picture, double *from, double *to);
 
-/* A frame in the user's coordinates, for its axes. */
-struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, const struct ceduo_slope *slope);
+/* A frame in the user's coordinates, for its axes: those of the data and what is added to them. */
+struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y);
+
+/* The left axis of a frame in the user's coordinates, and the bottom axis in `unit` (NULL: none). */
+void ceduo_plot_axes(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double x, double y, const char *unit);
+
+/* The largest 1, 2 or 5 times a power of ten that is not above a value, or the least that is not below. */
+double ceduo_plot_round(double value, bool up);
+
+/* Sorts numbers, the least first. */
+void ceduo_plot_sort(double *values, size_t n);
 
 /* The height of the tallest stem; 0 in a bare stand. */
 double ceduo_plot_tallest(const struct ceduo_stand *stand);

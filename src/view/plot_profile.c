@@ -326,6 +326,7 @@ static void draw_belts(const struct profile *p)
 static void place_frame(struct profile *p)
 {
     const struct ceduo_area *a = p->area;
+    const struct ceduo_slope *slope = &p->picture->scene->slope;
     struct range r = range_of(p->picture);
     int axis = 0, needed = 1;
     while (axis < needed) { /* the axis takes columns, and they decide its labels */
@@ -337,7 +338,7 @@ static void place_frame(struct profile *p)
         p->factor = scale(&p->frame, p->canvas, &r);
         if (isnan(p->factor))
             return;
-        struct ceduo_frame given = ceduo_plot_given(&p->frame, &p->picture->scene->slope);
+        struct ceduo_frame given = ceduo_plot_given(&p->frame, slope->origin_x, slope->origin_z);
         needed = ceduo_frame_axis_width(&given, p->canvas);
     }
 }
@@ -366,9 +367,7 @@ void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *ar
     draw_controls(&p);
     if (p.names && !noted)
         name_forest(&p);
-    struct ceduo_frame given = ceduo_plot_given(&p.frame, slope);
-    ceduo_canvas_axis_left(canvas, &given);
-    ceduo_canvas_axis_bottom(canvas, &given, _("m"));
+    ceduo_plot_axes(canvas, &p.frame, slope->origin_x, slope->origin_z, _("m"));
     if (p.belts)
         draw_belts(&p);
 }

@@ -80,13 +80,7 @@ static void draw_lights(const struct rotation *r, int row)
                 int column = column_of(r, r->x[i]);
                 if (column < 0 || (light == CEDUO_FAIL) != pass)
                     continue;
-                ceduo_canvas_label(r->canvas, column, row + k,
-                                   light == CEDUO_PASS   ? CEDUO_ROLE_GOOD
-                                   : light == CEDUO_FAIL ? CEDUO_ROLE_BAD
-                                                         : CEDUO_ROLE_DIM,
-                                   light == CEDUO_PASS   ? "\xe2\x9c\x94"
-                                   : light == CEDUO_FAIL ? "\xe2\x9c\x98"
-                                                         : "?");
+                ceduo_canvas_label(r->canvas, column, row + k, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
             }
     }
 }

@@ -267,9 +267,7 @@ static void draw_way(struct plan *p, const struct ceduo_area *area, const struct
                   stem->dbh / 2);
     }
     draw_strip(p);
-    struct ceduo_frame given = p->frame;
-    given.x0 += from + picture->scene->slope.origin_x;
-    given.x1 += from + picture->scene->slope.origin_x;
+    struct ceduo_frame given = ceduo_plot_given(&p->frame, from + picture->scene->slope.origin_x, 0);
     ceduo_canvas_axis_bottom(p->canvas, &given, _("m"));
     if (words)
         put_words_of_way(p, area, &t);

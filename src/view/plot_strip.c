@@ -149,12 +149,6 @@ static bool shown(const struct strip *s, size_t cell)
 
 /* ---- the scale ---- */
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* What decides the scale. */
 struct peak {
     double largest, at, usual; /* the largest value and where it is; what 85 % of the cells do not exceed */
@@ -177,7 +171,7 @@ static size_t add_peak(const struct strip *s, const struct curve *curve, struct 
         values[n++] = v;
     }
     if (n > 0) {
-        qsort(values, n, sizeof *values, by_value);
+        ceduo_plot_sort(values, n);
         peak->usual = fmax(peak->usual, values[(n - 1) * 85 / 100]);
     }
     free(values);
@@ -392,16 +386,6 @@ static void put_caption(const struct strip *s, const struct peak *peak)
         put_cut(s, peak, left + used, room - used);
 }
 
-static void draw_axes(const struct strip *s, bool axis)
-{
-    struct ceduo_frame given = s->frame;
-    given.x0 += s->picture->scene->slope.origin_x;
-    given.x1 += s->picture->scene->slope.origin_x;
-    ceduo_canvas_axis_left(s->canvas, &given);
-    if (axis)
-        ceduo_canvas_axis_bottom(s->canvas, &given, _("m"));
-}
-
 static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis)
 {
     struct peak peak;
@@ -426,7 +410,7 @@ static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis
         draw_curve(s, &s->content->curves[i]);
     draw_controls(s);
     name_curves(s);
-    draw_axes(s, axis);
+    ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, axis ? _("m") : NULL);
 }
 
 #define FULL_ROWS  8  /* four curves need so many rows, */

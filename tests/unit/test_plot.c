@@ -15,7 +15,7 @@
 #include "cli/command_line.h"
 #include "cli/options.h"
 #include "view/cells.h"
-#include "view/plot.h"
+#include "view/plots.h"
 
 #define BRAILLE CEDUO_CHARSET_BRAILLE
 #define BLOCK   CEDUO_CHARSET_BLOCK
@@ -210,7 +210,7 @@ static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture
     struct ceduo_cells *cells = ceduo_cells_create(width, height, charset);
     assert_non_null(cells);
     struct ceduo_area area = {0, 0, width, height};
-    ceduo_plot_draw(plot, &cells->canvas, &area, p);
+    ceduo_plot_kinds[plot].draw(&cells->canvas, &area, p);
     return cells;
 }
 
@@ -1230,7 +1230,7 @@ static void nothing_is_drawn_beside_the_area(void **state)
             p.stems = i % 11 < 3 ? passed : NULL;
             p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);
-            ceduo_plot_draw((enum ceduo_plot)plot, &cells->canvas, &area, &p);
+            ceduo_plot_kinds[plot].draw(&cells->canvas, &area, &p);
             for (int row = 0; row < cells->height; row++)
                 for (int column = 0; column < cells->width; column++) {
                     bool in = column >= area.left && column < area.left + area.width && row >= area.top &&
@@ -1251,7 +1251,7 @@ static void names_are_found(void **state)
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         enum ceduo_plot plot = ceduo_plot_find(names[i]);
         assert_int_not_equal(plot, CEDUO_PLOT_NONE);
-        assert_non_null(strstr(CEDUO_PLOT_NAMES, names[i]));
+        assert_non_null(strstr(ceduo_plot_names, names[i]));
     }
     assert_int_equal(ceduo_plot_find("years"), CEDUO_PLOT_NONE);
     assert_int_equal(ceduo_plot_find(""), CEDUO_PLOT_NONE);

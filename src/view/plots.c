@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plot.h"
+#include "plots.h"
 
 #include <string.h>
 
 #include "base/intl.h"
 #include "plot_parts.h"
-
-typedef void draw_function(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                           const struct ceduo_picture *picture);
 
 static void draw_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                          const struct ceduo_picture *picture)
@@ -25,49 +22,23 @@ static void draw_energy(struct ceduo_canvas *canvas, const struct ceduo_area *ar
     ceduo_plot_energy(canvas, area, picture, NULL, true);
 }
 
-static const struct {
-    const char *name;
-    draw_function *draw;
-    bool needs_run, needs_cells, by_option;
-} kinds[CEDUO_PLOTS] = {
-    [CEDUO_PLOT_PROFILE] = {"profile", draw_profile, true, false, true},
-    [CEDUO_PLOT_ENERGY] = {"energy", draw_energy, true, true, true},
-    [CEDUO_PLOT_HEIGHT] = {"height", draw_height, true, true, true},
-    [CEDUO_PLOT_HISTOGRAM] = {"histogram", ceduo_plot_histogram, true, false, true},
-    [CEDUO_PLOT_ADC] = {"adc", ceduo_plot_adc, false, false, true},
-    [CEDUO_PLOT_ROTATION] = {"rotation", ceduo_plot_rotation, true, false, true},
-    [CEDUO_PLOT_STAND] = {"stand", ceduo_plot_stand, false, false, true},
-    [CEDUO_PLOT_COMPARE] = {"compare", ceduo_plot_compare, true, false, false},
+const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
+#define X(NAME, name, draw, needs_run, needs_cells, by_option)                                                         \
+    [CEDUO_PLOT_##NAME] = {name, draw, needs_run, needs_cells, by_option},
+    CEDUO_PLOT_LIST(X)
+#undef X
 };
+
+#define X(NAME, name, draw, needs_run, needs_cells, by_option) ", " name
+const char *const ceduo_plot_names = &(CEDUO_PLOT_LIST(X))[2];
+#undef X
 
 enum ceduo_plot ceduo_plot_find(const char *name)
 {
     for (int i = CEDUO_PLOT_NONE + 1; i < CEDUO_PLOTS; i++)
-        if (strcmp(kinds[i].name, name) == 0)
+        if (strcmp(ceduo_plot_kinds[i].name, name) == 0)
             return (enum ceduo_plot)i;
     return CEDUO_PLOT_NONE;
-}
-
-bool ceduo_plot_needs_run(enum ceduo_plot plot)
-{
-    return kinds[plot].needs_run;
-}
-
-bool ceduo_plot_needs_cells(enum ceduo_plot plot)
-{
-    return kinds[plot].needs_cells;
-}
-
-bool ceduo_plot_by_option(enum ceduo_plot plot)
-{
-    return kinds[plot].by_option;
-}
-
-void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                     const struct ceduo_picture *picture)
-{
-    if (kinds[plot].draw)
-        kinds[plot].draw(canvas, area, picture);
 }
 
 /* ---- titles ---- */
