@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # ceduo: rockfall among the stems of a coppice.
 #
-#   make            the program, ./ceduo          make check      the tests that CI runs
-#   make deps       installs what Debian lacks    make check-all  sanitizers, valgrind, tmux: slow
-#   make run        the paper's site as a page    make bench      speed, against a plain C loop
-#   make install    PREFIX, DESTDIR; uninstall    make stress     ten million random scenes: slow
-#   make dist       the sources, in one archive   VARIANT=release|debug|asan|tsan|cov|fuzz
-#   make lint       cppcheck and clang-tidy
-#   make fuzz       libFuzzer, FUZZ_SECONDS=600 for each reader
-#   make net        what the program prints, against that of a commit before: BEFORE=v0.2 ONLY=plot
-#   make coverage   branches of the library and src/io that no test takes, each with its reason: slow
+#   make            build the program, ./ceduo      make check      run the tests that CI runs
+#   make deps       install missing packages        make check-all  sanitizers, valgrind, Slurm: slow
+#   make run        compute the paper's site        make bench      measure speed against a plain C loop
+#   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
+#   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
+#   make man        write the tables of the program into the manual
+#   make lint       run cppcheck and clang-tidy
+#   make fuzz       run libFuzzer, FUZZ_SECONDS=600 for each reader
+#   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
+#   make coverage   list branches of the library and src/io that no test takes, with the reason for each: slow
 
 VERSION := $(shell sed -n 's/.*CEDUO_VERSION "\(.*\)"/\1/p' include/ceduo/version.h)
 VARIANT ?= release
@@ -21,7 +22,7 @@ MANDIR ?= $(PREFIX)/share/man
 BASHDIR ?= $(PREFIX)/share/bash-completion/completions
 ZSHDIR ?= $(PREFIX)/share/zsh/site-functions
 BUILD := build/$(VARIANT)
-# A path that the user chose, for the shell: it may hold blanks and apostrophes.
+# Quotes a path for the shell; users may choose paths with blanks and apostrophes.
 quoted = '$(subst ','\'',$(1))'
 ifeq ($(origin CC),default)
 CC := gcc
@@ -32,17 +33,17 @@ OPTIMISE_release := -O2
 OPTIMISE_debug := -O0 -g
 OPTIMISE_asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPTIMISE_tsan := -O1 -g -fsanitize=thread
-# What is inlined by force would be counted once for each place that calls it. Counting that no thread disturbs takes more
-# than twice the time, and a count that loses some is above 0 all the same.
+# A function inlined by force would be counted once for each caller. Counting safely between threads takes more than twice
+# the time; a count that loses some is still above 0.
 OPTIMISE_cov := -O0 -g --coverage -fprofile-update=single -Dalways_inline=unused
 OPTIMISE_fuzz := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
-# -ffp-contract=off: a fused multiply-add would give other bits on other machines.
+# -ffp-contract=off: fused multiply-adds would give different bits on different machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
 LIBS = -lncursesw -ltinfo -lyaml -lunistring -lgsl -lgslcblas -lm
 
-# The rooms of the library; the others stand on them.
+# The rooms of the library; the other rooms use them.
 rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)))
 CORE := $(call rooms,base scene core study)
 REST := $(filter-out src/cli/main.c,$(call rooms,io model view tui cli))
@@ -74,11 +75,11 @@ $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(DEFINES) -c -o $@ $<
 
-# Where installed profiles are looked for, after those beside the program itself.
+# The program looks for installed profiles here, after those beside itself.
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
-# Not those of another commit's build, which name other headers.
+# Leaves out the build of another commit, which names other headers.
 -include $(shell find build -path build/before -prune -o -name '*.d' -print 2>/dev/null)
 
 # ---- a fresh machine ----
@@ -94,8 +95,8 @@ deps:
 	if [ "$$(id -u)" != 0 ]; then echo "run as root: apt-get install$$missing"; exit 1; fi; \
 	apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $$missing
 
-# With `make -j deps check` nothing may start before the packages are there: these goals wait for deps where it is
-# asked for, and do their work in a make of their own.
+# With `make -j deps check`, nothing may start before the packages are installed: these goals wait for deps if it is
+# requested, and do their work in a make of their own.
 GOALS := run check check-all bench stress fuzz lint coverage net
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
@@ -115,7 +116,7 @@ SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.p
 TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
 SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
 
-# One line at the end: N passed, N failed.
+# The last line is: N passed, N failed.
 do-check:
 	@+$(MAKE) --no-print-directory -j$(CORES) all
 	@rm -rf $(TAPS)
@@ -137,14 +138,14 @@ $(UNIT:=.tap): %.tap: %
 $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
 
-# It compares what these print, too.
+# This test also compares what these print.
 $(T)/cli/test_net.py.tap: $(T)/tables $(BUILD)/man/completion
 
 $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:
 
-# Readers and keys on input of any bytes. Within `make check` the seeds and so many changes of them, always the same; by
-# `make fuzz` what libFuzzer makes of them.
+# Feeds arbitrary bytes to the readers and keys. `make check` uses the seeds and this many changes of them, always the same;
+# `make fuzz` lets libFuzzer change them.
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:%=replay_%)
 CHANGES_scene := 8000
@@ -158,7 +159,7 @@ $(REPLAYS:%=$(T)/fuzz/%): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUI
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Parts hold the version, and numbers that follow from the scene: this build's own harness makes them.
+# Parts contain the version and numbers that depend on the scene, so the harness of this build makes them.
 $(T)/fuzz/seeds/part: $(T)/fuzz/replay_part
 	@rm -rf $@ && mkdir -p $@
 	@FUZZ_SEEDS=$@ $< part 0 /dev/null
@@ -191,9 +192,9 @@ do-fuzz:
 
 DEBIAN_FUZZ := clang libclang-rt-dev
 
-# Left out of cppcheck's: uninitialised variables whose address alone is taken, and what realloc gives kept where it
-# failed for another, both known to be in order here (-Wall, the sanitizers and the failing allocations look at them too);
-# two variables that begin alike.
+# These checks of cppcheck are off: uninitialised variables of which only the address is taken, and memory kept by realloc
+# when a later one fails, both known to be correct here (-Wall, the sanitizers and the tests of failing allocations check
+# them too); two variables with the same initial value.
 DEBIAN_LINT := cppcheck clang-tidy
 CPPCHECK := -q --error-exitcode=1 --std=c11 --enable=warning,performance,portability --inline-suppr \
 	--suppress=missingIncludeSystem --suppress=uninitvar --suppress=legacyUninitvar --suppress=memleak \
@@ -204,8 +205,8 @@ do-lint:
 	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
 	    "-DCEDUO_DATADIR=\"\"" 2>/dev/null' tidy
 
-# All tests on a build that counts branches; then what was not taken, against tests/coverage.txt. Whether they pass is for
-# make check to say: so slow a build misses some that go by the clock.
+# Runs all tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Failures do
+# not count here, as this build is too slow for some tests that depend on the clock; `make check` judges them.
 do-coverage:
 	@+$(MAKE) --no-print-directory VARIANT=cov all
 	@find build/cov -name '*.gcda' -delete
@@ -214,7 +215,7 @@ do-coverage:
 	@-tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
 	@tests/coverage.py build/cov
 
-# For a change after which everything should be as it was.
+# For changes that should leave all output as it was.
 do-net: all $(T)/tables $(BUILD)/man/completion
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
@@ -226,14 +227,14 @@ do-check-all: do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
 
-# Threads are exercised by these: workers of a run and of a pool, of the terminal program, of years and parts.
+# These tests use threads: workers of a run and of a pool, of the terminal program, of years and parts.
 do-check-threads: $(addprefix $(T)/physics/test_,statistics_of_runs part years) $(PROGRAM)
 	set -e; for t in $(filter %test_statistics_of_runs %test_part %test_years,$^); do $$t; done
 	set -e; for t in tests/tui/test_screens.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py; do \
 	    CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) $$t; done
 
-# Memory as valgrind sees it: every scene as a batch, a picture, years, a number that is looked for, parts that are joined,
-# and the terminal program by a script.
+# Runs these under valgrind: every scene as a batch, a picture, years, a search, a merge of parts, and the terminal program
+# with a script.
 VALGRIND := valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite,possible
 do-check-memory: all
 	$(VALGRIND) $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
@@ -246,16 +247,16 @@ do-check-memory: all
 	    >$(BUILD)/valgrind.keys
 	$(VALGRIND) $(PROGRAM) --script $(BUILD)/valgrind.keys profiles/scenes/paper-site.yaml >/dev/null
 
-# The workflows once more, with a Slurm of one node for their job arrays; where none can be started it says why.
+# Runs the workflows again, with Slurm on one node for their job arrays; if Slurm cannot be started, it says why.
 do-check-slurm: all
 	CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) tests/slurm.sh tests/cli/test_workflows.py || [ $$? = 77 ]
 
-# The archive, unpacked elsewhere, passes too.
+# Runs the tests in the archive, unpacked elsewhere.
 do-check-dist: dist
 	+to=$$(mktemp -d) && tar -xzf $(DIST).tar.gz -C "$$to" && \
 	    $(MAKE) --no-print-directory -C "$$to/$(DIST)" check; status=$$?; rm -rf "$$to"; exit $$status
 
-# So many random scenes, in as many parts as there are cores.
+# The number of random scenes; each core runs a part of them.
 STRESS ?= 10000000
 do-stress: $(T)/physics/test_stress
 	@rm -f $(T)/stress-*.log; each=$$((($(STRESS) + $(CORES) - 1) / $(CORES))); \
@@ -282,7 +283,7 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Writes the tables of parameters, keys, goals and figures into the pages.
+# Writes the tables of parameters, keys, goals and figures into the manual pages.
 man: $(TABLES)
 	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
 	@for table in keys goals figures; do $(TABLES) $$table man/ceduo.1; done
@@ -298,7 +299,7 @@ $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo: $(COMPLETION)
 	@mkdir -p $(@D)
 	$(COMPLETION) $(if $(findstring _ceduo,$@),zsh,bash) >$@
 
-# What `uninstall` takes away again, file by file: where it lies others may have put theirs.
+# `uninstall` removes these files by name, because others may have put theirs into the same folders.
 DATA := profiles/scenes/*.yaml profiles/slopes/*.yaml profiles/stands/*.yaml profiles/jobs/*.sbatch
 FOLDERS := $(patsubst profiles/%/,%,$(dir $(DATA)))
 to = $(call quoted,$(DESTDIR)$(1))
@@ -319,7 +320,7 @@ uninstall:
 	for p in $(notdir $(PAGES)); do rm -f -- $(call to,$(MANDIR))/man$${p##*.}/$$p || exit 1; done
 	rm -f -- $(call to,$(BASHDIR))/ceduo $(call to,$(ZSHDIR))/_ceduo
 
-# The sources under version control, or in an unpacked archive those that came with it; the same bytes each time.
+# Packs the sources under version control, or in an unpacked archive those listed in it; the bytes are the same each time.
 DIST := ceduo-$(VERSION)
 dist:
 	rm -rf build/$(DIST) && mkdir -p build/$(DIST)
