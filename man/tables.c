@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a table into a manual page, between its two marks: tables scene|slope|stand PAGE that of the parameters,
- * keys that of the keys of the terminal program, goals and figures those of a search and of JSON. */
+ * keys that of the keys of the terminal program, goals and search those of a search, figures those of JSON. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,12 +143,19 @@ static void put_figure_lists(FILE *out)
     }
 }
 
+static void put_search(FILE *out)
+{
+    fputs(".Bl -tag -width Ds -compact\n", out);
+    put_figures(out, ceduo_find_figures);
+    fputs(".El\n", out);
+}
+
 int main(int argc, char **argv)
 {
     static const struct {
         const char *name;
         void (*put)(FILE *out);
-    } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"figures", put_figure_lists}};
+    } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"search", put_search}, {"figures", put_figure_lists}};
     if (argc != 3)
         return 2;
     size_t table = 0;

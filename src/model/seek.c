@@ -79,7 +79,7 @@ static bool set_value(struct search *s, double value)
 {
     struct text set = {0};
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(&set, "%s=%s", s->seek->path, ceduo_number_shortest(value, room));
+    ceduo_text_format(&set, "%s=%s", s->seek->search.path, ceduo_number_shortest(value, room));
     s->seek->file->root = s->root;
     bool good = set.bytes && ceduo_scene_set(s->seek->file, "--find", set.bytes, s->problems) &&
                 ceduo_scene_bind(s->seek->file, s->problems);
@@ -100,7 +100,7 @@ static enum ceduo_status ready_pool(struct search *s)
     s->scene_key = key;
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = s->seek->threads;
-    def.rocks_most = s->seek->rocks;
+    def.rocks_most = s->seek->search.rocks;
     def.cancel = s->seek->cancel;
     def.arrivals_only = true;
     return ceduo_pool_create(&def, &s->pool);
@@ -116,7 +116,7 @@ static double goal_of_rocks(const struct search *s, const struct ceduo_option *o
     *status = ceduo_run_arrivals(wooded ? wooded : bare, c, &a);
     if (*status != CEDUO_OK)
         return NAN;
-    if (s->seek->goal == CEDUO_GOAL_EXCEED)
+    if (s->seek->search.goal == CEDUO_GOAL_EXCEED)
         return a.exceed_probability;
     if (a.reached == 0)
         return 0;
@@ -134,7 +134,7 @@ static enum ceduo_status fly(struct search *s, const struct ceduo_option *option
     if (status == CEDUO_OK)
         status = ceduo_pool_run(s->pool, flies ? option : NULL, &run);
     if (status == CEDUO_OK)
-        status = ceduo_run_extend(run, s->seek->rocks);
+        status = ceduo_run_extend(run, s->seek->search.rocks);
     for (size_t c = 0; c < scene->controls_count && status == CEDUO_OK; c++) {
         double goal = goal_of_rocks(s, option, run, flies ? run : NULL, c, &status);
         *worst = isnan(goal) || goal > *worst ? goal : *worst;
@@ -148,13 +148,13 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     if (!set_value(s, value))
         return CEDUO_BAD_SLOPE; /* told in problems */
     const struct ceduo_scene *scene = &s->seek->file->scene;
-    const struct ceduo_option *option = &scene->options[s->seek->option];
+    const struct ceduo_option *option = &scene->options[s->seek->search.option];
     *goal = -INFINITY;
-    if (s->seek->goal == CEDUO_GOAL_ENERGY || s->seek->goal == CEDUO_GOAL_EXCEED)
+    if (s->seek->search.goal == CEDUO_GOAL_ENERGY || s->seek->search.goal == CEDUO_GOAL_EXCEED)
         return fly(s, option, goal);
     for (size_t c = 0; c < scene->controls_count; c++) {
         struct ceduo_index index = ceduo_assess_index(scene, option, &scene->controls[c], NAN);
-        *goal = fmax(*goal, s->seek->goal == CEDUO_GOAL_ADC ? index.worst_adc : index.worst_free_run);
+        *goal = fmax(*goal, s->seek->search.goal == CEDUO_GOAL_ADC ? index.worst_adc : index.worst_free_run);
     }
     return CEDUO_OK;
 }
@@ -168,11 +168,11 @@ static const struct source path_source = {.name = "--find", .is_option = true};
 /* What the goal needs of the scene. */
 static bool is_askable(const struct seek *s, struct problems *problems)
 {
-    if (is_text(field_at(s->path))) {
-        ceduo_problem(problems, &path_source, 0, 0, _("%s is no number"), s->path);
+    if (is_text(field_at(s->search.path))) {
+        ceduo_problem(problems, &path_source, 0, 0, _("%s is no number"), s->search.path);
         return false;
     }
-    bool needs_accepted = s->goal == CEDUO_GOAL_EXCEED;
+    bool needs_accepted = s->search.goal == CEDUO_GOAL_EXCEED;
     for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
         if (isnan(s->file->scene.controls[c].accepted)) {
             ceduo_problem(problems, &goal_source, 0, 0, _("exceed: controls[%zu] does not say what it bears; add accepted_kJ"),
@@ -189,13 +189,15 @@ static bool is_askable(const struct seek *s, struct problems *problems)
 enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struct problems *problems)
 {
     struct search s = {.seek = seek, .problems = problems, .root = seek->file->root};
-    seek->target = isnan(seek->target) ? ceduo_goal_limit(seek->goal, &seek->file->scene.simulation) : seek->target;
+    struct ceduo_search *search = &seek->search;
+    if (isnan(search->target))
+        search->target = ceduo_goal_limit(search->goal, &seek->file->scene.simulation);
     if (!is_askable(seek, problems))
         return CEDUO_BAD_SLOPE;
-    struct ceduo_find_def def = {.lo = seek->lo,
-                                 .hi = seek->hi,
-                                 .whole = is_whole(field_at(seek->path)),
-                                 .target = ceduo_goals[seek->goal].below ? nextafter(seek->target, 0) : seek->target,
+    struct ceduo_find_def def = {.lo = search->lo,
+                                 .hi = search->hi,
+                                 .whole = is_whole(field_at(search->path)),
+                                 .target = ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
                                  .goal = goal_at,
                                  .context = &s,
                                  .tolerance = 1e-4,
@@ -207,62 +209,4 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
     ceduo_scene_bind(seek->file, &none);
     ceduo_problems_free(&none);
     return status;
-}
-
-/* ---- in words ---- */
-
-static void put_value(struct text *text, double value)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_put(text, ceduo_number_shortest(value, room));
-}
-
-static void put_goal(const struct seek *s, double goal, struct text *text)
-{
-    const struct ceduo_goal_row *row = &ceduo_goals[s->goal];
-    ceduo_text_format(text, "%s ", _(row->name));
-    if (ceduo_goal_is_share(s->goal))
-        ceduo_text_format(text, "%.3g %%", goal * 100);
-    else if (isinf(goal))
-        ceduo_text_put(text, _("without end"));
-    else
-        ceduo_text_format(text, "%.4g %s", goal, row->unit);
-}
-
-void ceduo_seek_say(const struct seek *s, const struct ceduo_found *f, struct text *text)
-{
-    struct text path = {0};
-    ceduo_text_safe(&path, s->path);
-    const char *name = path.bytes ? path.bytes : "";
-    if (f->found) {
-        ceduo_text_format(text, "%s = ", name);
-        put_value(text, f->value);
-        ceduo_text_put(text, "\n  ");
-        ceduo_text_put(text, f->whole_range        ? _("every value of the range reaches the goal: ")
-                             : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: ")
-                                                   : _("the largest value that reaches the goal: "));
-        put_goal(s, f->goal_at_value, text);
-    } else {
-        ceduo_text_format(text, _("no value of %s from "), name);
-        put_value(text, s->lo);
-        ceduo_text_put(text, _(" to "));
-        put_value(text, s->hi);
-        ceduo_text_put(text, _(" reaches the goal"));
-        if (!isnan(f->nearest)) {
-            ceduo_text_put(text, _("\n  nearest: "));
-            put_value(text, f->nearest);
-            ceduo_text_put(text, ", ");
-            put_goal(s, f->goal_at_nearest, text);
-        }
-    }
-    ceduo_text_put(text, ceduo_goals[s->goal].below ? _(" (below ") : _(" (at most "));
-    ceduo_text_format(text, "%g %s", ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target,
-                      ceduo_goals[s->goal].unit);
-    ceduo_text_put(text, _(" is wanted), option '"));
-    ceduo_text_safe(text, s->file->scene.options[s->option].name);
-    ceduo_text_put(text, _("', worst control\n"));
-    text->failed |= path.failed;
-    ceduo_text_free(&path);
-    if (!f->monotone)
-        ceduo_text_put(text, _("  ! The goal does not only rise or only fall over this range: there may be other values.\n"));
 }

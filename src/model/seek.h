@@ -12,20 +12,12 @@
 
 struct seek {
     struct scene_file *file; /* read; it is as before in the end */
-    const char *path;        /* of the parameter, as for --set */
-    size_t option;           /* looked at */
-    enum ceduo_goal goal;
-    double target; /* m, share, kJ, share; NaN: the light's limit, and set to it */
-    double lo, hi; /* in the file's units */
-    uint64_t rocks;
+    struct ceduo_search search;
     unsigned threads;
     const atomic_bool *cancel; /* may be NULL */
 };
 
 /* Looks for it. A wrong path or range is told in `problems`. CEDUO_OK also where nothing is found. */
 enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struct problems *problems);
-
-/* What was found, in sentences. */
-void ceduo_seek_say(const struct seek *seek, const struct ceduo_found *found, struct text *text);
 
 #endif

@@ -30,4 +30,14 @@ enum ceduo_goal_reading { CEDUO_GOAL_GOOD, CEDUO_GOAL_UNKNOWN, CEDUO_GOAL_NO_NUM
 /* Reads "energy=50": `*value` is NaN without a value. `text` is cut at the sign. */
 enum ceduo_goal_reading ceduo_goal_read(char *text, enum ceduo_goal *goal, double *value);
 
+/* A search for the value of one parameter for which one option reaches a goal. */
+struct ceduo_search {
+    const char *path; /* of the parameter, as for --set */
+    size_t option;
+    enum ceduo_goal goal;
+    double target; /* in the goal's unit; NaN: the light's limit, and set to it */
+    double lo, hi; /* in the file's units */
+    uint64_t rocks;
+};
+
 #endif

@@ -7,17 +7,18 @@
 #include "model/seek.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/report.h"
 
 enum { FIND_GOAL, FIND_LO, FIND_HI };
 
-static bool read_goal(struct app *app, char *text, struct seek *seek)
+static bool read_goal(struct app *app, char *text, struct ceduo_search *search)
 {
-    enum ceduo_goal_reading reading = ceduo_goal_read(text, &seek->goal, &seek->target);
+    enum ceduo_goal_reading reading = ceduo_goal_read(text, &search->goal, &search->target);
     if (reading == CEDUO_GOAL_NO_SHARE)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
     else if (reading != CEDUO_GOAL_GOOD)
         ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
-    else if (!ceduo_goals[seek->goal].usual && isnan(seek->target))
+    else if (!ceduo_goals[search->goal].usual && isnan(search->target))
         ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
     else
         return true;
@@ -29,14 +30,15 @@ static bool read_goal(struct app *app, char *text, struct seek *seek)
 /* Looks for the value, and puts it into the field where one is found. */
 static bool filled_find(struct app *app, struct popup *p)
 {
-    struct seek seek = {.file = &app->document.file, .path = p->path, .option = app->option, .rocks = FIND_ROCKS,
+    struct seek seek = {.file = &app->document.file,
+                        .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS},
                         .threads = ceduo_worker_threads(app->figures.worker)};
     char goal[64];
     snprintf(goal, sizeof goal, "%.63s", p->fields[FIND_GOAL].text);
-    if (!read_goal(app, goal, &seek))
+    if (!read_goal(app, goal, &seek.search))
         return false;
-    if (ceduo_number_read(p->fields[FIND_LO].text, &seek.lo) != CEDUO_NUMBER_GOOD ||
-        ceduo_number_read(p->fields[FIND_HI].text, &seek.hi) != CEDUO_NUMBER_GOOD || !(seek.lo <= seek.hi)) {
+    if (ceduo_number_read(p->fields[FIND_LO].text, &seek.search.lo) != CEDUO_NUMBER_GOOD ||
+        ceduo_number_read(p->fields[FIND_HI].text, &seek.search.hi) != CEDUO_NUMBER_GOOD || !(seek.search.lo <= seek.search.hi)) {
         ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
         return false;
     }
@@ -56,7 +58,7 @@ static bool filled_find(struct app *app, struct popup *p)
                           p->fields[FIND_LO].text, p->fields[FIND_HI].text, p->fields[FIND_GOAL].text,
                           cell && cell->text[0] ? cell->text : _("as it is"));
     } else {
-        ceduo_seek_say(&seek, &found, &words);
+        ceduo_find_page(&words, &(struct ceduo_find_report){seek.file, &seek.search, &found});
     }
     if (found.found && !found.whole_range) {
         char room[CEDUO_NUMBER_ROOM], path[1024];

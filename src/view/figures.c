@@ -148,6 +148,16 @@ OBJECT(stops_of, wood_of(p)->ends.stop_x.n > 0 ? p : NULL)
 OBJECT(difference_of, p->option > 0 && !p->year ? &r->options[p->option].differences[p->control] : NULL)
 OBJECT(rotation_of, p->report->years ? p : NULL)
 
+static const void *search_of(const void *find)
+{
+    return ((const struct ceduo_find_report *)find)->search;
+}
+
+static const void *found_of(const void *find)
+{
+    return ((const struct ceduo_find_report *)find)->found;
+}
+
 /* ---- lists ---- */
 
 static bool enter_option(struct ceduo_place *p, size_t i)
@@ -233,6 +243,13 @@ VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : flag(o->exhausted))
 VALUE(share_at, flown, number((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
 VALUE(stop_at, place, number(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->origin_x))
 VALUE(felled_of, place, number(ceduo_years_felled(o->report->years[o->option])))
+VALUE(find_format, find_report, text("ceduo-find-1"))
+VALUE(find_path, find_report, text(o->file->path))
+VALUE(find_option, find_report, text(o->file->scene.options[o->search->option].name))
+VALUE(goal_of, search, text(ceduo_goals[o->goal].word))
+VALUE(side_of, found, text(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(nearest_of, found, number(o->found ? NAN : o->nearest))
+VALUE(nearest_goal, found, number(o->found ? NAN : o->goal_at_nearest))
 
 /* ---- the tables ---- */
 
@@ -475,6 +492,38 @@ const struct ceduo_figure ceduo_result_figures[] = {
      .of = difference, .enter = enter_difference},
     {"work", "", "what it took", .from = report_of, .of = work},
     END};
+
+/* ---- a search ---- */
+
+#define NONE "no value reaches the goal"
+#define ONE  "a value reaches it"
+#define SOUGHT \
+    {"scene", "", "path of the file", .value = find_path}, \
+    {"path", "", "path of the parameter", .from = search_of, AT(search, path)}, \
+    {"option", "", "name of the option", .value = find_option}, \
+    {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of}, \
+    {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)}, \
+    {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)}, \
+    {"hi", "", "upper end of the range", .from = search_of, AT(search, hi)}
+#define FOUND   {"found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)}
+#define REACHED {"value", "", "the value", .from = found_of, AT(found, value), .null = NONE}
+#define SIDE \
+    {"side", "", "smallest or largest: which of the values that reach it this is", .from = found_of, .value = side_of, \
+     .null = NONE}
+#define GOALS \
+    {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE}, \
+    {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE}, \
+    {"goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE}
+#define COST \
+    {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)}, \
+    {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)}, \
+    {"rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)}
+
+const struct ceduo_figure ceduo_find_figures[] = {
+    {"format", "", "always ceduo-find-1", .value = find_format},
+    {"version", "", "version of the program", .value = version_of},
+    SOUGHT, FOUND, REACHED, SIDE, GOALS, COST, END};
+const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND, SIDE, COST, END};
 
 /* ---- rows of CSV ---- */
 

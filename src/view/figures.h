@@ -62,6 +62,7 @@ extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
 
 /* Rows of CSV, of a struct ceduo_place: a control, a control in a year, a belt. */
 extern const struct ceduo_figure ceduo_control_columns[], ceduo_year_columns[], ceduo_stand_columns[];
+extern const struct ceduo_figure ceduo_find_columns[]; /* of a struct ceduo_find_report */
 
 /* Tables that the manual lists by themselves, because they are long or stand in several objects. */
 struct ceduo_figure_list {

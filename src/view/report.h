@@ -3,8 +3,10 @@
 #define CEDUO_REPORT_H
 
 #include "ceduo/blocks.h"
+#include "ceduo/find.h"
 #include "ceduo/years.h"
 #include "io/scene_file.h"
+#include "study/goal.h"
 #include "words.h"
 
 enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON };
@@ -34,5 +36,16 @@ void ceduo_report_json(struct text *text, const struct ceduo_report *report);
  * control. The header alone by its own call. */
 void ceduo_report_csv_header(struct text *text, bool stands, bool years);
 void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands);
+
+/* What a search found. */
+struct ceduo_find_report {
+    const struct scene_file *file;
+    const struct ceduo_search *search;
+    const struct ceduo_found *found;
+};
+void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
+void ceduo_find_json(struct text *text, const struct ceduo_find_report *report); /* one line, "ceduo-find-1" */
+void ceduo_find_csv_header(struct text *text);
+void ceduo_find_csv(struct text *text, const struct ceduo_find_report *report);
 
 #endif

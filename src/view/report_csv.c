@@ -128,3 +128,13 @@ void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool
         p.year = NULL;
     }
 }
+
+void ceduo_find_csv_header(struct text *text)
+{
+    put_row(&(struct row){.text = text, .header = true}, ceduo_find_columns, NULL);
+}
+
+void ceduo_find_csv(struct text *text, const struct ceduo_find_report *report)
+{
+    put_row(&(struct row){.text = text}, ceduo_find_columns, report);
+}

@@ -87,3 +87,8 @@ void ceduo_report_json(struct text *text, const struct ceduo_report *report)
 {
     put_line(text, ceduo_result_figures, &(struct ceduo_place){.report = report});
 }
+
+void ceduo_find_json(struct text *text, const struct ceduo_find_report *report)
+{
+    put_line(text, ceduo_find_figures, report);
+}

@@ -20,7 +20,7 @@ for kind in scene slope stand; do
     "${BUILD:-build/release}/tests/tables" $kind "$dir/page" && cmp -s "man/ceduo-$kind.5" "$dir/page"
     say $? "the parameters of ceduo-$kind.5 are those of the program (make man)"
 done
-for table in keys goals figures; do
+for table in keys goals search figures; do
     cp man/ceduo.1 "$dir/page"
     "${BUILD:-build/release}/tests/tables" $table "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
     say $? "the $table of ceduo.1 are those of the program (make man)"
