@@ -9,6 +9,7 @@
 #include "popup.h"
 #include "popups.h"
 #include "view/words.h"
+#include "scene/words.h"
 
 /* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
 static const char *how_common(const char *name)
@@ -68,8 +69,8 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
             ceduo_text_put(&p->text, _("no stems\n"));
         else
             ceduo_text_format(&p->text, _("with this rock: ADC %.3g m by %s, free run %.1f %%, %.3g kJ/100 m (%s)\n"),
-                              r.adc_m, ceduo_words_rule(r.rule), r.free_run_probability * 100, r.dissipated * 1e-3,
-                              ceduo_words_rule(r.rule));
+                              r.adc_m, ceduo_rule_words.names[r.rule], r.free_run_probability * 100, r.dissipated * 1e-3,
+                              ceduo_rule_words.names[r.rule]);
     }
     ceduo_text_free(&yaml);
     ceduo_problems_free(&problems);

@@ -7,6 +7,7 @@
 #include "io/emit.h"
 #include "popup.h"
 #include "popups.h"
+#include "study/compare.h"
 #include "view/words.h"
 
 static void build(struct app *app, struct form *form)
@@ -34,12 +35,12 @@ static bool wooded(const struct app *app)
 static double share_of(const struct app *app, size_t i)
 {
     double half;
-    return 1000 * ceduo_words_share(app->figures.result, i, &half);
+    return 1000 * ceduo_compare_share(app->figures.result, i, &half);
 }
 
 static double difference_of(const struct app *app, size_t i, double *half)
 {
-    double difference = 1000 * ceduo_words_difference(app->figures.result, i, half);
+    double difference = 1000 * ceduo_compare_difference(app->figures.result, i, half);
     *half *= 1000;
     return difference;
 }
@@ -79,7 +80,7 @@ static char mark_of(const struct app *app, size_t i, enum column column)
             worst = k;
     }
     double lowest = figure(app, best, column), highest = figure(app, worst, column), here = figure(app, i, column);
-    bool apart = wooded(app) && column == SHARE ? ceduo_words_worse(app->figures.result, worst, best) : lowest != highest;
+    bool apart = wooded(app) && column == SHARE ? ceduo_compare_worse(app->figures.result, worst, best) : lowest != highest;
     return !apart ? ' ' : here == lowest ? '*' : here == highest ? '!' : ' ';
 }
 

@@ -5,6 +5,7 @@
 #include "app.h"
 #include "base/intl.h"
 #include "view/words.h"
+#include "scene/words.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -51,8 +52,8 @@ static void draw_figures(struct app *app, struct ceduo_area area)
     if (!r.bare)
         ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g); %.3g kJ per "
                                    "100 m (%s)"),
-                          r.adc_m, ceduo_words_rule(r.rule), r.adc.gsteiger_stools, r.adc.gsteiger_stems,
-                          r.adc.interception, r.adc.crofton, r.dissipated / r.length * 0.1, ceduo_words_rule(r.rule));
+                          r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,
+                          r.adc.interception, r.adc.crofton, r.dissipated / r.length * 0.1, ceduo_rule_words.names[r.rule]);
     if (text.bytes)
         ceduo_app_text(app, area, CEDUO_ROLE_DIM, text.bytes, 0);
     ceduo_text_free(&text);

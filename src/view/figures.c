@@ -4,70 +4,42 @@
 #include <math.h>
 
 #include "ceduo/version.h"
+#include "scene/words.h"
 
 #define KILO 1e-3
 
 /* ---- values ---- */
 
-static struct ceduo_value number(double value)
-{
-    return (struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = value};
-}
-
-static struct ceduo_value text(const char *value)
-{
-    return (struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = value};
-}
-
-static struct ceduo_value count(uint64_t value)
-{
-    return (struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = value};
-}
-
-static struct ceduo_value flag(bool value)
-{
-    return (struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = value};
-}
+#define NOTHING     ((struct ceduo_value){.kind = CEDUO_NULL})
+#define NUMBER(of)  ((struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = (of)})
+#define COUNT(of)   ((struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = (of)})
+#define IS(of)      ((struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = (of)})
+#define WORD(of)    ((struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = (of)})
 
 static const void *member(const struct ceduo_figure *f, const void *object)
 {
     return (const char *)object + f->offset;
 }
 
-static struct ceduo_value number_at(const struct ceduo_figure *f, const void *object)
-{
-    return number(*(const double *)member(f, object));
-}
-
-static struct ceduo_value count_at(const struct ceduo_figure *f, const void *object)
-{
-    return count(*(const uint64_t *)member(f, object));
-}
-
-static struct ceduo_value unsigned_at(const struct ceduo_figure *f, const void *object)
-{
-    return count(*(const unsigned *)member(f, object));
-}
-
-static struct ceduo_value flag_at(const struct ceduo_figure *f, const void *object)
-{
-    return flag(*(const bool *)member(f, object));
-}
-
-static struct ceduo_value text_at(const struct ceduo_figure *f, const void *object)
-{
-    return text(*(const char *const *)member(f, object));
-}
-
-static struct ceduo_value light_at(const struct ceduo_figure *f, const void *object)
-{
-    return text(ceduo_words_light(*(const enum ceduo_light *)member(f, object)));
-}
+/* For `value`: a member of type `type`, m. */
+#define READ(name, type, result)                                                              \
+    static struct ceduo_value name(const struct ceduo_figure *f, const void *object)          \
+    {                                                                                         \
+        const type m = *(const type *)member(f, object);                                      \
+        return result;                                                                        \
+    }
+READ(number_at, double, NUMBER(m))
+READ(count_at, uint64_t, COUNT(m))
+READ(unsigned_at, unsigned, COUNT(m))
+READ(flag_at, bool, IS(m))
+READ(text_at, char *, WORD(m))
+READ(fixed_text_at, const char *, WORD(m))
+READ(light_at, enum ceduo_light, WORD(ceduo_words_light(m)))
 
 /* A member of a struct, read by its type; numbers in an object of their own there. */
 #define AT(object, member)                                                                                             \
     .value = _Generic(((struct ceduo_##object *)0)->member, double: number_at, uint64_t: count_at,                     \
-                      unsigned: unsigned_at, bool: flag_at, char *: text_at, const char *: text_at),                   \
+                      unsigned: unsigned_at, bool: flag_at, char *: text_at, const char *: fixed_text_at),             \
     .offset = offsetof(struct ceduo_##object, member)
 #define IN(object, member, table) .of = table, .offset = offsetof(struct ceduo_##object, member)
 #define LIGHT_AT(member)          .value = light_at, .offset = offsetof(struct ceduo_index, member)
@@ -81,7 +53,7 @@ double ceduo_figure_scale(const struct ceduo_figure *f, double scale)
 struct ceduo_value ceduo_figure_value(const struct ceduo_figure *f, const void *object, double scale)
 {
     const void *from = object && f->from ? f->from(object) : object;
-    struct ceduo_value v = from ? f->value(f, from) : (struct ceduo_value){.kind = CEDUO_NULL};
+    struct ceduo_value v = from ? f->value(f, from) : NOTHING;
     if (v.kind == CEDUO_VALUE_NUMBER)
         v.number *= ceduo_figure_scale(f, scale);
     bool exists = v.kind != CEDUO_VALUE_NUMBER || isfinite(v.number);
@@ -198,17 +170,17 @@ static bool enter_difference(struct ceduo_place *p, size_t i)
 
 /* ---- sentences ---- */
 
-static void say_of_run(const struct ceduo_place *p, ceduo_say *say, void *context)
+static void say_of_run(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
     ceduo_words_run_warnings(p->report->result, &p->report->remarks, say, context);
 }
 
-static void say_of_stand(const struct ceduo_place *p, ceduo_say *say, void *context)
+static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
     ceduo_words_stand_warnings(p->report->result->scene, belt_of(p), stand_of(p), say, context);
 }
 
-static void say_of_all(const struct ceduo_place *place, ceduo_say *say, void *context)
+static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, void *context)
 {
     struct ceduo_place p = *place;
     say_of_run(&p, say, context);
@@ -226,30 +198,29 @@ static void say_of_all(const struct ceduo_place *place, ceduo_say *say, void *co
         (void)f, (void)o;                                                                     \
         return result;                                                                        \
     }
-#define NOTHING ((struct ceduo_value){.kind = CEDUO_NULL})
-VALUE(format_of, place, text("ceduo-result-1"))
-VALUE(version_of, place, text(CEDUO_VERSION))
-VALUE(path_of, report, text(o->file->path))
-VALUE(rocks_of, report, count(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
-VALUE(law_of, scene, text(ceduo_words_law(o->simulation.law)))
-VALUE(accepted_of, control, number(ceduo_words_accepted(o)))
-VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : count(o->reached))
-VALUE(rule_of, stand_result, text(o->bare ? NULL : ceduo_words_rule(o->rule)))
-VALUE(stand_per_100m, stand_result, number(o->dissipated / o->length * 100))
-VALUE(index_per_100m, index, number(o->dissipated / o->length * 100))
-VALUE(mean_adc, index, number(o->contacts > 0 ? o->length / o->contacts : NAN))
-VALUE(passes_contact, index, flag(o->contact == CEDUO_PASS))
-VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : flag(o->exhausted))
-VALUE(share_at, flown, number((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
-VALUE(stop_at, place, number(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->origin_x))
-VALUE(felled_of, place, number(ceduo_years_felled(o->report->years[o->option])))
-VALUE(find_format, find_report, text("ceduo-find-1"))
-VALUE(find_path, find_report, text(o->file->path))
-VALUE(find_option, find_report, text(o->file->scene.options[o->search->option].name))
-VALUE(goal_of, search, text(ceduo_goals[o->goal].word))
-VALUE(side_of, found, text(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
-VALUE(nearest_of, found, number(o->found ? NAN : o->nearest))
-VALUE(nearest_goal, found, number(o->found ? NAN : o->goal_at_nearest))
+VALUE(format_of, place, WORD("ceduo-result-1"))
+VALUE(version_of, place, WORD(CEDUO_VERSION))
+VALUE(path_of, report, WORD(o->file->path))
+VALUE(rocks_of, report, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
+VALUE(law_of, scene, WORD(ceduo_law_words.names[o->simulation.law]))
+VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
+VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
+VALUE(rule_of, stand_result, WORD(o->bare ? NULL : ceduo_rule_words.names[o->rule]))
+VALUE(stand_per_100m, stand_result, NUMBER(o->dissipated / o->length * 100))
+VALUE(index_per_100m, index, NUMBER(o->dissipated / o->length * 100))
+VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
+VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
+VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
+VALUE(share_at, flown, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
+VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->origin_x))
+VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
+VALUE(find_format, find_report, WORD("ceduo-find-1"))
+VALUE(find_path, find_report, WORD(o->file->path))
+VALUE(find_option, find_report, WORD(o->file->scene.options[o->search->option].name))
+VALUE(goal_of, search, WORD(ceduo_goals[o->goal].word))
+VALUE(side_of, found, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(nearest_of, found, NUMBER(o->found ? NAN : o->nearest))
+VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
 
 /* ---- the tables ---- */
 

@@ -27,8 +27,6 @@ struct ceduo_place {
     struct ceduo_years_summary sum;    /* of the option's years, where they are asked for */
 };
 
-typedef void ceduo_say(void *context, const char *sentence);
-
 /* A row. It is a value, an object or a list of objects by `of`, or sentences. A table ends with a row without any. */
 struct ceduo_figure {
     const char *key;     /* NULL: the figures of `of` stand here, not in an object of their own */
@@ -41,7 +39,7 @@ struct ceduo_figure {
     double scale;        /* of numbers, and of all numbers in `of`; 0: 1 */
     const struct ceduo_figure *of;
     bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i, false beyond the last */
-    void (*say)(const struct ceduo_place *place, ceduo_say *say, void *context);
+    void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
     bool optional;       /* JSON leaves it out where it is null or empty */
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/intl.h"
 #include "page_parts.h"
+#include "study/compare.h"
 
 static const struct ceduo_index *last_index(const struct ceduo_result *r, size_t option)
 {
@@ -12,8 +13,8 @@ static const struct ceduo_index *last_index(const struct ceduo_result *r, size_t
 
 static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
-    double half, half_of_difference, difference = ceduo_words_difference(r, i, &half_of_difference);
-    double share = ceduo_words_share(r, i, &half);
+    double half, half_of_difference, difference = ceduo_compare_difference(r, i, &half_of_difference);
+    double share = ceduo_compare_share(r, i, &half);
     ceduo_page_per_1000(page, share, half, false);
     ceduo_page_per_1000(page, i == 0 ? NAN : difference, half_of_difference, true);
     ceduo_page_verdict(page, last_index(r, i)->energy);

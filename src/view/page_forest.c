@@ -5,6 +5,7 @@
 
 #include "base/intl.h"
 #include "page_parts.h"
+#include "scene/words.h"
 
 #define KILO 1e-3
 
@@ -44,18 +45,18 @@ static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const 
     ceduo_words_number(line, s->adc_m, 3);
     ceduo_text_format(line, _(" m, free run %.1f %%, "), s->free_run_probability * 100);
     ceduo_words_number(line, s->dissipated / s->length * 100 * KILO, 3);
-    ceduo_text_format(line, _(" kJ per 100 m (%s)"), s->bare ? _("no stems") : ceduo_words_rule(s->rule));
+    ceduo_text_format(line, _(" kJ per 100 m (%s)"), s->bare ? _("no stems") : ceduo_rule_words.names[s->rule]);
 }
 
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
 {
     static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION, CEDUO_CROFTON};
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
-    ceduo_text_format(line, _("%s by %s; other forms:"), b->name, ceduo_words_rule(s->rule));
+    ceduo_text_format(line, _("%s by %s; other forms:"), b->name, ceduo_rule_words.names[s->rule]);
     for (size_t k = 0, n = 0; k < sizeof rules / sizeof rules[0]; k++) {
         if (rules[k] == s->rule)
             continue;
-        ceduo_text_format(line, "%s %s ", n++ ? "," : "", ceduo_words_rule(rules[k]));
+        ceduo_text_format(line, "%s %s ", n++ ? "," : "", ceduo_rule_words.names[rules[k]]);
         ceduo_words_number(line, ceduo_adc_value(&s->adc, rules[k]), 3);
         ceduo_text_put(line, " m");
     }
@@ -85,7 +86,7 @@ static const char *rule_of(const struct ceduo_option *o, const struct ceduo_opti
     for (size_t i = 0; i < o->belts_count; i++) {
         if (found->stands[i].bare)
             continue;
-        const char *here = ceduo_words_rule(found->stands[i].rule);
+        const char *here = ceduo_rule_words.names[found->stands[i].rule];
         if (rule && strcmp(rule, here) != 0)
             return _("each belt's own rule");
         rule = here;

@@ -20,7 +20,7 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     struct text *line = ceduo_page_fact(page, _("Rock"));
-    ceduo_text_format(line, "%s, ", ceduo_words_shape(r->scene->rock.shape));
+    ceduo_text_format(line, "%s, ", ceduo_shape_words.names[r->scene->rock.shape]);
     ceduo_words_number(line, r->rock.mass, 4);
     ceduo_text_put(line, _(" kg, mean diameter "));
     ceduo_words_number(line, r->rock.mean_diameter, 3);
@@ -43,7 +43,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_words_number(line, high - low, 4);
     ceduo_text_format(line, ngettext(" m high, %zu segment; law %s, facets %s%s", " m high, %zu segments; law %s, facets %s%s",
                                      slope->vertices - 1),
-                      slope->vertices - 1, ceduo_words_law(s->simulation.law), ceduo_facets_words.names[slope->facets],
+                      slope->vertices - 1, ceduo_law_words.names[s->simulation.law], ceduo_facets_words.names[slope->facets],
                       assumed_mark(report, "slope"));
 }
 

@@ -5,6 +5,7 @@
 #include "base/intl.h"
 #include "plot_parts.h"
 #include "words.h"
+#include "scene/words.h"
 
 /* The forms of the ADC as bars on a log scale. */
 
@@ -122,7 +123,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
         bool applied = rule == r->rule;
         enum ceduo_role role = value < p->threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD;
         ceduo_plot_say(p->canvas, p->area->left, p->row, p->name, applied ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, "%s%s",
-                       applied ? "\xe2\x96\xb6 " : "  ", ceduo_words_rule(rule));
+                       applied ? "\xe2\x96\xb6 " : "  ", ceduo_rule_words.names[rule]);
         draw_bar(p, value, applied ? role : CEDUO_ROLE_DIM);
         if (applied)
             put_verdict(p, r, p->word >= 16 ? _("applied: ") : "");

@@ -4,29 +4,12 @@
 #include <math.h>
 
 #include "base/intl.h"
-#include "scene/words.h"
-
-typedef void say_function(void *context, const char *sentence);
-
-const char *ceduo_words_rule(enum ceduo_rule rule)
-{
-    return ceduo_rule_words.names[rule];
-}
+#include "study/compare.h"
 
 const char *ceduo_words_light(enum ceduo_light light)
 {
     static const char *const words[] = {"unknown", "pass", "fail"};
     return words[light];
-}
-
-const char *ceduo_words_shape(enum ceduo_shape shape)
-{
-    return ceduo_shape_words.names[shape];
-}
-
-const char *ceduo_words_law(enum ceduo_law law)
-{
-    return ceduo_law_words.names[law];
 }
 
 double ceduo_words_accepted(const struct ceduo_control *control)
@@ -57,7 +40,7 @@ void ceduo_words_number(struct text *text, double value, int digits)
         ceduo_text_format(text, "%.*f", decimals > 0 ? decimals : 0, value);
 }
 
-__attribute__((format(printf, 3, 4))) static void say_format(say_function *say, void *context, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *say, void *context, const char *format, ...)
 {
     struct text sentence = {0};
     va_list args;
@@ -86,7 +69,7 @@ static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ce
 }
 
 static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                         const struct ceduo_stand_result *r, say_function *say, void *context)
+                         const struct ceduo_stand_result *r, ceduo_words_say *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     double b = ceduo_rock_mean(&scene->rock).mean_diameter, per_stool = ceduo_stand_shoots(s) / s->stools_per_ha;
@@ -107,7 +90,7 @@ static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_bel
 }
 
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                                const struct ceduo_stand_result *r, say_function *say, void *context)
+                                const struct ceduo_stand_result *r, ceduo_words_say *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
@@ -134,7 +117,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 }
 
 static void say_tolerance(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                          say_function *say, void *context)
+                          ceduo_words_say *say, void *context)
 {
     if (remarks->tolerance > 0 && !remarks->tolerance_met)
         say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
@@ -159,7 +142,7 @@ static bool is_close(const struct ceduo_arrivals *a)
            ceduo_energy_light(a) != CEDUO_UNKNOWN;
 }
 
-static void say_close_calls(const struct ceduo_result *result, say_function *say, void *context)
+static void say_close_calls(const struct ceduo_result *result, ceduo_words_say *say, void *context)
 {
     for (size_t i = 0; i < result->options_count; i++)
         for (size_t c = 0; c < result->scene->controls_count; c++) {
@@ -174,7 +157,7 @@ static void say_close_calls(const struct ceduo_result *result, say_function *say
 }
 
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                              say_function *say, void *context)
+                              ceduo_words_say *say, void *context)
 {
     say_tolerance(result, remarks, say, context);
     uint64_t unfinished = ceduo_result_unfinished(result);
@@ -276,112 +259,24 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
 
 /* ---- which is best ---- */
 
-double ceduo_words_share(const struct ceduo_result *result, size_t option, double *half)
-{
-    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
-    *half = NAN;
-    if (!a)
-        return NAN;
-    double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
-    *half = ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released);
-    return share;
-}
-
-double ceduo_words_difference(const struct ceduo_result *result, size_t option, double *half)
-{
-    const struct ceduo_difference *d = &result->options[option].differences[result->last_control];
-    struct ceduo_paired found = isnan(d->exceed_probability.mean) ? d->reach_probability : d->exceed_probability;
-    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
-    double room, share = ceduo_words_share(result, option, &room), first = ceduo_words_share(result, 0, &room);
-    *half = !a               ? NAN
-            : share == first ? ceduo_half_width_of_share(share, found.se, a->released)
-                             : CEDUO_Z95 * found.se;
-    return found.mean;
-}
-
-/* The figure of an option by energy, its standard error, and that of its difference to the first option. */
-static double by_energy(const struct ceduo_result *result, size_t option, double *se)
-{
-    size_t c = result->last_control;
-    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, c);
-    const struct ceduo_difference *d = &result->options[option].differences[c];
-    *se = NAN;
-    if (!a)
-        return NAN;
-    bool shares = !isnan(a->exceed_probability);
-    *se = option == 0 ? 0 : shares ? d->exceed_probability.se : d->energy_per_released.se;
-    return shares ? a->exceed_probability : a->energy_per_released;
-}
-
-size_t ceduo_words_best_by_energy(const struct ceduo_result *result)
-{
-    size_t best = 0;
-    double least = INFINITY, se;
-    for (size_t i = 0; i < result->options_count; i++) {
-        double value = by_energy(result, i, &se);
-        if (value < least) {
-            least = value;
-            best = i;
-        }
-    }
-    return best;
-}
-
-/* The error of a difference of two options from those of their differences to the first: rather too large. */
-bool ceduo_words_worse(const struct ceduo_result *result, size_t option, size_t than)
-{
-    double se, than_se, value = by_energy(result, option, &se), other = by_energy(result, than, &than_se);
-    return value - other > 2 * hypot(se, than_se);
-}
-
-/* Positive where option i is better by contact than option k, 0 where contact does not tell them apart. */
-static int better_by_contact(const struct ceduo_result *result, size_t i, size_t k)
-{
-    const struct ceduo_index *here = index_at(result, i, result->last_control);
-    const struct ceduo_index *there = index_at(result, k, result->last_control);
-    int passes = here->contact == CEDUO_PASS, passed = there->contact == CEDUO_PASS;
-    return passes != passed ? passes - passed : (here->worst_adc < there->worst_adc) - (here->worst_adc > there->worst_adc);
-}
-
-/* Of options that contact does not tell apart the one that is best by energy. */
-static size_t best_by_contact(const struct ceduo_result *result)
-{
-    size_t best = 0;
-    double se;
-    for (size_t i = 1; i < result->options_count; i++) {
-        int better = better_by_contact(result, i, best);
-        if (better > 0 || (better == 0 && by_energy(result, i, &se) < by_energy(result, best, &se)))
-            best = i;
-    }
-    return best;
-}
-
 void ceduo_words_best(struct text *text, const struct ceduo_result *result)
 {
-    size_t n = result->options_count;
-    if (n < 2 || !result->wooded || result->scene->controls_count == 0)
+    const struct ceduo_best best = ceduo_compare_best(result);
+    const char *a = result->scene->options[best.contact].name, *b = result->scene->options[best.energy].name;
+    if (!best.known)
         return;
-    for (size_t i = 0; i < n; i++)
-        if (!ceduo_result_wooded(result, i, result->last_control))
-            return;
-    size_t contact = best_by_contact(result), energy = ceduo_words_best_by_energy(result), worse = 0, behind = 0;
-    const char *a = result->scene->options[contact].name, *b = result->scene->options[energy].name;
-    for (size_t i = 0; i < n; i++) {
-        worse += ceduo_words_worse(result, i, energy);
-        behind += better_by_contact(result, contact, i) > 0;
-    }
-    bool clear = worse == n - 1; /* by energy */
-    bool apart = behind > 0 && !isinf(index_at(result, contact, result->last_control)->worst_adc);
-    if (apart && contact == energy && clear)
+    if (best.apart && best.contact == best.energy && best.before_all)
         ceduo_text_format(text, _("By contact and by energy '%s' is best."), a);
-    else if (apart && !ceduo_words_worse(result, contact, energy))
+    else if (best.apart && !ceduo_compare_worse(result, best.contact, best.energy))
         ceduo_text_format(text, _("By contact '%s' is best, and none is clearly better by energy."), a);
-    else if (apart)
-        ceduo_text_format(text, clear ? _("By contact '%s' is best, by energy '%s'; neither alone decides.")
-                                      : _("By contact '%s' is best, by energy '%s', though not clearly before all others; neither "
-                                          "alone decides."), a, b);
-    else if (worse > 0)
-        ceduo_text_format(text, clear ? _("By energy '%s' is best; contact does not tell the options apart.")
-                                      : _("By energy '%s' is best, though not clearly before all others; contact does not tell "
-                                          "the options apart."), b);
+    else if (best.apart)
+        ceduo_text_format(text, best.before_all
+                                    ? _("By contact '%s' is best, by energy '%s'; neither alone decides.")
+                                    : _("By contact '%s' is best, by energy '%s', though not clearly before all others; neither "
+                                        "alone decides."), a, b);
+    else if (best.before_some)
+        ceduo_text_format(text, best.before_all
+                                    ? _("By energy '%s' is best; contact does not tell the options apart.")
+                                    : _("By energy '%s' is best, though not clearly before all others; contact does not tell "
+                                        "the options apart."), b);
 }

@@ -7,10 +7,12 @@
 
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 
+/* Takes sentences one by one. */
+typedef void ceduo_words_say(void *context, const char *sentence);
+
 /* What is to be said of a belt: one sentence for each bit of its warnings, handed to `say` one by one. */
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                                const struct ceduo_stand_result *stand,
-                                void (*say)(void *context, const char *sentence), void *context);
+                                const struct ceduo_stand_result *stand, ceduo_words_say *say, void *context);
 
 /* What is to be said of a run as a whole. `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {
@@ -19,31 +21,18 @@ struct ceduo_run_remarks {
     bool ground_assumed;
 };
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                              void (*say)(void *context, const char *sentence), void *context);
+                              ceduo_words_say *say, void *context);
 
 /* The three lights of an option at a control, each with its reason: contact, free run, energy. */
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 
-/* What is compared at the last control: the share of the released with too much energy, or where that is not said that arrives,
- * and its difference to the first option's; with half the width of their 95 % intervals. NaN where it was not flown. */
-double ceduo_words_share(const struct ceduo_result *result, size_t option, double *half);
-double ceduo_words_difference(const struct ceduo_result *result, size_t option, double *half);
-
 /* Which option is best by contact and which by energy at the last control, where that can be said; nothing otherwise. */
 void ceduo_words_best(struct text *text, const struct ceduo_result *result);
 
-/* The option whose figure is best by energy at the last control: the least share of the released with too much energy, or
- * where no energy is said the least energy per released; and whether another is beyond two standard errors of it. */
-size_t ceduo_words_best_by_energy(const struct ceduo_result *result);
-bool ceduo_words_worse(const struct ceduo_result *result, size_t option, size_t than);
-
-const char *ceduo_words_rule(enum ceduo_rule rule);      /* interception */
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
 const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */
-const char *ceduo_words_shape(enum ceduo_shape shape);   /* cylinder */
-const char *ceduo_words_law(enum ceduo_law law);
 
 /* What a place bears, in kJ, as its file says it: 3.3, which a product with 0.001 makes 3.3000000000000003. */
 double ceduo_words_accepted(const struct ceduo_control *control);

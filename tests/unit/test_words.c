@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "physics/line_scene.h"
+#include "study/compare.h"
 #include "view/words.h"
 
 #define OPTIONS 3
@@ -98,7 +99,7 @@ static void an_interval_is_rounded_outward(void **state)
 static bool is_worse(size_t option, size_t than)
 {
     struct ceduo_result *result = assess();
-    bool worse = ceduo_words_worse(result, option, than);
+    bool worse = ceduo_compare_worse(result, option, than);
     ceduo_result_free(result);
     return worse;
 }
