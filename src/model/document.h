@@ -54,13 +54,10 @@ bool ceduo_document_add_option(struct document *document, const char *stand, str
 /* A copy of an option after it. */
 bool ceduo_document_copy_option(struct document *document, size_t index, struct problems *problems);
 
-/* Several changes as one state: PATH=VALUE each, or PATH alone: an entry of a mapping that is taken out. */
+/* Several changes as one state: PATH=VALUE each, or PATH alone: what stands there is taken out. */
 bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
                             struct problems *problems);
 
-/* Two entries of a mapping at once. */
-bool ceduo_document_delete_both(struct document *document, const char *map, const char *first, const char *second,
-                                struct problems *problems);
 /* A copy of item `list[index]` after it, and a change (PATH=VALUE) to each of the two. */
 bool ceduo_document_split(struct document *document, const char *list, size_t index, const char *first,
                           const char *second, struct problems *problems);
@@ -91,10 +88,7 @@ void ceduo_document_text(struct document *document, struct text *text);
 /* Recovery: a copy of unsaved work, kept while there is some. */
 void ceduo_document_keep(struct document *document);
 void ceduo_document_forget(struct document *document);
-/* Text of a copy left behind for `path` (NULL: a scene without a file) by a program that ended without saving; NULL:
- * none. Both it and the name of its file, which stays until somebody removes it, are to be freed. */
-char *ceduo_document_left_behind(const char *path, char **file);
-/* Puts such a text in place, as one state that can be undone. */
+/* Puts the text of a copy that was left behind (ceduo_recovery_find()) in place, as one state that can be undone. */
 bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
 
 /* Node at a path, NULL where there is none. */

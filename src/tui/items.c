@@ -132,9 +132,11 @@ static bool split_segment(struct app *app, const struct item *item, struct probl
 /* The stools go with their last shoots. */
 static bool delete_shoots(struct app *app, const struct item *item, struct problems *problems)
 {
-    char stand[FORM_PATH];
+    char stand[FORM_PATH], stools[FORM_PATH + 8];
     snprintf(stand, sizeof stand, "%.*s", (int)(item->key - item->list) - 1, item->list);
-    return ceduo_document_delete_both(&app->document, stand, "stools", "shoots", problems);
+    snprintf(stools, sizeof stools, "%s.stools", stand);
+    const char *const sets[] = {stools, item->list};
+    return ceduo_document_set_all(&app->document, sets, 2, stand, problems);
 }
 
 static bool delete_item(struct app *app, const struct item *item, const char *path, struct problems *problems)

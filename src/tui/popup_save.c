@@ -7,6 +7,7 @@
 
 #include "base/intl.h"
 #include "popup.h"
+#include "model/recovery.h"
 #include "popups.h"
 
 /* ---- saving ---- */
@@ -163,10 +164,10 @@ static void chose_recover(struct app *app, struct popup *p, const char *value)
 
 void ceduo_popup_recover(struct app *app)
 {
-    char *file = NULL, *text = ceduo_document_left_behind(app->document.path, &file);
+    char *file = NULL, *text = ceduo_recovery_find(app->document.path, &file);
     bool without_file = !text && app->document.path;
     if (without_file)
-        text = ceduo_document_left_behind(NULL, &file);
+        text = ceduo_recovery_find(NULL, &file);
     if (!text)
         return;
     struct popup *p = ceduo_popup_list(app, without_file ? _("A new scene that was never saved was left behind")

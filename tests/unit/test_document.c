@@ -9,6 +9,7 @@
 #include "io/file.h"
 #include "model/document.h"
 #include "model/recovery.h"
+#include "model/recovery.h"
 
 static const char scene[] = "# my comment\n"
                             "ceduo: scene/1\n"
@@ -257,7 +258,8 @@ static void options_belts_and_segments(void **state)
     assert_true(d.file.scene.slope.segments[1].rn.mean == 0.3);
     assert_true(ceduo_document_delete(&d, "options[2]", &problems));
     assert_int_equal(d.file.scene.options_count, 2);
-    assert_true(ceduo_document_delete_both(&d, "options[1].forest[0].stand", "stools", "shoots", &problems));
+    const char *const stools_and_shoots[] = {"options[1].forest[0].stand.stools", "options[1].forest[0].stand.shoots"};
+    assert_true(ceduo_document_set_all(&d, stools_and_shoots, 2, "shoots", &problems));
     assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
     assert_true(ceduo_document_save(&d, path, &anew));
     ceduo_document_close(&d);
@@ -450,7 +452,7 @@ static void unsaved_work_is_found_again(void **state)
     struct document d;
     struct problems problems = {0};
     char *file = NULL;
-    assert_null(ceduo_document_left_behind(path, &file));
+    assert_null(ceduo_recovery_find(path, &file));
     pid_t child = fork();
     if (child == 0) { /* a program that ends without a word */
         open_scene(&d);
@@ -459,7 +461,7 @@ static void unsaved_work_is_found_again(void **state)
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
-    char *text = ceduo_document_left_behind(path, &file);
+    char *text = ceduo_recovery_find(path, &file);
     assert_non_null(text);
     open_scene(&d);
     assert_true(ceduo_document_recover(&d, text, &problems));
@@ -490,7 +492,7 @@ static void half_a_copy_is_taken_away(void **state)
         fputs("rock: {", f);
         fclose(f);
     }
-    assert_null(ceduo_document_left_behind(path, &file));
+    assert_null(ceduo_recovery_find(path, &file));
     assert_int_equal(access(names[0], F_OK), -1);
     assert_int_equal(access(names[1], F_OK), 0); /* somebody else's */
     free(own);
@@ -583,8 +585,8 @@ static void unsaved_work_belongs_to_the_name_saved_under(void **state)
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
-    assert_null(ceduo_document_left_behind(path, &file));
-    char *text = ceduo_document_left_behind(other, &file);
+    assert_null(ceduo_recovery_find(path, &file));
+    char *text = ceduo_recovery_find(other, &file);
     assert_non_null(text);
     unlink(file);
     unlink(other);

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Edits: each makes a tree that differs from the one before in what it says, and commits it. */
+#include "document_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/resolve.h"
+
+/* ---- trees ---- */
+
+/* The node of a tree at a path, NULL where there is none. */
+static const struct node *node_at(const struct node *root, const char *path)
+{
+    const char *within;
+    size_t used = 0;
+    const struct node *node = ceduo_resolve_walk(root, path, &within, &used);
+    return used == strlen(path) ? node : NULL;
+}
+
+const struct node *ceduo_document_node(const struct document *d, const char *path)
+{
+    return node_at(d->file.root, path);
+}
+
+/* root with the node at path replaced. */
+static const struct node *put(struct document *d, const struct node *root, const char *path, const struct node *value,
+                              struct problems *problems)
+{
+    struct source *source = ceduo_arena_take(&d->file.arena, sizeof *source);
+    char *copy = ceduo_arena_string(&d->file.arena, path);
+    if (!source || !copy || !value)
+        return NULL;
+    *source = (struct source){.name = copy, .bytes = copy, .length = strlen(copy), .is_option = true};
+    return ceduo_resolve_set(&d->file.arena, root, source, strlen(copy), value, problems);
+}
+
+/* Splits "a.b[3]" or "a.b" before its last step; false where it has only one. */
+static bool split_path(struct document *d, const char *path, char **parent, char **last)
+{
+    const char *dot = strrchr(path, '.'), *bracket = strrchr(path, '[');
+    const char *cut = bracket && (!dot || bracket > dot) ? bracket : dot;
+    *parent = ceduo_arena_copy(&d->file.arena, path, cut ? (size_t)(cut - path) : 0);
+    *last = ceduo_arena_string(&d->file.arena, cut ? cut + 1 : path);
+    if (*last && cut == bracket && bracket)
+        (*last)[strcspn(*last, "]")] = '\0';
+    return *parent && *last;
+}
+
+/* root without the entry of a mapping or the item of a list. A list that is empty then is taken out whole, unless it is
+ * that of options: `*path` is what was taken out. */
+static const struct node *without(struct document *d, const struct node *root, const char **path,
+                                  struct problems *problems)
+{
+    char *parent, *last;
+    if (!split_path(d, *path, &parent, &last))
+        return NULL;
+    const struct node *holder = parent[0] ? node_at(root, parent) : root, *less = NULL;
+    if (holder && holder->kind == NODE_LIST) {
+        size_t i = (size_t)strtoul(last, NULL, 10);
+        less = i < holder->n ? ceduo_node_removed(&d->file.arena, holder, i) : NULL;
+    } else if (holder && holder->kind == NODE_MAP) {
+        less = ceduo_node_without(&d->file.arena, holder, last);
+    }
+    if (!less)
+        return NULL;
+    if (less->kind == NODE_LIST && less->n == 0 && strcmp(parent, "options") != 0) {
+        *path = parent;
+        return without(d, root, path, problems);
+    }
+    ceduo_node_keep_written(less, holder);
+    return parent[0] ? put(d, root, parent, less, problems) : less;
+}
+
+/* root with an item put into a list, which is made where there is none. */
+static const struct node *with_item(struct document *d, const struct node *root, const char *list, size_t index,
+                                    const struct node *item, struct problems *problems)
+{
+    const struct node *holder = node_at(root, list);
+    holder = holder ? holder : ceduo_document_parse(d, list, "[]", problems);
+    if (!holder || holder->kind != NODE_LIST || !item)
+        return NULL;
+    const struct node *plain = ceduo_node_renamed(&d->file.arena, item, NULL);
+    index = index > holder->n ? holder->n : index;
+    return put(d, root, list, plain ? ceduo_node_inserted(&d->file.arena, holder, index, plain) : NULL, problems);
+}
+
+/* root with PATH=VALUE, or without PATH. */
+static const struct node *with_set(struct document *d, const struct node *root, const char *set,
+                                   struct problems *problems)
+{
+    const char *equals = strchr(set, '=');
+    if (!equals)
+        return without(d, root, &set, problems);
+    char *path = ceduo_arena_copy(&d->file.arena, set, (size_t)(equals - set));
+    const struct node *value = path ? ceduo_document_parse(d, path, equals + 1, problems) : NULL;
+    return value ? put(d, root, path, value, problems) : NULL;
+}
+
+/* ---- values ---- */
+
+bool ceduo_document_set(struct document *d, const char *path, const char *value, struct problems *problems)
+{
+    const struct node *node = ceduo_document_parse(d, path, value, problems);
+    return node && ceduo_document_commit(d, put(d, d->file.root, path, node, problems), path, problems);
+}
+
+bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t n, const char *what,
+                            struct problems *problems)
+{
+    const struct node *root = d->file.root;
+    for (size_t i = 0; root && i < n; i++)
+        root = with_set(d, root, sets[i], problems);
+    return ceduo_document_commit(d, root, what, problems);
+}
+
+bool ceduo_document_delete(struct document *d, const char *path, struct problems *problems)
+{
+    const struct node *root = without(d, d->file.root, &path, problems);
+    return ceduo_document_commit(d, root, path, problems);
+}
+
+/* ---- lists ---- */
+
+bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text,
+                           struct problems *problems)
+{
+    const struct node *item = ceduo_document_parse(d, list, text, problems);
+    return item &&
+           ceduo_document_commit(d, with_item(d, d->file.root, list, index, item, problems), list, problems);
+}
+
+/* Bytes of a name without the number of a copy, " (2)", and that number: 1 where there is none. A larger one is a year. */
+static size_t name_of_copy(const char *name, unsigned *number)
+{
+    const char *open = strrchr(name, '(');
+    size_t digits = open ? strspn(open + 1, "0123456789") : 0;
+    bool copy = open && open > name + 1 && open[-1] == ' ' && digits > 0 && digits < 4 && strcmp(open + 1 + digits, ")") == 0;
+    *number = copy ? (unsigned)strtoul(open + 1, NULL, 10) : 1;
+    return copy ? (size_t)(open - 1 - name) : strlen(name);
+}
+
+/* A copy gets a name of its own where names must differ. */
+static const struct node *with_new_name(struct document *d, const struct node *list, const struct node *item)
+{
+    const char *name = ceduo_node_text(item, "name");
+    unsigned first;
+    if (!name)
+        return item;
+    size_t n = name_of_copy(name, &first);
+    for (unsigned i = first; i < first + 1000; i++) {
+        struct text text = {0};
+        if (i == first)
+            ceduo_text_put(&text, name);
+        else
+            ceduo_text_format(&text, "%.*s (%u)", (int)n, name, i);
+        bool taken = false;
+        for (size_t k = 0; text.bytes && k < list->n; k++) {
+            const char *other = ceduo_node_text(list->items[k], "name");
+            taken |= other && strcmp(other, text.bytes) == 0;
+        }
+        const struct node *scalar =
+            taken || !text.bytes ? NULL : ceduo_node_scalar(&d->file.arena, item->source, text.bytes, true);
+        ceduo_text_free(&text);
+        if (!taken)
+            return scalar ? ceduo_node_with(&d->file.arena, item, "name", scalar) : NULL;
+    }
+    return NULL;
+}
+
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    if (!holder || holder->kind != NODE_LIST || index >= holder->n)
+        return ceduo_document_commit(d, NULL, list, problems);
+    const struct node *item = holder->items[index];
+    if (strcmp(list, "options") == 0)
+        item = with_new_name(d, holder, item);
+    return item && ceduo_document_commit(d, with_item(d, d->file.root, list, index + 1, item, problems), list, problems);
+}
+
+bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to, struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    if (!holder || holder->kind != NODE_LIST || from >= holder->n || to >= holder->n || from == to)
+        return true;
+    const struct node *less = ceduo_node_removed(&d->file.arena, holder, from);
+    const struct node *moved = less ? ceduo_node_inserted(&d->file.arena, less, to, holder->items[from]) : NULL;
+    return ceduo_document_commit(d, moved ? put(d, d->file.root, list, moved, problems) : NULL, list, problems);
+}
+
+bool ceduo_document_split(struct document *d, const char *list, size_t index, const char *first, const char *second,
+                          struct problems *problems)
+{
+    const struct node *holder = ceduo_document_node(d, list);
+    const struct node *item = holder && index < holder->n ? holder->items[index] : NULL;
+    const struct node *root = with_item(d, d->file.root, list, index + 1, item, problems);
+    root = root ? with_set(d, root, first, problems) : NULL;
+    root = root ? with_set(d, root, second, problems) : NULL;
+    return ceduo_document_commit(d, root, list, problems);
+}
+
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, struct problems *problems)
+{
+    const char *list = "slope.vertices_m", *ground = "slope.segments";
+    const struct node *root = with_item(d, d->file.root, list, index + 1, ceduo_document_parse(d, list, vertex, problems), problems);
+    const struct node *segments = ceduo_document_node(d, ground);
+    if (root && segments && segments->n > 1)
+        root = with_item(d, root, ground, index + 1, segments->items[index], problems);
+    return ceduo_document_commit(d, root, list, problems);
+}
+
+bool ceduo_document_join_segments(struct document *d, size_t index, struct problems *problems)
+{
+    const char *list = "slope.vertices_m", *ground = "slope.segments";
+    const struct node *vertices = ceduo_document_node(d, list), *segments = ceduo_document_node(d, ground);
+    if (!vertices || !segments || vertices->n < 3)
+        return ceduo_document_commit(d, NULL, ground, problems);
+    size_t vertex = index + 2 < vertices->n ? index + 1 : index;
+    const struct node *root = put(d, d->file.root, list, ceduo_node_removed(&d->file.arena, vertices, vertex), problems);
+    if (root && segments->n > 1)
+        root = put(d, root, ground, ceduo_node_removed(&d->file.arena, segments, index), problems);
+    return ceduo_document_commit(d, root, ground, problems);
+}
+
+/* A scene whose forest is the one option "current". */
+static const struct node *with_options(struct document *d, const struct node *root, struct problems *problems)
+{
+    if (ceduo_node_get(root, "options"))
+        return root;
+    const struct node *options = ceduo_document_parse(d, "options", "[{name: current}]", problems);
+    const struct node *forest = ceduo_node_get(root, "forest");
+    const struct node *item = options ? options->items[0] : NULL;
+    if (item && forest)
+        item = ceduo_node_with(&d->file.arena, item, "forest", forest);
+    options = item ? ceduo_node_replaced(&d->file.arena, options, 0, item) : NULL;
+    root = options ? ceduo_node_without(&d->file.arena, root, "forest") : NULL;
+    return root ? ceduo_node_with(&d->file.arena, root, "options", options) : NULL;
+}
+
+bool ceduo_document_add_option(struct document *d, const char *stand, struct problems *problems)
+{
+    const struct ceduo_option *first = &d->file.scene.options[0];
+    const struct ceduo_control *c = d->file.scene.controls;
+    struct text yaml = {0};
+    ceduo_text_format(&yaml, "{name: \"%s\", forest: [", stand);
+    for (size_t i = 0; i < first->belts_count; i++)
+        ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "",
+                          first->belts[i].from_given, first->belts[i].to_given, stand);
+    if (first->belts_count == 0)
+        ceduo_text_format(&yaml, "{from_m: %.10g, to_m: %.10g, stand: %s}", d->file.origin_x, c->x_given, stand);
+    ceduo_text_put(&yaml, "]}");
+    const struct node *item = yaml.bytes ? ceduo_document_parse(d, "options", yaml.bytes, problems) : NULL;
+    const struct node *root = item ? with_options(d, d->file.root, problems) : NULL;
+    const struct node *list = root ? ceduo_node_get(root, "options") : NULL;
+    if (list)
+        item = with_new_name(d, list, item);
+    ceduo_text_free(&yaml);
+    return ceduo_document_commit(d, list ? with_item(d, root, "options", list->n, item, problems) : NULL, stand, problems);
+}
+
+bool ceduo_document_copy_option(struct document *d, size_t index, struct problems *problems)
+{
+    const struct node *root = with_options(d, d->file.root, problems);
+    const struct node *list = root ? ceduo_node_get(root, "options") : NULL;
+    const struct node *item = list && index < list->n ? with_new_name(d, list, list->items[index]) : NULL;
+    return ceduo_document_commit(d, item ? with_item(d, root, "options", index + 1, item, problems) : NULL, "options", problems);
+}

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The file of the document: whose it is, what is written, and the copy of unsaved work. */
+#include "document_parts.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/intl.h"
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/resolve.h"
+#include "recovery.h"
+
+/* ---- the file on disk ---- */
+
+/* A folder of profiles that is the user's own. */
+static bool is_own(const char *folder)
+{
+    const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
+    return (data && data[0] == '/' && strncmp(folder, data, strlen(data)) == 0) ||
+           (home && strstr(folder, "/.local/share/ceduo") && strncmp(folder, home, strlen(home)) == 0);
+}
+
+bool ceduo_document_is_shipped(const char *path)
+{
+    struct arena arena = {0};
+    const char *const *folders = ceduo_file_folders(&arena);
+    char *real = realpath(path, NULL);
+    bool shipped = false;
+    for (size_t i = 0; real && folders && folders[i] && !shipped; i++) {
+        char *folder = realpath(folders[i], NULL);
+        size_t n = folder ? strlen(folder) : 0;
+        shipped = folder && !is_own(folders[i]) && strncmp(real, folder, n) == 0 && real[n] == '/';
+        free(folder);
+    }
+    free(real);
+    ceduo_arena_free(&arena);
+    return shipped;
+}
+
+void ceduo_document_note_disk(struct document *d)
+{
+    struct stat st;
+    if (d->path && stat(d->path, &st) == 0) {
+        d->modified = st.st_mtim;
+        d->size = st.st_size;
+    }
+}
+
+static void put_backup(struct text *name, const char *path)
+{
+    ceduo_text_format(name, "%s.bak", path);
+}
+
+void ceduo_document_tidy(const char *path)
+{
+    struct text backup = {0};
+    put_backup(&backup, path);
+    ceduo_file_tidy(path);
+    if (!backup.failed)
+        ceduo_file_tidy(backup.bytes);
+    ceduo_text_free(&backup);
+}
+
+bool ceduo_document_changed_on_disk(const struct document *d)
+{
+    struct stat st;
+    if (!d->path || d->modified.tv_sec == 0)
+        return false;
+    if (stat(d->path, &st) != 0)
+        return errno == ENOENT;
+    return st.st_size != d->size || st.st_mtim.tv_sec != d->modified.tv_sec ||
+           st.st_mtim.tv_nsec != d->modified.tv_nsec;
+}
+
+/* ---- saving ---- */
+
+/* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
+ * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. NULL
+ * without memory. */
+static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
+{
+    const struct source *s = node->source;
+    if (s && !s->is_option && strcmp(s->name, to) == 0)
+        return node;
+    struct arena found = {0};
+    const char *now = ceduo_resolve_path(&found, node, folder);
+    const char *then = now ? ceduo_file_find(&found, node->text, to, folder) : NULL;
+    bool stays = !found.failed && (!now || (then && ceduo_file_same(now, then)));
+    char *whole = found.failed || stays ? NULL : realpath(now, NULL);
+    const struct node *scalar = whole ? ceduo_node_scalar(&d->file.arena, s, whole, false) : NULL;
+    free(whole);
+    ceduo_arena_free(&found);
+    return stays ? node : scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL;
+}
+
+/* All paths of an unresolved tree, for a scene that lies at `to`. */
+static const struct node *references_from(struct document *d, const struct node *node, const char *to)
+{
+    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"}, {"base", "stands"}, {"csv", "slopes"}};
+    for (size_t i = 0; i < 4 && node->kind == NODE_SCALAR && node->key; i++)
+        if (strcmp(node->key, keys[i][0]) == 0)
+            return reference_from(d, node, keys[i][1], to);
+    const struct node *out = node;
+    for (size_t i = 0; node->kind != NODE_SCALAR && out && i < node->n; i++) {
+        const struct node *item = references_from(d, node->items[i], to);
+        if (item != node->items[i])
+            out = item ? ceduo_node_replaced(&d->file.arena, out, i, item) : NULL;
+    }
+    return out;
+}
+
+/* Whether the file is laid out as the program does it: then nothing is lost when that is done again. */
+static bool has_own_layout(const struct node *raw)
+{
+    struct text text = {0};
+    ceduo_emit(&text, raw);
+    bool same = !text.failed && text.length == raw->source->length &&
+                memcmp(text.bytes, raw->source->bytes, text.length) == 0;
+    ceduo_text_free(&text);
+    return same;
+}
+
+static bool fill_text(struct document *d, const char *to, struct text *text, bool *laid_out_anew)
+{
+    const struct node *root = ceduo_emit_unresolve(&d->file.arena, d->file.root);
+    root = root && to ? references_from(d, root, to) : root;
+    *laid_out_anew = false;
+    if (!root)
+        return false;
+    (void)ceduo_text_lost(); /* what was shown before does not matter */
+    if (!d->raw || !ceduo_emit_patched(text, d->raw->source, d->raw, root)) {
+        *laid_out_anew = d->raw && !has_own_layout(d->raw);
+        ceduo_emit(text, root);
+    }
+    return !text->failed && !ceduo_text_lost();
+}
+
+void ceduo_document_text(struct document *d, struct text *text)
+{
+    bool anew;
+    if (!fill_text(d, d->path ? d->path : d->recovery, text, &anew))
+        text->failed = true;
+}
+
+static bool keep_backup(const struct document *d, const char *path)
+{
+    struct text backup = {0};
+    put_backup(&backup, path);
+    bool good = !backup.failed && ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length);
+    ceduo_text_free(&backup);
+    return good;
+}
+
+/* From now on this text is what lies on disk. */
+static void saved_to(struct document *d, const char *path, const char *text)
+{
+    struct problems problems = {0};
+    bool same = d->path && strcmp(path, d->path) == 0;
+    char *copy = strdup(path);
+    const struct node *raw = ceduo_document_parse(d, path, text, &problems);
+    if (raw && copy) {
+        free(d->path);
+        d->path = copy;
+        d->raw = raw;
+        d->shipped = false;
+    } else {
+        free(copy);
+    }
+    ceduo_problems_free(&problems);
+    d->saved = d->at;
+    ceduo_document_note_disk(d);
+    ceduo_document_forget(d);
+    if (d->recovery && !same) { /* what is unsaved from now on is this file's */
+        free(d->recovery);
+        d->recovery = ceduo_recovery_path(d->path);
+    }
+}
+
+bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
+{
+    struct text text = {0};
+    bool good = fill_text(d, path, &text, laid_out_anew);
+    if (!good)
+        errno = ENOMEM;
+    bool same = d->path && strcmp(path, d->path) == 0;
+    if (good && *laid_out_anew && same)
+        good = keep_backup(d, path);
+    good = good && ceduo_file_write(path, text.bytes, text.length);
+    int why = errno;
+    if (good)
+        saved_to(d, path, text.bytes);
+    ceduo_text_free(&text);
+    errno = why;
+    return good;
+}
+
+/* ---- recovery ---- */
+
+void ceduo_document_keep(struct document *d)
+{
+    struct text text = {0};
+    if (!d->recovery)
+        return;
+    ceduo_document_text(d, &text);
+    if (!text.failed && text.bytes)
+        ceduo_recovery_write(d->recovery, d->path, text.bytes, text.length);
+    ceduo_text_free(&text);
+}
+
+void ceduo_document_forget(struct document *d)
+{
+    if (d->recovery)
+        unlink(d->recovery);
+}
+
+bool ceduo_document_recover(struct document *d, const char *text, struct problems *problems)
+{
+    const struct node *root = ceduo_document_parse(d, d->path ? d->path : "recovered", text, problems);
+    return root && ceduo_document_commit(d, root, _("recovered work"), problems);
+}
