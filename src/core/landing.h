@@ -150,13 +150,12 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
     double inv = 1 / f->vx;
     size_t j = f->segment, q = dir > 0 ? j + 1 : j;
     double t = (g->x[q] - f->x) * inv;
-    double h = (f->z + (f->vz - g->half_g * t) * t) - g->z[q];
-    if (f->on_ground) { /* c is exactly 0 here: compare slopes, not heights */
-        if (!(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
-            return land_on(g, f, j, t);
-    } else if (!(h >= 0)) {
+    /* c is exactly 0 on the ground: compare slopes, not heights, which may be beyond all numbers where vx is next to none */
+    if (f->on_ground && !(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
         return land_on(g, f, j, t);
-    }
+    double h = (f->z + (f->vz - g->half_g * t) * t) - g->z[q];
+    if (!f->on_ground && !(h >= 0))
+        return land_on(g, f, j, t);
     return blocks ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);
 }
 
