@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "ceduo/number.h"
 #include "base/intl.h"
+#include "ceduo/number.h"
 
 #define KEYS_SHOWN_MOST 32
 
@@ -53,7 +53,8 @@ static const char *path_here(const struct binder *b)
 static void note_bad(struct binder *b)
 {
     struct bad_values *bad = b->bad;
-    if (bad->n < CEDUO_BAD_MOST && !(bad->paths[bad->n] = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "")))
+    if (bad->n < CEDUO_BAD_MOST &&
+        !(bad->paths[bad->n] = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "")))
         ceduo_problem_memory(b->problems);
     else
         bad->n++;
@@ -300,13 +301,9 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
         return;
     }
     bind_spread_map(b, f, node, to);
-    /* what is not cut at its range by drawing again must not reach beyond it */
-    bool cut = f->lo == 0 && f->hi == 1;
-    double lowest = ceduo_number_lowest(*to) / f->scale, highest = ceduo_number_highest(*to) / f->scale;
-    bool below = f->flags & FIELD_ABOVE ? !(lowest > f->lo) : lowest < f->lo;
-    if (!cut && (below || highest > f->hi) && !isnan(to->mean))
-        report(b, node, _("the spread reaches from %.6g to %.6g %s, beyond what is possible; make it smaller"), lowest,
-               highest, f->unit);
+    if (!ceduo_schema_spread_fits(f, *to))
+        report(b, node, _("the spread reaches from %.6g to %.6g %s, beyond what is possible; make it smaller"),
+               ceduo_number_lowest(*to) / f->scale, ceduo_number_highest(*to) / f->scale, f->unit);
 }
 
 static void bind_spreads(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
@@ -520,8 +517,8 @@ static void bind_source(struct binder *b, const struct node *node)
 }
 
 /* Of a mapping that is itself good. */
-__attribute__((format(printf, 3, 4))) static void report_at(struct binder *b, const struct node *node, const char *format,
-                                                            ...)
+__attribute__((format(printf, 3, 4))) static void report_at(struct binder *b, const struct node *node,
+                                                            const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -560,7 +557,8 @@ static void bind_map(struct binder *b, const struct object *object, const struct
     for (size_t i = 0; i < node->n; i++) {
         const struct node *entry = node->items[i];
         const struct field *f = ceduo_schema_field(object, entry->key);
-        bool other_file = node->written && entry->source != node->source && !entry->source->is_option && !node->source->is_option;
+        bool other_file =
+            node->written && entry->source != node->source && !entry->source->is_option && !node->source->is_option;
         b->file_start = other_file ? b->path.length : own; /* from the file of a base */
         if (f) {
             size_t before = enter(b, entry->key);

@@ -6,8 +6,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "file.h"
 #include "base/intl.h"
+#include "base/path.h"
+#include "file.h"
 
 #define BASES_MOST 8
 #define FILES_MOST 1000
@@ -271,69 +272,17 @@ const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *r
 
 /* ---- paths ---- */
 
-/* One step of a path: a key, or what stands in brackets. */
-struct step {
-    const char *p;
-    size_t n;
-    bool bracket;
-};
-
-/* The step at *at; false at the end or where the path is malformed (then *at stays). */
-static bool next_step(const char *path, size_t length, size_t *at, struct step *step)
-{
-    size_t i = *at;
-    if (i >= length)
-        return false;
-    if (path[i] == '[') {
-        const char *end = memchr(path + i, ']', length - i);
-        if (!end || end == path + i + 1)
-            return false;
-        *step = (struct step){path + i + 1, (size_t)(end - path) - i - 1, true};
-        *at = (size_t)(end - path) + 1;
-        return true;
-    }
-    if (i > 0) {
-        if (path[i] != '.')
-            return false;
-        i++;
-    }
-    size_t from = i;
-    while (i < length && path[i] != '.' && path[i] != '[')
-        i++;
-    if (i == from)
-        return false;
-    *step = (struct step){path + from, i - from, false};
-    *at = i;
-    return true;
-}
-
-static bool step_is(const struct step *step, const char *word)
-{
-    return word && strlen(word) == step->n && memcmp(step->p, word, step->n) == 0;
-}
-
-static bool step_index(const struct step *step, size_t *index)
-{
-    *index = 0;
-    for (size_t i = 0; i < step->n; i++) {
-        if (step->p[i] < '0' || step->p[i] > '9' || i > 8)
-            return false;
-        *index = *index * 10 + (size_t)(step->p[i] - '0');
-    }
-    return true;
-}
-
 /* Whether an item has this name; a belt has its stand's. */
-static bool is_named(const struct node *item, const struct step *step)
+static bool is_named(const struct node *item, const struct path_step *step)
 {
     const char *name = ceduo_node_text(item, "name");
-    return step_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name"));
+    return ceduo_path_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name"));
 }
 
 /* The item that a bracket means: by its place, or the first of its name. */
-static bool find_item(const struct node *list, const struct step *step, size_t *index)
+static bool find_item(const struct node *list, const struct path_step *step, size_t *index)
 {
-    if (step_index(step, index))
+    if (ceduo_path_index(step, index))
         return *index < list->n;
     for (*index = 0; *index < list->n; ++*index)
         if (is_named(list->items[*index], step))
@@ -344,16 +293,16 @@ static bool find_item(const struct node *list, const struct step *step, size_t *
 const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used)
 {
     size_t at = 0, length = strlen(path);
-    struct step step;
+    struct path_step step;
     *within = path;
     *used = 0;
-    while (next_step(path, length, &at, &step)) {
+    while (ceduo_path_next(path, length, &at, &step)) {
         const struct node *next = NULL;
         size_t i;
         if (step.bracket && root->kind == NODE_LIST && find_item(root, &step, &i))
             next = root->items[i];
         for (i = 0; !step.bracket && root->kind == NODE_MAP && i < root->n; i++)
-            if (step_is(&step, root->items[i]->key))
+            if (ceduo_path_is(&step, root->items[i]->key))
                 next = root->items[i];
         if (!next)
             break;
@@ -379,7 +328,7 @@ struct setter {
 static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object,
                                  const struct node *node, size_t at);
 
-static const struct node *fail_at(struct setter *s, const struct step *step, const char *what)
+static const struct node *fail_at(struct setter *s, const struct path_step *step, const char *what)
 {
     struct text word = {0};
     ceduo_text_add(&word, step->p, step->n);
@@ -405,13 +354,13 @@ static const struct node *spread_map(struct setter *s, const struct node *node)
 }
 
 /* A `source` that says of one more value that it is not of it. */
-static const struct node *source_except(struct setter *s, const struct node *source, const struct step *path)
+static const struct node *source_except(struct setter *s, const struct node *source, const struct path_step *path)
 {
     const struct node *list = ceduo_node_get(source, "except");
     if (source->kind != NODE_MAP || (list && list->kind != NODE_LIST))
         return source; /* checked later */
     for (size_t i = 0; list && i < list->n; i++)
-        if (list->items[i]->kind == NODE_SCALAR && step_is(path, list->items[i]->text))
+        if (list->items[i]->kind == NODE_SCALAR && ceduo_path_is(path, list->items[i]->text))
             return source;
     struct node *empty = ceduo_arena_take(s->arena, sizeof *empty);
     char *text = ceduo_arena_copy(s->arena, path->p, path->n);
@@ -426,7 +375,7 @@ static const struct node *source_except(struct setter *s, const struct node *sou
 
 /* A value that was changed is no longer of the source around it: the innermost mapping that has one is told so. From a
  * list on the path is left out, for items may move. */
-static const struct node *tell_source(struct setter *s, const struct node *map, const struct step *step)
+static const struct node *tell_source(struct setter *s, const struct node *map, const struct path_step *step)
 {
     const struct node *source = ceduo_node_get(map, "source");
     if (s->sourced || !source)
@@ -435,7 +384,7 @@ static const struct node *tell_source(struct setter *s, const struct node *map, 
     size_t n = 0, most = s->length - (size_t)(step->p - s->set->bytes);
     while (n < most && step->p[n] != '[')
         n++;
-    const struct node *told = source_except(s, source, &(struct step){step->p, n, false});
+    const struct node *told = source_except(s, source, &(struct path_step){step->p, n, false});
     return !told || told == source ? told ? map : NULL : ceduo_node_with(s->arena, map, "source", told);
 }
 
@@ -451,7 +400,7 @@ static bool needs_no_source(const struct setter *s, const struct field *f, const
 }
 
 static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
-                                    const struct step *step, size_t at)
+                                    const struct path_step *step, size_t at)
 {
     char key[64];
     if (step->n >= sizeof key)
@@ -481,12 +430,12 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
 }
 
 /* Whether several items from the first on have the name that a bracket holds. Says so. */
-static bool is_ambiguous(struct setter *s, const struct node *list, const struct step *step, size_t first)
+static bool is_ambiguous(struct setter *s, const struct node *list, const struct path_step *step, size_t first)
 {
     struct text what = {0};
     size_t place, n = 0;
     ceduo_text_put(&what, _("this name is given more than once; take a place: "));
-    for (size_t i = first; i < list->n && !step_index(step, &place); i++)
+    for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (is_named(list->items[i], step))
             ceduo_text_format(&what, "%s[%zu]", n++ > 0 ? ", " : "", i);
     if (n > 1)
@@ -496,7 +445,7 @@ static bool is_ambiguous(struct setter *s, const struct node *list, const struct
 }
 
 static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
-                                   const struct step *step, size_t at)
+                                   const struct path_step *step, size_t at)
 {
     const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
     size_t i;
@@ -518,9 +467,9 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
 {
     if (at >= s->length)
         return s->value;
-    struct step step;
+    struct path_step step;
     size_t from = at;
-    if (!next_step(s->set->bytes, s->length, &at, &step)) {
+    if (!ceduo_path_next(s->set->bytes, s->length, &at, &step)) {
         ceduo_problem(s->problems, s->set, 1, from + 1, _("malformed path; keys are joined by '.', items are [0] or [name]"));
         return NULL;
     }

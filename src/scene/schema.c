@@ -105,6 +105,14 @@ bool ceduo_schema_in_range(const struct field *f, double value)
     return low && high;
 }
 
+bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
+{
+    double lowest = ceduo_number_lowest(n) / f->scale, highest = ceduo_number_highest(n) / f->scale;
+    bool below = f->flags & FIELD_ABOVE ? !(lowest > f->lo) : lowest < f->lo;
+    bool cut = f->lo == 0 && f->hi == 1; /* drawn again until it lies inside */
+    return cut || isnan(n.mean) || !(below || highest > f->hi);
+}
+
 bool ceduo_schema_range_text(const struct field *f, struct text *text)
 {
     bool low = isfinite(f->lo), high = isfinite(f->hi);
@@ -115,8 +123,8 @@ bool ceduo_schema_range_text(const struct field *f, struct text *text)
     if (low)
         ceduo_text_format(text, "%.5g", f->lo);
     if (high)
-        ceduo_text_format(text, f->hi > 1e15 ? "\xe2\x80\xa6%s%.17g" : "\xe2\x80\xa6%s%.5g", f->flags & FIELD_UNDER ? "<" : "",
-                          f->hi);
+        ceduo_text_format(text, f->hi > 1e15 ? "\xe2\x80\xa6%s%.17g" : "\xe2\x80\xa6%s%.5g",
+                          f->flags & FIELD_UNDER ? "<" : "", f->hi);
     return low || high;
 }
 

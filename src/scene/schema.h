@@ -103,6 +103,9 @@ double ceduo_schema_default(const struct field *field);
 /* Whether a number, in the file's unit, lies in the field's range. */
 bool ceduo_schema_in_range(const struct field *field, double value);
 
+/* Whether all that can be drawn of a number, in SI, lies in the range; what is cut at 0 and 1 need not. */
+bool ceduo_schema_spread_fits(const struct field *field, struct ceduo_number number);
+
 /* Adds the range of a field; false where it has none. */
 bool ceduo_schema_range_text(const struct field *field, struct text *text);
 

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_VALUE_H
+#define CEDUO_VALUE_H
+
+#include "schema.h"
+
+/* Numbers of a scene by their paths: a path is looked up once, then its number is read and set in place, without text and
+ * without memory. For whoever tries many values: searches, steps, sensitivity, calibration. */
+
+enum value_part { VALUE_WHOLE, VALUE_SPREAD };
+
+struct value {
+    const struct field *field; /* unit, range, meaning */
+    enum value_part part;      /* of a number with a spread: its mean, or the spread */
+    void *at;                  /* where it stands in the scene; */
+    size_t n, stride;          /* n times, so many bytes apart: a segment may be for all stretches */
+    double origin;             /* what is taken off it (SI) to be relative to the slope's first vertex: */
+    double *relative;          /* here, and `at` holds it as given; NULL: `at` itself is relative */
+};
+
+/* Looks up the number at a path as --set has it: forest[0].stand.trees[0].per_ha, rock.density_kg_m3.spread. False where
+ * there is none: an unknown path, a word or a flag, what the scene does not hold as its files do (materials).
+ * The value points into the scene, and is good for as long as the scene and its lists are. */
+bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value *value);
+
+/* The number in the file's unit; NaN where it is not given. */
+double ceduo_value_get(const struct value *value);
+
+/* Sets it, in the file's unit. False where it lies outside its range: nothing is changed. Whether it fits the rest of the
+ * scene ceduo_scene_check() says; a scene that somebody else reads meanwhile must not be set. */
+bool ceduo_value_put(const struct value *value, double number);
+
+#endif

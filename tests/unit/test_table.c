@@ -1,0 +1,488 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of the scene: it covers every member, every row decides about what it says, defaults lie in their ranges, and
+ * numbers are read and set in place by their paths. */
+#include "folder.h"
+
+#include <malloc.h>
+#include <math.h>
+
+#include "ceduo/key.h"
+#include "ceduo/run.h"
+#include "io/scene_file.h"
+#include "scene/value.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+static int set_up(void **state)
+{
+    (void)state;
+    folder_make();
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return folder_remove();
+}
+
+/* ---- every byte ---- */
+
+/* Members that follow from others. */
+struct derived_member {
+    const struct object *object;
+    size_t offset, size;
+};
+
+#define DERIVED(object, type, member)                                                                                  \
+    {                                                                                                                  \
+        object, offsetof(struct type, member), sizeof((struct type *)0)->member                                        \
+    }
+
+static void mark(bool *seen, size_t from, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        seen[from + i] = true;
+}
+
+static void mark_rows(bool *seen, const struct object *object, size_t size)
+{
+    for (size_t i = 0; i < object->n; i++) {
+        const struct field *f = &object->fields[i];
+        bool counted = f->type == FIELD_LIST || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS;
+        if (f->type == FIELD_GROUP && f->size == 0)
+            mark_rows(seen, f->object, size);
+        if (f->flags & FIELD_NOWHERE || f->offset >= size) /* or of the draft */
+            continue;
+        mark(seen, f->offset, f->size);
+        if (counted)
+            mark(seen, f->beside, sizeof(size_t));
+        if (f->type == FIELD_NUMBER && f->flags & FIELD_PLACE)
+            mark(seen, f->beside, sizeof(double));
+    }
+}
+
+/* Which bytes are no member's. Where the compiler does not say, as many as no member is small enough for. */
+#ifdef __has_builtin
+#if __has_builtin(__builtin_clear_padding)
+#define PADDING_IS_KNOWN 1
+#endif
+#endif
+#ifdef PADDING_IS_KNOWN
+#define SHORTEST_GAP 1
+#define MARK_PADDING(seen, type)                                                                                       \
+    do {                                                                                                               \
+        type whole;                                                                                                    \
+        memset(&whole, 0xff, sizeof whole);                                                                            \
+        __builtin_clear_padding(&whole);                                                                               \
+        for (size_t i = 0; i < sizeof whole; i++)                                                                      \
+            seen[i] |= ((unsigned char *)&whole)[i] == 0;                                                              \
+    } while (0)
+#else
+#define SHORTEST_GAP             sizeof(double)
+#define MARK_PADDING(seen, type) (void)0
+#endif
+
+static void expect_whole(const char *name, const struct object *object, bool *seen, size_t size)
+{
+    const struct object *scene = ceduo_schema_scene(), *belt = ceduo_schema_belt(), *slope = ceduo_schema_slope();
+    const struct derived_member derived[] = {
+        DERIVED(slope, ceduo_slope, origin_x),
+        DERIVED(slope, ceduo_slope, origin_z),
+        DERIVED(belt, ceduo_belt, name),
+        DERIVED(belt, ceduo_belt, assumed),
+    };
+    (void)scene;
+    mark_rows(seen, object, size);
+    for (size_t i = 0; i < LENGTH(derived); i++)
+        if (derived[i].object == object)
+            mark(seen, derived[i].offset, derived[i].size);
+    for (size_t k = 0, unseen = 0; k < size; k++) {
+        unseen = seen[k] ? 0 : unseen + 1;
+        if (unseen >= SHORTEST_GAP)
+            fail_msg("%s: byte %zu of the structure belongs to no row", name, k);
+    }
+}
+
+static const struct object *object_of(const struct object *object, const char *key)
+{
+    return ceduo_schema_field(object, key)->object;
+}
+
+#define EXPECT_WHOLE(object, type)                                                                                     \
+    do {                                                                                                               \
+        bool seen[sizeof(struct type)] = {false};                                                                      \
+        MARK_PADDING(seen, struct type);                                                                               \
+        expect_whole(#type, object, seen, sizeof seen);                                                                \
+    } while (0)
+
+static void every_member_has_a_row(void **state)
+{
+    (void)state;
+    const struct object *scene = ceduo_schema_scene(), *stand = ceduo_schema_stand();
+    EXPECT_WHOLE(scene, ceduo_scene);
+    EXPECT_WHOLE(object_of(scene, "rock"), ceduo_rock_def);
+    EXPECT_WHOLE(object_of(scene, "release"), ceduo_release);
+    EXPECT_WHOLE(object_of(scene, "simulation"), ceduo_simulation);
+    EXPECT_WHOLE(object_of(scene, "controls"), ceduo_control);
+    EXPECT_WHOLE(object_of(scene, "options"), ceduo_option);
+    EXPECT_WHOLE(ceduo_schema_slope(), ceduo_slope);
+    EXPECT_WHOLE(ceduo_schema_segment(), ceduo_segment);
+    EXPECT_WHOLE(ceduo_schema_belt(), ceduo_belt);
+    EXPECT_WHOLE(stand, ceduo_stand);
+    EXPECT_WHOLE(object_of(stand, "shoots"), ceduo_stems);
+    EXPECT_WHOLE(object_of(stand, "growth"), ceduo_growth);
+    EXPECT_WHOLE(object_of(object_of(stand, "growth"), "shoots"), ceduo_curve);
+}
+
+/* ---- defaults ---- */
+
+static size_t defaults;
+
+static void check_default(void *context, const char *path, const struct field *f)
+{
+    (void)context;
+    double value;
+    if (!f->value || f->type == FIELD_TAG)
+        return;
+    defaults++;
+    if (f->type == FIELD_CHOICE && ceduo_choice_find(f->choices, f->value) < 0)
+        fail_msg("%s: '%s' is none of its words", path, f->value);
+    if (f->type == FIELD_FLAG)
+        assert_true(strcmp(f->value, "true") == 0 || strcmp(f->value, "false") == 0);
+    if (f->type == FIELD_CHOICE || f->type == FIELD_FLAG)
+        return;
+    if (ceduo_number_read(f->value, &value) != CEDUO_NUMBER_GOOD || !ceduo_schema_in_range(f, value))
+        fail_msg("%s: its default, %s, is not in its range", path, f->value);
+    assert_true(ceduo_schema_default(f) == value * f->scale);
+    assert_false(f->flags & FIELD_REQUIRED);
+}
+
+static void every_default_lies_in_its_range(void **state)
+{
+    (void)state;
+    defaults = 0;
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_default, NULL);
+    assert_true(defaults > 20);
+    struct ceduo_scene scene = ceduo_scene_default();
+    assert_true(scene.rock.density.mean == 2600 && isnan(scene.rock.diameter.mean) && scene.simulation.rocks == 1000);
+    assert_true(scene.simulation.threshold == 30 && scene.simulation.gravity == 9.81 && isnan(scene.rocks_per_year));
+    assert_int_equal(scene.simulation.contact_model, CEDUO_STEMS);
+    assert_true(ceduo_segment_default().friction == .5 && isnan(ceduo_segment_default().rn.mean));
+}
+
+/* ---- what a row decides about ---- */
+
+#define SLOPE    "vertices_m: [[100, 60], [130, 30], [160, 12], [200, 0]]"
+#define SEGMENTS ", segments: [{rn: 0.3, rt: 0.8, roughness_rad: 0.1}, {rn: 0.3, rt: 0.8}, {rn: 0.3, rt: 0.8}]"
+#define CURVE    "{dbh_most_m: 0.3, dbh_rate_1_y: 0.05, height_most_m: 15, height_rate_1_y: 0.06}"
+#define STAND                                                                                                          \
+    "{name: wood, species: quercus-cerris, stools: {per_ha: 900, spacing_m: 0.4}, "                                    \
+    "shoots: [{per_ha: 2000, dbh_m: 0.1, height_m: 9, dbh_sd_m: 0.02, age_y: 12}], "                                   \
+    "trees: [{per_ha: 80, dbh_m: 0.3, height_m: 14, age_y: 40}], "                                                     \
+    "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900}, "                   \
+    "cutting: {rotation_years: 20, cohorts: 2, stay_per_ha: [60, 20]}"
+#define BELT     "{from_m: 110, to_m: 190, cut_year: 3, stand: " STAND
+#define REST     "\nrelease: {x_m: 101, height_m: 1}\nrocks_per_year: 3\nminimum: {reserves_per_ha: 50}\n"
+#define CONTROLS "controls: [{x_m: 180, name: road, accepted_kJ: 80, measured_speed_m_s: 12}]\n"
+
+/* Together they give every key. */
+static const char *const scenes[] = {
+    "ceduo: scene/1\ntitle: one\nrock: {shape: cylinder, diameter_m: 0.5, height_m: 0.7}\nslope: {name: s, " SLOPE
+        SEGMENTS "}\n" CONTROLS "forest: [" BELT "}}]" REST,
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE
+    ", segments: [{rn: 0.3, rt: 0.8, roughness_m: 0.05}]}\n" CONTROLS "options: [{name: a, forest: [" BELT
+    ", energy: {model: dorren}}}]}, {name: b, forest: []}]" REST,
+    "ceduo: scene/1\nrock: {volume_m3: 0.2}\nslope: {" SLOPE
+    ", materials: [{from_m: 100, to_m: 150, material: cliff}, {from_m: 150, to_m: 300, material: talus}]}\n"
+    "controls_m: [170, 190]\nforest: [{from_m: 110, to_m: 190, stand: {base: "
+    "a.yaml}}]" REST,
+    "ceduo: scene/1\nrock: {mass_kg: 400}\nslope: {csv: a.csv}\n" CONTROLS REST,
+    "ceduo: scene/1\nrock: {shape: block, axes_m: [0.4, 0.5, 0.6]}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
+    "forest: [" BELT ", energy: {model: dorren}}}]" REST,
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
+    "simulation: {contact_model: poisson}\nforest: [" BELT "}}]" REST,
+};
+
+/* What a scene decides about. */
+struct keys {
+    uint64_t flight, years;
+};
+
+static struct keys keys_of(const struct ceduo_scene *scene)
+{
+    struct keys k = {ceduo_scene_key(scene), 0};
+    for (size_t i = 0; i < scene->options_count; i++) {
+        k.flight = k.flight * 31 + ceduo_option_key(scene, &scene->options[i]);
+        k.years = k.years * 31 + ceduo_years_key(&scene->options[i]);
+    }
+    return k;
+}
+
+static void read_text(struct scene_file *file, const char *text)
+{
+    char path[256];
+    struct problems problems = {0};
+    in_folder(path, "scene.yaml");
+    put("scene.yaml", text);
+    if (!ceduo_scene_read(file, path, NULL, 0, &problems))
+        fail_msg("%s", problems.text.bytes);
+    ceduo_problems_free(&problems);
+}
+
+/* Whether the scene is good with a value, and its keys then. */
+static bool keys_with(const char *text, const char *path, const char *value, struct keys *k)
+{
+    static const char *last;
+    struct scene_file file = {0};
+    struct problems problems = {0};
+    struct text set = {0};
+    ceduo_text_format(&set, "%s=%s", path, value);
+    char place[256];
+    in_folder(place, "scene.yaml");
+    const char *const sets[] = {set.bytes};
+    if (text != last)
+        put("scene.yaml", text);
+    last = text;
+    bool good = ceduo_scene_read(&file, place, sets, 1, &problems);
+    if (good)
+        *k = keys_of(&file.scene);
+    ceduo_text_free(&set);
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+    return good;
+}
+
+/* Values to try, most of which are refused somewhere. */
+static size_t other_values(const struct field *f, const char **to)
+{
+    static const char *const numbers[] = {"0.55", "1.5", "15",   "150", "350", "2",
+                                          "3",    "0.2", "0.05", "115", "185", "3000"};
+    static const char *const flags[] = {"true", "false"}, *const texts[] = {"other"},
+                             *const files[] = {"a.csv", "b.csv", "a.yaml", "b.yaml"};
+    const char *const *from = f->type == FIELD_CHOICE ? f->choices->names
+                              : f->type == FIELD_FLAG ? flags
+                              : f->type == FIELD_TEXT ? texts
+                              : f->type == FIELD_FILE ? files
+                                                      : numbers;
+    size_t n = f->type == FIELD_CHOICE ? f->choices->n
+               : f->type == FIELD_FLAG ? LENGTH(flags)
+               : f->type == FIELD_TEXT ? LENGTH(texts)
+               : f->type == FIELD_FILE ? LENGTH(files)
+                                       : LENGTH(numbers);
+    memcpy(to, from, n * sizeof *to);
+    return n;
+}
+
+/* The path of a parameter in the first item of each list. */
+static void first_place(const char *path, const struct field *f, struct text *to)
+{
+    for (; *path; path++) {
+        ceduo_text_char(to, *path);
+        if (*path == '[')
+            ceduo_text_char(to, '0');
+    }
+    ceduo_text_put(to, f->type == FIELD_POINTS                                ? "[1][1]"
+                       : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]"
+                                                                              : "");
+}
+
+static void check_row(void *context, const char *path, const struct field *f)
+{
+    const struct keys *before = context;
+    struct text place = {0};
+    bool taken = false, flight = false, years = false;
+    if (f->type == FIELD_TAG || (strncmp(path, "slope.materials[]", 17) == 0 && f->type == FIELD_NUMBER) ||
+        strcmp(f->key, "base") == 0 || strncmp(path, "options[].forest[].", 19) == 0)
+        return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
+                 * options hold what the forest does */
+    first_place(path, f, &place);
+    for (size_t i = 0; i < LENGTH(scenes); i++) {
+        const char *values[64];
+        size_t n = other_values(f, values);
+        for (size_t v = 0; v < n; v++) {
+            struct keys k;
+            if (!keys_with(scenes[i], place.bytes, values[v], &k))
+                continue;
+            taken = true;
+            flight |= k.flight != before[i].flight;
+            years |= k.years != before[i].years;
+        }
+    }
+    if (!taken)
+        fail_msg("%s: no value is taken anywhere", path);
+    if (f->flags & FIELD_UNFLOWN && (flight || years))
+        fail_msg("%s is said to decide about no rock, but it makes another key", path);
+    if (f->flags & FIELD_YEARS && !years)
+        fail_msg("%s is said to decide about the years to come, but it leaves their key as it is", path);
+    if (!(f->flags & (FIELD_UNFLOWN | FIELD_YEARS)) && !flight)
+        fail_msg("%s: no value of it makes another key", path);
+    ceduo_text_free(&place);
+}
+
+static void every_row_decides_about_what_it_says(void **state)
+{
+    (void)state;
+    struct keys before[LENGTH(scenes)];
+    put("a.yaml", "ceduo: stand/1\ntrees: [{per_ha: 80, dbh_m: 0.3, height_m: 14}]\n");
+    put("b.yaml", "ceduo: stand/1\ntrees: [{per_ha: 90, dbh_m: 0.3, height_m: 14}]\n");
+    put("a.csv", "distance,elevation\n100,60\n150,20\n200,0\n");
+    put("b.csv", "distance,elevation\n100,60\n150,21\n200,0\n");
+    for (size_t i = 0; i < LENGTH(scenes); i++) {
+        struct scene_file file = {0};
+        read_text(&file, scenes[i]);
+        before[i] = keys_of(&file.scene);
+        ceduo_scene_release(&file);
+    }
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_row, before);
+    struct keys moved;
+    assert_true(keys_with(scenes[2], "slope.materials",
+                          "[{from_m: 100, to_m: 140, material: cliff}, {from_m: 140, to_m: 300, material: talus}]",
+                          &moved));
+    assert_true(moved.flight != before[2].flight);
+    assert_true(keys_with(scenes[2], "forest[0].stand", "{base: b.yaml}", &moved) && moved.flight != before[2].flight);
+}
+
+/* ---- typed get and put ---- */
+
+/* A put says and does the same as --set. */
+static void check_put(void *context, const char *path, const struct field *f)
+{
+    (void)context;
+    struct text place = {0};
+    first_place(path, f, &place);
+    for (size_t i = 0; i < LENGTH(scenes); i++) {
+        const char *values[64];
+        struct scene_file file = {0};
+        struct value v;
+        size_t n = other_values(f, values);
+        read_text(&file, scenes[i]);
+        if (!ceduo_value_find(&file.scene, place.bytes, &v)) {
+            ceduo_scene_release(&file);
+            continue;
+        }
+        assert_ptr_equal(v.field, f);
+        for (size_t k = 0; k < n; k++) {
+            struct keys set;
+            double number, was = ceduo_value_get(&v);
+            assert_int_equal(ceduo_number_read(values[k], &number), CEDUO_NUMBER_GOOD);
+            bool good = ceduo_value_put(&v, number);
+            if (!good)
+                assert_true(ceduo_value_get(&v) == was || isnan(was));
+            else
+                assert_true(fabs(ceduo_value_get(&v) - number) <= 1e-12 * number);
+            if (!keys_with(scenes[i], place.bytes, values[k], &set))
+                continue;
+            struct keys now = keys_of(&file.scene);
+            if (!good || now.flight != set.flight || now.years != set.years)
+                fail_msg("%s=%s: set is another scene than put", place.bytes, values[k]);
+        }
+        ceduo_scene_release(&file);
+    }
+    ceduo_text_free(&place);
+}
+
+static void put_is_as_set(void **state)
+{
+    (void)state;
+    put("a.yaml", "ceduo: stand/1\ntrees: [{per_ha: 80, dbh_m: 0.3, height_m: 14}]\n");
+    put("a.csv", "distance,elevation\n100,60\n150,20\n200,0\n");
+    ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
+}
+
+static void paths_of_numbers(void **state)
+{
+    (void)state;
+    struct scene_file file = {0};
+    struct value v;
+    read_text(&file, scenes[1]);
+    struct ceduo_scene *s = &file.scene;
+    assert_true(ceduo_value_find(s, "options[a].forest[wood].stand.trees[0].per_ha", &v) && ceduo_value_get(&v) == 80);
+    assert_true(ceduo_value_find(s, "controls[road].accepted_kJ", &v) && ceduo_value_get(&v) == 80);
+    assert_true(ceduo_value_put(&v, 90) && s->controls[0].accepted == 90e3);
+    assert_true(ceduo_value_find(s, "controls[0].x_m", &v) && ceduo_value_put(&v, 185));
+    assert_true(s->controls[0].x_given == 185 && s->controls[0].x == 85);
+    assert_true(ceduo_value_find(s, "release.x_m", &v) && ceduo_value_get(&v) == 101 && ceduo_value_put(&v, 102));
+    assert_true(s->release.x.mean == 2);
+    assert_true(ceduo_value_find(s, "release.vx_m_s.spread", &v) && ceduo_value_put(&v, .25) &&
+                s->release.vx.spread == .25);
+    assert_true(ceduo_value_find(s, "release.vx_m_s.mean", &v) && ceduo_value_put(&v, 2) && s->release.vx.mean == 2);
+    assert_true(ceduo_value_find(s, "release.height_m.spread", &v) &&
+                !ceduo_value_put(&v, 5)); /* it would reach below 0 */
+    assert_true(s->release.height.spread == 0);
+    assert_true(ceduo_value_find(s, "slope.segments[0].rn", &v) && ceduo_value_put(&v, .25)); /* it is for all */
+    for (size_t j = 0; j < 3; j++)
+        assert_true(s->slope.segments[j].rn.mean == .25);
+    assert_true(ceduo_value_find(s, "simulation.seed", &v) && ceduo_value_put(&v, 7) && s->simulation.seed == 7);
+    assert_false(ceduo_value_put(&v, 7.5) || ceduo_value_put(&v, -1) || ceduo_value_put(&v, NAN) ||
+                 ceduo_value_put(&v, 1e17));
+    const char *const none[] = {"",
+                                "rock",
+                                "rock.",
+                                "rock.size",
+                                "simulation.law",
+                                "title",
+                                "slope.segments[1].rn",
+                                "slope.vertices_m[0][0]",
+                                "slope.vertices_m[1]",
+                                "slope.vertices_m[1][2]",
+                                "controls[1].x_m",
+                                "controls.x_m",
+                                "options[c].forest[0].from_m",
+                                "forest[0].from_m",
+                                "release.vx_m_s.kind",
+                                "release.vx_m_s[0]",
+                                "rock.axes_m[3]",
+                                "rock.axes_m",
+                                "slope.materials[0].from_m",
+                                "rock.diameter_m.mean.mean",
+                                "rock[0]",
+                                "controls_m[0]",
+                                "slope.csv"};
+    for (size_t i = 0; i < LENGTH(none); i++)
+        if (ceduo_value_find(s, none[i], &v))
+            fail_msg("'%s' is found", none[i]);
+    ceduo_scene_release(&file);
+}
+
+/* Many values are tried on one scene without memory that stays. */
+static void puts_take_no_memory(void **state)
+{
+    (void)state;
+    struct scene_file file = {0};
+    struct value per_ha, diameter;
+    read_text(&file, scenes[0]);
+    assert_true(ceduo_value_find(&file.scene, "forest[0].stand.trees[0].per_ha", &per_ha));
+    assert_true(ceduo_value_find(&file.scene, "rock.diameter_m", &diameter));
+    struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
+    def.option = &file.scene.options[0];
+    def.rocks_most = 10;
+    size_t before = 0, arena = file.arena.bytes;
+    for (int i = 0; i < 100000; i++) {
+        assert_true(ceduo_value_put(&per_ha, 50 + i % 100) && ceduo_value_put(&diameter, .5 + 1e-6 * i));
+        if (i % 100 != 0)
+            continue;
+        struct ceduo_run *run;
+        assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
+        assert_int_equal(ceduo_run_extend(run, 10), CEDUO_OK);
+        ceduo_run_free(run);
+        before = i == 1000 ? mallinfo2().uordblks : before;
+        if (i >= 1000)
+            EXPECT(mallinfo2().uordblks, <=, before + 4096); /* free blocks that are kept at hand count as used */
+    }
+    assert_int_equal(file.arena.bytes, arena);
+    ceduo_scene_release(&file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_member_has_a_row),
+        cmocka_unit_test(every_default_lies_in_its_range),
+        cmocka_unit_test_setup_teardown(every_row_decides_about_what_it_says, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(put_is_as_set, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(paths_of_numbers, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(puts_take_no_memory, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
