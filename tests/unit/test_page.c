@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pages as a terminal shows them, and the tables of figures behind JSON and CSV; all of them without memory. */
+#include "unit/failing.h"
+
+#include <math.h>
+
+#include "ceduo/question.h"
+#include "view/figures.h"
+#include "view/page.h"
+
+/* ---- a page made by hand ---- */
+
+static char *printed(struct ceduo_page *page, bool plain)
+{
+    struct text text = {0};
+    ceduo_page_print(&text, page, plain);
+    assert_false(text.failed);
+    ceduo_page_free(page);
+    return text.bytes;
+}
+
+static void expect_page(struct ceduo_page *page, bool plain, const char *wanted)
+{
+    char *text = printed(page, plain);
+    assert_string_equal(text, wanted);
+    free(text);
+}
+
+static void paragraphs_are_wrapped(void **state)
+{
+    (void)state;
+    struct ceduo_page page = {.width = 24};
+    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), "A title that is   too long for a line ");
+    ceduo_text_put(ceduo_page_fact(&page, "Rock"), "cylinder, 512.3 kg");
+    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_SECTION), "option");
+    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_WARNING), "a bell \a is never rung");
+    expect_page(&page, false,
+                "A title that is too long\n"
+                "for a line\n"
+                "Rock     cylinder, 512.3\n"
+                "         kg\n"
+                "\n"
+                "option\n"
+                "    ! a bell \\x07 is\n"
+                "      never rung\n");
+}
+
+static const struct ceduo_page_column columns[] = {
+    {"place", 6, 1, CEDUO_WHOLE}, {"name", 5, 0, 0}, {"kJ", -6, 0, CEDUO_SPAN}, {"", 3, 1, 0}, {NULL, -9, 0, 0}};
+
+static void add_row(struct ceduo_page *page, const char *place, const char *name, double value)
+{
+    ceduo_text_put(ceduo_page_text(page), place);
+    ceduo_text_put(ceduo_page_text(page), name);
+    ceduo_page_number(page, value, 3);
+    ceduo_text_put(ceduo_page_text(page), "yes");
+    struct ceduo_page_cell *mean = ceduo_page_cell(page);
+    mean->kind = CEDUO_CELL_MEAN;
+    mean->value = value;
+    mean->half = value / 10;
+}
+
+static struct ceduo_page table(void)
+{
+    struct ceduo_page page = {.width = 40};
+    ceduo_page_table(&page, columns, 5);
+    ceduo_text_put(&ceduo_page_head(&page)->text, "> 1234567 kJ");
+    ceduo_text_put(&ceduo_page_head(&page)->shorter, "> 1 GJ");
+    add_row(&page, "0\xe2\x80\x93""20", "oak", 12.34);
+    add_row(&page, "1000\xe2\x80\x93""2000", "hornbeam", 1234567);
+    add_row(&page, "5", "\xe6\xa3\xae\xe6\x9e\x97", 0.00001234);
+    return page;
+}
+
+/* A cell that is too long is cut or goes on below; a number has as many digits as have room; a wide sign takes two columns. */
+static void cells_stand_below_one_another(void **state)
+{
+    (void)state;
+    struct ceduo_page page = table();
+    expect_page(&page, false,
+                " place name kJ           > 1 GJ\n"
+                " 0\xe2\x80\x93""20  oak    12.3 yes 12.3\xc2\xb1""1.3\n"
+                " 1000\xe2\x80\x93""2000\n"
+                "       horn\xe2\x80\xa6   1e6 yes  (1\xc2\xb1""1)e6\n"
+                " 5     \xe6\xa3\xae\xe6\x9e\x97   1e-5 yes (1\xc2\xb1""1)e-5\n");
+}
+
+static void signs_are_plain_for_a_plain_terminal(void **state)
+{
+    (void)state;
+    struct ceduo_page page = table();
+    char *text = printed(&page, true);
+    assert_non_null(strstr(text, "0-20  oak"));
+    assert_non_null(strstr(text, "horn~"));
+    assert_non_null(strstr(text, "+-"));
+    free(text);
+}
+
+/* ---- the tables of figures ---- */
+
+static const struct ceduo_figure *with_key(const struct ceduo_figure *f, const char *key)
+{
+    const struct ceduo_figure *row = NULL;
+    for (; !ceduo_figure_is_end(f) && !row; f++)
+        row = !f->key ? with_key(f->of, key) : strcmp(f->key, key) == 0 ? f : NULL;
+    return row;
+}
+
+/* Each row has a key of its own, says what it means, and is either a value, an object or sentences. */
+static void expect_rows(const struct ceduo_figure *table, const struct ceduo_figure *f)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        if (f->key && with_key(table, f->key) != f)
+            fail_msg("'%s' stands there twice", f->key);
+        if (f->key && (!f->unit || !f->meaning || !f->meaning[0]))
+            fail_msg("'%s' has no meaning", f->key);
+        if (!!f->value + !!f->of + !!f->say != 1)
+            fail_msg("'%s' is not one thing", f->key ? f->key : "");
+        if (f->of)
+            expect_rows(f->key ? f->of : table, f->of);
+    }
+}
+
+static void every_figure_says_what_it_is(void **state)
+{
+    (void)state;
+    expect_rows(ceduo_result_figures, ceduo_result_figures);
+    expect_rows(ceduo_find_figures, ceduo_find_figures);
+}
+
+/* ---- a result ---- */
+
+static struct scene_file file;
+static struct ceduo_answer answer;
+static struct ceduo_report report;
+static const struct ceduo_search search = {.path = "forest[0].from_m", .goal = CEDUO_GOAL_ENERGY, .target = 50, .hi = 9, .rocks = 7};
+static const struct ceduo_found found_none = {.nearest = 3, .goal_at_nearest = 60, .value = NAN, .goal_at_value = NAN};
+static const struct ceduo_find_report find = {&file, &search, &found_none};
+
+static int set_up(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {"simulation.rocks=60", "rocks_per_year=2"};
+    struct problems problems = {0};
+    bool good = ceduo_scene_read(&file, "profiles/scenes/rotation.yaml", sets, 2, &problems);
+    ceduo_problems_free(&problems);
+    struct ceduo_question question = ceduo_question_default(&file.scene);
+    question.years = true;
+    question.year_step = 1;
+    question.year_last = 1;
+    question.block_rocks = 20;
+    if (!good || ceduo_ask(&question, NULL, &answer) != CEDUO_OK)
+        return 1;
+    report = (struct ceduo_report){.file = &file, .result = answer.result, .years = answer.years, .blocks = answer.blocks,
+                                   .work = answer.work};
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    ceduo_answer_release(&answer);
+    ceduo_scene_release(&file);
+    return 0;
+}
+
+/* Whether a text is whole. */
+static bool take(struct text *text)
+{
+    bool lost = ceduo_text_lost(), whole = !text->failed && !lost;
+    if (whole)
+        add(text->bytes, text->length);
+    ceduo_text_free(text);
+    return whole;
+}
+
+static bool print_years(void)
+{
+    struct text text = {0};
+    ceduo_report_table(&text, &report, false);
+    return take(&text);
+}
+
+static bool print_page(void)
+{
+    struct text text = {0};
+    struct ceduo_report as_filed = report;
+    as_filed.years = NULL;
+    ceduo_report_table(&text, &as_filed, true);
+    ceduo_report_option(&text, &as_filed, 0, 40);
+    return take(&text);
+}
+
+static bool print_json(void)
+{
+    struct text text = {0};
+    ceduo_report_json(&text, &report);
+    ceduo_find_json(&text, &find);
+    return take(&text);
+}
+
+static bool print_csv(void)
+{
+    struct text text = {0};
+    ceduo_report_csv_header(&text, false, true);
+    ceduo_report_csv(&text, &report, false);
+    ceduo_report_csv(&text, &report, true);
+    ceduo_find_csv(&text, &find);
+    return take(&text);
+}
+
+static bool print_find(void)
+{
+    struct text text = {0};
+    ceduo_find_page(&text, &find);
+    return take(&text);
+}
+
+/* Each allocation fails once, and all from each on: what is cut short is told, and nothing else is. */
+static void what_is_cut_short_is_told(void **state)
+{
+    (void)state;
+    without_memory(print_years);
+    without_memory(print_page);
+    without_memory(print_json);
+    without_memory(print_csv);
+    without_memory(print_find);
+}
+
+static size_t fields(const char *row)
+{
+    size_t n = 1;
+    bool quoted = false;
+    for (; *row && *row != '\n'; row++) {
+        quoted ^= *row == '"';
+        n += *row == ',' && !quoted;
+    }
+    return n;
+}
+
+static void a_row_has_a_field_for_each_name(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 3; kind++) {
+        struct text text = {0};
+        struct ceduo_report shown = report;
+        shown.years = kind == 1 ? report.years : NULL;
+        ceduo_report_csv_header(&text, kind == 2, kind == 1);
+        ceduo_report_csv(&text, &shown, kind == 2);
+        const char *row = strchr(text.bytes, '\n') + 1;
+        assert_int_equal(fields(row), fields(text.bytes));
+        ceduo_text_free(&text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(paragraphs_are_wrapped),
+        cmocka_unit_test(cells_stand_below_one_another),
+        cmocka_unit_test(signs_are_plain_for_a_plain_terminal),
+        cmocka_unit_test(every_figure_says_what_it_is),
+        cmocka_unit_test(a_row_has_a_field_for_each_name),
+        cmocka_unit_test(what_is_cut_short_is_told),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
