@@ -49,9 +49,9 @@ void ceduo_app_warn(struct app *app, const char *format, ...)
 }
 
 /* The first problem's message, without the place, which the cursor shows. */
-static void say_problem(struct app *app, struct problems *problems)
+static void say_problem(struct app *app)
 {
-    const char *text = problems->text.bytes ? problems->text.bytes : _("out of memory\n");
+    const char *text = app->problems.text.bytes ? app->problems.text.bytes : _("out of memory\n");
     char first[400];
     snprintf(first, sizeof first, "%.*s", (int)strcspn(text, "\n"), text);
     const char *colon = strstr(first, ": ");
@@ -208,12 +208,12 @@ void ceduo_app_step_rock(struct app *app, int by)
 
 /* ---- edits ---- */
 
-bool ceduo_app_edited(struct app *app, bool good, struct problems *problems)
+bool ceduo_app_edited(struct app *app, bool good)
 {
-    ceduo_problems_close(problems);
+    ceduo_problems_close(&app->problems);
     if (!good)
-        say_problem(app, problems);
-    ceduo_problems_free(problems);
+        say_problem(app);
+    ceduo_problems_free(&app->problems);
     if (good)
         ceduo_app_refresh(app);
     return good;
@@ -221,10 +221,8 @@ bool ceduo_app_edited(struct app *app, bool good, struct problems *problems)
 
 bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
-    struct problems problems = {0};
     struct text said = {0};
-    bool good = ceduo_document_set_alone(&app->document, path, value, &said, &problems);
-    good = ceduo_app_edited(app, good, &problems);
+    bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said, &app->problems));
     if (good && said.bytes)
         ceduo_app_say(app, "%s", said.bytes);
     ceduo_text_free(&said);
@@ -285,10 +283,10 @@ void ceduo_app_free(struct app *app)
 
 /* What was opened takes the place of this document, or the reason why not is shown. The figures know the old one's memory:
  * it is let go first. */
-static bool take_opened(struct app *app, struct document *next, bool good, struct problems *problems)
+static bool take_opened(struct app *app, struct document *next, bool good)
 {
     if (!good) {
-        say_problem(app, problems);
+        say_problem(app);
     } else if (!ceduo_figures_restart(&app->figures)) {
         ceduo_document_close(next);
         ceduo_app_warn(app, "%s", _("out of memory"));
@@ -299,22 +297,20 @@ static bool take_opened(struct app *app, struct document *next, bool good, struc
         app->document = *next;
         took_document(app);
     }
-    ceduo_problems_free(problems);
+    ceduo_problems_free(&app->problems);
     return good;
 }
 
 bool ceduo_app_open(struct app *app, const char *path)
 {
     struct document next;
-    struct problems problems = {0};
-    return take_opened(app, &next, ceduo_document_open(&next, path, &problems), &problems);
+    return take_opened(app, &next, ceduo_document_open(&next, path, &app->problems));
 }
 
 bool ceduo_app_open_text(struct app *app, const char *text)
 {
     struct document next;
-    struct problems problems = {0};
-    return take_opened(app, &next, ceduo_document_new(&next, text, &problems), &problems);
+    return take_opened(app, &next, ceduo_document_new(&next, text, &app->problems));
 }
 
 void ceduo_app_resize(struct app *app, int width, int height)

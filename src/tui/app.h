@@ -51,6 +51,7 @@ struct view_state {
 
 struct app {
     struct document document;
+    struct problems problems; /* of the edit that is under way */
     struct figures figures;
     struct ceduo_cells *cells;
     int width, height;
@@ -94,8 +95,8 @@ void ceduo_app_warn(struct app *app, const char *format, ...) __attribute__((for
 
 /* ---- the document ---- */
 
-/* After an edit: good: forms and figures follow; otherwise the reason is shown. Frees the problems. */
-bool ceduo_app_edited(struct app *app, bool good, struct problems *problems);
+/* After an edit: good: forms and figures follow; otherwise the reason, in app->problems, is shown. */
+bool ceduo_app_edited(struct app *app, bool good);
 
 /* Sets a value (as it stands in a file), and takes out what would then be said twice. */
 bool ceduo_app_set(struct app *app, const char *path, const char *value);

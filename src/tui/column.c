@@ -74,6 +74,14 @@ static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, co
     line(pen, role, "%-9s%*s %*s", name, column + wider, wood, 6, bare);
 }
 
+static void put_figures(struct pen *pen, const char *name, double wood, double bare)
+{
+    char a[32], b[32];
+    figure(a, sizeof a, wood);
+    figure(b, sizeof b, bare);
+    put_pair(pen, CEDUO_ROLE_TEXT, name, a, b);
+}
+
 /* What arrives through the wood beside what arrives without it; `wood` NULL: not known yet, or never (index). */
 static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
                          const struct ceduo_arrivals *bare)
@@ -95,15 +103,9 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
         snprintf(limit, sizeof limit, _(" >%.4g kJ"), c->accepted * KILO);
         put_pair(pen, CEDUO_ROLE_TEXT, limit, a, b);
     }
-    figure(a, sizeof a, wood->energy.mean * KILO);
-    figure(b, sizeof b, bare->energy.mean * KILO);
-    put_pair(pen, CEDUO_ROLE_TEXT, _(" kJ mean"), a, b);
-    figure(a, sizeof a, wood->energy.p95 * KILO);
-    figure(b, sizeof b, bare->energy.p95 * KILO);
-    put_pair(pen, CEDUO_ROLE_TEXT, _(" kJ 95 %"), a, b);
-    figure(a, sizeof a, wood->height.p95);
-    figure(b, sizeof b, bare->height.p95);
-    put_pair(pen, CEDUO_ROLE_TEXT, _(" m  95 %"), a, b);
+    put_figures(pen, _(" kJ mean"), wood->energy.mean * KILO, bare->energy.mean * KILO);
+    put_figures(pen, _(" kJ 95 %"), wood->energy.p95 * KILO, bare->energy.p95 * KILO);
+    put_figures(pen, _(" m  95 %"), wood->height.p95, bare->height.p95);
 }
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
@@ -155,20 +157,15 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * KILO);
 }
 
-struct warning_list {
-    struct text text;
-};
-
 static void add_warning(void *context, const char *sentence)
 {
-    struct warning_list *w = context;
-    ceduo_text_format(&w->text, "! %s\n", sentence);
+    ceduo_text_format(context, "! %s\n", sentence);
 }
 
 static void put_warnings(struct pen *pen)
 {
     struct app *app = pen->app;
-    struct warning_list w = {{0}};
+    struct text w = {0};
     const struct ceduo_option *o = ceduo_app_option(app);
     const struct ceduo_option_result *found = ceduo_app_found(app);
     struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed};
@@ -176,11 +173,11 @@ static void put_warnings(struct pen *pen)
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
     int room = pen->area.top + pen->area.height - pen->y;
-    if (w.text.bytes && room > 0) {
+    if (w.bytes && room > 0) {
         struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, room};
-        ceduo_app_text(app, rest, CEDUO_ROLE_WARN, w.text.bytes, 0);
+        ceduo_app_text(app, rest, CEDUO_ROLE_WARN, w.bytes, 0);
     }
-    ceduo_text_free(&w.text);
+    ceduo_text_free(&w);
 }
 
 /* How sure the figures are, and whether they are still being refined. */

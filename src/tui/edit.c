@@ -11,11 +11,10 @@
 
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
 {
-    struct problems problems = {0};
     char path[FORM_PATH];
     snprintf(path, sizeof path, "%s", cell->path); /* the form is made anew below */
     if (value[0] == '\0') /* nothing: back to the default */
-        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &problems), &problems);
+        return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
     struct text quoted = {0};
     if (cell->field && cell->field->type == FIELD_TEXT)
         ceduo_emit_scalar(&quoted, value, true);

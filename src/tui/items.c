@@ -51,7 +51,7 @@ static bool free_stretch(const struct app *app, double *from, double *to, size_t
     return false;
 }
 
-static bool add_belt(struct app *app, const struct item *item, struct problems *problems)
+static bool add_belt(struct app *app, const struct item *item)
 {
     double from, to;
     size_t index;
@@ -61,10 +61,10 @@ static bool add_belt(struct app *app, const struct item *item, struct problems *
         return false;
     }
     snprintf(belt, sizeof belt, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to);
-    return ceduo_document_insert(&app->document, item->list, index, belt, problems);
+    return ceduo_document_insert(&app->document, item->list, index, belt, &app->problems);
 }
 
-static bool add_control(struct app *app, const struct item *item, struct problems *problems)
+static bool add_control(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     double last = s->controls[0].x, end = s->slope.x[s->slope.vertices - 1];
@@ -74,48 +74,48 @@ static bool add_control(struct app *app, const struct item *item, struct problem
     double x = last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2;
     char control[64];
     snprintf(control, sizeof control, "{x_m: %.6g}", x + app->document.file.origin_x);
-    return ceduo_document_insert(&app->document, item->list, 1000000, control, problems);
+    return ceduo_document_insert(&app->document, item->list, 1000000, control, &app->problems);
 }
 
-static bool copy_item(struct app *app, const struct item *item, struct problems *problems)
+static bool copy_item(struct app *app, const struct item *item)
 {
-    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, problems);
+    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, &app->problems);
 }
 
 /* A first cohort of shoots needs stools to stand on. */
-static bool add_shoots(struct app *app, const struct item *item, struct problems *problems)
+static bool add_shoots(struct app *app, const struct item *item)
 {
     if (item->there)
-        return copy_item(app, item, problems);
+        return copy_item(app, item);
     char stools[FORM_PATH + 64], shoots[FORM_PATH + 64];
     snprintf(stools, sizeof stools, "%.*sstools={per_ha: 2500, spacing_m: 0.35}", (int)(item->key - item->list), item->list);
     snprintf(shoots, sizeof shoots, "%s=[{per_ha: 7500, dbh_m: 0.07, height_m: 8}]", item->list);
     const char *const sets[] = {stools, shoots};
-    return ceduo_document_set_all(&app->document, sets, 2, item->list, problems);
+    return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
 }
 
-static bool add_trees(struct app *app, const struct item *item, struct problems *problems)
+static bool add_trees(struct app *app, const struct item *item)
 {
-    return item->there ? copy_item(app, item, problems)
+    return item->there ? copy_item(app, item)
                        : ceduo_document_insert(&app->document, item->list, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}",
-                                               problems);
+                                               &app->problems);
 }
 
 /* ---- duplicating ---- */
 
 /* A belt is duplicated by splitting it: two cannot stand in one place. */
-static bool split_belt(struct app *app, const struct item *item, struct problems *problems)
+static bool split_belt(struct app *app, const struct item *item)
 {
     const struct ceduo_belt *b = &ceduo_app_option(app)->belts[item->index];
     char first[FORM_PATH + 64], second[FORM_PATH + 64];
     double middle = (b->from_given + b->to_given) / 2;
     snprintf(first, sizeof first, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
     snprintf(second, sizeof second, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
-    return ceduo_document_split(&app->document, item->list, item->index, first, second, problems);
+    return ceduo_document_split(&app->document, item->list, item->index, first, second, &app->problems);
 }
 
 /* A segment is split in two of the same ground. */
-static bool split_segment(struct app *app, const struct item *item, struct problems *problems)
+static bool split_segment(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     size_t i = item->index;
@@ -124,29 +124,29 @@ static bool split_segment(struct app *app, const struct item *item, struct probl
         return false;
     snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", (s->x[i] + s->x[i + 1]) / 2 + s->origin_x,
              (s->z[i] + s->z[i + 1]) / 2 + s->origin_z);
-    return ceduo_document_split_segment(&app->document, i, vertex, problems);
+    return ceduo_document_split_segment(&app->document, i, vertex, &app->problems);
 }
 
 /* ---- deleting ---- */
 
 /* The stools go with their last shoots. */
-static bool delete_shoots(struct app *app, const struct item *item, struct problems *problems)
+static bool delete_shoots(struct app *app, const struct item *item)
 {
     char stand[FORM_PATH], stools[FORM_PATH + 8];
     snprintf(stand, sizeof stand, "%.*s", (int)(item->key - item->list) - 1, item->list);
     snprintf(stools, sizeof stools, "%s.stools", stand);
     const char *const sets[] = {stools, item->list};
-    return ceduo_document_set_all(&app->document, sets, 2, stand, problems);
+    return ceduo_document_set_all(&app->document, sets, 2, stand, &app->problems);
 }
 
-static bool delete_item(struct app *app, const struct item *item, const char *path, struct problems *problems)
+static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
     if (strcmp(item->list, "slope.segments") == 0)
-        return ceduo_document_join_segments(&app->document, item->index, problems);
+        return ceduo_document_join_segments(&app->document, item->index, &app->problems);
     if (strcmp(item->key, "shoots") == 0 && list && list->n == 1)
-        return delete_shoots(app, item, problems);
-    return ceduo_document_delete(&app->document, path, problems);
+        return delete_shoots(app, item);
+    return ceduo_document_delete(&app->document, path, &app->problems);
 }
 
 /* The cursor must not slip into the next list, where another d would delete what nobody meant. */
@@ -159,7 +159,7 @@ static void stay_in_list(struct app *app, const char *list)
 
 /* ---- the actions ---- */
 
-typedef bool item_function(struct app *app, const struct item *item, struct problems *problems);
+typedef bool item_function(struct app *app, const struct item *item);
 
 /* How items are added and duplicated, where not by a copy of the one under the cursor. */
 static const struct {
@@ -182,30 +182,27 @@ static item_function *function_for(const struct item *item, bool add)
 void ceduo_items_add(struct app *app)
 {
     struct item item;
-    struct problems problems = {0};
     if (!find_item(app, &item)) {
         ceduo_app_say(app, "%s", _("a adds to a list: put the cursor on one"));
         return;
     }
-    bool good = function_for(&item, true)(app, &item, &problems);
-    if (good || problems.count > 0 || problems.memory) /* otherwise it is said already */
-        ceduo_app_edited(app, good, &problems);
-    ceduo_problems_free(&problems);
-    if (good)
+    bool good = function_for(&item, true)(app, &item);
+    if (!good && app->problems.count == 0 && !app->problems.memory)
+        return; /* it is said already */
+    if (ceduo_app_edited(app, good))
         ceduo_form_move(ceduo_app_form(app), 1, 0);
 }
 
 void ceduo_items_delete(struct app *app)
 {
     struct item item;
-    struct problems problems = {0};
     char path[FORM_PATH + 32];
     if (!find_item(app, &item) || !item.there) {
         ceduo_app_say(app, "%s", _("d deletes an item of a list: put the cursor on one"));
         return;
     }
     snprintf(path, sizeof path, "%s[%zu]", item.list, item.index);
-    if (ceduo_app_edited(app, delete_item(app, &item, path, &problems), &problems)) {
+    if (ceduo_app_edited(app, delete_item(app, &item, path))) {
         stay_in_list(app, item.list);
         ceduo_app_say(app, _("deleted %s; u brings it back"), path);
     }
@@ -214,20 +211,18 @@ void ceduo_items_delete(struct app *app)
 void ceduo_items_duplicate(struct app *app)
 {
     struct item item;
-    struct problems problems = {0};
     if (!find_item(app, &item) || !item.there)
         ceduo_app_say(app, "%s", _("y duplicates an item of a list: put the cursor on one"));
-    else if (ceduo_app_edited(app, function_for(&item, false)(app, &item, &problems), &problems))
+    else if (ceduo_app_edited(app, function_for(&item, false)(app, &item)))
         ceduo_form_move(ceduo_app_form(app), 1, 0);
 }
 
 void ceduo_items_move(struct app *app, int by)
 {
     struct item item;
-    struct problems problems = {0};
     if (!find_item(app, &item) || !item.there || (by < 0 && item.index == 0))
         return;
-    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, item.index + (size_t)by, &problems),
-                         &problems))
+    size_t to = item.index + (size_t)by;
+    if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to, &app->problems)))
         ceduo_form_move(ceduo_app_form(app), by, 0);
 }

@@ -65,6 +65,8 @@ struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_fille
 
 void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 {
+    if (!p)
+        return;
     if (p->items_count == p->items_room) {
         size_t room = p->items_room ? 2 * p->items_room : 32;
         struct popup_item *items = realloc(p->items, room * sizeof *items);
@@ -84,7 +86,7 @@ void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 
 void ceduo_popup_field(struct popup *p, const char *label, const char *value)
 {
-    if (p->fields_count == POPUP_FIELDS_MOST)
+    if (!p || p->fields_count == POPUP_FIELDS_MOST)
         return;
     snprintf(p->labels[p->fields_count], sizeof p->labels[0], "%s", label);
     ceduo_line_set(&p->fields[p->fields_count++], value);

@@ -43,6 +43,7 @@ struct popup {
 struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
+/* NULL is allowed: then they do nothing. */
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 

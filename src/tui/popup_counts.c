@@ -55,9 +55,8 @@ static bool filled_counts(struct app *app, struct popup *p)
     snprintf(sets[2], sizeof sets[2], "%.160s.trees[0].per_ha=%.6g", p->path, v[COUNT_TREES] * per);
     for (; n < 3; n++)
         list[n] = sets[n];
-    struct problems problems = {0};
-    bool good = ceduo_document_set_all(&app->document, list, 3, _("counts of a plot"), &problems);
-    if (ceduo_app_edited(app, good, &problems))
+    bool good = ceduo_document_set_all(&app->document, list, 3, _("counts of a plot"), &app->problems);
+    if (ceduo_app_edited(app, good))
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
     return good;
 }

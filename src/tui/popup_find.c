@@ -43,11 +43,10 @@ static bool filled_find(struct app *app, struct popup *p)
         return false;
     }
     struct ceduo_found found;
-    struct problems problems = {0};
-    enum ceduo_status status = ceduo_seek(&seek, &found, &problems);
+    enum ceduo_status status = ceduo_seek(&seek, &found, &app->problems);
     bool good = status == CEDUO_OK;
     if (!good) {
-        ceduo_app_edited(app, false, &problems);
+        ceduo_app_edited(app, false);
         return false;
     }
     struct text words = {0};
@@ -63,10 +62,8 @@ static bool filled_find(struct app *app, struct popup *p)
     if (found.found && !found.whole_range) {
         char room[CEDUO_NUMBER_ROOM], path[1024];
         snprintf(path, sizeof path, "%s", p->path);
-        set = ceduo_document_set(&app->document, path, ceduo_number_shortest(found.value, room), &problems);
-        ceduo_app_edited(app, set, &problems);
-    } else {
-        ceduo_problems_free(&problems);
+        set = ceduo_document_set(&app->document, path, ceduo_number_shortest(found.value, room), &app->problems);
+        ceduo_app_edited(app, set);
     }
     for (char *c = words.bytes; c && *c; c++)
         *c = *c == '\n' ? ' ' : *c;

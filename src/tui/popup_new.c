@@ -91,14 +91,13 @@ static bool filled_new(struct app *app, struct popup *p)
         ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
     } else {
         good = ceduo_app_open_text(app, yaml.bytes ? yaml.bytes : "");
-        struct problems problems = {0};
         char set[FORM_PATH + 64];
         const struct ceduo_slope *s = &app->document.file.scene.slope;
         if (good && p->fields[NEW_STAND].text[0]) {
             snprintf(set, sizeof set, "forest=[{from_m: %.10g, to_m: %.10g, stand: %.100s}]", s->origin_x,
                      app->document.file.scene.controls[0].x_given, stand.bytes ? stand.bytes : "bare");
             const char *const sets[] = {set};
-            ceduo_app_edited(app, ceduo_document_set_all(&app->document, sets, 1, "forest", &problems), &problems);
+            ceduo_app_edited(app, ceduo_document_set_all(&app->document, sets, 1, "forest", &app->problems));
         }
     }
     ceduo_text_free(&yaml);

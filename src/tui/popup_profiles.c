@@ -92,10 +92,8 @@ static void chose_word(struct app *app, struct popup *p, const char *value)
 /* The option that is shown with another stand in every belt, as a new option. */
 static void chose_new_option(struct app *app, struct popup *p, const char *value)
 {
-    struct problems problems = {0};
-    bool good = ceduo_document_add_option(&app->document, value, &problems);
     (void)p;
-    if (ceduo_app_edited(app, good, &problems)) {
+    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, value, &app->problems))) {
         app->option = app->document.file.scene.options_count - 1;
         ceduo_app_refresh(app);
         ceduo_app_say(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);

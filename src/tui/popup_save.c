@@ -97,8 +97,6 @@ static void chose_disk(struct app *app, struct popup *p, const char *value)
 static void ask_which(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("The file has changed on disk since it was read"), chose_disk);
-    if (!p)
-        return;
     ceduo_popup_item(p, _("never mind: do not save now"), "");
     ceduo_popup_item(p, _("save under another name"), "as");
     ceduo_popup_item(p, _("write over what is there"), "write");
@@ -142,8 +140,6 @@ void ceduo_popup_quit(struct app *app)
     if (app->quit)
         return;
     struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), chose_quit);
-    if (!p)
-        return;
     ceduo_popup_item(p, _("stay"), "");
     ceduo_popup_item(p, _("save and quit"), "save");
     ceduo_popup_item(p, _("quit and lose it"), "drop");
@@ -151,12 +147,11 @@ void ceduo_popup_quit(struct app *app)
 
 static void chose_recover(struct app *app, struct popup *p, const char *value)
 {
-    struct problems problems = {0};
     bool without_file = value[0] == 'o';
     if (strcmp(value, "forget") == 0) {
         unlink(p->path);
     } else if (without_file ? ceduo_app_open_text(app, p->kept)
-                            : ceduo_app_edited(app, ceduo_document_recover(&app->document, p->kept, &problems), &problems)) {
+                            : ceduo_app_edited(app, ceduo_document_recover(&app->document, p->kept, &app->problems))) {
         unlink(p->path); /* this program keeps a copy of its own now */
         ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));
     }

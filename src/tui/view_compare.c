@@ -230,15 +230,13 @@ static void choose(struct app *app, long i)
 
 static void copy_option(struct app *app)
 {
-    struct problems problems = {0};
     size_t at = app->option;
-    if (ceduo_app_edited(app, ceduo_document_copy_option(&app->document, at, &problems), &problems))
+    if (ceduo_app_edited(app, ceduo_document_copy_option(&app->document, at, &app->problems)))
         choose(app, (long)at + 1);
 }
 
 static void delete_option(struct app *app)
 {
-    struct problems problems = {0};
     char path[64], name[200];
     if (app->document.file.scene.options_count < 2) {
         ceduo_app_say(app, "%s", _("the only option stays"));
@@ -246,31 +244,29 @@ static void delete_option(struct app *app)
     }
     snprintf(path, sizeof path, "options[%zu]", app->option);
     snprintf(name, sizeof name, "%s", ceduo_app_option(app)->name);
-    if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &problems), &problems))
+    if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
         ceduo_app_say(app, _("deleted '%s'; u brings it back"), name);
 }
 
 static void move_option(struct app *app, int by)
 {
-    struct problems problems = {0};
     long to = (long)app->option + by;
     if (to < 0 || to >= (long)app->document.file.scene.options_count)
         return;
-    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to, &problems);
-    if (ceduo_app_edited(app, good, &problems))
+    bool good = ceduo_document_move(&app->document, "options", app->option, (size_t)to, &app->problems);
+    if (ceduo_app_edited(app, good))
         choose(app, to);
 }
 
 static bool filled_name(struct app *app, struct popup *p)
 {
-    struct problems problems = {0};
     struct text value = {0};
     char path[64];
     snprintf(path, sizeof path, "options[%zu].name", app->option);
     ceduo_emit_scalar(&value, p->fields[0].text, true);
-    bool good = value.bytes && ceduo_document_set(&app->document, path, value.bytes, &problems);
+    bool good = value.bytes && ceduo_document_set(&app->document, path, value.bytes, &app->problems);
     ceduo_text_free(&value);
-    return ceduo_app_edited(app, good, &problems);
+    return ceduo_app_edited(app, good);
 }
 
 static void rename_option(struct app *app)
