@@ -19,6 +19,8 @@ DESTDIR ?=
 BINDIR ?= $(PREFIX)/bin
 DATADIR ?= $(PREFIX)/share/ceduo
 MANDIR ?= $(PREFIX)/share/man
+LIBDIR ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
 BASHDIR ?= $(PREFIX)/share/bash-completion/completions
 ZSHDIR ?= $(PREFIX)/share/zsh/site-functions
 BUILD := build/$(VARIANT)
@@ -41,7 +43,8 @@ CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: fused multiply-adds would give different bits on different machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
-LIBS = -lncursesw -ltinfo -lyaml -lunistring -lgsl -lgslcblas -lm
+LIBRARY_LIBS := -lunistring -lgsl -lgslcblas -lm
+LIBS = -lncursesw -ltinfo -lyaml $(LIBRARY_LIBS)
 
 # The rooms of the library; the other rooms use them.
 rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)))
@@ -84,8 +87,8 @@ $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc python3 tmux zsh \
-	locales parallel
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc pkgconf python3 tmux \
+	zsh locales parallel
 
 deps:
 	@missing=; for p in $(DEBIAN); do \
@@ -140,6 +143,9 @@ $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
 
 # This test also compares what these print.
 $(T)/cli/test_net.py.tap: $(T)/tables $(BUILD)/man/completion
+
+# Both install at the same time: neither may find half of what the other makes.
+$(T)/cli/test_install.py.tap $(T)/cli/test_library.py.tap: $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 
 $(BUILD)/tests/%.o: DEFINES = -Itests
 .SECONDARY:
@@ -277,7 +283,7 @@ do-bench: all $(BENCH)
 
 # ---- the manual ----
 
-PAGES := $(wildcard man/*.[157])
+PAGES := $(wildcard man/*.[1357])
 TABLES := $(T)/tables
 $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
@@ -302,16 +308,29 @@ $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo: $(COMPLETION)
 # `uninstall` removes these files by name, because others may have put theirs into the same folders.
 DATA := profiles/scenes/*.yaml profiles/slopes/*.yaml profiles/stands/*.yaml profiles/jobs/*.sbatch
 FOLDERS := $(patsubst profiles/%/,%,$(dir $(DATA)))
+HEADERS := $(wildcard include/ceduo/*.h)
 to = $(call quoted,$(DESTDIR)$(1))
+
+# pkg-config takes a backslash before blanks and signs.
+define PKG_CONFIG_FILE
+printf 'includedir=%s\nlibdir=%s\n' $(call quoted,$(INCLUDEDIR)) $(call quoted,$(LIBDIR)) | LC_ALL=C sed 's|[^[:alnum:]%+,./:=@_-]|\\&|g'; \
+	printf '%s\n' '' 'Name: ceduo' 'Description: rockfall simulation through coppice' 'Version: $(VERSION)' \
+	    'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -lceduo $(LIBRARY_LIBS) -pthread'
+endef
 
 install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 	install -d -- $(call to,$(BASHDIR)) $(call to,$(ZSHDIR))
 	install -m 644 -- $(BUILD)/completion/ceduo $(call to,$(BASHDIR))/ceduo
 	install -m 644 -- $(BUILD)/completion/_ceduo $(call to,$(ZSHDIR))/_ceduo
-	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 5 7,$(call to,$(MANDIR))/man$n)
+	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 3 5 7,$(call to,$(MANDIR))/man$n)
 	install -m 755 -- $(PROGRAM) $(call to,$(BINDIR))/ceduo
 	for f in $(DATA); do install -m 644 -- $$f $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
 	for p in $(PAGES); do install -m 644 -- $$p $(call to,$(MANDIR))/man$${p##*.}/ || exit 1; done
+	install -d -- $(call to,$(LIBDIR))/pkgconfig $(call to,$(INCLUDEDIR))/ceduo
+	install -m 644 -- $(LIBRARY) $(call to,$(LIBDIR))/libceduo.a
+	install -m 644 -- $(HEADERS) $(call to,$(INCLUDEDIR))/ceduo
+	{ $(PKG_CONFIG_FILE); } >$(call to,$(LIBDIR))/pkgconfig/ceduo.pc
+	chmod 644 -- $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
 
 uninstall:
 	rm -f -- $(call to,$(BINDIR))/ceduo
@@ -319,6 +338,9 @@ uninstall:
 	for d in $(FOLDERS:%=/%) ''; do rmdir -- $(call to,$(DATADIR))$$d 2>/dev/null || :; done
 	for p in $(notdir $(PAGES)); do rm -f -- $(call to,$(MANDIR))/man$${p##*.}/$$p || exit 1; done
 	rm -f -- $(call to,$(BASHDIR))/ceduo $(call to,$(ZSHDIR))/_ceduo
+	rm -f -- $(call to,$(LIBDIR))/libceduo.a $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
+	for h in $(notdir $(HEADERS)); do rm -f -- $(call to,$(INCLUDEDIR))/ceduo/$$h || exit 1; done
+	rmdir -- $(call to,$(INCLUDEDIR))/ceduo 2>/dev/null || :
 
 # Packs the sources under version control, or in an unpacked archive those listed in it; the bytes are the same each time.
 DIST := ceduo-$(VERSION)
