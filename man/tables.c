@@ -95,9 +95,9 @@ static void put_goals(FILE *out)
         put(out, g->word);
         fputc('\n', out);
         put(out, g->meaning);
-        fprintf(out, ",\n%s\n.Ar value%s%s", g->below ? "below" : "at most at", ceduo_goal_is_share(i) ? "" : "\n",
+        fprintf(out, ",\n%s\n.Ar value%s%s", g->below ? "below" : "at most", ceduo_goal_is_share(i) ? "" : "\n",
                 ceduo_goal_is_share(i) ? "" : g->unit);
-        fprintf(out, g->usual ? "%s\nby default %s.\n" : "%s\nwhich must be given.\n", ceduo_goal_is_share(i) ? " ," : ",",
+        fprintf(out, g->usual ? "%s\nby default %s.\n" : "%s\nwhich is required.\n", ceduo_goal_is_share(i) ? " ," : ",",
                 g->usual);
     }
     fputs(".El\n", out);
@@ -122,7 +122,7 @@ static void put_figures(FILE *out, const struct ceduo_figure *f)
         put(out, f->meaning);
         fprintf(out, "%s%s", f->unit[0] ? "; " : "", f->unit);
         if (f->null) {
-            fputs("; null where ", out);
+            fputs("; null if ", out);
             put(out, f->null);
         }
         fputs(".\n", out);
