@@ -195,7 +195,7 @@ static enum ceduo_status adopt(struct ceduo_run *run, struct bytes *b, struct bl
                 (head.end == head.first || pack_samples(run, b, head.first, head.end, bins, reached));
     if (b->no_memory)
         return CEDUO_NO_MEMORY;
-    if (!good || b->bad || ceduo_bytes_left(b) > 0)
+    if (!good || ceduo_bytes_left(b) > 0)
         return CEDUO_BAD_PART;
     if (!run->exact && !ceduo_histograms_reserve(run->bins, bins, run->columns))
         return CEDUO_NO_MEMORY;

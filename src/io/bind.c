@@ -233,7 +233,7 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
     for (size_t i = 0; i < choices->n; i++)
         ceduo_text_format(&list, "%s%s", i ? ", " : "", choices->names[i]);
     const char *near = ceduo_text_nearest(node->text, choices->names, choices->n);
-    if (near && choices->n > 1)
+    if (near)
         report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, list.bytes ? list.bytes : "");
     else
         report(b, node, _("'%s' is unknown; one of: %s"), node->text, list.bytes ? list.bytes : "");

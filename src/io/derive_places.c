@@ -107,8 +107,7 @@ static void check_spreads(struct deriver *d, const char *path, const char *list,
 {
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     for (size_t i = 0; i < n; i++)
-        if (stems[i].dbh_sd > stems[i].dbh && ceduo_derive_known(d, "%s.%s[%zu].dbh_m", path, list, i) &&
-            ceduo_derive_known(d, "%s.%s[%zu].dbh_sd_m", path, list, i))
+        if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
             ceduo_derive_complain(
                 d, ceduo_derive_text(d, "%s.%s[%zu].dbh_sd_m", path, list, i),
                 _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),

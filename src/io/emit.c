@@ -30,7 +30,7 @@ static bool is_plain(const char *s)
     for (size_t i = 0; i < n; i++) {
         char c = s[i];
         bool word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        if (!word && !strchr("_./+ ", c) && !(c == '-' && (i > 0 || n > 1)))
+        if (!word && !strchr("_./+ ", c) && c != '-')
             return false;
     }
     return !(s[0] == '-' && s[1] == ' ');

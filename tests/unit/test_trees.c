@@ -177,6 +177,8 @@ static void walks_end_where_there_is_nothing(void **state)
     assert_int_equal(used, strlen("forest"));
     assert_ptr_equal(ceduo_resolve_walk(root, "rock.b", &within, &used), ceduo_node_get(root, "rock"));
     assert_int_equal(used, strlen("rock"));
+    assert_ptr_equal(ceduo_resolve_walk(root, "rock[0]", &within, &used), ceduo_node_get(root, "rock"));
+    assert_int_equal(used, strlen("rock"));
     ceduo_arena_free(&arena);
 }
 
