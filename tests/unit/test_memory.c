@@ -6,6 +6,7 @@
 
 #include "core/run_pack.h"
 #include "physics/paper_site.h"
+#include "study/outlook.h"
 
 /* ---- runs ---- */
 
@@ -351,6 +352,48 @@ static bool follow(void)
     return good;
 }
 
+/* What is to be seen of the runs of a pool, which stays as it is. */
+static struct ceduo_pool *seen;
+
+static bool see(void)
+{
+    const double x[] = {125, 130};
+    const struct ceduo_outlook_def def = {
+        .scene = &site.scene, .figures = seen, .pictures = seen, .cells = 2, .cell_x = x, .trails = 3};
+    struct ceduo_outlook *o;
+    enum ceduo_status status = ceduo_outlook_create(&def, &o);
+    if (status != CEDUO_OK) {
+        assert_int_equal(status, CEDUO_NO_MEMORY);
+        assert_null(o);
+        return false;
+    }
+    const struct ceduo_sight *sight = ceduo_outlook_sight(o, &site.scene, 0);
+    add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
+    for (size_t i = 0; i < sight->trails_count; i++)
+        add(sight->trails[i].x, sight->trails[i].n * sizeof(double));
+    ceduo_outlook_free(o);
+    return true;
+}
+
+static void what_is_to_be_seen_of_runs(void **state)
+{
+    (void)state;
+    for (int kept = 0; kept < 2; kept++) {
+        init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+        const double x[] = {125, 130};
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.rocks_most = 40;
+        def.cells = 2;
+        def.cell_x = x;
+        def.exact_bytes = kept ? CEDUO_EXACT_BYTES : 0;
+        assert_int_equal(ceduo_pool_create(&def, &seen), CEDUO_OK);
+        assert_int_equal(ceduo_pool_fill(seen), CEDUO_OK);
+        assert_int_equal(ceduo_pool_extend(seen, 40), CEDUO_OK);
+        without_memory(see);
+        ceduo_pool_free(seen);
+    }
+}
+
 static enum ceduo_status falls(void *context, double value, double *goal)
 {
     (void)context;
@@ -405,6 +448,7 @@ int main(void)
         cmocka_unit_test(runs_go_on),
         cmocka_unit_test(parts_are_joined),
         cmocka_unit_test(what_stands_on_runs),
+        cmocka_unit_test(what_is_to_be_seen_of_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

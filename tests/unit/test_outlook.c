@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What runs give for pictures. */
+#include "unit/site.h"
+
+/* The runs of a scene, flown. */
+static struct ceduo_pool *pool_of(const struct site *s, uint64_t rocks, size_t cells, const double *cell_x,
+                                  size_t exact_bytes)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&s->scene);
+    struct ceduo_pool *pool;
+    def.rocks_most = 1000;
+    def.cells = cells;
+    def.cell_x = cell_x;
+    def.exact_bytes = exact_bytes;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);
+    return pool;
+}
+
+static struct ceduo_outlook *outlook_of(const struct ceduo_outlook_def *def)
+{
+    struct ceduo_outlook *o;
+    assert_int_equal(ceduo_outlook_create(def, &o), CEDUO_OK);
+    return o;
+}
+
+static void places_lie_beyond_the_release(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
+    assert_int_equal(ceduo_outlook_places(&s.scene, x), CEDUO_OUTLOOK_CELLS);
+    assert_true(x[0] > 12);
+    for (int i = 1; i < CEDUO_OUTLOOK_CELLS; i++)
+        assert_true(x[i] > x[i - 1]);
+    assert_true(x[CEDUO_OUTLOOK_CELLS - 1] <= 100);
+    s.scene.release.x = ceduo_number(100);
+    assert_int_equal(ceduo_outlook_places(&s.scene, x), 0);
+}
+
+static void expect_sight(const struct ceduo_sight *sight, const struct ceduo_run *run, size_t cells)
+{
+    assert_non_null(sight);
+    assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
+    assert_int_equal(sight->picture_rocks, ceduo_run_rocks(run));
+    for (size_t c = 0; c < 2; c++) {
+        const struct ceduo_arrivals *found = &sight->flown.arrivals[c];
+        struct ceduo_arrivals a;
+        assert_int_equal(ceduo_run_arrivals(run, c, &a), CEDUO_OK);
+        assert_true(a.reached > 0);
+        assert_int_equal(found->reached, a.reached);
+        assert_int_equal(sight->energies[c].n, a.reached);
+        double sum = 0;
+        for (size_t i = 0; i < sight->energies[c].n; i++)
+            sum += sight->energies[c].values[i];
+        assert_true(fabs(sum / (double)a.reached - found->energy.mean) < 1e-6 * sum);
+    }
+    for (size_t i = 0; i < cells; i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        assert_int_equal(sight->envelopes[i].passed, e.passed);
+    }
+}
+
+static void outlook_is_what_the_runs_say(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    size_t cells = ceduo_outlook_places(&s.scene, x);
+    struct ceduo_pool *pool = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){
+        .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trails = 20});
+    assert_int_equal(o->cells, cells);
+    assert_int_equal(o->controls, 2);
+    assert_int_equal(o->options, 2);
+    for (size_t i = 0; i < cells; i++)
+        assert_true(o->cell_x[i] == x[i]);
+    expect_sight(o->bare, ceduo_pool_find(pool, NULL), cells);
+    expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]), cells);
+    assert_true(o->wooded[0]->flown.arrivals[1].reached < o->bare->flown.arrivals[1].reached);
+    assert_int_equal(o->bare->trails_count, 20);
+    assert_int_equal(o->wooded[0]->trails_count, 20);
+    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->wooded[0]);
+    assert_null(ceduo_outlook_sight(o, &s.scene, 2));
+    assert_null(ceduo_outlook_sight(NULL, &s.scene, 0));
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+    ceduo_outlook_free(NULL);
+}
+
+/* Without stems the rocks are those without forest: the same sight, and it is flown once. */
+static void a_forest_without_stems_is_the_bare_slope(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    assert_int_equal(ceduo_pool_work(pool).runs, 2);
+    assert_ptr_equal(o->wooded[1], o->bare);
+    assert_ptr_not_equal(o->wooded[0], o->bare);
+    for (size_t c = 0; c < 2; c++) {
+        assert_true(o->differences[c].reach_probability.mean == 0);
+        double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
+        assert_true(fabs(o->differences[2 + c].reach_probability.mean - more) < 1e-12);
+    }
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* With the contact model index there is one sight, that of all options. */
+static void the_index_looks_at_the_bare_slope(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    assert_int_equal(ceduo_pool_work(pool).runs, 1);
+    assert_null(o->wooded[0]);
+    assert_null(o->wooded[1]);
+    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->bare);
+    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 1), o->bare);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* Runs that are not there yet leave gaps. */
+static void what_is_not_flown_yet_is_not_known(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
+    struct ceduo_pool *pool;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_pool_create(&run_def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_run(pool, NULL, &run), CEDUO_OK);
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_outlook *o = outlook_of(&def);
+    assert_null(o->bare);
+    ceduo_outlook_free(o);
+    assert_int_equal(ceduo_pool_extend(pool, 100), CEDUO_OK);
+    o = outlook_of(&def);
+    assert_non_null(o->bare);
+    assert_null(o->wooded[0]);
+    assert_ptr_equal(o->wooded[1], o->bare);
+    for (size_t i = 0; i < 4; i++)
+        assert_true(isnan(o->differences[i].reach_probability.mean));
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* Figures come from the longer run, curves from the one that keeps them. */
+static void figures_come_from_the_longer_run(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    size_t cells = ceduo_outlook_places(&s.scene, x);
+    struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_pool *pictures = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook_def def = {
+        .scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    struct ceduo_outlook *o = outlook_of(&def);
+    assert_int_equal(o->wooded[0]->flown.rocks, 600);
+    assert_int_equal(o->wooded[0]->picture_rocks, 300);
+    assert_true(o->wooded[0]->envelopes[0].passed <= 300);
+    ceduo_outlook_free(o);
+    assert_int_equal(ceduo_pool_extend(pictures, 900), CEDUO_OK);
+    o = outlook_of(&def);
+    assert_int_equal(o->wooded[0]->flown.rocks, 900);
+    assert_int_equal(o->bare->flown.rocks, 900);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(figures);
+    ceduo_pool_free(pictures);
+}
+
+/* What has not changed since the last outlook is not read again but shared; who is freed first does not matter. */
+static void sights_are_taken_over(void **state)
+{
+    (void)state;
+    static struct site a, b;
+    for (int order = 0; order < 2; order++) {
+        wooded_site_init(&a);
+        wooded_site_init(&b);
+        b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
+        b.belts[1].stand.shoots_count = 0;
+        struct ceduo_pool *pool = pool_of(&a, 300, 0, NULL, CEDUO_EXACT_BYTES);
+        struct ceduo_outlook_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trails = 5};
+        struct ceduo_outlook *first = outlook_of(&def);
+        ceduo_pool_turn(pool, &b.scene);
+        def.scene = &b.scene;
+        def.last = first;
+        struct ceduo_outlook *early = outlook_of(&def);
+        assert_null(early->wooded[1]);
+        assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+        assert_int_equal(ceduo_pool_extend(pool, 300), CEDUO_OK);
+        def.last = early;
+        struct ceduo_outlook *second = outlook_of(&def);
+        assert_ptr_equal(second->bare, first->bare);
+        assert_ptr_equal(second->wooded[0], first->wooded[0]);
+        assert_non_null(second->wooded[1]);
+        assert_ptr_not_equal(second->wooded[1], first->wooded[1]);
+        assert_int_equal(atomic_load(&first->wooded[0]->references), 3);
+        ceduo_outlook_free(order ? first : second);
+        ceduo_outlook_free(early);
+        struct ceduo_outlook *left = order ? second : first;
+        assert_int_equal(left->wooded[0]->trails_count, 5);
+        assert_int_equal(atomic_load(&left->wooded[0]->references), 1);
+        assert_true(left->wooded[0]->trails[4].n >= 2);
+        ceduo_outlook_free(left);
+        ceduo_pool_free(pool);
+    }
+}
+
+static void longer_runs_are_read_again(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_outlook *first = outlook_of(&def);
+    assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
+    def.last = first;
+    struct ceduo_outlook *second = outlook_of(&def);
+    assert_ptr_not_equal(second->bare, first->bare);
+    assert_ptr_not_equal(second->wooded[0], first->wooded[0]);
+    assert_int_equal(second->wooded[0]->flown.rocks, 301);
+    ceduo_outlook_free(first);
+    ceduo_outlook_free(second);
+    ceduo_pool_free(pool);
+}
+
+static void expect_same_energies(const struct ceduo_sight *a, const struct ceduo_sight *b)
+{
+    for (size_t c = 0; c < 2; c++) {
+        assert_false(b->flown.arrivals[c].exact);
+        assert_true(a->energies[c].n > 0);
+        assert_int_equal(a->energies[c].n, b->energies[c].n);
+        for (size_t i = 0; i < a->energies[c].n; i++)
+            assert_true(fabs(a->energies[c].values[i] - b->energies[c].values[i]) <= 1e-9 * a->energies[c].values[i]);
+    }
+}
+
+/* Runs too long for their samples: the energies come from rocks flown once more, the same ones. */
+static void energies_are_flown_where_they_were_not_kept(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *kept = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
+    struct ceduo_outlook *a =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = kept, .pictures = kept});
+    struct ceduo_outlook *b =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = binned, .pictures = binned});
+    expect_same_energies(a->bare, b->bare);
+    expect_same_energies(a->wooded[0], b->wooded[0]);
+    ceduo_outlook_free(a);
+    ceduo_outlook_free(b);
+    ceduo_pool_free(kept);
+    ceduo_pool_free(binned);
+}
+
+/* Starts and ends where the rock does, never far below the ground, and never jumps. */
+static void trails_follow_the_rocks(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trails = 20});
+    uint64_t hit = 0;
+    for (uint64_t i = 0; i < 40; i++) {
+        const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
+        const struct ceduo_trail t = (option ? o->wooded[0] : o->bare)->trails[i / 2];
+        struct ceduo_way way;
+        assert_int_equal(ceduo_way_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
+        hit += way.stems_hit;
+        assert_true(t.n >= 2);
+        assert_true(t.x[0] == way.x0 && t.z[0] == way.z0);
+        assert_true(t.x[t.n - 1] == way.x && t.z[t.n - 1] == way.z);
+        for (size_t k = 0; k < t.n; k++)
+            if (t.x[k] >= 0 && t.x[k] <= 100)
+                assert_true(t.z[k] > ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
+    }
+    assert_true(hit > 0);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+/* A rock thrown far: every point of its trail and the middle of every chord lies on the parabola. */
+static void flights_are_sampled_finely(void **state)
+{
+    (void)state;
+    static struct site s;
+    site_init(&s);
+    s.scene.release.vx = ceduo_number(10);
+    s.scene.release.vz = ceduo_number(10);
+    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trails = 1});
+    const struct ceduo_trail t = o->bare->trails[0];
+    size_t checked = 0;
+    for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
+        double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
+        assert_true(fabs(z - (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds) < 0.06); /* a step is 0.05 m */
+    }
+    assert_true(checked > 3);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(places_lie_beyond_the_release),
+        cmocka_unit_test(outlook_is_what_the_runs_say),
+        cmocka_unit_test(a_forest_without_stems_is_the_bare_slope),
+        cmocka_unit_test(the_index_looks_at_the_bare_slope),
+        cmocka_unit_test(what_is_not_flown_yet_is_not_known),
+        cmocka_unit_test(figures_come_from_the_longer_run),
+        cmocka_unit_test(sights_are_taken_over),
+        cmocka_unit_test(longer_runs_are_read_again),
+        cmocka_unit_test(energies_are_flown_where_they_were_not_kept),
+        cmocka_unit_test(trails_follow_the_rocks),
+        cmocka_unit_test(flights_are_sampled_finely),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
