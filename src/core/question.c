@@ -15,10 +15,8 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
 
 static enum ceduo_status fly_one(const struct ceduo_question *q, struct ceduo_pool *pool)
 {
-    const struct ceduo_scene *scene = q->run.scene;
-    bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
     struct ceduo_run *run;
-    return ceduo_pool_fly(pool, wooded ? &scene->options[q->only] : NULL, q->rocks, &run);
+    return q->rocks > 0 ? ceduo_pool_fly(pool, &q->run.scene->options[q->only], q->rocks, &run) : CEDUO_OK;
 }
 
 static enum ceduo_status fly_all(const struct ceduo_question *q, struct ceduo_pool *pool, bool *met)

@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/key.h"
-#include "ceduo/result.h"
+#include "ceduo/question.h"
 #include "base/intl.h"
 #include "scene/schema.h"
 
@@ -15,8 +14,7 @@ struct search {
     struct seek *seek;
     struct problems *problems;
     const struct node *root; /* of the scene as it was read */
-    struct ceduo_pool *pool; /* of the scene last flown */
-    uint64_t scene_key;
+    struct ceduo_pool *pool; /* runs kept from value to value */
 };
 
 /* ---- what kind of number it is ---- */
@@ -87,76 +85,25 @@ static bool set_value(struct search *s, double value)
     return good;
 }
 
-static enum ceduo_status ready_pool(struct search *s)
-{
-    const struct ceduo_scene *scene = &s->seek->file->scene;
-    uint64_t key = ceduo_scene_key(scene);
-    if (s->pool && key == s->scene_key) {
-        ceduo_pool_turn(s->pool, scene);
-        return CEDUO_OK;
-    }
-    ceduo_pool_free(s->pool);
-    s->pool = NULL;
-    s->scene_key = key;
-    struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.threads = s->seek->threads;
-    def.rocks_most = s->seek->search.rocks;
-    def.cancel = s->seek->cancel;
-    def.arrivals_only = true;
-    return ceduo_pool_create(&def, &s->pool);
-}
-
-/* What a goal of the rocks is at one control: the mean wooded energy, by the index what is left, or the share that
- * exceeds. Where no rock arrives all is well. */
-static double goal_of_rocks(const struct search *s, const struct ceduo_option *option, const struct ceduo_run *bare,
-                            const struct ceduo_run *wooded, size_t c, enum ceduo_status *status)
-{
-    const struct ceduo_scene *scene = &s->seek->file->scene;
-    struct ceduo_arrivals a;
-    *status = ceduo_run_arrivals(wooded ? wooded : bare, c, &a);
-    if (*status != CEDUO_OK)
-        return NAN;
-    if (s->seek->search.goal == CEDUO_GOAL_EXCEED)
-        return a.exceed_probability;
-    if (a.reached == 0)
-        return 0;
-    if (wooded)
-        return a.energy.mean * 1e-3;
-    return ceduo_assess_index(scene, option, &scene->controls[c], a.energy.mean).residual * 1e-3;
-}
-
-static enum ceduo_status fly(struct search *s, const struct ceduo_option *option, double *worst)
-{
-    const struct ceduo_scene *scene = &s->seek->file->scene;
-    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
-    struct ceduo_run *run = NULL;
-    enum ceduo_status status = ready_pool(s);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_run(s->pool, flies ? option : NULL, &run);
-    if (status == CEDUO_OK)
-        status = ceduo_run_extend(run, s->seek->search.rocks);
-    for (size_t c = 0; c < scene->controls_count && status == CEDUO_OK; c++) {
-        double goal = goal_of_rocks(s, option, run, flies ? run : NULL, c, &status);
-        *worst = isnan(goal) || goal > *worst ? goal : *worst;
-    }
-    return status;
-}
-
 static enum ceduo_status goal_at(void *context, double value, double *goal)
 {
     struct search *s = context;
     if (!set_value(s, value))
         return CEDUO_BAD_SLOPE; /* told in problems */
-    const struct ceduo_scene *scene = &s->seek->file->scene;
-    const struct ceduo_option *option = &scene->options[s->seek->search.option];
-    *goal = -INFINITY;
-    if (s->seek->search.goal == CEDUO_GOAL_ENERGY || s->seek->search.goal == CEDUO_GOAL_EXCEED)
-        return fly(s, option, goal);
-    for (size_t c = 0; c < scene->controls_count; c++) {
-        struct ceduo_index index = ceduo_assess_index(scene, option, &scene->controls[c], NAN);
-        *goal = fmax(*goal, s->seek->search.goal == CEDUO_GOAL_ADC ? index.worst_adc : index.worst_free_run);
-    }
-    return CEDUO_OK;
+    const struct ceduo_search *search = &s->seek->search;
+    struct ceduo_question q = ceduo_question_default(&s->seek->file->scene);
+    struct ceduo_answer answer;
+    q.rocks = ceduo_goals[search->goal].flies ? search->rocks : 0;
+    q.only = search->option;
+    q.run.rocks_most = search->rocks;
+    q.run.threads = s->seek->threads;
+    q.run.cancel = s->seek->cancel;
+    q.run.arrivals_only = true;
+    enum ceduo_status status = ceduo_ask(&q, &s->pool, &answer);
+    if (status == CEDUO_OK)
+        *goal = ceduo_goal_reached(search->goal, answer.result, search->option);
+    ceduo_answer_release(&answer);
+    return status;
 }
 
 /* ---- the search ---- */
@@ -204,9 +151,5 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
                                  .cancel = seek->cancel};
     enum ceduo_status status = ceduo_find(&def, found);
     ceduo_pool_free(s.pool);
-    seek->file->root = s.root;
-    struct problems none = {0};
-    ceduo_scene_bind(seek->file, &none);
-    ceduo_problems_free(&none);
     return status;
 }

@@ -11,7 +11,7 @@
  * the next time. */
 
 struct seek {
-    struct scene_file *file; /* read; it is as before in the end */
+    struct scene_file *file; /* as it was read; the search leaves it at its last value */
     struct ceduo_search search;
     unsigned threads;
     const atomic_bool *cancel; /* may be NULL */

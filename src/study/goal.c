@@ -9,13 +9,13 @@
 #include "ceduo/assess.h"
 
 const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
-    [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, "the ADC of the worst belt", "the threshold of the scene"},
-    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false,
+    [CEDUO_GOAL_ADC] = {"adc", N_("ADC"), "m", true, false, "the ADC of the worst belt", "the threshold of the scene"},
+    [CEDUO_GOAL_FREE_RUN] = {"free-run", N_("chance of a free run"), "%", false, false,
                              "the chance of a free run in the worst belt", "0.1"},
-    [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false,
+    [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false, true,
                            "the mean energy of the rocks that arrive through the forest (with contact_model: index what the "
                            "index leaves of the mean without forest)", NULL},
-    [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false,
+    [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, true,
                            "the share of the released that arrive through the forest with more than the place bears", "0.05"}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
@@ -27,6 +27,28 @@ double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *sim
 {
     const double limits[CEDUO_GOALS] = {simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST};
     return limits[goal];
+}
+
+/* Where no rock arrives all is well. */
+static double mean_kJ(const struct ceduo_arrivals *a, bool wooded, const struct ceduo_index *index)
+{
+    return a->reached == 0 ? 0 : (wooded ? a->energy.mean : index->residual) * 1e-3;
+}
+
+double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option)
+{
+    double worst = -INFINITY;
+    for (size_t c = 0; c < result->scene->controls_count; c++) {
+        const struct ceduo_index *index = &result->options[option].controls[c];
+        const struct ceduo_arrivals *wooded = ceduo_result_wooded(result, option, c);
+        const struct ceduo_arrivals *arrivals = wooded ? wooded : &result->bare.arrivals[c];
+        double value = goal == CEDUO_GOAL_ADC        ? index->worst_adc
+                       : goal == CEDUO_GOAL_FREE_RUN ? index->worst_free_run
+                       : goal == CEDUO_GOAL_EXCEED   ? arrivals->exceed_probability
+                                                     : mean_kJ(arrivals, wooded != NULL, index);
+        worst = isnan(value) || value > worst ? value : worst;
+    }
+    return worst;
 }
 
 enum ceduo_goal_reading ceduo_goal_read(char *text, enum ceduo_goal *goal, double *value)

@@ -2,10 +2,10 @@
 #ifndef CEDUO_GOAL_H
 #define CEDUO_GOAL_H
 
-#include "ceduo/scene.h"
+#include "ceduo/result.h"
 
 /* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
- * value in ceduo_seek(). */
+ * value in ceduo_goal_reached(). */
 enum ceduo_goal { CEDUO_GOAL_ADC, CEDUO_GOAL_FREE_RUN, CEDUO_GOAL_ENERGY, CEDUO_GOAL_EXCEED, CEDUO_GOALS };
 
 struct ceduo_goal_row {
@@ -13,6 +13,7 @@ struct ceduo_goal_row {
     const char *name;    /* in sentences */
     const char *unit;    /* of its value; "%": a share, 0…1 */
     bool below;          /* reached below the value; otherwise at most at it */
+    bool flies;          /* rocks answer it; otherwise the index of a forest alone */
     const char *meaning; /* for the manual */
     const char *usual;   /* what the value is where none is given; NULL: it must be given */
 };
@@ -24,6 +25,9 @@ bool ceduo_goal_is_share(enum ceduo_goal goal);
 
 /* The limit of the light that the goal belongs to; NaN where there is none. */
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation);
+
+/* What an option reaches at its worst control, in the goal's unit; NaN where that is not known. */
+double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option);
 
 enum ceduo_goal_reading { CEDUO_GOAL_GOOD, CEDUO_GOAL_UNKNOWN, CEDUO_GOAL_NO_NUMBER, CEDUO_GOAL_NEGATIVE, CEDUO_GOAL_NO_SHARE };
 

@@ -87,7 +87,7 @@ bool ceduo_app_open_text(struct app *app, const char *text);
 
 void ceduo_app_resize(struct app *app, int width, int height);
 
-/* Takes the worker's news. True where the screen has changed. */
+/* Takes the news of the jobs. True where the screen has changed. */
 bool ceduo_app_news(struct app *app);
 
 void ceduo_app_say(struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));

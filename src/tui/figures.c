@@ -6,23 +6,24 @@
 
 bool ceduo_figures_create(struct figures *f, unsigned threads)
 {
-    *f = (struct figures){.worker = ceduo_worker_create(threads)};
-    return f->worker != NULL;
+    *f = (struct figures){.jobs = ceduo_jobs_create(threads)};
+    return f->jobs != NULL;
 }
 
 void ceduo_figures_free(struct figures *f)
 {
-    ceduo_worker_free(f->worker);
+    ceduo_jobs_free(f->jobs);
     ceduo_result_free(f->result);
     ceduo_outlook_free(f->outlook);
     ceduo_years_free(f->years);
+    ceduo_sought_free(f->sought);
     *f = (struct figures){0};
 }
 
 bool ceduo_figures_restart(struct figures *f)
 {
     struct figures next;
-    if (!ceduo_figures_create(&next, ceduo_worker_threads(f->worker)))
+    if (!ceduo_figures_create(&next, ceduo_jobs_threads(f->jobs)))
         return false;
     ceduo_figures_free(f);
     *f = next;
@@ -80,19 +81,15 @@ static void refresh(struct figures *f, const struct ceduo_scene *scene)
 
 void ceduo_figures_follow(struct figures *f, const struct ceduo_scene *scene, size_t option, bool years)
 {
-    uint64_t key = years ? ceduo_worker_years_key(scene, option) : ceduo_worker_key(scene);
-    if (key != f->asked) {
-        ceduo_worker_request(f->worker, scene, option, years);
-        f->asked = key;
-        f->busy = true;
-    }
+    f->busy |= ceduo_jobs_show(f->jobs, scene, option, years);
+    f->asked = ceduo_jobs_key(scene);
     refresh(f, scene);
 }
 
 bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool *failed)
 {
-    struct worker_news news = ceduo_worker_news(f->worker);
-    bool changed = news.busy != f->busy || news.outlook || news.years || news.failed;
+    struct jobs_news news = ceduo_jobs_news(f->jobs);
+    bool changed = news.busy != f->busy || news.outlook || news.years || news.sought || news.failed;
     f->busy = news.busy;
     *failed = news.failed;
     if (news.outlook) {
@@ -105,6 +102,10 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
         ceduo_years_free(f->years);
         f->years = news.years;
         f->years_option = news.years_option;
+    }
+    if (news.sought) {
+        ceduo_sought_free(f->sought);
+        f->sought = news.sought;
     }
     if (news.outlook || news.years)
         refresh(f, scene);

@@ -2,17 +2,18 @@
 #ifndef CEDUO_FIGURES_H
 #define CEDUO_FIGURES_H
 
-#include "model/worker.h"
+#include "model/jobs.h"
 #include "ceduo/result.h"
 
 /* What is known of the scene by the newest runs. It follows edits by itself: what the rocks meet is asked for anew, the
  * rest is assessed at once. */
 struct figures {
-    struct worker *worker;
+    struct jobs *jobs;
     struct ceduo_outlook *outlook; /* newest; NULL before the first */
     struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
     struct ceduo_years *years;     /* to come, of option `years_option`; NULL: not computed */
     size_t years_option;
+    struct sought *sought;         /* what a search came to, until it is taken; NULL: nothing new */
     uint64_t asked, shown;         /* keys of the runs that were asked for last, and of the outlook */
     bool busy;
     double seconds;                /* from the edit to the outlook */
@@ -29,7 +30,7 @@ bool ceduo_figures_restart(struct figures *figures);
 /* The scene has changed. `years`: the years to come of the option as well. */
 void ceduo_figures_follow(struct figures *figures, const struct ceduo_scene *scene, size_t option, bool years);
 
-/* Takes the worker's news; true where something has changed. `*failed`: there is no memory for more. */
+/* Takes the news of the jobs; true where something has changed. `*failed`: there is no memory for more. */
 bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene, bool *failed);
 
 /* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */

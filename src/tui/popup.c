@@ -155,6 +155,7 @@ static void fields_key(struct app *app, int key)
     struct popup *p = app->popup;
     bool last = p->at + 1 >= p->fields_count;
     p->message[0] = '\0';
+    ceduo_jobs_stop_seek(app->figures.jobs); /* that these fields asked for */
     if (key == K_ESCAPE) {
         ceduo_popup_close(app);
     } else if (key == K_UP || key == K_SHIFT_TAB) {

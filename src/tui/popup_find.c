@@ -25,45 +25,62 @@ static bool read_goal(struct app *app, char *text, struct ceduo_search *search)
     return false;
 }
 
-#define FIND_ROCKS 2000 /* so that the answer is there at once */
+#define FIND_ROCKS 2000 /* so that the answer is there soon */
 
-/* Looks for the value, and puts it into the field where one is found. */
-static bool filled_find(struct app *app, struct popup *p)
+/* What the fields ask for; the path is the popup's. */
+static bool read_fields(struct app *app, struct popup *p, struct seek *seek)
 {
-    struct seek seek = {.file = &app->document.file,
-                        .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS},
-                        .threads = ceduo_worker_threads(app->figures.worker)};
     char goal[64];
+    *seek = (struct seek){.file = &app->document.file,
+                          .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS}};
     snprintf(goal, sizeof goal, "%.63s", p->fields[FIND_GOAL].text);
-    if (!read_goal(app, goal, &seek.search))
+    if (!read_goal(app, goal, &seek->search))
         return false;
-    if (ceduo_number_read(p->fields[FIND_LO].text, &seek.search.lo) != CEDUO_NUMBER_GOOD ||
-        ceduo_number_read(p->fields[FIND_HI].text, &seek.search.hi) != CEDUO_NUMBER_GOOD || !(seek.search.lo <= seek.search.hi)) {
+    if (ceduo_number_read(p->fields[FIND_LO].text, &seek->search.lo) != CEDUO_NUMBER_GOOD ||
+        ceduo_number_read(p->fields[FIND_HI].text, &seek->search.hi) != CEDUO_NUMBER_GOOD || !(seek->search.lo <= seek->search.hi)) {
         ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
         return false;
     }
-    struct ceduo_found found;
-    enum ceduo_status status = ceduo_seek(&seek, &found, &app->problems);
-    bool good = status == CEDUO_OK;
-    if (!good) {
-        ceduo_app_edited(app, false);
-        return false;
+    return true;
+}
+
+/* Starts the search; the popup stays until it is done. */
+static bool filled_find(struct app *app, struct popup *p)
+{
+    struct seek seek;
+    if (read_fields(app, p, &seek)) {
+        ceduo_jobs_seek(app->figures.jobs, &seek);
+        ceduo_app_say(app, "%s", _("looking for it; any key stops"));
     }
+    return false;
+}
+
+/* Puts the value that was found into the field, and says it. */
+static bool take(struct app *app, struct popup *p, struct sought *sought)
+{
+    struct seek seek;
+    const struct ceduo_found *found = &sought->found;
+    app->problems = sought->problems;
+    sought->problems = (struct problems){0};
+    if (sought->status != CEDUO_OK || !read_fields(app, p, &seek))
+        return ceduo_app_edited(app, false);
+    seek.search.target = sought->target;
     struct text words = {0};
     bool set = true;
-    if (found.found && found.whole_range) { /* then the value that is there is as good as another */
+    if (found->found && found->whole_range) { /* then the value that is there is as good as another */
         const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
         ceduo_text_format(&words, _("every value from %s to %s reaches the goal %s; the field stays %s"),
                           p->fields[FIND_LO].text, p->fields[FIND_HI].text, p->fields[FIND_GOAL].text,
                           cell && cell->text[0] ? cell->text : _("as it is"));
     } else {
-        ceduo_find_page(&words, &(struct ceduo_find_report){seek.file, &seek.search, &found});
+        ceduo_find_page(&words, &(struct ceduo_find_report){seek.file, &seek.search, found});
     }
-    if (found.found && !found.whole_range) {
-        char room[CEDUO_NUMBER_ROOM], path[1024];
-        snprintf(path, sizeof path, "%s", p->path);
-        set = ceduo_document_set(&app->document, path, ceduo_number_shortest(found.value, room), &app->problems);
+    if (found->found && !found->whole_range) {
+        char room[CEDUO_NUMBER_ROOM];
+        set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);
         ceduo_app_edited(app, set);
+    } else {
+        ceduo_problems_free(&app->problems);
     }
     for (char *c = words.bytes; c && *c; c++)
         *c = *c == '\n' ? ' ' : *c;
@@ -71,6 +88,18 @@ static bool filled_find(struct app *app, struct popup *p)
         ceduo_app_say(app, "%s", words.bytes);
     ceduo_text_free(&words);
     return true;
+}
+
+void ceduo_popup_found(struct app *app, struct sought *sought)
+{
+    struct popup *p = app->popup;
+    if (!p || p->filled != filled_find)
+        return;
+    app->message[0] = '\0';
+    if (take(app, p, sought))
+        ceduo_popup_close(app);
+    else
+        snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
 }
 
 void ceduo_popup_find(struct app *app)

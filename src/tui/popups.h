@@ -17,6 +17,9 @@ void ceduo_popup_search(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 
+/* What the search came to that ceduo_popup_find() started. */
+void ceduo_popup_found(struct app *app, struct sought *sought);
+
 /* ---- saving, and unsaved work (popup_save.c) ---- */
 
 /* Writes where the scene came from; asks where it cannot, or where the file has changed. */

@@ -175,3 +175,14 @@ void ceduo_program_free(struct app *app)
     ceduo_popup_close(app);
     ceduo_app_free(app);
 }
+
+bool ceduo_program_news(struct app *app)
+{
+    bool changed = ceduo_app_news(app);
+    struct sought *sought = app->figures.sought;
+    app->figures.sought = NULL;
+    if (sought)
+        ceduo_popup_found(app, sought);
+    ceduo_sought_free(sought);
+    return changed;
+}

@@ -15,4 +15,7 @@ void ceduo_program_key(struct app *app, int key);
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int by);
 
+/* As ceduo_app_news(), and what a search found. */
+bool ceduo_program_news(struct app *app);
+
 #endif

@@ -23,13 +23,21 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
     return SCRIPT_WRONG;
 }
 
+/* A script sees what a search found before its next key. */
+static void press_key(struct app *app, int key)
+{
+    ceduo_program_key(app, key);
+    if (ceduo_jobs_wait_seek(app->figures.jobs))
+        ceduo_program_news(app);
+}
+
 static enum script_end press(struct app *app, char *names, const char *path, size_t line)
 {
     for (char *save, *name = strtok_r(names, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
         int key = ceduo_key_of(name);
         if (key == K_NONE)
             return fail(path, line, _("no such key"), name);
-        ceduo_program_key(app, key);
+        press_key(app, key);
     }
     return SCRIPT_DONE;
 }
@@ -41,20 +49,20 @@ static void type(struct app *app, const char *text)
         uint32_t code;
         size_t length = ceduo_utf8_decode(text + i, n - i, &code);
         if (length > 0)
-            ceduo_program_key(app, (int)code);
+            press_key(app, (int)code);
         i += length > 0 ? length : 1;
     }
 }
 
 static void wait_idle(struct app *app)
 {
-    ceduo_worker_wait(app->figures.worker);
-    ceduo_app_news(app);
+    ceduo_jobs_wait(app->figures.jobs);
+    ceduo_program_news(app);
 }
 
 static enum script_end dump(struct app *app, const char *name, bool roles, const char *path, size_t line)
 {
-    ceduo_app_news(app);
+    ceduo_program_news(app);
     ceduo_screen_draw(app);
     char *text = roles ? ceduo_cells_roles(app->cells) : ceduo_cells_dump(app->cells);
     bool good = text != NULL;

@@ -233,7 +233,7 @@ static void loop(struct app *app, bool colours)
     show(app, colours);
     while (!app->quit && !app->stopped && !ending) {
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
-                                {.fd = ceduo_worker_fd(app->figures.worker), .events = POLLIN},
+                                {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN},
                                 {.fd = wake[0], .events = POLLIN}};
         int n = poll(fds, 3, -1);
         if (n < 0 && errno != EINTR)
@@ -246,7 +246,7 @@ static void loop(struct app *app, bool colours)
             ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
         bool changed = take_keys(app); /* also where a signal told of a new size */
-        changed |= ceduo_app_news(app);
+        changed |= ceduo_program_news(app);
         if (changed || n < 0 || app->width != COLS || app->height != LINES)
             show(app, colours);
     }

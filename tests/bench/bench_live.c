@@ -31,7 +31,7 @@ static void report(const char *what, double *ms, size_t n, double goal_median, d
 static void wait_for(struct app *app, uint64_t rocks)
 {
     do {
-        struct pollfd fd = {.fd = ceduo_worker_fd(app->figures.worker), .events = POLLIN};
+        struct pollfd fd = {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
         ceduo_app_news(app);
     } while (!app->figures.result || app->figures.outlook->bare->flown.rocks < rocks || app->figures.asked != app->figures.shown);
@@ -71,7 +71,7 @@ int main(int argc, char **argv)
                           &problems))
         return 1;
     ceduo_app_resize(&app, 120, 40);
-    ceduo_worker_wait(app.figures.worker);
+    ceduo_jobs_wait(app.figures.jobs);
     printf("what,edits,median_ms,p99_ms,goal_median_ms,goal_p99_ms\n");
     for (size_t i = 0; i < repeats; i++) {
         ceduo_program_key(&app, '3');

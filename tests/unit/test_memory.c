@@ -229,69 +229,42 @@ static bool join_pools(void)
     return status == CEDUO_OK;
 }
 
-static bool pool_and_years(void)
+/* Two options, of which one is cut in the second of the years, and blocks of other sizes. */
+static bool question(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    site.scene.simulation.rocks = 30;
     struct ceduo_option options[2] = {site.option, {.name = NULL}};
     site.scene.options = options;
     site.scene.options_count = 2;
-    struct ceduo_stand *stand = &site.belts[0].stand; /* cut in the second of the years */
+    struct ceduo_stand *stand = &site.belts[0].stand;
     assert_true(ceduo_growth_of_species(stand->species, &stand->growth));
     stand->cutting = (struct ceduo_cutting){.rotation = 20};
     site.belts[0].cut_year = 2;
-    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
-    struct ceduo_pool *pool;
-    struct ceduo_result *result = NULL;
-    struct ceduo_years *years = NULL;
-    struct ceduo_flown bare = {0};
-    struct ceduo_run *run = NULL;
-    bool met;
-    enum ceduo_status status = ceduo_pool_create(&def, &pool);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_fill(pool);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_until(pool, 1, 30, &met);
-    if (status == CEDUO_OK)
-        status = ceduo_result_create(&site.scene, pool, &result);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_run(pool, NULL, &run);
-    if (status == CEDUO_OK)
-        status = ceduo_flown_read(run, 1, &bare);
-    if (status == CEDUO_OK)
-        status = ceduo_years_create(&site.scene, &site.option, 0, 4, 2, &years);
-    if (status == CEDUO_OK)
-        status = ceduo_years_fly(years, pool, &bare, 30);
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    struct ceduo_pool *pool = NULL;
+    struct ceduo_answer answer;
+    q.run = def_of(false, CEDUO_EXACT_BYTES);
+    q.rocks = 30;
+    q.tolerance = 1;
+    q.years = true;
+    q.year_last = 4;
+    q.year_step = 2;
+    q.block_rocks = 20;
+    enum ceduo_status status = ceduo_ask(&q, &pool, &answer);
     if (status == CEDUO_OK) {
-        const struct ceduo_arrivals *a = ceduo_result_wooded(result, 0, 0);
-        struct ceduo_years_summary s = ceduo_years_sum(years, 0);
-        add(a, offsetof(struct ceduo_arrivals, exact));
+        struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
+        add(ceduo_result_wooded(answer.result, 0, 0), offsetof(struct ceduo_arrivals, exact));
         add(&s.reach, sizeof s.reach);
         add(&s.worst, sizeof s.worst);
+        for (size_t i = 0; i < 2 * CEDUO_BLOCKS; i++) {
+            add(&answer.blocks[i].reached, sizeof answer.blocks[i].reached);
+            add(&answer.blocks[i].exceed_hi, sizeof answer.blocks[i].exceed_hi);
+        }
     }
-    ceduo_years_free(years);
-    ceduo_flown_free(&bare);
-    ceduo_result_free(result);
+    ceduo_answer_release(&answer);
     ceduo_pool_free(pool);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
-}
-
-static bool blocks(void)
-{
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_block b[CEDUO_BLOCKS];
-    memset(b, 0, sizeof b);
-    enum ceduo_status status = ceduo_blocks(&site.scene, &site.option, 0, 20, 1, NULL, b);
-    if (status != CEDUO_OK) {
-        assert_int_equal(status, CEDUO_NO_MEMORY);
-        return false;
-    }
-    for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-        add(&b[i].reached, sizeof b[i].reached);
-        add(&b[i].exceed_hi, sizeof b[i].exceed_hi);
-    }
-    return true;
 }
 
 /* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
@@ -434,8 +407,7 @@ static void what_stands_on_runs(void **state)
 {
     (void)state;
     without_memory(join_pools);
-    without_memory(pool_and_years);
-    without_memory(blocks);
+    without_memory(question);
     without_memory(follow);
     without_memory(follow_one);
     without_memory(follow_roll);

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_FLIGHTS_H
+#define CEDUO_FLIGHTS_H
+
+#include "ceduo/years.h"
+#include "study/outlook.h"
+
+/* The runs that the live program keeps from request to request, flown in steps from coarse to fine. Short runs carry the
+ * envelopes of the pictures, long ones the figures, and those of years only what arrives. */
+struct flights;
+
+#define FLIGHTS_FIRST     1024   /* rocks of the first step; each further one flies ten times as many */
+#define FLIGHTS_PICTURE   10240  /* enough for envelopes */
+#define FLIGHTS_YEAR      10240  /* of each year */
+#define FLIGHTS_MOST      102400 /* of each forest */
+#define FLIGHTS_TOLERANCE 0.004  /* fewer once mean energies are known to this (95 %) */
+
+struct flights *ceduo_flights_create(unsigned threads, const atomic_bool *cancel); /* NULL without memory */
+void ceduo_flights_free(struct flights *flights);
+
+/* Takes an outlook, which is its own from then on, as soon as it is known. */
+typedef void flights_publish(void *context, struct ceduo_outlook *outlook);
+
+/* One step of the figures: so many rocks without forest and through every option, that of `shown` first. `*enough`: no
+ * finer step is needed. CEDUO_CANCELLED: the next call continues. */
+enum ceduo_status ceduo_flights_figures(struct flights *flights, const struct ceduo_scene *scene, size_t shown,
+                                        uint64_t rocks, flights_publish *publish, void *context, bool *enough);
+
+/* One step of the years to come of an option. A step of the figures goes before it. */
+enum ceduo_status ceduo_flights_years(struct flights *flights, const struct ceduo_scene *scene, size_t option,
+                                      uint64_t rocks, struct ceduo_years **years);
+
+#endif

@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "jobs.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "ceduo/key.h"
+
+enum kind { SEEK, FIGURES, YEARS, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
+
+struct job {
+    bool wanted;     /* not done */
+    uint64_t number; /* of the request; a result of another number is stale */
+    uint64_t key;    /* of what was asked for last; 0: nothing */
+    uint64_t rocks;  /* of the next step; a search has one, and goes first */
+    double asked;
+    size_t option;
+    struct ceduo_scene scene;
+    struct seek seek;
+    struct scene_file file; /* that the search changes */
+    char path[1024];
+};
+
+struct jobs {
+    pthread_t thread;
+    unsigned threads;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    int pipe[2];
+    atomic_bool cancel;
+    struct flights *flights; /* the thread's own */
+    /* under the lock */
+    bool quit;
+    enum kind working;
+    uint64_t requests;
+    struct job jobs[KINDS];
+    struct jobs_news news;
+};
+
+static void tell(struct jobs *q)
+{
+    char byte = 0;
+    if (write(q->pipe[1], &byte, 1) < 0)
+        return; /* full: news is waiting to be read anyway */
+}
+
+/* ---- steps, in the thread: each works on a copy of its job ---- */
+
+/* Takes the lock for a result of the job; false, and no lock, where it is stale. */
+static bool lock_result(struct jobs *q, enum kind kind, uint64_t number)
+{
+    pthread_mutex_lock(&q->lock);
+    if (q->jobs[kind].number == number)
+        return true;
+    pthread_mutex_unlock(&q->lock);
+    return false;
+}
+
+static void unlock_result(struct jobs *q)
+{
+    pthread_mutex_unlock(&q->lock);
+    tell(q);
+}
+
+struct publisher {
+    struct jobs *queue;
+    const struct job *job;
+};
+
+static void publish(void *context, struct ceduo_outlook *outlook)
+{
+    const struct publisher *p = context;
+    struct jobs_news *news = &p->queue->news;
+    if (!lock_result(p->queue, FIGURES, p->job->number)) {
+        ceduo_outlook_free(outlook);
+        return;
+    }
+    ceduo_outlook_free(news->outlook);
+    news->outlook = outlook;
+    news->key = p->job->key;
+    news->seconds = ceduo_clock() - p->job->asked;
+    unlock_result(p->queue);
+}
+
+static enum ceduo_status step_figures(struct jobs *q, struct job *job)
+{
+    struct publisher publisher = {q, job};
+    bool enough = false;
+    enum ceduo_status status =
+        ceduo_flights_figures(q->flights, &job->scene, job->option, job->rocks, publish, &publisher, &enough);
+    job->wanted = !enough;
+    return status;
+}
+
+static enum ceduo_status step_years(struct jobs *q, struct job *job)
+{
+    struct ceduo_years *years;
+    enum ceduo_status status = ceduo_flights_years(q->flights, &job->scene, job->option, job->rocks, &years);
+    job->wanted = job->rocks < FLIGHTS_YEAR;
+    if (status != CEDUO_OK)
+        return status;
+    if (!lock_result(q, YEARS, job->number)) {
+        ceduo_years_free(years);
+        return CEDUO_OK;
+    }
+    ceduo_years_free(q->news.years);
+    q->news.years = years;
+    q->news.years_option = job->option;
+    unlock_result(q);
+    return CEDUO_OK;
+}
+
+void ceduo_sought_free(struct sought *sought)
+{
+    if (sought)
+        ceduo_problems_free(&sought->problems);
+    free(sought);
+}
+
+/* A search that finds fault with what was asked is done, too. */
+static enum ceduo_status step_seek(struct jobs *q, struct job *job)
+{
+    struct sought *sought = calloc(1, sizeof *sought);
+    if (!sought)
+        return CEDUO_NO_MEMORY;
+    job->seek.file = &job->file;
+    job->seek.search.path = job->path;
+    job->seek.threads = q->threads;
+    job->seek.cancel = &q->cancel;
+    sought->status = ceduo_seek(&job->seek, &sought->found, &sought->problems);
+    sought->target = job->seek.search.target;
+    ceduo_arena_free(&job->file.arena);
+    job->wanted = false;
+    if (sought->status == CEDUO_CANCELLED || !lock_result(q, SEEK, job->number)) {
+        ceduo_sought_free(sought);
+        return CEDUO_CANCELLED;
+    }
+    ceduo_sought_free(q->news.sought);
+    q->news.sought = sought;
+    unlock_result(q);
+    return CEDUO_OK;
+}
+
+/* ---- the thread ---- */
+
+static enum kind next_kind(const struct jobs *q)
+{
+    enum kind next = NONE;
+    for (enum kind k = SEEK; k < KINDS; k++)
+        if (q->jobs[k].wanted && (next == NONE || q->jobs[k].rocks < q->jobs[next].rocks))
+            next = k;
+    return next;
+}
+
+/* What comes of a step: the job is done, goes on finer, or with the same step where it was interrupted. */
+static void end_step(struct jobs *q, enum kind kind, const struct job *done, enum ceduo_status status)
+{
+    struct job *job = &q->jobs[kind];
+    if (job->number != done->number || status == CEDUO_CANCELLED)
+        return;
+    q->news.failed |= status != CEDUO_OK;
+    job->wanted = status == CEDUO_OK && done->wanted;
+    job->rocks *= 10;
+}
+
+static void *work(void *argument)
+{
+    static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {step_seek, step_figures,
+                                                                                         step_years};
+    struct jobs *q = argument;
+    pthread_mutex_lock(&q->lock);
+    while (!q->quit) {
+        enum kind kind = q->working = next_kind(q);
+        if (kind == NONE) {
+            pthread_cond_broadcast(&q->changed);
+            tell(q);
+            pthread_cond_wait(&q->changed, &q->lock);
+            continue;
+        }
+        struct job job = q->jobs[kind];
+        atomic_store(&q->cancel, false);
+        pthread_mutex_unlock(&q->lock);
+        enum ceduo_status status = steps[kind](q, &job);
+        pthread_mutex_lock(&q->lock);
+        end_step(q, kind, &job, status);
+        if (kind == SEEK)
+            pthread_cond_broadcast(&q->changed);
+    }
+    pthread_mutex_unlock(&q->lock);
+    return NULL;
+}
+
+/* ---- making and freeing ---- */
+
+static void release(struct jobs *q)
+{
+    ceduo_flights_free(q->flights);
+    ceduo_outlook_free(q->news.outlook);
+    ceduo_years_free(q->news.years);
+    ceduo_sought_free(q->news.sought);
+    if (q->pipe[0] >= 0) {
+        close(q->pipe[0]);
+        close(q->pipe[1]);
+    }
+    free(q);
+}
+
+struct jobs *ceduo_jobs_create(unsigned threads)
+{
+    struct jobs *q = calloc(1, sizeof *q);
+    if (!q)
+        return NULL;
+    q->threads = threads;
+    q->working = NONE;
+    q->flights = ceduo_flights_create(threads, &q->cancel);
+    q->pipe[0] = -1;
+    pthread_mutex_init(&q->lock, NULL);
+    pthread_cond_init(&q->changed, NULL);
+    if (!q->flights || pipe2(q->pipe, O_NONBLOCK | O_CLOEXEC) != 0 || pthread_create(&q->thread, NULL, work, q) != 0) {
+        release(q);
+        return NULL;
+    }
+    return q;
+}
+
+void ceduo_jobs_free(struct jobs *q)
+{
+    if (!q)
+        return;
+    pthread_mutex_lock(&q->lock);
+    q->quit = true;
+    atomic_store(&q->cancel, true);
+    pthread_cond_broadcast(&q->changed);
+    pthread_mutex_unlock(&q->lock);
+    pthread_join(q->thread, NULL);
+    pthread_mutex_destroy(&q->lock);
+    pthread_cond_destroy(&q->changed);
+    release(q);
+}
+
+unsigned ceduo_jobs_threads(const struct jobs *q)
+{
+    return q->threads;
+}
+
+/* ---- asking ---- */
+
+uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
+{
+    uint64_t key = ceduo_scene_key(scene);
+    for (size_t i = 0; i < scene->options_count; i++)
+        key = key * 1099511628211u ^ ceduo_option_key(scene, &scene->options[i]);
+    return key * 1099511628211u ^ scene->options_count ^ (uint64_t)scene->simulation.contact_model << 32;
+}
+
+/* Puts a job in the place of the one before; under the lock. */
+static void ask(struct jobs *q, enum kind kind, const struct job *job)
+{
+    q->jobs[kind] = *job;
+    q->jobs[kind].wanted = true;
+    q->jobs[kind].number = ++q->requests;
+    q->jobs[kind].asked = ceduo_clock();
+    q->news.failed = false;
+    atomic_store(&q->cancel, true);
+    pthread_cond_broadcast(&q->changed);
+}
+
+/* A job that is not done; under the lock. */
+static void drop(struct jobs *q, enum kind kind)
+{
+    if (!q->jobs[kind].wanted)
+        return;
+    q->jobs[kind] = (struct job){.number = ++q->requests};
+    if (q->working == kind)
+        atomic_store(&q->cancel, true);
+}
+
+bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, size_t shown, bool years)
+{
+    struct job job = {.key = ceduo_jobs_key(scene), .rocks = FLIGHTS_FIRST, .option = shown, .scene = *scene};
+    pthread_mutex_lock(&q->lock);
+    uint64_t before = q->requests;
+    if (job.key != q->jobs[FIGURES].key || q->jobs[FIGURES].number == 0) { /* otherwise the rocks meet the same */
+        ceduo_outlook_free(q->news.outlook);                               /* of what was asked before */
+        ceduo_years_free(q->news.years);
+        q->news.outlook = NULL;
+        q->news.years = NULL;
+        ask(q, FIGURES, &job);
+    }
+    job.key = job.key * 1099511628211u ^ ceduo_years_key(&scene->options[shown]) ^ shown;
+    if (!years) {
+        drop(q, YEARS);
+    } else if (job.key != q->jobs[YEARS].key || q->jobs[YEARS].number == 0) {
+        ceduo_years_free(q->news.years);
+        q->news.years = NULL;
+        ask(q, YEARS, &job);
+    }
+    bool asked = q->requests != before;
+    pthread_mutex_unlock(&q->lock);
+    return asked;
+}
+
+void ceduo_jobs_seek(struct jobs *q, const struct seek *seek)
+{
+    struct job job = {.seek = *seek, .file = *seek->file};
+    snprintf(job.path, sizeof job.path, "%s", seek->search.path);
+    job.file.arena = (struct arena){.shelf = seek->file->arena.shelf};
+    pthread_mutex_lock(&q->lock);
+    ask(q, SEEK, &job);
+    pthread_mutex_unlock(&q->lock);
+}
+
+void ceduo_jobs_stop_seek(struct jobs *q)
+{
+    pthread_mutex_lock(&q->lock);
+    drop(q, SEEK);
+    ceduo_sought_free(q->news.sought);
+    q->news.sought = NULL;
+    pthread_mutex_unlock(&q->lock);
+}
+
+/* ---- news ---- */
+
+int ceduo_jobs_fd(const struct jobs *q)
+{
+    return q->pipe[0];
+}
+
+struct jobs_news ceduo_jobs_news(struct jobs *q)
+{
+    char bytes[64];
+    while (read(q->pipe[0], bytes, sizeof bytes) > 0)
+        ;
+    pthread_mutex_lock(&q->lock);
+    q->news.busy = q->working != NONE || next_kind(q) != NONE;
+    struct jobs_news news = q->news;
+    q->news.outlook = NULL;
+    q->news.years = NULL;
+    q->news.sought = NULL;
+    pthread_mutex_unlock(&q->lock);
+    return news;
+}
+
+void ceduo_jobs_wait(struct jobs *q)
+{
+    pthread_mutex_lock(&q->lock);
+    while (q->working != NONE || next_kind(q) != NONE)
+        pthread_cond_wait(&q->changed, &q->lock);
+    pthread_mutex_unlock(&q->lock);
+}
+
+bool ceduo_jobs_wait_seek(struct jobs *q)
+{
+    pthread_mutex_lock(&q->lock);
+    while (q->jobs[SEEK].wanted)
+        pthread_cond_wait(&q->changed, &q->lock);
+    bool news = q->news.sought != NULL;
+    pthread_mutex_unlock(&q->lock);
+    return news;
+}

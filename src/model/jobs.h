@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_JOBS_H
+#define CEDUO_JOBS_H
+
+#include "flights.h"
+#include "seek.h"
+
+/* The queue of jobs of the live program: one thread in the background flies rocks over a snapshot of the scene. A job goes
+ * in steps from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one cancels
+ * the one before, and any new one interrupts the step under way, which is continued later. */
+struct jobs;
+
+/* NULL where no thread can be started. */
+struct jobs *ceduo_jobs_create(unsigned threads);
+void ceduo_jobs_free(struct jobs *jobs);
+unsigned ceduo_jobs_threads(const struct jobs *jobs);
+
+/* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
+uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
+
+/* Asks for the figures of a scene, those of option `shown` and without forest first. Runs of forests that have not changed
+ * since the last request are kept; what asks for the same runs changes nothing. `years`: the years to come of that option
+ * as well. What the scene points to must stay until the jobs are freed (an arena that is never emptied); the struct itself
+ * is copied. True where something is to be done. */
+bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, size_t shown, bool years);
+
+/* Asks for a search. Threads and cancel are set here; the path is copied, and the scene as it is now. */
+void ceduo_jobs_seek(struct jobs *jobs, const struct seek *seek);
+void ceduo_jobs_stop_seek(struct jobs *jobs);
+
+/* What a search came to. */
+struct sought {
+    enum ceduo_status status;
+    double target; /* that was looked for */
+    struct ceduo_found found;
+    struct problems problems;
+};
+void ceduo_sought_free(struct sought *sought);
+
+/* A file descriptor that becomes readable when there is news; read by ceduo_jobs_news(). */
+int ceduo_jobs_fd(const struct jobs *jobs);
+
+struct jobs_news {
+    struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
+    uint64_t key;                  /* of its scene: ceduo_jobs_key() */
+    double seconds;                /* from the request to it */
+    struct ceduo_years *years;     /* newest, NULL where none are new; the caller's from now on */
+    size_t years_option;           /* which option they are of */
+    struct sought *sought;         /* NULL: none is done; the caller's from now on */
+    bool busy;                     /* some job is not done */
+    bool failed;                   /* out of memory */
+};
+struct jobs_news ceduo_jobs_news(struct jobs *jobs);
+
+/* Waits until no job is left. */
+void ceduo_jobs_wait(struct jobs *jobs);
+/* Waits until no search is left; true where there is news of one. */
+bool ceduo_jobs_wait_seek(struct jobs *jobs);
+
+#endif

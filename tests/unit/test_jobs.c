@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The queue of jobs of the live program. */
+#include "expect.h"
+
+#include "base/clock.h"
+#include "model/jobs.h"
+
+static struct scene_file file;
+static struct jobs *jobs;
+
+static int set_up(void **state)
+{
+    (void)state;
+    struct problems problems = {0};
+    assert_true(ceduo_scene_read(&file, "profiles/scenes/rotation.yaml", NULL, 0, &problems));
+    jobs = ceduo_jobs_create(2);
+    assert_non_null(jobs);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    ceduo_jobs_free(jobs);
+    ceduo_scene_release(&file);
+    return 0;
+}
+
+static void release(struct jobs_news *news)
+{
+    ceduo_outlook_free(news->outlook);
+    ceduo_years_free(news->years);
+    ceduo_sought_free(news->sought);
+}
+
+static struct seek seek_of(uint64_t rocks)
+{
+    return (struct seek){.file = &file,
+                         .search = {.path = "rock.diameter_m",
+                                    .goal = CEDUO_GOAL_EXCEED,
+                                    .target = .3,
+                                    .lo = .2,
+                                    .hi = 1.5,
+                                    .rocks = rocks}};
+}
+
+static void figures_and_years_come_to_an_end(void **state)
+{
+    (void)state;
+    assert_true(ceduo_jobs_show(jobs, &file.scene, 1, true));
+    assert_false(ceduo_jobs_show(jobs, &file.scene, 1, true)); /* the same runs */
+    assert_true(ceduo_jobs_news(jobs).busy);
+    ceduo_jobs_wait(jobs);
+    struct jobs_news news = ceduo_jobs_news(jobs);
+    assert_false(news.busy);
+    assert_false(news.failed);
+    assert_non_null(news.outlook);
+    assert_int_equal(news.key, ceduo_jobs_key(&file.scene));
+    assert_true(news.outlook->bare->flown.rocks >= FLIGHTS_PICTURE);
+    for (size_t i = 0; i < news.outlook->options; i++)
+        assert_int_equal(news.outlook->wooded[i]->flown.rocks, news.outlook->bare->flown.rocks);
+    assert_non_null(news.years);
+    assert_int_equal(news.years_option, 1);
+    assert_int_equal(news.years->years[0].wooded.rocks, FLIGHTS_YEAR);
+    release(&news);
+    assert_false(ceduo_jobs_show(jobs, &file.scene, 1, true));
+    assert_true(ceduo_jobs_show(jobs, &file.scene, 0, true)); /* years of another option, with the same figures */
+    ceduo_jobs_wait(jobs);
+    news = ceduo_jobs_news(jobs);
+    assert_null(news.outlook);
+    assert_int_equal(news.years_option, 0);
+    release(&news);
+}
+
+/* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */
+static void a_search_comes_first(void **state)
+{
+    (void)state;
+    struct seek seek = seek_of(500);
+    double diameter = file.scene.rock.diameter.mean;
+    ceduo_jobs_show(jobs, &file.scene, 0, false);
+    ceduo_jobs_seek(jobs, &seek);
+    assert_true(ceduo_jobs_wait_seek(jobs));
+    struct jobs_news news = ceduo_jobs_news(jobs);
+    assert_non_null(news.sought);
+    assert_int_equal(news.sought->status, CEDUO_OK);
+    assert_true(file.scene.rock.diameter.mean == diameter);
+    struct ceduo_found alone;
+    struct problems problems = {0};
+    seek.threads = 1;
+    assert_int_equal(ceduo_seek(&seek, &alone, &problems), CEDUO_OK);
+    assert_true(alone.found);
+    assert_true(alone.value == news.sought->found.value);
+    assert_int_equal(alone.evaluations, news.sought->found.evaluations);
+    release(&news);
+    assert_false(ceduo_jobs_wait_seek(jobs));
+    ceduo_jobs_wait(jobs);
+    news = ceduo_jobs_news(jobs);
+    assert_non_null(news.outlook);
+    assert_null(news.sought);
+    release(&news);
+}
+
+/* What is stopped ends soon, and nothing comes of it. */
+static void a_search_is_stopped(void **state)
+{
+    (void)state;
+    struct seek seek = seek_of(CEDUO_ROCKS_MOST);
+    ceduo_jobs_seek(jobs, &seek);
+    struct timespec moment = {.tv_nsec = 200000000};
+    nanosleep(&moment, NULL);
+    assert_true(ceduo_jobs_news(jobs).busy);
+    double start = ceduo_clock();
+    ceduo_jobs_stop_seek(jobs);
+    ceduo_jobs_wait(jobs);
+    assert_true(ceduo_clock() - start < 1); /* 0.1 s where nobody else wants the machine */
+    struct jobs_news news = ceduo_jobs_news(jobs);
+    assert_null(news.sought);
+    assert_false(news.failed);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(figures_and_years_come_to_an_end, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_search_comes_first, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_search_is_stopped, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
