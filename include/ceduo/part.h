@@ -25,7 +25,4 @@ enum ceduo_status ceduo_pool_save(const struct ceduo_pool *pool, unsigned char *
  * pool is only to be freed. */
 enum ceduo_status ceduo_pool_adopt(struct ceduo_pool *pool, const unsigned char *bytes, size_t n);
 
-/* A number that other bytes hardly have: against what gets lost or changed on the way, not against malice. */
-uint64_t ceduo_bytes_sum(const void *bytes, size_t n);
-
 #endif

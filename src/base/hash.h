@@ -2,6 +2,7 @@
 #ifndef CEDUO_HASH_H
 #define CEDUO_HASH_H
 
+#include <endian.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -29,6 +30,18 @@ static inline void hash_doubles(uint64_t *hash, const void *doubles, size_t n)
 static inline void hash_double(uint64_t *hash, double value)
 {
     hash_doubles(hash, &value, 1);
+}
+
+/* The hash of n bytes, the same on every machine: against what gets lost or changed on the way, not against malice. */
+static inline uint64_t hash_bytes(const void *bytes, size_t n)
+{
+    uint64_t hash = HASH_START ^ (uint64_t)n;
+    for (size_t i = 0; i < n; i += 8) {
+        uint64_t word = 0;
+        memcpy(&word, (const char *)bytes + i, n - i < 8 ? n - i : 8);
+        hash_count(&hash, le64toh(word));
+    }
+    return hash;
 }
 
 #endif

@@ -241,6 +241,15 @@ struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
 
 /* ---- parts ---- */
 
+void ceduo_part_range(uint64_t rocks, uint64_t part, uint64_t parts, uint64_t *first, uint64_t *end)
+{
+    uint64_t blocks = rocks / CEDUO_BLOCK_ROCKS + (rocks % CEDUO_BLOCK_ROCKS != 0);
+    *first = blocks * (part - 1) / parts * CEDUO_BLOCK_ROCKS;
+    *end = blocks * part / parts * CEDUO_BLOCK_ROCKS;
+    *first = *first < rocks ? *first : rocks;
+    *end = *end < rocks ? *end : rocks;
+}
+
 /* The runs in their order, each with its key and its length. */
 enum ceduo_status ceduo_pool_save(const struct ceduo_pool *pool, unsigned char **bytes, size_t *n)
 {

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "ceduo/key.h"
-#include "ceduo/part.h"
+#include "base/hash.h"
 #include "ceduo/version.h"
 #include "base/bytes.h"
 #include "base/json.h"
@@ -95,7 +95,7 @@ void ceduo_part_write(struct text *out, const struct part *part)
     ceduo_text_char(out, '"');
     if (out->failed)
         return;
-    uint64_t sum = ceduo_bytes_sum(out->bytes + start, out->length - start);
+    uint64_t sum = hash_bytes(out->bytes + start, out->length - start);
     ceduo_text_format(out, SUM "%016" PRIx64 "\"}\n", sum);
 }
 
@@ -195,7 +195,7 @@ static enum part_fault check_sum(struct cursor *c)
         return PART_CUT;
     struct cursor tail = {c->end - SUM_LENGTH, c->end};
     uint64_t sum;
-    if (!take(&tail, SUM) || !take_hex(&tail, 16, &sum) || sum != ceduo_bytes_sum(c->at, n - SUM_LENGTH))
+    if (!take(&tail, SUM) || !take_hex(&tail, 16, &sum) || sum != hash_bytes(c->at, n - SUM_LENGTH))
         return PART_CHANGED;
     c->end -= SUM_LENGTH;
     return PART_GOOD;
@@ -277,7 +277,7 @@ uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks)
     for (size_t i = 0; i < scene->options_count; i++)
         add_count(&text, ceduo_option_key(scene, &scene->options[i]));
     add_node(&text, file->root);
-    uint64_t key = text.bytes ? ceduo_bytes_sum(text.bytes, text.length) : 0;
+    uint64_t key = text.bytes ? hash_bytes(text.bytes, text.length) : 0;
     ceduo_text_free(&text);
     return key;
 }

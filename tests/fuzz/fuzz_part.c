@@ -14,6 +14,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "ceduo/part.h"
 #include "cli/batch.h"
 #include "fuzz.h"
@@ -205,7 +206,7 @@ static void seal(struct text *to, const uint8_t *line, size_t n)
             break;
         }
     ceduo_text_add(to, (const char *)line, n);
-    ceduo_text_format(to, "%s%016" PRIx64 "\"}", sum, ceduo_bytes_sum(line, n));
+    ceduo_text_format(to, "%s%016" PRIx64 "\"}", sum, hash_bytes(line, n));
     expect(!to->failed, "out of memory");
 }
 
@@ -243,8 +244,7 @@ static bool take_parts(const uint8_t *data, size_t n)
                                 .quiet = true,
                                 .threads = 1,
                                 .scenes = scenes,
-                                .scenes_count = 1,
-                                .merge = true};
+                                .scenes_count = 1};
     enum exit_status status = ceduo_batch_merge(&a);
     expect(status == EXIT_DONE || status == EXIT_RUN || status == EXIT_INPUT, "a status that --merge has not");
     close(fd);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/part.h"
+#include "base/hash.h"
 #include "io/part_file.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
@@ -75,7 +75,7 @@ static enum part_fault changed(const struct text *line, const char *from, const 
     ceduo_text_add(&text, line->bytes, (size_t)(at - line->bytes));
     ceduo_text_put(&text, to);
     ceduo_text_add(&text, at + strlen(from), (size_t)(end - at) - strlen(from));
-    uint64_t now = ceduo_bytes_sum(text.bytes, text.length);
+    uint64_t now = hash_bytes(text.bytes, text.length);
     ceduo_text_format(&text, "%s%016" PRIx64 "\"}", sum, now);
     enum part_fault fault = read_line(text.bytes, text.length, &part, &arena);
     ceduo_arena_free(&arena);
@@ -122,7 +122,7 @@ static void parts_that_are_cut_within(void **state)
             ceduo_text_add(&text, line.bytes, nul ? length : i);
             if (nul)
                 text.bytes[i] = '\0';
-            uint64_t now = ceduo_bytes_sum(text.bytes ? text.bytes : "", text.length);
+            uint64_t now = hash_bytes(text.bytes ? text.bytes : "", text.length);
             ceduo_text_format(&text, "%s%016" PRIx64 "\"}", sum, now);
             assert_int_not_equal(read_line(text.bytes, text.length, &part, &arena), PART_GOOD);
             ceduo_text_free(&text);
