@@ -120,26 +120,30 @@ typedef struct {
     part_flags a, b, c, d;
 } flags;
 
-LANE reals all(double x)
-{
-    return (reals){PART_ALL(x), PART_ALL(x), PART_ALL(x), PART_ALL(x)};
-}
+/* Defines a function that does the same with each part: EACH(result, name, (parameters), what with part P of each). */
+#define EACH(result, name, parameters, ...)                                                                         \
+    LANE result name parameters                                                                                     \
+    {                                                                                                               \
+        return (result){EACH_AS(a, 0, __VA_ARGS__), EACH_AS(b, PART, __VA_ARGS__), EACH_AS(c, 2 * PART, __VA_ARGS__), \
+                        EACH_AS(d, 3 * PART, __VA_ARGS__)};                                                         \
+    }
+#define EACH_AS(part, first, macro, ...) macro(part, first, __VA_ARGS__)
 
-LANE ints all_ints(uint64_t x)
-{
-    return (ints){PART_ALL_INTS(x), PART_ALL_INTS(x), PART_ALL_INTS(x), PART_ALL_INTS(x)};
-}
+/* What a macro makes of part `x`, whose first lane is lane `at`. */
+#define OF_ONE(x, at, op)      op(p.x)
+#define OF_TWO(x, at, op)      op(p.x, q.x)
+#define OF_THREE(x, at, op)    op(m.x, p.x, q.x)
+#define OF_SCALAR(x, at, op)   op(s)
+#define OF_PLACE(x, at, op)    op(from + (at))
+#define OF_BITS(x, at, op)     op(bits >> (at))
+#define OF_SIGN(x, at, sign)   p.x sign q.x
+#define OF_WRAPPING(x, at, sign) (part_ints)((part_bits)p.x sign (part_bits)q.x)
+#define OF_SHIFT(x, at, sign)  (part_ints)((part_bits)p.x sign n)
 
-LANE reals load(const double *from)
-{
-    return (reals){PART_LOAD(from), PART_LOAD(from + PART), PART_LOAD(from + 2 * PART), PART_LOAD(from + 3 * PART)};
-}
-
-LANE ints load_ints(const uint64_t *from)
-{
-    return (ints){PART_LOAD_INTS(from), PART_LOAD_INTS(from + PART),
-                  PART_LOAD_INTS(from + 2 * PART), PART_LOAD_INTS(from + 3 * PART)};
-}
+EACH(reals, all, (double s), OF_SCALAR, PART_ALL)
+EACH(ints, all_ints, (uint64_t s), OF_SCALAR, PART_ALL_INTS)
+EACH(reals, load, (const double *from), OF_PLACE, PART_LOAD)
+EACH(ints, load_ints, (const uint64_t *from), OF_PLACE, PART_LOAD_INTS)
 
 LANE void store(double *to, reals p)
 {
@@ -157,83 +161,23 @@ LANE void store_ints(uint64_t *to, ints p)
     PART_STORE_INTS(to + 3 * PART, p.d);
 }
 
-LANE reals add(reals p, reals q)
-{
-    return (reals){p.a + q.a, p.b + q.b, p.c + q.c, p.d + q.d};
-}
-
-LANE reals sub(reals p, reals q)
-{
-    return (reals){p.a - q.a, p.b - q.b, p.c - q.c, p.d - q.d};
-}
-
-LANE reals mul(reals p, reals q)
-{
-    return (reals){p.a * q.a, p.b * q.b, p.c * q.c, p.d * q.d};
-}
-
-LANE reals over(reals p, reals q)
-{
-    return (reals){p.a / q.a, p.b / q.b, p.c / q.c, p.d / q.d};
-}
-
-LANE reals root_of(reals p)
-{
-    return (reals){PART_SQRT(p.a), PART_SQRT(p.b), PART_SQRT(p.c), PART_SQRT(p.d)};
-}
-
+EACH(reals, add, (reals p, reals q), OF_SIGN, +)
+EACH(reals, sub, (reals p, reals q), OF_SIGN, -)
+EACH(reals, mul, (reals p, reals q), OF_SIGN, *)
+EACH(reals, over, (reals p, reals q), OF_SIGN, /)
+EACH(reals, root_of, (reals p), OF_ONE, PART_SQRT)
 /* p < q ? p : q and p > q ? p : q, to the letter. */
-LANE reals least(reals p, reals q)
-{
-    return (reals){PART_LEAST(p.a, q.a), PART_LEAST(p.b, q.b), PART_LEAST(p.c, q.c), PART_LEAST(p.d, q.d)};
-}
+EACH(reals, least, (reals p, reals q), OF_TWO, PART_LEAST)
+EACH(reals, most, (reals p, reals q), OF_TWO, PART_MOST)
 
-LANE reals most(reals p, reals q)
-{
-    return (reals){PART_MOST(p.a, q.a), PART_MOST(p.b, q.b), PART_MOST(p.c, q.c), PART_MOST(p.d, q.d)};
-}
-
-LANE flags less(reals p, reals q)
-{
-    return (flags){PART_LESS(p.a, q.a), PART_LESS(p.b, q.b), PART_LESS(p.c, q.c), PART_LESS(p.d, q.d)};
-}
-
-LANE flags at_least(reals p, reals q)
-{
-    return (flags){PART_AT_LEAST(p.a, q.a), PART_AT_LEAST(p.b, q.b), PART_AT_LEAST(p.c, q.c), PART_AT_LEAST(p.d, q.d)};
-}
-
-LANE flags equal(reals p, reals q)
-{
-    return (flags){PART_EQUAL(p.a, q.a), PART_EQUAL(p.b, q.b), PART_EQUAL(p.c, q.c), PART_EQUAL(p.d, q.d)};
-}
-
-LANE flags same(ints p, ints q)
-{
-    return (flags){PART_SAME(p.a, q.a), PART_SAME(p.b, q.b), PART_SAME(p.c, q.c), PART_SAME(p.d, q.d)};
-}
-
-/* p > q, as signed numbers. */
-LANE flags more(ints p, ints q)
-{
-    return (flags){PART_MORE(p.a, q.a), PART_MORE(p.b, q.b), PART_MORE(p.c, q.c), PART_MORE(p.d, q.d)};
-}
-
-LANE flags both(flags p, flags q)
-{
-    return (flags){PART_BOTH(p.a, q.a), PART_BOTH(p.b, q.b), PART_BOTH(p.c, q.c), PART_BOTH(p.d, q.d)};
-}
-
-LANE flags either(flags p, flags q)
-{
-    return (flags){PART_EITHER(p.a, q.a), PART_EITHER(p.b, q.b), PART_EITHER(p.c, q.c), PART_EITHER(p.d, q.d)};
-}
-
-/* p and not q */
-LANE flags but(flags p, flags q)
-{
-    return (flags){PART_BUT(p.a, q.a), PART_BUT(p.b, q.b), PART_BUT(p.c, q.c), PART_BUT(p.d, q.d)};
-}
+EACH(flags, less, (reals p, reals q), OF_TWO, PART_LESS)
+EACH(flags, at_least, (reals p, reals q), OF_TWO, PART_AT_LEAST)
+EACH(flags, equal, (reals p, reals q), OF_TWO, PART_EQUAL)
+EACH(flags, same, (ints p, ints q), OF_TWO, PART_SAME)
+EACH(flags, more, (ints p, ints q), OF_TWO, PART_MORE) /* p > q, as signed numbers */
+EACH(flags, both, (flags p, flags q), OF_TWO, PART_BOTH)
+EACH(flags, either, (flags p, flags q), OF_TWO, PART_EITHER)
+EACH(flags, but, (flags p, flags q), OF_TWO, PART_BUT) /* p and not q */
 
 /* Bit i is lane i. */
 LANE unsigned bits_of(flags p)
@@ -241,82 +185,30 @@ LANE unsigned bits_of(flags p)
     return PART_BITS(p.a) | PART_BITS(p.b) << PART | PART_BITS(p.c) << 2 * PART | PART_BITS(p.d) << 3 * PART;
 }
 
-LANE flags flags_of(unsigned bits)
-{
-    return (flags){PART_FLAGS(bits), PART_FLAGS(bits >> PART),
-                   PART_FLAGS(bits >> 2 * PART), PART_FLAGS(bits >> 3 * PART)};
-}
-
-LANE reals pick(flags m, reals p, reals q)
-{
-    return (reals){PART_PICK(m.a, p.a, q.a), PART_PICK(m.b, p.b, q.b),
-                   PART_PICK(m.c, p.c, q.c), PART_PICK(m.d, p.d, q.d)};
-}
+EACH(flags, flags_of, (unsigned bits), OF_BITS, PART_FLAGS)
+EACH(reals, pick, (flags m, reals p, reals q), OF_THREE, PART_PICK)
+EACH(ints, pick_ints, (flags m, ints p, ints q), OF_THREE, PART_PICK_INTS)
 
 LANE flags pick_flags(flags m, flags p, flags q)
 {
     return either(both(m, p), but(q, m));
 }
 
-LANE ints pick_ints(flags m, ints p, ints q)
-{
-    return (ints){PART_PICK_INTS(m.a, p.a, q.a), PART_PICK_INTS(m.b, p.b, q.b),
-                  PART_PICK_INTS(m.c, p.c, q.c), PART_PICK_INTS(m.d, p.d, q.d)};
-}
-
-LANE ints add_ints(ints p, ints q)
-{
-    return (ints){(part_ints)((part_bits)p.a + (part_bits)q.a), (part_ints)((part_bits)p.b + (part_bits)q.b),
-                  (part_ints)((part_bits)p.c + (part_bits)q.c), (part_ints)((part_bits)p.d + (part_bits)q.d)};
-}
-
-LANE ints and_ints(ints p, ints q)
-{
-    return (ints){p.a & q.a, p.b & q.b, p.c & q.c, p.d & q.d};
-}
-
-LANE ints or_ints(ints p, ints q)
-{
-    return (ints){p.a | q.a, p.b | q.b, p.c | q.c, p.d | q.d};
-}
-
-LANE ints xor_ints(ints p, ints q)
-{
-    return (ints){p.a ^ q.a, p.b ^ q.b, p.c ^ q.c, p.d ^ q.d};
-}
-
-LANE ints shift_left(ints p, int n)
-{
-    return (ints){(part_ints)((part_bits)p.a << n), (part_ints)((part_bits)p.b << n),
-                  (part_ints)((part_bits)p.c << n), (part_ints)((part_bits)p.d << n)};
-}
-
-LANE ints shift_right(ints p, int n)
-{
-    return (ints){(part_ints)((part_bits)p.a >> n), (part_ints)((part_bits)p.b >> n),
-                  (part_ints)((part_bits)p.c >> n), (part_ints)((part_bits)p.d >> n)};
-}
+EACH(ints, add_ints, (ints p, ints q), OF_WRAPPING, +)
+EACH(ints, and_ints, (ints p, ints q), OF_SIGN, &)
+EACH(ints, or_ints, (ints p, ints q), OF_SIGN, |)
+EACH(ints, xor_ints, (ints p, ints q), OF_SIGN, ^)
+EACH(ints, shift_left, (ints p, int n), OF_SHIFT, <<)
+EACH(ints, shift_right, (ints p, int n), OF_SHIFT, >>)
 
 LANE ints turn_left(ints p, int n)
 {
     return or_ints(shift_left(p, n), shift_right(p, 64 - n));
 }
 
-/* Integers below 2^53. */
-LANE reals reals_of(ints p)
-{
-    return (reals){part_of_ints(p.a), part_of_ints(p.b), part_of_ints(p.c), part_of_ints(p.d)};
-}
-
-LANE ints as_ints(reals p)
-{
-    return (ints){PART_AS_INTS(p.a), PART_AS_INTS(p.b), PART_AS_INTS(p.c), PART_AS_INTS(p.d)};
-}
-
-LANE reals as_reals(ints p)
-{
-    return (reals){PART_AS_REALS(p.a), PART_AS_REALS(p.b), PART_AS_REALS(p.c), PART_AS_REALS(p.d)};
-}
+EACH(reals, reals_of, (ints p), OF_ONE, part_of_ints) /* integers below 2^53 */
+EACH(ints, as_ints, (reals p), OF_ONE, PART_AS_INTS)
+EACH(reals, as_reals, (ints p), OF_ONE, PART_AS_REALS)
 
 LANE reals size_of_each(reals p)
 {
@@ -357,15 +249,18 @@ LANE void part_pair(const double (*pairs)[2], const uint64_t *i, part_reals *fir
 }
 #endif
 
+#ifdef WIDE_AVX512
+#define OF_TABLE(x, at, op) op(table, p.x)
+EACH(reals, choose, (const double *table, ints p), OF_TABLE, PART_CHOOSE)
+#endif
+
 /* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
 LANE void look_up(const struct wide_table *table, ints i, bool small, reals *first, reals *second)
 {
 #ifdef WIDE_AVX512
     if (small) { /* without going to memory lane by lane */
-        *first = (reals){PART_CHOOSE(table->first, i.a), PART_CHOOSE(table->first, i.b),
-                         PART_CHOOSE(table->first, i.c), PART_CHOOSE(table->first, i.d)};
-        *second = (reals){PART_CHOOSE(table->second, i.a), PART_CHOOSE(table->second, i.b),
-                          PART_CHOOSE(table->second, i.c), PART_CHOOSE(table->second, i.d)};
+        *first = choose(table->first, i);
+        *second = choose(table->second, i);
         return;
     }
 #endif
