@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Saving in the terminal program: under another name, where it fails, and what is said of comments and copies."""
+"""Saving and exporting in the terminal program: under another name, where it fails, and what is said of comments and copies."""
+import json
 import os
+import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import FAST, Place, check_good, run_script  # noqa: E402
-from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
+from play import FAST, Place, check_good, fast, run_script  # noqa: E402
+from harness import PROFILES, Skip, expect, expect_equal, expect_in, expect_near, results, run_all  # noqa: E402
+from test_editing import index_of  # noqa: E402
 
 EDIT = "key 2\nkey /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
 STUCK = "stuck.yaml"
@@ -119,6 +122,243 @@ def test_anew():
         expect_equal(saved[0].note, "saved fast.yaml; laid out anew, the old file is fast.yaml.bak")
         expect_equal(saved[1].note, "saved fast.yaml", "what the program laid out itself is no loss")
         expect_equal(place.text("fast.yaml.bak"), FAST, "the old file, with its comments, still")
+
+
+def test_save():
+    """s writes the values that changed and leaves every comment and every other line."""
+    with Place() as place:
+        saved, again = place.play("""key 2
+            find stools.per_ha
+            set 2222
+            key s
+            dump
+            key 3
+            find rock.diameter_m
+            set 0.75
+            key s
+            dump""")
+        expect_in("saved fast.yaml", saved.note)
+        expect_in("saved fast.yaml", again.note)
+        expect("* fast" not in again.title, again.title)
+        wanted = FAST.replace("per_ha: 3000", "per_ha: 2222").replace("diameter_m: 0.5", "diameter_m: 0.75")
+        expect_equal(place.text("fast.yaml"), wanted, "the file")
+        expect_equal(sorted(n for n in place.names() if n.startswith("fast")), ["fast.yaml"], "files")
+
+
+def test_save_list():
+    """s after an item came or went: valid, the comments kept where they can be, otherwise in a .bak."""
+    for keys in ("find trees[0]\nkey y", "find trees[0]\nkey d", "find forest[0]\nkey d", "find shoots[1]\nkey d d"):
+        with Place() as place:
+            saved = place.play(f"key 2\n{keys}\nclear\nwait idle\nkey s\ndump\nclear\ndump")
+            expect_in("saved fast.yaml", saved[0].note)
+            check_good(place.path, "fast.yaml")
+            text = place.text("fast.yaml")
+            if "kept: the first line" not in text or "kept: found on the road" not in text:
+                expect_equal(place.text("fast.yaml.bak"), FAST, "the old file beside it")
+                expect_in("fast.yaml.bak", saved[0].note)
+            after = place.play("key 2\nwait idle\ndump")[0]
+            expect_equal(after.now, saved[1].now, "figures of the saved scene")
+
+
+def test_save_nothing():
+    """s without a change writes the same file; undone edits are no change."""
+    with Place() as place:
+        place.play("key s")
+        expect_equal(place.text("fast.yaml"), FAST, "the file")
+        screen = place.play("key 2\nfind stools.per_ha\nkey + + - u u u\nkey s\ndump")[0]
+        expect("* fast" not in screen.title, screen.title)
+        expect_equal(place.text("fast.yaml"), FAST, "the file")
+
+
+def test_save_shipped():
+    """A scene of the program is never written over: s asks for a name."""
+    shipped = PROFILES / "scenes/paper-site.yaml"
+    before, stamp = shipped.read_bytes(), shipped.stat().st_mtime_ns
+    with Place() as place:
+        asked, saved, later = place.play("""key 2
+            find stools.per_ha
+            set 2000
+            key s
+            dump
+            key Enter
+            dump
+            find stools.per_ha
+            set 1500
+            key s
+            dump""", "paper-site")
+        asked.has("Save as", "never written over", "paper-site.yaml")
+        expect_in("saved paper-site.yaml", saved.note)
+        expect_in("saved paper-site.yaml", later.note)
+        check_good(place.path, "paper-site.yaml")
+        expect_in("# Test site in central Italy", place.text("paper-site.yaml"), "its comments")
+        again = place.play("key 2\ndump", "paper-site.yaml")[0]
+        expect_equal(again.row("^stools per ha")[-1], "1500", "stools")
+        # straight onto the shipped file by its path
+        asked = place.play(f"key 2\nfind stools.per_ha\nset 9\nkey s\nkey Ctrl-U\ntype {shipped}\nkey Enter\ndump\n"
+                           "key Enter\ndump", "paper-site")
+        expect(shipped.read_bytes() == before and shipped.stat().st_mtime_ns == stamp, "the shipped file was written!")
+    expect(shipped.read_bytes() == before and shipped.stat().st_mtime_ns == stamp, "the shipped file was written!")
+
+
+def test_save_as_exists():
+    """Save as over another file asks once more; an empty name and a folder that is not there are refused."""
+    with Place() as place:
+        place.write("there.yaml", "mine\n")
+        screens = place.play("""key 2
+            find stools.per_ha
+            set 2000
+            key s Ctrl-U Enter
+            dump
+            type no/such/folder.yaml
+            key Enter
+            dump
+            key Ctrl-U
+            type there.yaml
+            key Enter
+            dump
+            key Esc
+            clear
+            dump""", "paper-site")
+        screens[0].has("a name is needed")
+        screens[1].has("No such file or directory")
+        screens[2].has("Enter once more replaces it")
+        expect("* Test site" in screens[3].title, screens[3].title)
+        expect_equal(place.text("there.yaml"), "mine\n", "the other file")
+        place.play("key 2\nfind stools.per_ha\nset 2000\nkey s Ctrl-U\ntype there.yaml\nkey Enter Enter", "paper-site")
+        check_good(place.path, "there.yaml")
+
+
+def test_changed_on_disk():
+    """s on a file that has changed on disk asks: never mind, another name, or over it."""
+    for keys, mine in (("key Enter", False), ("key Esc", False), ("key End Enter", True),
+                       ("key Down Enter Ctrl-U\ntype mine.yaml\nkey Enter", False)):
+        with Place() as place:
+            # The script itself writes other bytes into the file that is open.
+            asked = place.play(f"key 2\nfind stools.per_ha\nset 1234\ndump fast.yaml\nkey s\ndump\n{keys}")[0]
+            asked.has("The file has changed on disk since it was read")
+            now = place.text("fast.yaml")
+            if mine:
+                expect_in("per_ha: 1234", now, keys)
+                check_good(place.path, "fast.yaml")
+            else:
+                expect(now.startswith(" 1 slope"), f"{keys}: the file was written over:", now[:400])
+            if "mine.yaml" in keys:
+                expect_in("per_ha: 1234", place.text("mine.yaml"))
+
+
+def test_read_only():
+    """A file that cannot be written: the reason is said, the work stays unsaved, the file as it was."""
+    if os.geteuid() == 0:
+        raise Skip("root may write everywhere")
+    with Place() as place:
+        os.chmod(place.path, 0o500)
+        try:
+            screen = place.play("key 2\nfind stools.per_ha\nset 2000\nkey s\ndump")[0]
+        finally:
+            os.chmod(place.path, 0o700)
+        expect_in("Permission denied", screen.note)
+        expect("* fast" in screen.title, screen.title)
+
+
+def test_quit():
+    """q ends at once where nothing is unsaved, otherwise it asks: stay, save, lose."""
+    with Place() as place:
+        run_script(place.path, "key q\ndump late.txt\n", "fast.yaml")
+        expect("late.txt" not in place.names(), "still there after q")
+        edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
+        asked = place.play(edit + "key q\ndump\nkey Enter\ndump\nkey q Esc\ndump\nkey F10\ndump")
+        asked[0].has("There is unsaved work", "stay", "save and quit", "quit and lose it")
+        asked[1].has("* fast").lacks("There is unsaved work")
+        asked[2].has("* fast").lacks("There is unsaved work")
+        asked[3].has("There is unsaved work")
+        expect_equal(place.text("fast.yaml"), FAST, "the file after staying")
+        run_script(place.path, edit + "key q End Enter\ndump late.txt\n", "fast.yaml")
+        expect("late.txt" not in place.names(), "still there after 'quit and lose it'")
+        expect_equal(place.text("fast.yaml"), FAST, "the file after losing")
+        run_script(place.path, edit + "key q Down Enter\ndump late.txt\n", "fast.yaml")
+        expect("late.txt" not in place.names(), "still there after 'save and quit'")
+        expect_in("per_ha: 1234", place.text("fast.yaml"), "the file after saving")
+        shipped = place.play(edit + "key q Down Enter\ndump", "paper-site")[0]
+        shipped.has("Save as")
+
+
+def test_save_as_then_quit():
+    """'save and quit' on a shipped scene quits once the name is given."""
+    with Place() as place:
+        edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
+        run_script(place.path, edit + "key q Down Enter Enter\ndump late.txt\n", "paper-site")
+        check_good(place.path, "paper-site.yaml")
+        expect("late.txt" not in place.names(), "still there after it was saved")
+
+
+# ---- export ----
+
+def test_export():
+    """w: page, screen, CSV and JSON in files; over an existing one it asks."""
+    with Place() as place:
+        screens = place.play("""wait idle
+            dump
+            key w
+            dump
+            key Enter
+            dump
+            key Enter
+            dump
+            key w Down Enter Enter
+            key w Down Down Enter Ctrl-U
+            type table.csv
+            key Enter
+            key w Down Down Down Enter Enter
+            clear
+            key w Enter Enter
+            dump
+            key Esc
+            key w Enter Ctrl-U
+            type no/such/file.txt
+            key Enter
+            dump""", "options.yaml")
+        screens[1].has("the page, as text", "this screen, with its picture", "CSV", "JSON", "the batch command")
+        screens[2].has("Export to a file", "ceduo.txt")
+        expect_in("written: ceduo.txt", screens[3].note)
+        screens[4].has("Enter once more replaces it")
+        screens[5].has("No such file or directory")
+        page = place.text("ceduo.txt")
+        for part in ("fast", "thick", "thin", "none left", "At 80 m"):
+            expect_in(part, page, "the page")
+        expect_equal(place.text("ceduo-screen.txt"), screens[0].text, "the screen as a file")
+        rows = place.text("table.csv").splitlines()
+        expect(rows[0].startswith("scene,title,") and len(rows) == 1 + 3 * 2, rows)
+        line = json.loads(place.text("ceduo.json"))
+        expect_equal([o["name"] for o in line["options"]], ["thick", "thin", "none left"], "options in JSON")
+        expect_equal(line["format"], "ceduo-result-1", "format")
+
+
+def test_export_command():
+    """w: the batch command that is shown gives the same figures."""
+    with Place() as place:
+        screen, command = place.play("wait idle\ndump\nkey w End Enter\ndump", "paper-site")
+        found = re.search(r"ceduo --batch -n (\d+) ", command.popup)
+        expect(found, "no command in the", command)
+        batch = results("-n", found.group(1), "paper-site")[0]
+        control = batch["options"][0]["controls"][0]
+        arrivals = control["wooded"], control["bare"]
+        expect_equal(screen.pair("arrive"), tuple(round(a["reach_probability"] * 1000) for a in arrivals), "arrive")
+        expect_equal(screen.pair("kJ mean"), tuple(float(f"{a['energy_kJ']['mean']:.3g}") for a in arrivals), "energy")
+        expect_near(control["index"]["residual_kJ"], index_of(screen)[1], 0.06, "left")
+
+
+def test_export_rocks():
+    """w: the command follows the figures on the screen: none yet, then as many rocks as they have."""
+    none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
+    none.has("ceduo --batch -n 1000 ", "no figures yet", "what the scene says")
+    rocks = int(screen.figure("= .* %"))
+    last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are of {rocks} rocks").lacks("no figures yet")
+
+
+def test_export_unsaved():
+    """w: with unsaved work the command says that the file must be saved first."""
+    screen = fast("key 2\nfind stools.per_ha\nset 9\nwait idle\nkey w End Enter\ndump")[0]
+    screen.has("ceduo --batch", "unsaved work")
 
 
 if __name__ == "__main__":

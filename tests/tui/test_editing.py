@@ -1,0 +1,502 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Live edits of fields and lists in the terminal program: what each does to the scene, to the figures and to the file."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
+from play import WOOD, Place, fast  # noqa: E402
+from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
+from test_screens import lights  # noqa: E402
+
+FIGURE_NAMES = ("arrive", ">250 kJ", "kJ mean", "kJ 95 %", "m  95 %")
+
+
+def index_of(screen):
+    """What the index takes and leaves, of the column on the right."""
+    found = re.search(r"^index: -([\d.]+), left ([\d.]+) kJ$", screen.now, re.M)
+    expect(found, "no index in the column on the right:", screen.now)
+    return float(found.group(1)), float(found.group(2))
+
+
+def test_stand_edit():
+    """A change of the stand changes ADC, lights, index and what comes through the wood at once, nothing without forest."""
+    script = """key 2
+        wait idle
+        dump
+        find stools.per_ha
+        set 1000
+        find shoots[0]
+        set 3000
+        clear
+        dump
+        wait idle
+        dump
+        find shoots
+        key d d
+        find trees
+        key d d
+        find forest[1]
+        key d
+        wait idle
+        dump"""
+    for text in (WOOD, play.in_the_index(WOOD)):
+        by_index = "contact_model: index" in text
+        with Place() as place:
+            place.write("wood.yaml", text)
+            before, at_once, after, cut = place.play(script, "wood.yaml")
+        expect(at_once.now != before.now, "nothing has changed", at_once)
+        for screen in (at_once, after, cut):
+            for name in FIGURE_NAMES:
+                expect_equal(screen.pair(name)[1], before.pair(name)[1], f"'{name}' without forest")
+        for screen in (at_once, after):
+            taken, left = index_of(screen)
+            expect(taken < index_of(before)[0] - 1, "fewer stools, yet the index takes", screen.now)
+            expect_near(left + taken, screen.pair("kJ mean")[1], 1, "Eq. 5")
+            adc = [float(re.search(r"ADC ([\d.]+) m", s.body).group(1)) for s in (before, screen)]
+            expect(adc[1] > adc[0] * 2, f"ADC {adc}")
+        energy = "unknown" if by_index else "FAILS"
+        expect_equal(lights(before, "braille"), {"Contact": "passes", "Free run": "passes", "Energy": energy}, "lights")
+        expect_equal(lights(cut, "braille"), {"Contact": "FAILS", "Free run": "FAILS", "Energy": energy}, "lights")
+        for name in FIGURE_NAMES:
+            wood = [s.pair(name)[0] for s in (before, at_once, after, cut)]
+            if by_index:
+                expect_equal(wood, [None] * 4, f"'{name}' through the wood by the index")
+                continue
+            expect(wood[0] < wood[2] and wood[2] <= wood[3], f"'{name}' with fewer stems", wood)
+            expect(wood[1] is None or wood[1] > wood[0] or at_once.now.split("\n= ")[0] == at_once.now,
+                   f"'{name}' of the old wood under the new, and no mark that better ones come", wood)
+            expect_equal(wood[3], cut.pair(name)[1], f"'{name}' where no stem is left")
+        cut.whole()
+
+
+def test_rock_edit():
+    """A change of rock or ground changes what passes and its energy, with and without forest."""
+    script = """key 3
+        wait idle
+        dump
+        find rock.diameter_m
+        set 1.25
+        wait idle
+        dump
+        key 1
+        find segments[0].
+        key Right
+        set 0.7
+        wait idle
+        dump"""
+    for text in (WOOD, play.in_the_index(WOOD)):
+        with Place() as place:
+            place.write("wood.yaml", text)
+            before, mass, ground = place.play(script, "wood.yaml")
+        expect(float(re.search(r"Rock +[\d.]+ m +([\d.]+) kg", mass.now).group(1)) > 2600, mass.now)
+        bare = {name: [s.pair(name)[1] for s in (before, mass, ground)] for name in FIGURE_NAMES}
+        expect(bare["kJ mean"][1] > bare["kJ mean"][0] * 1.8 and bare[">250 kJ"][1] > bare[">250 kJ"][0], bare)
+        expect_near(bare["arrive"][1], bare["arrive"][0], 3, "the lumped law knows no mass: arrive")
+        expect(bare["kJ mean"][2] < bare["kJ mean"][1], bare)
+        if text != WOOD:
+            continue
+        wood = {name: [s.pair(name)[0] for s in (before, mass, ground)] for name in FIGURE_NAMES}
+        expect(wood["kJ mean"][1] > wood["kJ mean"][0] * 1.8 and wood["arrive"][1] > wood["arrive"][0],
+               "a larger rock loses a smaller share to the stems", wood)
+        expect(wood["kJ mean"][2] < wood["kJ mean"][1] and wood["arrive"][2] < wood["arrive"][1], "the softer ground", wood)
+
+
+def test_contact_model():
+    """contact_model edited to index and back: the column on the right, the lights, views 3 and 5 follow, and come back."""
+    both = "clear\nresize 80 24\ndump\nresize 200 50\ndump\n"
+    screens = fast(f"""key 3
+        find simulation.contact_model
+        wait idle
+        {both}
+        key Enter Home Enter
+        wait idle
+        {both}
+        key 5
+        {both}
+        key 3
+        key +
+        wait idle
+        {both}
+        key Enter End Enter
+        wait idle
+        {both}
+        key 5
+        {both}""", "cuts.yaml")
+    for at in (0, 1):
+        stems, index, compared_index, poisson, back, compared_back = screens[at::2]
+        expect_equal([s.row("^rocks among stems")[-1] for s in (stems, index, poisson, back)],
+                     ["stems", "index", "poisson", "stems"], "contact_model")
+        expect_equal([lights(s, "braille")["Energy"] for s in (stems, index, back)], ["FAILS", "unknown", "FAILS"], "energy light")
+        for name in FIGURE_NAMES:
+            expect(None not in stems.pair(name) + poisson.pair(name), name, stems.now)
+            expect_equal(index.pair(name)[0], None, f"'{name}' through the wood by the index")
+            bare = [s.pair(name)[1] for s in (stems, index, poisson, back)]
+            expect_equal(bare, bare[:1] * 4, f"'{name}' without forest")
+        expect(poisson.pair("kJ mean") != stems.pair("kJ mean"), "poisson is as stems", poisson)
+        expect(not re.search("stopped by stems|at rest", index.now), "ends through the wood by the index", index)
+        expect_equal([index_of(s) for s in (index, poisson)], [index_of(stems)] * 2, "the index")
+        expect_in("left kJ", compared_index.body)
+        expect_in("too much", compared_back.body)
+        expect_equal(back.text.replace("*", " "), stems.text.replace("*", " "), "after index and back")
+
+
+def test_control_edit():
+    """Another place to count at: no figure of the old place stands under the new name, none is 'nan'."""
+    script = """wait idle
+        find controls[1]
+        key d
+        dump
+        wait idle
+        dump
+        find controls[0]
+        key a
+        dump
+        wait idle
+        dump
+        find controls[0]
+        set 50
+        dump
+        wait idle
+        dump"""
+    for scene in ("fast.yaml", "wood.yaml"):
+        screens = fast(script, scene)
+        for screen in screens:
+            expect(not re.search(r">-?nan", screen.now), "the energy that nobody gave is compared with", screen)
+        screens[1].has("At 60 m, track", ">20 kJ")
+        screens[3].has("At 80 m")
+        expect(">" not in screens[3].now.split("passes")[0], "an accepted energy that was not given:", screens[3])
+        expect_equal(lights(screens[3], "braille")["Energy"], "unknown", "without an accepted energy")
+        screens[5].has("At 80 m")
+        for at in (1, 3, 5):
+            wanted = r"^= ±0 % \d+ rocks" if scene == "fast.yaml" else r"^= ±0\.\d+ % \d+ rocks"
+            expect(re.search(wanted, screens[at].now, re.M), screens[at])
+
+
+def test_undo():
+    """Undo and redo bring back the very same screens."""
+    for scene in ("fast.yaml", "wood.yaml"):
+        undo_and_redo(scene)
+
+
+def undo_and_redo(scene):
+    screens = fast("""key 2
+        wait idle
+        find stools.per_ha
+        clear
+        dump
+        set 2000
+        clear
+        wait idle
+        dump
+        key +
+        key +
+        wait idle
+        dump
+        key u
+        key u
+        dump
+        clear
+        wait idle
+        dump
+        key u
+        clear
+        wait idle
+        dump
+        key u
+        dump
+        key Ctrl-R
+        clear
+        wait idle
+        dump
+        key Ctrl-R Ctrl-R
+        clear
+        wait idle
+        dump
+        key Ctrl-R
+        dump""", scene)
+    start, edited, stepped, undone, twice, thrice, none, again, far, end = screens
+    expect(start.text != edited.text != stepped.text, "the edits changed nothing")
+    expect_in("undone: ", undone.note)
+    expect_equal(twice.text, edited.text, "after two undos")
+    expect_equal(thrice.text, start.text, "after three undos")
+    expect_in("nothing to undo", none.note)
+    expect_equal(again.text, edited.text, "after redo")
+    expect_equal(far.text, stepped.text, "after all redos")
+    expect_in("nothing to redo", end.note)
+    name = scene.removesuffix(".yaml")
+    expect(f"* {name}" in edited.title and f"* {name}" not in thrice.title, "the mark of unsaved work", edited.title)
+
+
+def test_undo_rock():
+    """Undo of a change of the rock brings back the figures too, which are flown anew."""
+    start, edited, back = fast("""key 3
+        find rock.diameter_m
+        wait idle
+        clear
+        dump
+        set 1.1
+        wait idle
+        dump
+        key u
+        clear
+        wait idle
+        dump""", "wood.yaml")
+    expect(start.now != edited.now, edited)
+    expect_equal(back.text, start.text, "after undo")
+
+
+def wrong(view, word, value, *parts):
+    screens = fast(f"""key {view}
+        wait idle
+        find {word}
+        clear
+        dump
+        set {value}
+        dump
+        key Esc
+        clear
+        dump""")
+    before, refused, after = screens
+    for part in parts:
+        expect_in(part, refused.note, f"what is said to {value!r}")
+    expect_in("Esc leaves it as it was", refused.bar, "still in the field")
+    expect_in(value, refused.body, "what was typed is still there")
+    expect_equal(refused.now, before.now, "the figures")
+    expect_equal(after.text, before.text, "after Esc")
+
+
+def test_wrong_values():
+    """A wrong value is explained in place and never accepted."""
+    wrong(2, "shoots[0].dbh_m", "-0.07", "dbh_m", "-0.07 is below 0 m")
+    wrong(2, "stools.per_ha", "3000,5", "'3000,5' is no number", "dot")
+    wrong(2, "stools.per_ha", "many", "'many' is no number")
+    wrong(2, "stools.per_ha", "nan", "no number")
+    wrong(2, "stools.per_ha", "1e400", "")
+    wrong(2, "stools.per_ha", "0", "")
+    wrong(3, "rock.diameter_m", "0", "")
+    wrong(3, "rock.diameter_m", "0x10", "no number")
+    wrong(3, "release.x_m", "-7", "")
+    wrong(1, "forest[1].from_m", "20", "")
+    wrong(1, "forest[1].from_m", "1000", "")
+    wrong(1, "controls[1].x_m", "60", "")
+    wrong(1, "vertices_m[1]", "[0, 1]", "")
+    wrong(1, "vertices_m[1]", "here", "")
+
+
+def test_message_whole():
+    """At 80 columns too a refusal can be read to its end."""
+    refused = fast("""find vertices_m[1]
+        key Enter Ctrl-U
+        type [0, 1]
+        key Enter
+        dump
+        resize 200 50
+        dump""")
+    expect_equal(refused[0].note, refused[1].note, "at 80 columns, and at 200")
+
+
+def test_escape():
+    """Esc leaves a field as it was, whatever was typed."""
+    before, after = fast("""key 2
+        wait idle
+        find stools.per_ha
+        dump
+        key Enter
+        type 17.5e3x
+        key Left Backspace Home Del
+        key Esc
+        dump""")
+    expect_equal(after.text, before.text, "after Esc")
+
+
+def test_editing_line():
+    """The line of a field: cursor, deleting, UTF-8, and the first letter that replaces all."""
+    screens = fast("""key 3
+        find title
+        key Enter
+        type Über dem Weg
+        key Home Del
+        type u
+        key End Backspace
+        dump
+        key Enter
+        dump
+        key Enter Home
+        type À
+        key Right Right Backspace Enter
+        dump
+        key Enter Ctrl-U Enter
+        dump""")
+    expect_in("uber dem We_", screens[0].body)
+    expect(screens[1].title.endswith("* uber dem We"), screens[1])
+    expect(screens[2].title.endswith("* Àuer dem We"), screens[2])
+    screens[3].whole()
+
+
+def test_empty_value():
+    """A field that is emptied takes its default."""
+    before, after = fast("""key 3
+        find simulation.threshold_m
+        set 25
+        dump
+        key Enter Ctrl-U Enter
+        dump""")
+    expect_equal(before.row("^threshold")[-1], "25", "threshold")
+    expect_equal(after.row("^threshold")[-1], "30", "threshold")
+
+
+def test_steps():
+    """+ and - step numbers, words and yes or no, and stop at the limit of the range."""
+    screens = fast("""key 2
+        find stools.per_ha
+        dump
+        key +
+        dump
+        key - - -
+        dump
+        find stools.spacing_m
+        key -
+        dump
+        key 3
+        find simulation.scale_rn
+        key +
+        dump
+        key +
+        dump
+        find simulation.law
+        key +
+        dump
+        key -
+        dump
+        key 1
+        find segments[0]
+        set 0.98
+        key + + + + +
+        dump""")
+    stools = [float(s.row("^stools per ha")[-1]) for s in screens[:3]]
+    expect_equal(stools, [3000, 3100, 2800], "stools at first, after +, after - - -")
+    expect_equal(screens[3].row("^spacing")[-1], "0.39", "spacing after -")
+    expect_equal([s.row("^Rn by speed")[-1] for s in screens[4:6]], ["true", "false"], "Rn by speed")
+    expect_equal([s.row("^law of impact")[-1] for s in screens[6:8]], ["crsp", "lumped"], "law")
+    expect_in("the limit of its range", screens[8].note)
+    expect_equal(screens[8].row(r"^1 +1(\.0*)? +0.98")[0], "1", "rn at its limit")
+
+
+def table(screen, head):
+    """The rows of the table below the line that starts with these words: lists of words."""
+    lines = screen.body.split("\n")
+    at = next((i for i, line in enumerate(lines) if line.split()[:len(head)] == head), None)
+    expect(at is not None, f"no table {head} in the", screen)
+    rows = []
+    for line in lines[at + 1:]:
+        if not re.match(r"\d+ ", line):
+            break
+        rows.append(line.split())
+    return rows
+
+
+def lists(view, word, keys, head, size="120 60"):
+    """The tables after each of some keys, with the cursor on a word."""
+    script = f"resize {size}\nkey {view}\nwait idle\nfind {word}\ndump\n"
+    script += "\n".join(f"key {key}\ndump" for key in keys)
+    return [table(s, head) for s in fast(script)]
+
+
+def test_belts():
+    """Belts: y splits one in two, d deletes, a fills the next free stretch, u brings back."""
+    head = ["from_m", "to_m", "stand"]
+    start, split, gone, back, first = lists(1, "forest[0]", ["y", "d", "u", "u"], head, "200 70")
+    expect_equal(start, [["1", "5", "45", "upper"], ["2", "50", "80", "lower"]], "belts")
+    expect_equal(split, [["1", "5", "25", "upper"], ["2", "25", "45", "upper"], ["3", "50", "80", "lower"]], "split")
+    expect_equal(gone, [["1", "5", "25", "upper"], ["2", "50", "80", "lower"]], "after d")
+    expect_equal(back, split, "after u")
+    expect_equal(first, start, "after u u")
+    start, more, most = lists(1, "forest[0]", ["a", "a"], head, "200 70")
+    expect_equal(len(more), 3, f"belts after a: {more}")
+    expect_equal(len(most), 4, f"belts after a a: {most}")
+    places = [(float(r[1]), float(r[2])) for r in most]
+    expect(places == sorted(places) and all(a[1] <= b[0] for a, b in zip(places, places[1:])), places)
+
+
+def test_cohorts():
+    """Cohorts of shoots and classes of trees: y and a, d, < and >."""
+    head = ["per_ha", "dbh_m", "height_m"]
+    start, copy, moved, fewer, one, none = lists(2, "shoots[0]", ["y", ">", "d", "d", "d"], head)
+    expect_equal([r[1] for r in start], ["9000", "500"], "shoots")
+    expect_equal([r[1] for r in copy], ["9000", "9000", "500"], "after y")
+    expect_equal([r[1] for r in moved], ["9000", "500", "9000"], "after >")
+    expect_equal([r[1] for r in fewer], ["9000", "500"], "after d")
+    expect_equal(len(one), 1, "after d d")
+    expect_equal(none, [], "after d d d")
+    start, later, earlier = lists(2, "shoots[1]", ["<", ">"], head)
+    expect_equal([r[1] for r in later], ["500", "9000"], "after <")
+    expect_equal(earlier, start, "after < >")
+    screens = fast("""resize 120 60
+        key 2
+        find trees[0]
+        key y
+        dump
+        key a
+        dump
+        key d d d d
+        dump
+        key a
+        dump
+        find shoots[1]
+        key d d
+        dump
+        key a
+        dump""")
+    trees = [re.findall(r"^\d +([\d.]+) +[\d.]+ +[\d.]+ +[-\d.]+ ", s.body.split("Single trees")[1], re.M) for s in screens]
+    expect_equal(trees[0], ["80", "80", "20"], "trees after y")
+    expect_equal(len(trees[1]), 4, "trees after a")
+    expect_equal(trees[2], [], "trees after d d d d")
+    expect_equal(len(trees[3]), 1, "trees after a on the empty list")
+    expect_equal(screens[4].row("^stools per ha")[-1], "-", "stools go with their last shoots")
+    expect(float(screens[5].row("^stools per ha")[-1]) > 0, "stools come with the first shoots")
+
+
+def test_segments():
+    """Segments: y splits one in two, d joins them again."""
+    head = ["rn", "rt", "roughness_rad"]
+    start, split, joined = lists(1, "segments[0]", ["y", "d"], head, "200 70")
+    expect_equal([r[1] for r in start], ["0.3", "0.25"], "rn")
+    expect_equal([r[1] for r in split], ["0.3", "0.3", "0.25"], "rn after y")
+    expect_equal(len(joined), 2, "segments after d")
+
+
+def test_vertices():
+    """Vertices: a pair is typed; keys that cannot add or delete one say why."""
+    screens = fast("""resize 200 70
+        find vertices_m[1]
+        set [60, 35]
+        dump
+        key y
+        dump
+        key d
+        dump""")
+    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Vertices")[1], re.M)) for s in screens]
+    expect_in("60 35", screens[0].body)
+    expect_equal(counts[0], 3, "vertices")
+    for i in (1, 2):
+        expect(counts[i] != counts[i - 1] or not screens[i].note.startswith("vertices_m"),
+               "nothing is done and nothing is said", screens[i])
+
+
+def test_controls():
+    """Controls: a and y add one, d deletes, < and > reorder, the last one stays."""
+    head = ["x_m", "name", "accepted_kJ"]
+    start, more, back, fewer, one, same = lists(1, "controls[1]", ["a", "<", "d", "d", "d"], head, "200 70")
+    expect_equal([r[1] for r in start], ["60", "80"], "controls")
+    expect(len(more) == 3 and 80 < float(more[2][1]) <= 100, more)
+    expect_equal([r[1] for r in back], ["60", more[2][1], "80"], "after <")
+    expect_equal([r[1] for r in fewer], ["60", "80"], "after d")
+    expect_equal(len(one), 1, "after d d")
+    expect_equal(same, one, "after d d d")
+
+
+if __name__ == "__main__":
+    run_all(__name__)

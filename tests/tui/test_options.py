@@ -1,0 +1,257 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options side by side in the terminal program, and the column of figures beside every view."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import play  # noqa: E402
+from play import FAST, OPTIONS, Place, fast  # noqa: E402
+from harness import expect, expect_equal, expect_in, results, run_all  # noqa: E402
+from test_editing import FIGURE_NAMES  # noqa: E402
+from test_screens import BY_INDEX, SIGNS, SIZES, compared, compared_lights, lights, views_of  # noqa: E402
+
+
+def option_names(screen):
+    return [name for name, _ in compared(screen)]
+
+
+def test_options():
+    """Options: y copies, d deletes, < > reorder, Enter renames, the only one stays."""
+    screens = fast("""resize 120 40
+        key 5
+        wait idle
+        dump
+        key y
+        dump
+        key > >
+        dump
+        key <
+        dump
+        key Enter
+        type Più rado
+        key Enter
+        dump
+        key d
+        dump
+        key u
+        dump
+        key g d d d d d
+        dump""", "options.yaml")
+    names = [option_names(s) for s in screens]
+    expect_equal(names[0], ["thick", "thin", "none left"], "options")
+    expect_equal(names[1], ["thick", "thick (2)", "thin", "none left"], "after y")
+    expect_equal(names[2], ["thick", "thin", "none left", "thick (2)"], "after > >")
+    expect_equal(names[3], ["thick", "thin", "thick (2)", "none left"], "after <")
+    expect_equal(names[4], ["thick", "thin", "Più rado", "none left"], "after renaming")
+    expect_equal(names[5], ["thick", "thin", "none left"], "after d")
+    expect_in("deleted 'Più rado'; u brings it back", screens[5].note)
+    expect_equal(names[6], names[4], "after u")
+    expect_equal(len(names[7]), 1, "after many d")
+    expect_in("the only option stays", screens[7].note)
+
+
+def test_names_of_copies():
+    """y on a copy counts its number up, whatever else stands in the name."""
+    found = option_names(fast("resize 120 40\nkey 5\nwait idle\n" + "key y\n" * 3 + "wait idle\ndump", "options.yaml")[0])
+    expect_equal(found[:4], ["thick", "thick (2)", "thick (3)", "thick (4)"], "copies of copies")
+    with Place() as place:
+        place.write("named.yaml", OPTIONS.replace("name: thick", "name: cut (2031)").replace("name: none left", "name: a (x)"))
+        found = option_names(place.play("resize 120 40\nkey 5\nwait idle\nkey y G y\nwait idle\ndump", "named.yaml")[0])
+    expect_equal(found, ["cut (2031)", "cut (2031) (2)", "thin", "a (x)", "a (x) (2)"], "numbers that are none of copies")
+
+
+def test_contact_reason():
+    """The light of contact tells what fails: a gap where that is it, otherwise the ADC."""
+    text = FAST.replace("[[0, 80], [60, 30], [100, 0]]", "[[0, 80], [60, 30], [160, 0]]").replace("x_m: 80", "x_m: 150")
+    with Place() as place:
+        for to_m, from_m, width, words in ((45, 82.5, 80, "FAILS gap 37.5 m"), (45, 82.5, 120, "FAILS gap 37.5 m (>30)"),
+                                           (82, 90, 80, "FAILS gap 32 m")):
+            end = 150 if from_m > 80.5 and to_m == 45 else 118
+            place.write("gap.yaml", text.replace("to_m: 45", f"to_m: {to_m}").replace("from_m: 50", f"from_m: {from_m}")
+                        .replace("to_m: 80", f"to_m: {end}").replace("{per_ha: 1000, spacing_m: 0.3}",
+                                                                    "{per_ha: 3000, spacing_m: 0.3}")
+                        .replace("per_ha: 2500, dbh_m: 0.05", "per_ha: 9000, dbh_m: 0.06"))
+            screen = place.play(f"resize {width} 30\nwait idle\ndump", "gap.yaml")[0]
+            expect(re.search(rf"✘ Contact +{re.escape(words)}$", screen.now, re.M), words, screen)
+    screen = fast("key 5 Down\nwait idle\ndump", "options.yaml")[0]
+    expect(re.search(r"✘ Contact +FAILS 143 m$", screen.now, re.M), "the ADC", screen)
+    screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
+    expect(re.search(r"✘ Contact +FAILS no forest$", screen.now, re.M), screen)
+
+
+def test_index_zero():
+    """Where no stems take anything the index takes 0, not -0."""
+    screen = fast("key 5 Down Down\nwait idle\ndump", "options.yaml")[0]
+    expect(re.search(r"index: 0, left [\d.]+ kJ", screen.now), screen)
+
+
+def test_rename_refused():
+    """Two options cannot have one name; the refusal says so and keeps the question."""
+    screen = fast("key 5\nkey Enter Ctrl-U\ntype thin\nkey Enter\ndump", "options.yaml")[0]
+    screen.has("Name of this option")
+    expect(re.search("thin", screen.text) and "thick" in screen.text, screen)
+
+
+def test_compare_marks():
+    """Best and worst of each column are marked, with signs; figures are those of each option."""
+    screen = fast("resize 120 40\nkey 5\nwait idle\ndump", "options.yaml", charset="ascii")[0]
+    rows = dict(compared(screen))
+    expect_equal(list(rows), ["thick", "thin", "none left"], "options")
+    for c, best, worst in ((0, "thick", "none left"), (1, "thick", "none left"), (2, "thick", "none left")):
+        expect(rows[best][c][1] == "*", f"column {c}: '{best}' is best", rows)
+        expect(rows[worst][c][1] == "!", f"column {c}: '{worst}' is worst", rows)
+    by_index, in_wood = [(0, 1), (0, 1), (6, 1), (6, 1)], [(0, 1), (0, 1), (0, 1), (None, None)]
+    for scene, marked in (("four-systems" + BY_INDEX, by_index), ("four-systems", in_wood)):
+        for size in SIZES:
+            screen = views_of(scene, "ascii")[size, "compare"]
+            for c, (best, worst) in enumerate(marked):
+                marks = "".join(figures[c][1] for _, figures in compared(screen))
+                wanted = "".join("*" if i == best else "!" if i == worst else " " for i in range(8))
+                expect_equal(marks, wanted, f"{scene}: marks of column {c} at {size[0]} columns")
+
+
+def test_compare_wood():
+    """View 5 through the wood: shares with too much energy, differences to the first with their error, as in the JSON."""
+    script = "wait idle\nkey 5\n" + "".join(f"resize {w} {h}\ndump\n" for w, h in SIZES)
+    with Place() as place:
+        screens = place.play(script, "cuts.yaml")
+        rocks = re.search(r"(\d+) rocks$", screens[0].now, re.M).group(1)
+        run = results("-n", rocks, place.path / "cuts.yaml")[0]
+    differences = {d["option"]: d["exceed_probability"] for d in run["differences"] if d["x_m"] == 80}
+    for screen in screens:
+        rows = dict(compared(screen))
+        expect_equal(list(rows), [o["name"] for o in run["options"]], "options")
+        for option, signs in zip(run["options"], compared_lights(screen), strict=True):
+            name, control = option["name"], option["controls"][1]
+            share, difference = rows[name][2][0], rows[name][3][0]
+            expect_equal(share, f"{control['wooded']['exceed_probability'] * 1000:.0f}", f"{name}: too much")
+            d = differences.get(name)
+            wanted = "first" if d is None else f"{d['mean'] * 1000:+.0f}±{math.ceil(d['se'] * 1959.963984540054)}"
+            expect_equal(difference, wanted, f"{name}: to first")
+            wanted = "".join(SIGNS[{"pass": "passes", "fail": "FAILS"}[control["lights"][k]]]["braille"]
+                             for k in ("contact", "free_run", "energy"))
+            expect_equal(signs, wanted, f"{name}: lights")
+        expect_equal([figures[2][1] for figures in rows.values()], ["*", " ", "!"], "marks of too much")
+        expect(all(figures[3][1] == " " for figures in rows.values()), "marks of differences", rows)
+        expect_in("By contact and by energy 'thick' is best", " ".join(screen.body.split()), screen)
+
+
+def test_reorder_at_once():
+    """Options moved, copied, deleted: no option's figures stand under another's name, what is known stays in sight."""
+    before, moved, later, copied, gone = fast("""resize 120 40
+        key 5
+        wait idle
+        dump
+        key >
+        dump
+        wait idle
+        dump
+        key y
+        dump
+        wait idle
+        key d
+        dump""", "cuts.yaml")
+    known = dict(compared(before))
+    after = dict(compared(later))
+    expect_equal(list(after), ["thin", "thick", "none left"], "options")
+    for name, figures in compared(moved):
+        for c in (0, 1, 2):
+            expect(figures[c][0] in (known[name][c][0], "…"), f"'{name}' has figures of another option", moved)
+        expect(figures[3][0] in (after[name][3][0], "…"), f"'{name}' has a difference of another option", moved)
+    for screen, what in ((moved, "moved"), (copied, "copied"), (gone, "deleted")):
+        found = {name: figures[2][0] for name, figures in compared(screen)}
+        expect("thin" in found and "thick" in found, f"nothing is compared once one is {what}", screen)
+
+
+def test_compare_arrive():
+    """View 5 where it is not said what the place bears: those that arrive are compared, the energy lights are unknown"""
+    with Place() as place:
+        place.write("cuts.yaml", play.CUTS.replace(", accepted_kJ: 250", ""))
+        screen = place.play("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml")[0]
+        rocks = re.search(r"(\d+) rocks$", screen.now, re.M).group(1)
+        run = results("-n", rocks, place.path / "cuts.yaml")[0]
+    expect(re.search("free run +arrive +to first", screen.body), screen)
+    for (name, figures), option in zip(compared(screen), run["options"], strict=True):
+        expect_equal(figures[2][0], f"{option['controls'][1]['wooded']['reach_probability'] * 1000:.0f}", f"{name}: arrive")
+    expect(all(signs[2] == "?" for signs in compared_lights(screen)), screen)
+
+
+def test_now_wood():
+    """The column on the right has the figures of the JSON of as many rocks, for each option, at 80x24 and 200x50."""
+    script = "wait idle\nkey 1\n" + "clear\nresize 80 24\ndump\nresize 200 50\ndump\nkey ]\n" * 3
+    with Place() as place:
+        screens = place.play(script, "cuts.yaml")
+        rocks = re.search(r"(\d+) rocks$", screens[0].now, re.M).group(1)
+        run = results("-n", rocks, place.path / "cuts.yaml")[0]
+    for i, screen in enumerate(screens):
+        option = run["options"][i // 2]
+        control, ends = option["controls"][1], option["ends"]
+        bare, wooded = control["bare"], control["wooded"]
+        expect_in(f"Wood  {option['name']}", screen.now)
+        for name, key in (("arrive", "reach"), (">250 kJ", "exceed")):
+            expect_equal(screen.pair(name), tuple(round(a[f"{key}_probability"] * 1000) for a in (wooded, bare)), name)
+        lo, hi = (wooded[f"exceed_{k}"] * 1000 for k in ("lo", "hi"))
+        if screen.width == 200:
+            expect_in(f"({math.floor(lo)}-{math.ceil(hi)})", screen.now, "the interval")
+        for name, values in (("kJ mean", [a["energy_kJ"]["mean"] for a in (wooded, bare)]),
+                             ("kJ 95 %", [a["energy_kJ"]["p95"] for a in (wooded, bare)]),
+                             ("m  95 %", [a["height_m"]["p95"] for a in (wooded, bare)])):
+            expect_equal(screen.pair(name), tuple(float(f"{v:.3g}") for v in values), name)
+        for name, key in (("stopped by stems", "stopped_by_stems"), ("at rest", "came_to_rest")):
+            expect_equal(screen.figure(f"\n{name}"), round(ends[key] * 1000), name)
+        words = {"pass": "passes", "fail": "FAILS"}
+        expect_equal(lights(screen, "braille"), {name: words[control["lights"][key]] for name, key in (
+            ("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy"))}, "lights")
+        expect_in(f"{wooded['exceed_probability'] * 100:.1f} %", screen.now, "share beside the energy light")
+        half = 195.9963984540054 * wooded["energy_kJ"]["se"] / wooded["energy_kJ"]["mean"]
+        expect_in(f"= ±{half:.2g} % {rocks} rocks", screen.now, "the mark")
+
+
+def test_compare_one():
+    """With one option no mark is set; a adds one from a preset and both are compared."""
+    one, two = fast("""key 5
+        wait idle
+        dump
+        key a
+        key G
+        key Enter
+        wait idle
+        clear
+        dump""")
+    expect(not re.search(r"\d[*!]", one.body), one)
+    one.has("One way to treat this wood so far")
+    expect_equal(len(compared(two)), 2, "options")
+    expect(re.search(r"\d\*", two.body) and re.search(r"\d!", two.body), two)
+
+
+def test_next_option():
+    """] and [ go from option to option in every view, and the figures with them."""
+    screens = fast("""key 2
+        wait idle
+        dump
+        key ]
+        dump
+        clear
+        key ]
+        dump
+        key ]
+        clear
+        dump
+        key [
+        dump""", "options.yaml")
+    screens[0].has("Wood thick")
+    screens[1].has("Wood thin", "option 2 of 3: thin")
+    screens[2].has("Wood none left")
+    expect_equal(screens[3].text, screens[0].text, "around")
+    screens[4].has("option 3 of 3")
+    thick, thin, none = fast("wait idle\n" + "clear\ndump\nkey ]\n" * 3, "cuts.yaml")
+    for name in FIGURE_NAMES[1:]:
+        wood = [s.pair(name)[0] for s in (thick, thin, none)]
+        expect(wood[0] < wood[1] < wood[2] == none.pair(name)[1], f"'{name}' of the options", wood)
+
+
+if __name__ == "__main__":
+    run_all(__name__)

@@ -1,0 +1,352 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What lies over the views of the terminal program: presets, new scenes, files to open, search, help, counts of a plot."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import Place, actions, check_good, fast  # noqa: E402
+from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
+
+
+# ---- presets, new, open ----
+
+MARCHE = {"simple-coppice": "87 050 ha, 43.4 %", "coppice-with-standards": "13 250 ha, 6.6 %",
+          "selection-coppice": "350 ha, 0.2 %", "large-reserves": "30 275 ha, 15.1 %", "high-forest-small-rocks": "28 550 ha, 14.2 %"}
+
+
+def test_presets():
+    """Presets show how common each is in Marche, and before it is chosen what it would give."""
+    for size in ("120 40", "80 24"):
+        lines = [x for screen in fast(f"resize {size}\nkey 2\nkey p\ndump\n" + "key Down\ndump\n" * 45)
+                 for x in screen.text.split("\n")]
+        for name, share in MARCHE.items():
+            expect(any(re.search(rf"[│|] {name} .*{re.escape(share)}", x) for x in lines), f"{name} at {size}", share)
+    first, second, chosen, undone = fast("""key 2
+        wait idle
+        key p
+        dump
+        key Down
+        dump
+        key End Up Up
+        key Enter
+        wait idle
+        clear
+        dump
+        key u
+        wait idle
+        clear
+        dump""")
+    for screen in (first, second):
+        screen.has("Stand of this belt")
+        for part in ("stools,", "stems,", "trees per ha; basal area", "with this rock: ADC", "free run", "100 m"):
+            expect_in(part, screen.popup, "preview")
+    expect(first.popup.split("ads-1")[0] != second.popup.split("ads-1")[0], "the preview stays as it was")
+    expect_equal(chosen.row("^system")[-1], "simple-coppice", "system")
+    chosen.has("simple coppice")
+    undone.has("Stand of belt 1: upper")
+
+
+def test_new_typed():
+    """n: a new scene typed in one form, computed at once, saved where one says, and it is valid."""
+    with Place() as place:
+        screens = place.play("""key n
+            dump
+            type Above the mill
+            key Enter
+            type 0 100, 40 60; 90 20, 120 18
+            key Enter Enter
+            type 0.9
+            key Enter
+            type 95
+            key Enter
+            type 30
+            key Enter
+            dump
+            key Enter
+            wait idle
+            dump
+            key s
+            dump
+            key Ctrl-U
+            type mill.yaml
+            key Enter
+            dump""")
+        screens[0].has("New scene", "profile (CSV file or points)", "ground", "rock: diameter, m",
+                       "counted at x, m", "that bears, kJ", "stand on the whole way", "Esc never mind")
+        screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0.9", "95", "30", "simple-coppice")
+        screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
+        screens[3].has("Save as")
+        screens[4].has("saved mill.yaml")
+        check_good(place.path, "mill.yaml")
+        text = place.text("mill.yaml")
+        for part in ("Above the mill", "0.9", "95", "30"):
+            expect_in(part, text)
+
+
+def test_new_csv():
+    """n: a new scene from a CSV profile as QGIS writes it."""
+    with Place() as place:
+        place.write("line.csv", "distance,elevation\n0,150\n30,120\n80,80\n140,60\n200,55\n")
+        made, saved = place.play("""key n Enter
+            type line.csv
+            key Enter Enter Enter
+            type 150
+            key Enter Enter Enter
+            wait idle
+            dump
+            key s Ctrl-U
+            type from-csv.yaml
+            key Enter
+            dump""")
+        made.has("* My slope", "At 150 m", "Rock 0.6 m")
+        saved.has("saved from-csv.yaml")
+        check_good(place.path, "from-csv.yaml")
+        expect_in("line.csv", place.text("from-csv.yaml"))
+        again = place.play("wait idle\ndump", "from-csv.yaml")[0]
+        expect_equal(again.now, made.now, "figures of the saved scene")
+
+
+def test_new_refused():
+    """n: what cannot be a scene is explained in the form, and nothing is lost."""
+    for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "0 1, 0 2, 0 3"), ""),
+                         (("x", "none.csv"), "none.csv"), (("x", "0 60, 100 12", "moon"), "moon"),
+                         (("x", "0 60, 100 12", "talus", "-1"), "-1"), (("x", "0 60, 100 12", "talus", "0,6"), "0,6"),
+                         (("x", "0 60, 100 12", "talus", "0.6", "500"), "500"),
+                         (("x", "0 60, 100 12", "talus", "0.6", "90", "much"), "much")):
+        script = "wait idle\nkey n\n"
+        for field in fields:
+            script += f"key Ctrl-U\ntype {field}\nkey Enter\n"
+        script += "key Enter\n" * (7 - len(fields)) + "dump\nkey Esc\nclear\ndump"
+        refused, after = fast(script)
+        refused.has("New scene", fields[-1])
+        message = refused.text.split("stand on the whole way")[1]
+        expect("Enter: next" not in message and part in message, f"{fields} is not refused with a reason:", refused)
+        after.has("1 5 45 upper")
+        expect(after.title.endswith(" fast"), after.title)
+
+
+def test_new_bad_stand():
+    """n: a stand that there is not is told, not left out in silence."""
+    screen = fast("key n Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand\nkey Enter\ndump")[0]
+    expect_in("no-such-stand", screen.text)
+
+
+def test_open():
+    """o: a shipped scene from the list, a file by its name, one that there is not."""
+    screens = fast("""wait idle
+        key o
+        dump
+        key Down Enter
+        dump
+        key o Enter
+        type options.yaml
+        key Enter
+        dump
+        key o Enter
+        type missing.yaml
+        key Enter
+        dump
+        key Esc
+        dump""")
+    screens[0].has("a file …", "four-systems", "paper-site")
+    screens[1].has("Four systems, befo", "Rock 0.68 m 512.3 kg")
+    screens[2].has("Wood thick")
+    screens[3].has("No such file", "missing.yaml")
+    screens[4].has("Wood thick")
+
+
+def test_open_unsaved():
+    """o and n say first that there is unsaved work, and open nothing."""
+    screens = fast("""key 3
+        find title
+        set other
+        key o
+        dump
+        key n
+        dump""")
+    for screen in screens:
+        expect_in("unsaved work", screen.note)
+        screen.has("* other")
+
+
+# ---- search, help, counts ----
+
+def test_search():
+    """/ goes to a field by label, value or path, N to the next, and says where nothing is found."""
+    screens = fast("""key 3
+        key /
+        dump
+        type density
+        key Enter
+        dump
+        key /
+        key Ctrl-U
+        type speed
+        key Enter
+        dump
+        key N
+        dump
+        key N
+        dump
+        find zzz
+        dump
+        key /
+        key Esc
+        clear
+        dump""")
+    screens[0].has("Search in this view")
+    expect(screens[1].note.startswith("density_kg_m3 "), screens[1].note)
+    notes = [s.note.split()[0] for s in screens[2:5]]
+    expect(notes[0] != notes[1] and {"vx_m_s", "vz_m_s"} <= set(notes), notes)
+    expect_in("'zzz' is not found in this view", screens[5].note)
+    expect_equal(screens[6].note.split()[0], notes[2], "the field after Esc")
+
+
+def test_help():
+    """? has every key of the program with what it does, F1 too; the bar has those for always."""
+    rows = actions()
+    for key in ("?", "F1"):
+        tall, closed = fast(f"resize 120 80\nwait idle\nkey {key}\ndump\nkey Esc\ndump")
+        for name, word, word2, bar, text in rows:
+            pattern = re.escape(word) + (r" +" + re.escape(word2) if word2 else "") + r" +" + re.escape(text)
+            expect(re.search(r"[│|] " + pattern, tall.text), f"{name}: {word} {word2} {text} is missing in the", tall)
+        closed.lacks("Every edit is live")
+    wide = fast("resize 200 50\ndump")[0]
+    for name, word, word2, bar, text in rows:
+        if bar:
+            expect_in(f"{word} {text}", wide.bar, f"{name} in the bar at 200 columns")
+    for view in "123456":
+        bar = fast(f"key {view}\ndump")[0].bar
+        for name, word, word2, shown, text in rows:
+            if shown == 2:
+                expect_in(f"{word} {text}", bar, f"{name} in the bar of view {view} at 80 columns")
+
+
+def test_help_field():
+    """? begins with all that is known of the field under the cursor, where the line above the keys has no room for it."""
+    line, helped = fast("key 2\nfind stools.per_ha\ndump\nkey ?\ndump", "paper-site")
+    expect(line.note.endswith("…"), line.note)
+    wide = fast("resize 300 24\nkey 2\nfind stools.per_ha\ndump", "paper-site")[0]
+    expect_in("Table 1", wide.note, "the source")
+    expect(helped.popup.startswith(re.sub(" +", " ", wide.note) + " Every edit is live"), wide.note, helped)
+    expect(fast("key 4\nkey ?\ndump")[0].popup.startswith("Every edit is live"), "without a field")
+
+
+def test_help_scrolls():
+    """The help can be read to its end at 80x24."""
+    pages = fast("key ?\ndump\n" + "key PgDn\ndump\n" * 5 + "key g\ndump\nkey q\ndump")
+    text = "\n".join(p.text for p in pages[:6])
+    for name, word, word2, bar, what in actions():
+        expect_in(what, text, name)
+    expect_in("terminal itself selects text", re.sub(r"\s+[│|]\n.?[│|]\s+", " ", text))
+    expect_equal(pages[6].text, pages[0].text, "after g")
+    pages[7].lacks("─Keys")
+
+
+def test_contract_keys():
+    """Every key that was promised is in the table."""
+    words = {w for _, word, word2, _, _ in actions() for w in (word, word2)}
+    for key in ["Up", "Down", "Left", "Right", *"hjkl", "Tab", "Shift-Tab", *"123456", "Enter", "+", "-", *"adyu", "Ctrl-R",
+                *"nospw", "/", "?", "F1", "q", "F10"]:
+        expect(key in words, f"{key} is no key of the program")
+
+
+def counts_script(*fields):
+    """Fills the form of the counts for the second belt, and takes three screens: filled, done, left by Esc."""
+    script = "key 2\nwait idle\nfind forest[1]\ndump\nkey c\n"
+    for field in fields:
+        script += f"key Ctrl-U\ntype {field}\nkey Tab\n"
+    return script + "dump\nkey Enter\ndump\nkey Esc\nclear\ndump"
+
+
+def test_counts():
+    """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2."""
+    area = 400 * math.cos(math.radians(40))
+    for how, per in (("slope", 10000 / area), ("horizontal", 25)):
+        before, form, screen, _ = fast(counts_script("400", how, "40", "100", "250", "20"))
+        form.has("Stand from the counts of a sample plot", "size of the plot, m2", "slope or horizontal", "angle")
+        rows = [re.findall(r"^\d +(\S+)", part, re.M) for part in screen.body.split("\n    per_ha")[1:]]
+        found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0]), float(rows[1][0])]
+        for value, count in zip(found, (100, 250, 20)):
+            expect_near(value, count * per, count * per * 1e-5, f"{how}: {count} in the plot, per ha")
+        expect_in("306.4 m2" if how == "slope" else "400 m2", screen.note)
+        expect_in("32.64" if how == "slope" else "25", screen.note)
+        expect(screen.now != before.now, "the figures stay as they were")
+    expect_near(10000 / area, 10000 / 306.4, 0.005, "this test's own arithmetic")
+
+
+def test_counts_refused():
+    """c: what cannot be is refused with a reason, nothing changes."""
+    good = ["400", "slope", "40", "7", "7", "7"]
+    for at, value, part in ((0, "0", "above 0"), (0, "-4", "-4"), (1, "steep", "slope or horizontal"),
+                            (2, "90", "below 90"), (2, "x", "'x' is no number"), (3, "3,5", "'3,5' is no number"),
+                            (4, "nan", "'nan' is no number"), (0, "1e-320", ""), (3, "1e300", "")):
+        before, _, refused, after = fast(counts_script(*good[:at], value, *good[at + 1:]))
+        refused.has("Stand from the counts", part)
+        expect_equal(after.text, before.text, f"after {value!r} and Esc")
+
+
+def test_keys_at_once():
+    """Keys that come all at once do the same as one by one with the screen drawn in between."""
+    slow = fast("".join(f"key {k}\ndump\n" for k in ("2", "Down", "p", "End", "Enter")) + "wait idle\nclear\ndump")[-1]
+    quick = fast("key 2 Down p End Enter\nwait idle\nclear\ndump")[0]
+    expect_equal(quick.text, slow.text, "view 2, the second belt's stand from a preset")
+    keys = ["5", "Down", "y", ">", "2", "Down", "Down", "Down", "+", "1", "G", "4", "j", "5", "Up", "d"]
+    for scene in ("options.yaml", "cuts.yaml"):
+        slow = fast("wait idle\n" + "".join(f"key {k}\ndump\n" for k in keys) + "wait idle\nclear\ndump", scene)[-1]
+        quick = fast(f"wait idle\nkey {' '.join(keys)}\nwait idle\nclear\ndump", scene)[0]
+        expect_equal(quick.text, slow.text, "options and fields")
+
+
+def test_drawn_or_not():
+    """Whether a view has been drawn before changes nothing on the screens after it."""
+    drawn = fast("resize 100 40\nwait idle\nkey 1\ndump\nkey 2\ndump", "wood.yaml")[-1]
+    never = fast("resize 100 40\nwait idle\nkey 1\nkey 2\ndump", "wood.yaml")[-1]
+    expect_equal(never.text, drawn.text, "view 2 where view 1 was not drawn before")
+
+
+def test_new_is_data():
+    """n: what is typed into a field is that field's value, never more of the file."""
+    for field, text in ((3, "0.5, density_kg_m3: 7000"), (3, "0.5}\\nx: {"), (4, "90, accepted_kJ: 1"), (5, "50}, {x_m: 95"),
+                        (2, "talus}, {from_m: 0"), (6, "bare}, {from_m: 91, to_m: 95, stand: bare")):
+        script = "wait idle\nkey n\n" + "key Enter\n" * field + f"key Ctrl-U\ntype {text}\n" + "key Enter\n" * (7 - field)
+        refused = fast(script + "dump")[0]
+        expect("New scene" in refused.text or refused.title.endswith(" fast"), f"{text!r} was taken as YAML:", refused)
+
+
+def test_popup_bar():
+    """The bar has the keys of what lies over the view, and those of the view again once it is closed."""
+    for keys, words in (("p", ("Up Down move", "Enter choose", "Esc never mind")), ("q", ("Enter choose", "Esc never mind")),
+                        ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc never mind")),
+                        ("w End Enter", ("any other key closes",))):
+        for width in (60, 80, 200):
+            edit = "find stools.per_ha\nkey +\n" if keys == "q" else ""
+            over, closed = fast(f"resize {width} 24\nkey 2\n{edit}key {keys}\ndump\nkey Esc\ndump")
+            for word in words:
+                expect_in(word, over.bar, f"{keys} at {width} columns")
+            expect("edit" not in over.bar and "undo" not in over.bar, over.bar)
+            expect_in("Enter edit", closed.bar, "closed")
+
+
+def test_more_in_popups():
+    """Help and lists that are longer than their window say on its edge that there is more, below and above."""
+    for keys in ("?", "p"):
+        first, middle, last = fast(f"key 2\nkey {keys}\ndump\nkey PgDn PgDn\ndump\nkey End\ndump")
+        first.has("more below").lacks("more above")
+        middle.has("more below", "more above")
+        last.has("more above").lacks("more below")
+        fast(f"resize 120 100\nkey 2\nkey {keys}\ndump")[0].lacks("more below", "more above")
+    fast("find stand\nkey 3\nfind shape\nkey Enter\ndump")[0].has("sphere").lacks("more below", "more above")
+
+
+def test_popups_small():
+    """Popups over the smallest screen stay within it."""
+    for keys in ("?", "p", "n", "o", "w", "c", "/", "s"):
+        fast(f"key 2\nresize 60 20\nkey {keys}\ndump", "paper-site")[0].whole()
+
+
+if __name__ == "__main__":
+    run_all(__name__)
