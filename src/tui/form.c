@@ -105,7 +105,7 @@ static const struct field *find_field(const struct object *object, const char *k
         return ceduo_schema_field(object, key);
     snprintf(head, sizeof head, "%.*s", (int)(dot - key), key);
     const struct field *group = ceduo_schema_field(object, head);
-    return group && group->object ? ceduo_schema_field(group->object, dot + 1) : NULL;
+    return group && group->object ? find_field(group->object, dot + 1) : NULL;
 }
 
 void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
@@ -117,6 +117,28 @@ void ceduo_form_field(struct form *form, const struct document *d, const struct 
     snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
     fill_cell(&row->cells[0], d, field, path);
     row->n = 1;
+}
+
+static bool has_path(const struct form *form, const char *path)
+{
+    for (size_t i = 0; i < form->n; i++)
+        if (form->rows[i].n > 0 && strcmp(form->rows[i].cells[0].path, path) == 0)
+            return true;
+    return false;
+}
+
+void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,
+                     const char *group)
+{
+    const struct object *fields = find_field(object, group)->object;
+    for (size_t i = 0; i < fields->n; i++) {
+        const struct field *f = &fields->fields[i];
+        char key[FORM_PATH], path[2 * FORM_PATH];
+        snprintf(key, sizeof key, "%.60s.%.60s", group, f->key);
+        snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
+        if (f->type != FIELD_GROUP && f->type != FIELD_LIST && !has_path(form, path))
+            ceduo_form_field(form, d, object, prefix, key, f->key);
+    }
 }
 
 void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,

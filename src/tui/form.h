@@ -47,6 +47,11 @@ void ceduo_form_note(struct form *form, const char *text);
 void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
                       const char *key, const char *label);
 
+/* A line for each field of a group (such as growth.shoots) that has none yet, called by its key: what the table of the scene
+ * has and a view does not name. */
+void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,
+                     const char *group);
+
 /* A table of the items of a list: a line of column names, a line for each item; `keys` ends in NULL. An empty list has a
  * line that says how to add to it. `list` is the path, `object` that of its items. Keys may hold a dot. */
 void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,

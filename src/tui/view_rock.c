@@ -33,6 +33,7 @@ static void build(struct app *app, struct form *form)
     add(app, form, "release", "vx_m_s", _("speed along x, m/s"));
     add(app, form, "release", "vz_m_s", _("speed upward, m/s"));
     add(app, form, "release", "spin_rad_s", _("spin, rad/s"));
+    ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "release");
     ceduo_form_heading(form, _("Simulation"));
     add(app, form, "simulation", "law", _("law of impact"));
     add(app, form, "simulation", "contact_model", _("rocks among stems"));
@@ -42,6 +43,7 @@ static void build(struct app *app, struct form *form)
     add(app, form, "simulation", "gravity_m_s2", _("gravity, m/s2"));
     add(app, form, "simulation", "seed", _("seed"));
     add(app, form, "simulation", "rocks", _("rocks (batch)"));
+    ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "simulation");
     ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", _("title"));
 }
 

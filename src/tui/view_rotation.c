@@ -26,6 +26,7 @@ static void build(struct app *app, struct form *form)
                   {"growth.trees.dbh_rate_1_y", N_("k, 1/y")},
                   {"growth.trees.height_most_m", N_("height at most, m")},
                   {"growth.trees.height_rate_1_y", N_("m, 1/y")}};
+    static const char *const groups[] = {"cutting", "growth", "growth.shoots", "growth.trees"};
     const struct document *d = &app->document;
     const struct object *scene = ceduo_schema_scene();
     char forest[64], stand[FORM_PATH], heading[128];
@@ -38,10 +39,13 @@ static void build(struct app *app, struct form *form)
         ceduo_form_heading(form, heading);
         for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
             ceduo_form_field(form, d, ceduo_schema_stand(), stand, fields[i].key, _(fields[i].label));
+        for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
+            ceduo_form_rest(form, d, ceduo_schema_stand(), stand, groups[i]);
     }
     ceduo_form_heading(form, _("What comes down, what must stay"));
     ceduo_form_field(form, d, scene, "", "rocks_per_year", _("rocks a year"));
     ceduo_form_field(form, d, scene, "", "minimum.reserves_per_ha", _("trees per ha at least"));
+    ceduo_form_rest(form, d, scene, "", "minimum");
 }
 
 /* The stems of a belt in the year under the cursor. */

@@ -28,6 +28,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "species", _("species"));
     ceduo_form_field(form, d, stand, path, "stools.per_ha", _("stools per ha"));
     ceduo_form_field(form, d, stand, path, "stools.spacing_m", _("spacing, m"));
+    ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));
     snprintf(list, sizeof list, "%s.shoots", path);
     ceduo_form_table(form, d, ceduo_schema_field(stand, "shoots")->object, list, stem_columns, "");
@@ -38,6 +39,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "energy.model", _("model"));
     ceduo_form_field(form, d, stand, path, "energy.u_J_m3", _("U, J/m3"));
     ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", _("fracture ratio"));
+    ceduo_form_rest(form, d, stand, path, "energy");
     ceduo_form_field(form, d, stand, path, "name", _("name"));
 }
 
