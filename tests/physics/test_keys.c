@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keys of scenes, forests and years: fields of what they stand for are changed alone (test_table.c: of every row). Where it decides, the key
- * must change, or old figures would stand under new values; where it does not, the key must stay, or the same rocks would
- * fly twice. */
+/* Keys of scenes, forests and years: fields of what they stand for are changed alone (test_table.c does so with every row).
+ * Where one decides, the key must change, or old figures would stand under new values; where it does not, the key must stay,
+ * or the same rocks would fly twice. */
 #include "expect.h"
 
 #include <math.h>
