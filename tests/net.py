@@ -65,7 +65,7 @@ SCENES = sorted(path.stem for path in (PROFILES / "scenes").glob("*.yaml"))
 SEEDS = ROOT / "tests/fuzz/seeds"
 FEW = ["-j", 1, "-n", 200]
 FORMATS = {"table": ["-f", "table"], "csv": ["-f", "csv"], "stands": ["-f", "csv", "--rows", "stands"], "json": ["-f", "json"]}
-PLOTS = re.search(r'CEDUO_PLOT_NAMES "(.*)"', (ROOT / "src/view/plot.h").read_text()).group(1).split(", ")
+PLOTS = re.findall(r'^ +X\(\w+, "(\w+)", ', (ROOT / "src/view/plots.h").read_text(), re.M)
 SMALL = (SEEDS / "scene/small.yaml").read_text()
 CSV_SLOPE = SMALL[:SMALL.index("slope:")] + "slope: {csv: line.csv}\n" + SMALL[SMALL.index("controls:"):]
 

@@ -9,8 +9,8 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
 from play import FAST, VIEWS, Place, fast, run_script  # noqa: E402
-from harness import (DONE, INPUT, OUTPUT, PROFILES, USAGE, Folder, expect, expect_equal, expect_in,  # noqa: E402
-                     expect_near)
+from harness import (DONE, INPUT, OUTPUT, PROFILES, USAGE, Folder, Suite, expect, expect_equal, expect_in,  # noqa: E402
+                     expect_near, tests_of)
 
 SIZES = [(80, 24), (120, 40), (200, 50)]
 CHARSETS = ["braille", "block", "ascii"]
@@ -402,3 +402,21 @@ def test_charset_of_locale():
             play.home = before
         expect_equal(place.text("d.txt"), place.text("c.txt"), "the screen under LC_ALL=C")
         expect(place.text("e.txt").isascii(), place.text("e.txt"))
+
+
+def main():
+    suite = Suite()
+    for scene in SCENES:
+        for charset in CHARSETS:
+            for width, height in SIZES:
+                for view in VIEWS[:5]:
+                    suite.check(f"screen: {scene}, {charset}, {width}x{height}: {view}", check_screen, (width, height),
+                                view, scene, charset)
+    for view in VIEWS:
+        suite.check(f"screen: 60x20: {view}", check_smallest, view)
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
