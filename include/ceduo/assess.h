@@ -24,6 +24,7 @@ struct ceduo_stand_result {
     double contacts;             /* L/ADC (Eq. 2) */
     double energy_per_contact;   /* J; NaN where bare */
     double dissipated;           /* J over the belt (Eq. 4) */
+    double per_100m;             /* J: of that */
     unsigned warnings;           /* enum ceduo_stand_warning */
 };
 
@@ -32,6 +33,7 @@ struct ceduo_index {
     double length;          /* wooded metres */
     double longest_gap;     /* m without forest, from the release to the control */
     double contacts, dissipated, meet_nothing_probability;
+    double per_100m;        /* J: of that, over what is wooded; 0 without forest */
     double worst_adc;       /* m, the largest of the belts; infinite where no belt is, or one without stems */
     double worst_free_run;  /* the largest of the belts; 1 where no belt is */
     bool contact_passes;    /* every belt under the threshold and no gap longer than it, over what is wooded */

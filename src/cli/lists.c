@@ -6,6 +6,7 @@
 #include "say.h"
 #include "io/file.h"
 #include "base/intl.h"
+#include "base/utf8.h"
 #include "io/node.h"
 #include "scene/schema.h"
 
@@ -58,35 +59,26 @@ static void put_parameter(void *context, const char *path, const struct field *f
     ceduo_text_free(&words);
 }
 
+#define WIDTH_MOST 44 /* of a column; what is wider sticks out */
+
 /* Columns of a tab-separated table set below one another; the last is left as it is. */
 static void align(struct text *to, const char *rows)
 {
-    size_t widths[8] = {0}, column = 0, width = 0;
-    for (const char *p = rows; *p; p++) {
-        if (*p == '\t' || *p == '\n') {
-            if (*p == '\t' && width > widths[column])
-                widths[column] = width > 44 ? 44 : width;
-            column = *p == '\n' ? 0 : column + 1;
-            width = 0;
-        } else if (((unsigned char)*p & 0xc0) != 0x80) {
-            width++;
+    size_t widths[8] = {0}, column = 0, n;
+    for (int puts = 0; puts < 2; puts++)
+        for (const char *p = rows; *p; p += n + 1) {
+            n = strcspn(p, "\t\n");
+            size_t width = ceduo_utf8_width_of(p, n);
+            bool last = p[n] == '\n';
+            if (!puts && !last && width > widths[column])
+                widths[column] = width > WIDTH_MOST ? WIDTH_MOST : width;
+            if (puts) {
+                ceduo_text_add(to, p, n);
+                ceduo_text_format(to, "%*s", last ? 0 : width > widths[column] ? 1 : (int)(widths[column] + 2 - width), "");
+                ceduo_text_put(to, last ? "\n" : "");
+            }
+            column = last ? 0 : column + 1;
         }
-    }
-    column = width = 0;
-    for (const char *p = rows; *p; p++) {
-        if (*p == '\t') {
-            do
-                ceduo_text_char(to, ' ');
-            while (width++ < widths[column] + 1);
-            column++;
-            width = 0;
-        } else {
-            ceduo_text_char(to, *p);
-            width += ((unsigned char)*p & 0xc0) != 0x80;
-        }
-        if (*p == '\n')
-            column = width = 0;
-    }
 }
 
 enum exit_status ceduo_batch_parameters(const struct arguments *a)

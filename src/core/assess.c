@@ -25,6 +25,7 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
     r.free_run_probability = exp(-scene->simulation.threshold / adc.crofton);
     r.contacts = length / r.adc_m;
     r.dissipated = bare ? 0 : length * ceduo_energy_per_metre(stand, b, rule);
+    r.per_100m = r.dissipated / length * 100;
     r.energy_per_contact = bare ? NAN : ceduo_energy_per_metre(stand, b, rule) * r.adc_m;
     r.warnings = ceduo_stand_warnings(stand, b, scene->simulation.rule);
     return r;
@@ -83,6 +84,7 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
         index.worst_free_run = 1;
         index.worst_adc = INFINITY;
     }
+    index.per_100m = index.length > 0 ? index.dissipated / index.length * 100 : 0;
     index.contact_passes &= !(index.longest_gap > scene->simulation.threshold);
     index.contact = index.contact_passes ? CEDUO_PASS : CEDUO_FAIL;
     index.free_run = index.worst_free_run <= CEDUO_FREE_RUN_MOST ? CEDUO_PASS : CEDUO_FAIL;

@@ -56,7 +56,7 @@ static double figure(const struct app *app, size_t i, enum column column)
     case FREE_RUN:
         return s->worst_free_run;
     case TAKEN:
-        return wooded(app) ? share_of(app, i) : s->length > 0 ? s->dissipated / s->length * 100e-3 : 0;
+        return wooded(app) ? share_of(app, i) : s->per_100m * 1e-3;
     default:
         return wooded(app) ? difference_of(app, i, &half) : s->residual * 1e-3;
     }

@@ -55,7 +55,7 @@ static void draw_figures(struct app *app, struct ceduo_area area)
         ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g); %.3g kJ per "
                                    "100 m (%s)"),
                           r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,
-                          r.adc.interception, r.adc.crofton, r.dissipated / r.length * 0.1, ceduo_rule_words.names[r.rule]);
+                          r.adc.interception, r.adc.crofton, r.per_100m * 1e-3, ceduo_rule_words.names[r.rule]);
     if (text.bytes)
         ceduo_app_text(app, area, CEDUO_ROLE_DIM, text.bytes, 0);
     ceduo_text_free(&text);

@@ -206,8 +206,7 @@ VALUE(law_of, scene, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
 VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
 VALUE(rule_of, stand_result, WORD(o->bare ? NULL : ceduo_rule_words.names[o->rule]))
-VALUE(stand_per_100m, stand_result, NUMBER(o->dissipated / o->length * 100))
-VALUE(index_per_100m, index, NUMBER(o->dissipated / o->length * 100))
+VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
@@ -300,7 +299,7 @@ static const struct ceduo_figure stand_result[] = {
     {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
      AT(stand_result, energy_per_contact), .null = "the stand has no stems"},
     {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO},
-    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", .value = stand_per_100m, .scale = KILO},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO},
     END};
 
 static const struct ceduo_figure stand[] = {

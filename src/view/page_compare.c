@@ -22,7 +22,7 @@ static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r,
 
 static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
 {
-    ceduo_page_number(page, ceduo_page_per_100m(s), 3);
+    ceduo_page_number(page, s->per_100m * 1e-3, 3);
     if (s->exhausted)
         ceduo_text_put(ceduo_page_text(page), _("used up"));
     else

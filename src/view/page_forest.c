@@ -21,7 +21,7 @@ static void add_belt(struct ceduo_page *page, const struct ceduo_belt *b, const 
     ceduo_text_put(ceduo_page_text(page), s->passes_threshold ? _("yes") : _("NO"));
     ceduo_page_percent(page, s->free_run_probability);
     ceduo_page_number(page, s->dissipated * KILO, 3);
-    ceduo_page_number(page, s->dissipated / s->length * 100 * KILO, 3);
+    ceduo_page_number(page, s->per_100m * KILO, 3);
 }
 
 static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
@@ -44,7 +44,7 @@ static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const 
     ceduo_text_format(line, "%s%s: ADC ", b->name, b->assumed ? "*" : "");
     ceduo_words_number(line, s->adc_m, 3);
     ceduo_text_format(line, _(" m, free run %.1f %%, "), s->free_run_probability * 100);
-    ceduo_words_number(line, s->dissipated / s->length * 100 * KILO, 3);
+    ceduo_words_number(line, s->per_100m * KILO, 3);
     ceduo_text_format(line, _(" kJ per 100 m (%s)"), s->bare ? _("no stems") : ceduo_rule_words.names[s->rule]);
 }
 
@@ -113,7 +113,7 @@ void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     ceduo_text_put(line, " kJ");
     if (index->length > 0) {
         ceduo_text_put(line, ", ");
-        ceduo_words_number(line, ceduo_page_per_100m(index), 3);
+        ceduo_words_number(line, index->per_100m * KILO, 3);
         ceduo_text_format(line, _(" kJ per 100 m (%s)"), rule);
     }
     if (a->reached == 0) {

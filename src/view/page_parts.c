@@ -55,11 +55,6 @@ void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
     ceduo_text_put(ceduo_page_text(page), light == CEDUO_PASS ? _("pass") : light == CEDUO_FAIL ? _("FAIL") : "?");
 }
 
-double ceduo_page_per_100m(const struct ceduo_index *index)
-{
-    return index->length > 0 ? index->dissipated / index->length * 100 * 1e-3 : 0;
-}
-
 void ceduo_page_warn(void *page, const char *sentence)
 {
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_WARNING), sentence);

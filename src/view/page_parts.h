@@ -38,8 +38,6 @@ void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, const char *otherwise);
 void ceduo_page_percent(struct ceduo_page *page, double share);
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light); /* pass, FAIL, ? */
-/* Energy (kJ) per 100 m that the stems up to a control could take; 0 without forest. */
-double ceduo_page_per_100m(const struct ceduo_index *index);
 
 /* A warning of the page that is the context. */
 void ceduo_page_warn(void *page, const char *sentence);

@@ -39,7 +39,7 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     const struct ceduo_scene *scene = c->picture->scene;
     struct ceduo_index index = ceduo_assess_index(scene, &scene->options[i], c->control, c->bare);
     struct measures m = {.adc = index.worst_adc,
-                         .middle = index.length > 0 ? index.dissipated / index.length * 100 * KILO : 0,
+                         .middle = index.per_100m * KILO,
                          .last = index.residual * KILO,
                          .passes = index.contact == CEDUO_PASS,
                          .exhausted = index.exhausted};

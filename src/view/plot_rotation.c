@@ -35,7 +35,7 @@ static double share_of(const struct rotation *r, const struct ceduo_year *year)
 {
     const struct ceduo_index *index = &year->controls[r->c];
     if (!r->flown)
-        return index->length > 0 ? index->dissipated / index->length * 100 * KILO : 0;
+        return index->per_100m * KILO;
     if (year->wooded.rocks == 0)
         return NAN;
     const struct ceduo_arrivals *a = &year->wooded.arrivals[r->c];
