@@ -53,6 +53,11 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
                                       const struct ceduo_difference *differences, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
+/* Assesses an option by what was flown: each belt to `stands`, each control to `controls`. `wooded` without rocks: not
+ * known. */
+void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
+                       const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
+
 /* What arrives at a control through the forest of an option; NULL with the contact model index and where it is not known
  * yet. */
 const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control);

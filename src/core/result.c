@@ -75,89 +75,105 @@ static struct ceduo_difference no_difference(double accepted)
     return d;
 }
 
-static bool assess_option(struct ceduo_result *r, size_t i, const struct ceduo_flown *wooded,
-                          const struct ceduo_difference *differences)
+void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
+                       const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls)
+{
+    for (size_t k = 0; k < option->belts_count; k++)
+        stands[k] = ceduo_assess_stand(scene, &option->belts[k]);
+    for (size_t c = 0; c < scene->controls_count; c++) {
+        controls[c] = ceduo_assess_index(scene, option, &scene->controls[c], bare->arrivals[c].energy.mean);
+        controls[c].energy = ceduo_energy_light(wooded->rocks > 0 ? &wooded->arrivals[c] : NULL);
+    }
+}
+
+static bool allocate_option(const struct ceduo_scene *scene, size_t i, struct ceduo_option_result *o)
+{
+    o->stands = calloc(scene->options[i].belts_count + 1, sizeof *o->stands);
+    o->controls = calloc(scene->controls_count + 1, sizeof *o->controls);
+    o->differences = calloc(scene->controls_count + 1, sizeof *o->differences);
+    return o->stands && o->controls && o->differences;
+}
+
+static struct ceduo_result *allocate(const struct ceduo_scene *scene)
+{
+    struct ceduo_result *r = calloc(1, sizeof *r);
+    if (!r)
+        return NULL;
+    *r = (struct ceduo_result){.scene = scene,
+                               .rock = ceduo_rock_mean(&scene->rock),
+                               .wooded = scene->simulation.contact_model != CEDUO_INDEX,
+                               .options = calloc(scene->options_count + 1, sizeof *r->options)};
+    r->options_count = r->options ? scene->options_count : 0;
+    bool good = r->options != NULL;
+    for (size_t i = 0; i < scene->options_count && good; i++)
+        good = allocate_option(scene, i, &r->options[i]);
+    for (size_t c = 1; c < scene->controls_count; c++)
+        if (scene->controls[c].x > scene->controls[r->last_control].x)
+            r->last_control = c;
+    if (good)
+        return r;
+    ceduo_result_free(r);
+    return NULL;
+}
+
+/* Assesses every option of a result whose flights are read; otherwise frees it. */
+static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
 {
     const struct ceduo_scene *scene = r->scene;
-    const struct ceduo_option *option = &scene->options[i];
-    struct ceduo_option_result *to = &r->options[i];
-    to->stands = calloc(option->belts_count + 1, sizeof *to->stands);
-    to->controls = calloc(scene->controls_count + 1, sizeof *to->controls);
-    to->differences = calloc(scene->controls_count + 1, sizeof *to->differences);
-    if (!to->stands || !to->controls || !to->differences)
-        return false;
-    if (wooded && ceduo_flown_copy(wooded, &to->wooded) != CEDUO_OK)
-        return false;
-    if (r->wooded)
-        ceduo_flown_meets_nothing(&to->wooded);
-    for (size_t k = 0; k < option->belts_count; k++)
-        to->stands[k] = ceduo_assess_stand(scene, &option->belts[k]);
-    for (size_t c = 0; c < scene->controls_count; c++) {
-        to->controls[c] = ceduo_assess_index(scene, option, &scene->controls[c], r->bare.arrivals[c].energy.mean);
-        to->controls[c].energy = ceduo_energy_light(ceduo_result_wooded(r, i, c));
-        to->differences[c] = differences ? differences[c] : no_difference(scene->controls[c].accepted);
+    const struct ceduo_flown none = {0};
+    for (size_t i = 0; i < r->options_count && status == CEDUO_OK; i++) {
+        struct ceduo_option_result *o = &r->options[i];
+        if (r->wooded)
+            ceduo_flown_meets_nothing(&o->wooded);
+        else
+            status = ceduo_flown_copy(&r->bare, &o->wooded);
+        for (size_t c = 0; c < scene->controls_count && !r->wooded; c++)
+            o->differences[c] = no_difference(scene->controls[c].accepted);
+        ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
-    return true;
+    if (status == CEDUO_OK)
+        *result = r;
+    else
+        ceduo_result_free(r);
+    return status;
 }
 
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
                                       const struct ceduo_flown *const *wooded,
                                       const struct ceduo_difference *differences, struct ceduo_result **result)
 {
+    size_t controls = scene->controls_count;
+    struct ceduo_result *r = allocate(scene);
     *result = NULL;
-    struct ceduo_result *r = calloc(1, sizeof *r);
     if (!r)
         return CEDUO_NO_MEMORY;
-    r->scene = scene;
-    r->wooded = scene->simulation.contact_model != CEDUO_INDEX;
-    r->options = calloc(scene->options_count + 1, sizeof *r->options);
-    r->rock = ceduo_rock_mean(&scene->rock);
-    bool good = r->options && ceduo_flown_copy(bare, &r->bare) == CEDUO_OK;
-    if (good)
-        r->options_count = scene->options_count;
-    for (size_t i = 1; i < scene->controls_count; i++)
-        if (scene->controls[i].x > scene->controls[r->last_control].x)
-            r->last_control = i;
-    for (size_t i = 0; i < scene->options_count && good; i++)
-        good = assess_option(r, i, r->wooded ? wooded[i] : &r->bare,
-                             r->wooded ? differences + i * scene->controls_count : NULL);
-    if (good) {
-        *result = r;
-        return CEDUO_OK;
+    enum ceduo_status status = ceduo_flown_copy(bare, &r->bare);
+    for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
+        memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
+        if (wooded[i])
+            status = ceduo_flown_copy(wooded[i], &r->options[i].wooded);
     }
-    ceduo_result_free(r);
-    return CEDUO_NO_MEMORY;
+    return finish(r, status, result);
 }
 
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
                                       struct ceduo_result **result)
 {
-    *result = NULL;
-    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
-    size_t n = flies ? scene->options_count : 0, controls = scene->controls_count;
-    struct ceduo_flown bare = {0}, *wooded = calloc(n + 1, sizeof *wooded);
-    const struct ceduo_flown **all = calloc(n + 1, sizeof *all);
-    struct ceduo_difference *differences = calloc(n * controls + 1, sizeof *differences);
-    bool room = wooded && all && differences;
+    size_t controls = scene->controls_count;
     const struct ceduo_run *baseline = ceduo_pool_find(pool, &scene->options[0]);
-    enum ceduo_status status =
-        room ? read_if_there(ceduo_pool_find(pool, NULL), controls, &bare) : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+    struct ceduo_result *r = allocate(scene);
+    *result = NULL;
+    if (!r)
+        return CEDUO_NO_MEMORY;
+    enum ceduo_status status = read_if_there(ceduo_pool_find(pool, NULL), controls, &r->bare);
+    for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = ceduo_pool_find(pool, &scene->options[i]);
-        all[i] = run ? &wooded[i] : NULL;
-        status = read_if_there(run, controls, &wooded[i]);
         for (size_t c = 0; c < controls; c++)
-            differences[i * controls + c] = ceduo_run_difference(run, baseline, c);
+            r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
+        if (run)
+            status = ceduo_flown_read(run, controls, &r->options[i].wooded);
     }
-    if (status == CEDUO_OK)
-        status = ceduo_result_assess(scene, &bare, all, differences, result);
-    ceduo_flown_free(&bare);
-    for (size_t i = 0; wooded && i < n; i++)
-        ceduo_flown_free(&wooded[i]);
-    free(wooded);
-    free(all);
-    free(differences);
-    return status;
+    return finish(r, status, result);
 }
 
 void ceduo_result_free(struct ceduo_result *result)

@@ -94,14 +94,9 @@ void ceduo_years_free(struct ceduo_years *years)
 
 static void assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare, struct ceduo_year *y)
 {
-    for (size_t i = 0; i < y->option.belts_count; i++) {
-        y->stands[i] = ceduo_assess_stand(scene, &y->option.belts[i]);
+    ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
+    for (size_t i = 0; i < y->option.belts_count; i++)
         y->stands[i].felled = y->felled[i];
-    }
-    for (size_t c = 0; c < scene->controls_count; c++) {
-        y->controls[c] = ceduo_assess_index(scene, &y->option, &scene->controls[c], bare->arrivals[c].energy.mean);
-        y->controls[c].energy = ceduo_energy_light(y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL);
-    }
 }
 
 void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare)
