@@ -11,7 +11,7 @@
 #include "base/intl.h"
 #include "options.h"
 #include "together.h"
-#include "usage.h"
+#include "say.h"
 
 /* ---- the help ---- */
 

@@ -66,30 +66,21 @@ static bool add_line(struct parts *all, const char *file, size_t line, char *byt
 {
     struct part part = {.file = file, .line = line};
     enum part_fault fault = ceduo_part_read(&all->arena, &part, bytes, n);
-    switch (fault) {
-    case PART_GOOD:
+    static const char *const faults[] = {
+        [PART_NONE] = N_("no part that --shard wrote"),
+        [PART_CUT] = N_("a part that is cut short; fly this shard again"),
+        [PART_CHANGED] = N_("a part that was changed after it was written; fly this shard again")};
+    if (fault == PART_GOOD)
         add_part(all, &part);
-        break;
-    case PART_NONE:
-        complain(all, file, line, _("no part that --shard wrote"));
-        break;
-    case PART_FORMAT:
+    else if (fault == PART_FORMAT)
         complain(all, file, line, _("a part in a format that this version (%s) does not know"), CEDUO_VERSION);
-        break;
-    case PART_CUT:
-        complain(all, file, line, _("a part that is cut short; fly this shard again"));
-        break;
-    case PART_CHANGED:
-        complain(all, file, line, _("a part that was changed after it was written; fly this shard again"));
-        break;
-    case PART_VERSION:
+    else if (fault == PART_VERSION)
         complain(all, file, line, _("a part by version %s, and this is %s; all shards are flown and joined by one"),
                  part.scene, CEDUO_VERSION);
-        break;
-    default:
+    else if (fault == PART_MEMORY)
         all->no_memory = true;
-        break;
-    }
+    else
+        complain(all, file, line, "%s", _(faults[fault]));
     return fault != PART_NONE;
 }
 

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/intl.h"
@@ -11,7 +10,6 @@
 #include "ceduo/years.h"
 #include "io/part_file.h"
 #include "say.h"
-#include "usage.h"
 
 #define WIDTH_LEAST  20
 #define HEIGHT_LEAST 6
@@ -106,24 +104,37 @@ static enum exit_status set_plot(struct arguments *a, const struct option_row *r
     return EXIT_DONE;
 }
 
+/* Numbers with a separator between them, `least` to `most`; those that are missing stay as they were. */
+static bool read_numbers(const char *text, const char *separator, int least, int most, double *numbers)
+{
+    for (int n = 1; n <= most; n++) {
+        char part[256];
+        size_t length = strcspn(text, separator);
+        snprintf(part, sizeof part, "%.*s", (int)(length < sizeof part ? length : 0), text);
+        if (ceduo_number_read(part, &numbers[n - 1]) != CEDUO_NUMBER_GOOD)
+            return false;
+        if (!text[length])
+            return n >= least;
+        text += length + 1;
+    }
+    return false;
+}
+
+static bool is_whole(double number)
+{
+    return number == floor(number);
+}
+
 static enum exit_status set_size(struct arguments *a, const struct option_row *row, char *value)
 {
-    char *width = strdup(value), *height = width ? strchr(width, 'x') : NULL;
-    double w = 0, h = 0;
-    if (!width)
-        return ceduo_usage_no_memory();
-    if (height)
-        *height++ = '\0';
-    bool good = height && ceduo_number_read(width, &w) == CEDUO_NUMBER_GOOD &&
-                ceduo_number_read(height, &h) == CEDUO_NUMBER_GOOD && w == floor(w) && h == floor(h);
-    free(width);
-    if (!good)
+    double n[2];
+    if (!read_numbers(value, "x", 2, 2, n) || !is_whole(n[0]) || !is_whole(n[1]))
         return ceduo_usage(row->name, _("'%s' is no size; write columns x lines, as 80x24"), value);
-    if (w < WIDTH_LEAST || w > CEDUO_CANVAS_MAX_WIDTH || h < HEIGHT_LEAST || h > CEDUO_CANVAS_MAX_HEIGHT)
+    if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT)
         return ceduo_usage(row->name, _("%s lies outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
                            CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
-    a->plot_width = (int)w;
-    a->plot_height = (int)h;
+    a->plot_width = (int)n[0];
+    a->plot_height = (int)n[1];
     return EXIT_DONE;
 }
 
@@ -142,21 +153,7 @@ static enum exit_status set_seed(struct arguments *a, const struct option_row *r
 static enum exit_status set_years(struct arguments *a, const struct option_row *row, char *value)
 {
     double parts[3] = {0, 0, 1};
-    char *copy = strdup(value), *rest = copy;
-    int n = 0;
-    bool good = true;
-    if (!copy)
-        return ceduo_usage_no_memory();
-    while (good && rest && n < 3) {
-        char *part = rest, *colon = strchr(rest, ':');
-        rest = colon ? colon + 1 : NULL;
-        if (colon)
-            *colon = '\0';
-        good = ceduo_number_read(part, &parts[n]) == CEDUO_NUMBER_GOOD && parts[n] == floor(parts[n]);
-        n++;
-    }
-    good = good && !rest && n >= 2;
-    free(copy);
+    bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
         return ceduo_usage(row->name, _("'%s' is no stretch of years; write A:B or A:B:STEP, as 0:25"), value);
     if (parts[0] < 0)
@@ -175,20 +172,17 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
 /* "PATH=LO:HI"; the path is kept without the rest. */
 static enum exit_status set_find(struct arguments *a, const struct option_row *row, char *value)
 {
-    char *equals = strrchr(value, '='), *colon = equals ? strchr(equals, ':') : NULL;
-    bool good = colon && equals > value;
-    if (good)
-        *colon = '\0';
-    good = good && ceduo_number_read(equals + 1, &a->find_lo) == CEDUO_NUMBER_GOOD &&
-           ceduo_number_read(colon + 1, &a->find_hi) == CEDUO_NUMBER_GOOD;
-    if (colon)
-        *colon = ':';
+    char *equals = strrchr(value, '=');
+    double range[2];
+    bool good = equals && equals > value && read_numbers(equals + 1, ":", 2, 2, range);
     if (!good)
         return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, as 'forest[0].stand.trees[0].per_ha=1:1000'"), value);
-    if (!(a->find_lo <= a->find_hi))
+    if (!(range[0] <= range[1]))
         return ceduo_usage(row->name, _("the range %s goes backwards"), equals + 1);
     *equals = '\0';
     a->find = value;
+    a->find_lo = range[0];
+    a->find_hi = range[1];
     return EXIT_DONE;
 }
 
@@ -213,15 +207,14 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
 /* "I/N" */
 static enum exit_status set_shard(struct arguments *a, const struct option_row *row, char *value)
 {
-    char *part = strdup(value), *parts = part ? strchr(part, '/') : NULL;
-    if (parts)
-        *parts++ = '\0';
-    bool good = parts && ceduo_count_read(parts, 1, SHARDS_MOST, &a->shards) == CEDUO_NUMBER_GOOD &&
-                ceduo_count_read(part, 1, (double)a->shards, &a->shard) == CEDUO_NUMBER_GOOD;
-    free(part);
+    double n[2];
+    bool good = read_numbers(value, "/", 2, 2, n) && is_whole(n[0]) && is_whole(n[1]) && n[0] >= 1 && n[0] <= n[1] &&
+                n[1] <= SHARDS_MOST;
     if (!good)
         return ceduo_usage(row->name, _("'%s' is no part of a whole; write I/N, I from 1 to N, as 3/8, N up to %d"),
                            value, SHARDS_MOST);
+    a->shard = (uint64_t)n[0];
+    a->shards = (uint64_t)n[1];
     return EXIT_DONE;
 }
 

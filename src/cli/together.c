@@ -6,7 +6,7 @@
 
 #include "base/intl.h"
 #include "options.h"
-#include "usage.h"
+#include "say.h"
 
 /* Says which option does not go with `one`. */
 static enum exit_status check_with(const struct arguments *a, const char *one, unsigned not_with, const char *why)
