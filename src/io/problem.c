@@ -43,11 +43,13 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     if (!find_line(s, line, &from, &to) || to == from)
         return;
     size_t first = column > LINE_MOST ? column - LINE_MOST / 2 : 1;
-    size_t at = from, c = 1;
+    size_t mark = from == 0 && to >= 3 && memcmp(s->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* takes no column */
+    size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
         at += step(s->bytes + at, to - at);
     struct text caret = {0};
     ceduo_text_put(out, "  ");
+    ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_put(&caret, "  ");
     for (; at < to && c < first + LINE_MOST; c++) {
         size_t before = out->length, n = step(s->bytes + at, to - at);
