@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 import traceback
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -128,6 +129,13 @@ def results(*arguments, **options):
 
 def result(*arguments, **options):
     return results(*arguments, **options)[0]
+
+
+def together(*calls):
+    """Makes calls that wait, side by side; the first failure of them is raised."""
+    with ThreadPoolExecutor(len(calls)) as pool:
+        for made in [pool.submit(*call) for call in calls]:
+            made.result()
 
 
 # ---- files ----

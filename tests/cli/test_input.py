@@ -10,11 +10,13 @@ import socket
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, SANITIZED, SLOWER, USAGE, Failure, Folder, Skip, Suite, ceduo,
-                     environment, expect, expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of, wooded_scene)
+                     environment, expect, expect_equal, expect_in, expect_near, good, result, scene, stand, tests_of, together,
+                     wooded_scene)
 
 SCENE = """\
 ceduo: scene/1
@@ -105,9 +107,12 @@ def expect_places(err, contents):
     return found
 
 
-def check(folder, path, *arguments, **options):
+MODES = ("--check", "--batch")
+
+
+def check(folder, path, *arguments, modes=MODES, **options):
     """A bad scene: status 3, nothing on stdout, within 5 s, both to check and to run."""
-    for mode in ("--check", "--batch"):
+    for mode in modes:
         done = ceduo(mode, *arguments, path, cwd=folder.path, timeout=60, **options)
         expect(done.status == INPUT and done.out == "" and done.err != "", done)
         expect(done.seconds < 20, f"{done.seconds:.1f} s", done)
@@ -518,15 +523,12 @@ def test_devices():
     with Folder() as f:
         os.mkfifo(f.path / "fifo")
         os.mkfifo(f.path / "fifo.yaml")
-        for name in ("/dev/zero", "/dev/null", "fifo"):
-            check(f, name)
+        names = ["/dev/zero", "/dev/null", "fifo"]
         for target in ("fifo.yaml", "/dev/zero", "/dev/null"):
-            f.write("s.yaml", scene(slope=target))
-            check(f, "s.yaml")
-            f.write("s.yaml", scene(slope={"csv": target}))
-            check(f, "s.yaml")
-            f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 20, "stand": {"base": target}}]))
-            check(f, "s.yaml")
+            for change in ({"slope": target}, {"slope": {"csv": target}},
+                           {"forest": [{"from_m": 10, "to_m": 20, "stand": {"base": target}}]}):
+                names.append(f.write(f"s{len(names)}.yaml", scene(**change)).name)
+        together(*[(partial(check, f, name, modes=[mode]),) for name in names for mode in MODES])
 
 
 def expect_refused(done, name, words):
@@ -629,21 +631,28 @@ def test_fifo():
             writer.wait()
 
 
+def waits_for_its_writer(fifo):
+    os.mkfifo(fifo)
+    done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
+    time.sleep(1)
+    expect(done.poll() is None, "it did not wait")
+    with open(fifo, "wb") as out:
+        out.write(flat_scene())
+    expect_equal((done.communicate(timeout=10 * SLOWER)[1], done.returncode), (b"", DONE))
+
+
+def tells_of_no_writer(mode, fifo):
+    os.mkfifo(fifo)
+    done = ceduo(mode, fifo)
+    expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: nobody writes to this FIFO\n"))
+    expect(2 < done.seconds < 10 * SLOWER, done)
+
+
 def test_fifo_first():
     """A FIFO is waited for whose writer comes a second later; one that nobody writes to is told of, not taken for empty"""
     with Folder() as f:
-        fifo = f.path / "fifo.yaml"
-        os.mkfifo(fifo)
-        done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
-        time.sleep(1)
-        expect(done.poll() is None, "it did not wait")
-        with open(fifo, "wb") as out:
-            out.write(flat_scene())
-        expect_equal((done.communicate(timeout=10 * SLOWER)[1], done.returncode), (b"", DONE))
-        for mode in ("--check", "--batch"):
-            done = ceduo(mode, fifo)
-            expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: nobody writes to this FIFO\n"))
-            expect(2 < done.seconds < 10 * SLOWER, done)
+        together((waits_for_its_writer, f.path / "fifo.yaml"),
+                 *[(tells_of_no_writer, mode, f.path / f"fifo{mode}") for mode in MODES])
 
 
 def test_names_with_escapes():
