@@ -9,10 +9,11 @@
 #include <string.h>
 #include <time.h>
 
+#include "full.h"
 #include "line_scene.h"
 #include "paper_site.h"
 
-#define SCENES        1200
+#define SCENES        FULL_OR(1200u, 600u)
 #define LASTING_EVERY 600 /* scenes of which one may go on for ever */
 #define CONTROLS_MOST 4
 #define CELLS_MOST    150
@@ -111,7 +112,8 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
     struct ceduo_run_def one = *def;
     one.threads = 1;
     struct ceduo_run *scalar = run_of(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
-    for (size_t i = 0; i < WIDE; i++) {
+    static unsigned long times; /* the best is one of the others: now and then is enough */
+    for (size_t i = times++ % 8 > 0; i < WIDE; i++) {
         struct ceduo_run *other = run_of(*def, wide[i], first, rocks);
         compare(scene, scalar, other, def);
         ceduo_run_free(other);
@@ -244,6 +246,7 @@ static void the_papers_site(void **state)
     double cell_x[50];
     for (int i = 0; i < 50; i++)
         cell_x[i] = paper_x[PAPER_SEGMENTS] * (i + 1) / 50;
+    const uint64_t rocks = FULL_OR(3000, 1000);
     for (unsigned i = 0; i < 2 * 2 * 2 * 2 * 4; i++) {
         struct paper_site site;
         char name[40];
@@ -263,7 +266,7 @@ static void the_papers_site(void **state)
         def.threads = 2;
         def.cells = 50;
         def.cell_x = cell_x;
-        expect_same(name, &def, 1500, 3000);
+        expect_same(name, &def, rocks / 2, rocks);
     }
 }
 
