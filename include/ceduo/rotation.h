@@ -59,8 +59,4 @@ bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsign
  * without stems. */
 double ceduo_stand_sdi(const struct ceduo_stand *stand);
 
-/* Growth of a species (index into ceduo_species_list()) as assumed: nothing of it is measured. False, and nothing
- * written, for a species without a row and for -1. */
-bool ceduo_growth_of_species(int species, struct ceduo_growth *growth);
-
 #endif

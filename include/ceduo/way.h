@@ -79,7 +79,4 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *follower, uint64_
                                         struct ceduo_crossing *crossings);
 void ceduo_follower_free(struct ceduo_follower *follower);
 
-/* The facet draw, uniform in [0, 1), of contact number `contact` of a rock: Threefry 2x64 (Salmon et al. 2011). */
-double ceduo_way_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);
-
 #endif

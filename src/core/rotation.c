@@ -11,36 +11,6 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- species ---- */
-
-struct row {
-    const char *name;
-    double dbh_cm, dbh_rate, height, height_rate;
-};
-
-/* Shoots; assumed. */
-static const struct row rows[] = {
-    {"ostrya-carpinifolia", 16, .022, 14, .035}, {"fraxinus-ornus", 16, .022, 14, .035},
-    {"quercus-cerris", 24, .022, 18, .035},      {"quercus-pubescens", 15, .022, 10, .035},
-    {"fagus-sylvatica", 22, .016, 18, .025},     {"castanea-sativa", 26, .035, 20, .06},
-};
-
-bool ceduo_growth_of_species(int species, struct ceduo_growth *growth)
-{
-    for (size_t i = 0; species >= 0 && i < sizeof rows / sizeof rows[0]; i++) {
-        const struct row *r = &rows[i];
-        if (ceduo_species_find(r->name) != species)
-            continue;
-        *growth = (struct ceduo_growth){.shoots = {r->dbh_cm / 100, r->dbh_rate, r->height, r->height_rate},
-                                        .trees = {.45, .014, 20, .03}, /* assumed, of all species */
-                                        .shoots_young = 16,
-                                        .shoots_old = 3,
-                                        .sdi_most = 1000};
-        return true;
-    }
-    return false;
-}
-
 /* ---- curves ---- */
 
 static bool known(const struct ceduo_curve *c)

@@ -90,8 +90,3 @@ enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct
     ceduo_follower_free(f);
     return status;
 }
-
-double ceduo_way_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact)
-{
-    return random_pair(seed, rock, contact >> 1, RANDOM_FACET).u[contact & 1];
-}

@@ -40,6 +40,9 @@ void paper_plot_init(struct paper_plot *plot, int number);
 /* The whole site: lumped, theta in radians, facets against the rock, friction 0.5. `site` must not be copied. */
 void paper_site_init(struct paper_site *site);
 
+/* Growth of hop hornbeam and of the standards among it: D, k, H and m assumed. */
+extern const struct ceduo_growth paper_growth;
+
 /* Another reading of theta, or 0 everywhere. */
 void paper_site_read_theta(struct paper_site *site, enum paper_theta theta);
 void paper_site_smooth(struct paper_site *site);

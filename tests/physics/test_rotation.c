@@ -50,8 +50,8 @@ static void init(struct sample *s)
                                     .trees = s->trees,
                                     .u = NAN,
                                     .fracture_ratio = 1.5,
+                                    .growth = paper_growth,
                                     .cutting = {25, 1, 2, s->stay}};
-    assert_true(ceduo_growth_of_species(s->stand.species, &s->stand.growth));
 }
 
 static struct ceduo_grown_stand at(const struct sample *s, double first_cut, unsigned year)
@@ -554,35 +554,7 @@ static void a_rotation_later_it_is_the_same_stand(void **state)
     }
 }
 
-/* ---- species, systems ---- */
-
-static void growth_by_species(void **state)
-{
-    (void)state;
-    struct ceduo_growth g = {.sdi_most = 7};
-    assert_false(ceduo_growth_of_species(-1, &g));
-    assert_false(ceduo_growth_of_species(ceduo_species_find("picea-abies"), &g));
-    assert_false(ceduo_growth_of_species(1000, &g));
-    EXPECT(g.sdi_most, ==, 7);
-    assert_true(ceduo_growth_of_species(ceduo_species_find("castanea-sativa"), &g));
-    EXPECT(g.shoots.dbh_most, ==, .26);
-    EXPECT(g.shoots.dbh_rate, ==, .035);
-    EXPECT(g.shoots.height_most, ==, 20);
-    EXPECT(g.shoots.height_rate, ==, .06);
-    EXPECT(g.trees.dbh_most, ==, .45);
-    EXPECT(g.trees.dbh_rate, ==, .014);
-    EXPECT(g.trees.height_most, ==, 20);
-    EXPECT(g.trees.height_rate, ==, .03);
-    EXPECT(g.shoots_young, ==, 16);
-    EXPECT(g.shoots_old, ==, 3);
-    EXPECT(g.sdi_most, ==, 1000);
-    unsigned known = 0;
-    size_t count;
-    ceduo_species_list(&count);
-    for (size_t i = 0; i < count; i++)
-        known += ceduo_growth_of_species((int)i, &g);
-    assert_int_equal(known, 6);
-}
+/* ---- systems ---- */
 
 static double adc_just_cut(const char *name, double stools, struct ceduo_cutting cutting, double spacing, double old)
 {
@@ -639,7 +611,6 @@ int main(void)
         cmocka_unit_test(no_stand_gains_stems_by_growing),
         cmocka_unit_test(no_computed_stand_is_too_dense),
         cmocka_unit_test(a_rotation_later_it_is_the_same_stand),
-        cmocka_unit_test(growth_by_species),
         cmocka_unit_test(just_cut_only_the_selection_coppice_protects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

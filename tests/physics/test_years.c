@@ -54,8 +54,8 @@ static void init(void)
                                 .trees = wood.trees,
                                 .u = NAN,
                                 .fracture_ratio = 1.5,
+                                .growth = paper_growth,
                                 .cutting = {ROTATION, 1, 2, wood.stay}};
-    assert_true(ceduo_growth_of_species(stand.species, &stand.growth));
     for (int i = 0; i < BELTS; i++) {
         double from = 40 * i, to = 40 * i + 35;
         wood.belts[i] = (struct ceduo_belt){.from = from,
