@@ -1,0 +1,323 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The part of the walk above the ground: from one contact to the next, past marks and stems, and the contact itself.
+ * walk.c alone includes this, so that the compiler sees the whole walk at once. */
+#ifndef CEDUO_FLYING_H
+#define CEDUO_FLYING_H
+
+#include "law_crsp.h"
+#include "law_lumped.h"
+#include "walk.h"
+
+#ifndef PAUSE
+#define PAUSE 4000 /* contacts, or stems */
+#endif
+#define PAUSE_SEGMENTS 64 /* a contact may pass over all segments: of a longer profile the pauses are shorter */
+
+/* ---- what is next ---- */
+
+static inline void set_next_x(struct walker *w)
+{
+    w->next_x = w->next_mark < w->marks->n ? w->marks->x[w->next_mark] : INFINITY;
+}
+
+static inline void end_at_last_mark(struct walker *w)
+{
+    if (w->arrivals_only && w->next_mark == w->marks->n)
+        w->pause = 0;
+}
+
+static inline void set_next_stems(struct walker *w)
+{
+    w->stem_ahead = w->stems->side[0].next;
+    w->stem_behind = -w->stems->side[1].next;
+}
+
+/* Whether nobody waits for the rock any more. */
+static bool is_cancelled(const struct walker *w)
+{
+    return (w->cancel && atomic_load_explicit(w->cancel, memory_order_relaxed)) ||
+           (w->watch && w->watch->enough && w->watch->enough(w->watch->context));
+}
+
+/* The contacts of the next pause: so near that the work up to there is done in a few milliseconds. */
+static uint64_t next_pause(const struct walker *w)
+{
+    uint64_t pieces = w->g->n / PAUSE_SEGMENTS + 1, step = PAUSE / pieces + 1, next = w->contacts + step;
+    return next < CEDUO_CONTACTS_MOST ? next : CEDUO_CONTACTS_MOST;
+}
+
+/* ---- flight ---- */
+
+static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)
+{
+    struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0,
+                               .stems_hit = w->stems_hit};
+    w->cross(w->context, w, w->next_mark++, &c);
+    set_next_x(w);
+    end_at_last_mark(w);
+}
+
+/* The marks that the flight from `at` to `l` passes. */
+SELDOM void pass_in_flight(struct walker *w, struct flight at, double x, double t_end)
+{
+    while (w->next_x <= x) {
+        double t = (w->next_x - at.x) / at.vx;
+        t = t < t_end ? t : t_end;
+        double z = at.z + (at.vz - w->g->half_g * t) * t;
+        pass_mark(w, at.vx, at.vz - w->g->gravity * t, w->spin, z - w->marks->z[w->next_mark]);
+    }
+}
+
+SELDOM void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
+{
+    struct ceduo_piece p = {.rolls = false,
+                            .x = at.x,
+                            .z = at.z,
+                            .vx = at.vx,
+                            .vz = at.vz,
+                            .x1 = x1,
+                            .z1 = z1,
+                            .vx1 = at.vx,
+                            .vz1 = vz1,
+                            .spin = w->spin,
+                            .seconds = seconds,
+                            .contacts = w->contacts};
+    w->watch->piece(w->watch->context, &p);
+}
+
+HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
+{
+    double vz = at->vz - w->g->gravity * l->t;
+    if (w->next_x <= l->x && at->vx > 0)
+        pass_in_flight(w, *at, l->x, l->t);
+    if (w->watch && w->watch->piece)
+        show_flight(w, *at, l->x, l->z, vz, l->t);
+    at->x = l->x;
+    at->z = l->z;
+    at->vz = vz;
+    at->segment = l->segment;
+    at->on_ground = true;
+}
+
+/* ---- stems ---- */
+
+SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
+                      double taken)
+{
+    struct ceduo_stem_passed p = {.x = x,
+                                  .y = stem->y,
+                                  .dbh = stem->dbh,
+                                  .height = stem->kind->height,
+                                  .shoot = stem->shoot,
+                                  .stool = stem->stool,
+                                  .hit = clearance < stem->kind->height,
+                                  .clearance = clearance,
+                                  .before = before,
+                                  .taken = taken};
+    w->watch->stem(w->watch->context, &p);
+}
+
+/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the way is given
+ * up. */
+static bool take_stem(struct walker *w, int side, struct stem *stem)
+{
+    bool taken = ceduo_stems_take(w->stems, side, stem);
+    set_next_stems(w);
+    w->cancelled |= w->stems->no_memory;
+    if (w->stems->effort >= w->stems_pause) {
+        w->stems_pause = w->stems->effort + PAUSE;
+        w->cancelled |= is_cancelled(w);
+    }
+    w->gives_up = w->cancelled || ceduo_stems_too_many(w->stems);
+    return taken && !w->gives_up;
+}
+
+/* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
+static double hit_stem(struct walker *w, const struct stem *stem, double x, double clearance, double energy)
+{
+    double cost = ceduo_stem_energy(stem, w->rock.mean_diameter);
+    w->stems_hit++;
+    w->stools_met += ceduo_stems_meet(w->stems, stem);
+    bool stops = !(cost < energy);
+    if (w->watch && w->watch->stem)
+        show_stem(w, stem, x, clearance, energy, stops ? energy : cost);
+    return stops ? 0 : sqrt(1 - cost / energy);
+}
+
+/* The segment under x, which lies between segments a and b. */
+static size_t segment_between(const struct ground *g, size_t a, size_t b, double x)
+{
+    size_t lo = a < b ? a : b, hi = (a < b ? b : a) + 1;
+    while (hi - lo > 1) {
+        size_t mid = lo + (hi - lo) / 2;
+        if (g->x[mid] <= x)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit. True where one stops the rock
+ * (or the way is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
+ * segment and the rock is still above the ground there: the parabola is concave, so there was no contact before. */
+static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l)
+{
+    const struct ground *g = w->g;
+    int side = at->vx > 0 ? 0 : 1;
+    bool knows_landing = true;
+    while (at->vx != 0) {
+        double x = side == 0 ? w->stem_ahead : w->stem_behind;
+        size_t j = at->segment;
+        bool near = side == 0 ? x <= g->x[j + 1] : x >= g->x[j];
+        if (!knows_landing && !near) {
+            *l = next_landing(g, at);
+            knows_landing = true;
+        }
+        if (knows_landing && (side == 0 ? !(x <= l->x) : !(x >= l->x)))
+            return false;
+        double t = (x - at->x) / at->vx;
+        t = t < 0 ? 0 : knows_landing && t > l->t ? l->t : t;
+        struct landing here = {.t = t, .x = x, .z = at->z + (at->vz - g->half_g * t) * t};
+        here.segment = near ? j : segment_between(g, j, l->segment, x);
+        double clearance = here.z - ground_height(g, here.segment, x);
+        if (!knows_landing && !(clearance >= 0)) {
+            *l = next_landing(g, at);
+            knows_landing = true;
+            continue;
+        }
+        struct stem stem;
+        if (!take_stem(w, side, &stem)) {
+            if (w->gives_up)
+                return true;
+            continue;
+        }
+        clearance = clearance > 0 ? clearance : 0;
+        if (!(clearance < stem.kind->height)) {
+            if (w->watch && w->watch->stem)
+                show_stem(w, &stem, x, clearance, 0, 0);
+            continue;
+        }
+        fly(w, at, &here);
+        at->on_ground = false;
+        double energy = 0.5 * w->rock.mass * (at->vx * at->vx + at->vz * at->vz) +
+                        0.5 * w->rock.moment * (w->spin * w->spin);
+        double share = hit_stem(w, &stem, x, clearance, energy);
+        at->vx *= share;
+        at->vz *= share;
+        w->spin *= share;
+        if (!(share > 0))
+            return true;
+        knows_landing = false;
+    }
+    if (!knows_landing)
+        *l = next_landing(g, at);
+    return false;
+}
+
+/* Whether a stem lies on the way to x, or perhaps does. */
+HOT bool stem_on_way(const struct walker *w, double x)
+{
+    return x >= w->stem_ahead || x <= w->stem_behind;
+}
+
+/* ---- contact ---- */
+
+HOT double facet_draw(struct walker *w)
+{
+    uint64_t n = w->contacts;
+    if (w->facets_of != n >> 1) {
+        w->facets_of = n >> 1;
+        w->facets = random_pair(w->seed, w->number, n >> 1, RANDOM_FACET);
+    }
+    return w->facets.u[n & 1];
+}
+
+HOT double largest_facet(const struct walker *w, size_t j)
+{
+    if (!w->g->theta_varies)
+        return w->g->segments[j].theta;
+    const struct ceduo_segment *s = w->g->given[j];
+    return s->roughness_m > 0 ? atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
+}
+
+HOT struct ground_point ground_point(const struct walker *w, size_t j)
+{
+    const struct ground_segment *s = &w->g->segments[j];
+    struct ground_point p = {
+        .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn};
+    if (w->g->rn_varies)
+        p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
+    if (w->g->rt_varies)
+        p.rt = ceduo_number_draw(w->g->given[j]->rt, w->rt_u, 0, 1);
+    return p;
+}
+
+HOT struct velocity velocity_on(const struct ground_segment *s, const struct flight *at)
+{
+    return (struct velocity){.along = at->vx * s->c + at->vz * s->s, .off = at->vz * s->c - at->vx * s->s};
+}
+
+/* A facet: its turn from the segment, against a rock that goes along +x, or upwards with facets to both sides. */
+struct facet {
+    double angle, sine, cosine;
+};
+
+/* The facet of the next contact, if that is on segment j. Called before the flight to it as well, for the segment that
+ * the flight leaves: mostly that is as rough as the next, and all is ready when the rock comes down. */
+HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
+{
+    double largest = largest_facet(w, j), angle = 0;
+    if (largest > 0) {
+        double u = facet_draw(w);
+        angle = largest * (w->g->facets == CEDUO_BOTH ? 2 * u - 1 : u);
+    }
+    if (angle != f->angle) {
+        f->angle = angle;
+        sincos_quarter(angle, &f->sine, &f->cosine);
+    }
+}
+
+/* The facet that the rock strikes, as sine and cosine of its turn from the segment. */
+HOT void strike_facet(struct walker *w, size_t j, struct velocity v, struct facet *f, double *sine, double *cosine)
+{
+    turn_facet(w, j, f);
+    *cosine = f->cosine;
+    *sine = w->g->facets == CEDUO_AGAINST && !(v.along >= 0) ? -f->sine : f->sine;
+    if (v.off * *cosine - v.along * *sine > 0) { /* the rock is leaving this facet */
+        *sine = 0;
+        *cosine = 1;
+    }
+}
+
+/* A contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly. */
+HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet, enum ceduo_law law)
+{
+    const struct ground_segment *s = &w->g->segments[at->segment];
+    double sine, cosine;
+    strike_facet(w, at->segment, *v, facet, &sine, &cosine);
+    struct ground_point point = ground_point(w, at->segment);
+    double inward = v->along * sine - v->off * cosine;
+    struct impact in = {
+        .vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
+    struct impact out;
+    switch (law) {
+#define X(NAME, name)            \
+    case CEDUO_LAW_##NAME:       \
+        out = law_##name(in, &point); \
+        break;
+        CEDUO_LAWS(X)
+#undef X
+    default:
+        return;
+    }
+    v->along = out.vt * cosine - out.vn * sine;
+    v->off = out.vt * sine + out.vn * cosine;
+    if (!(v->off > 0)) /* into the segment: that part is lost */
+        v->off = 0;
+    at->vx = v->along * s->c - v->off * s->s;
+    at->vz = v->along * s->s + v->off * s->c;
+    w->spin = out.spin;
+}
+
+#endif

@@ -1,0 +1,375 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The part of the walk on the ground: rolling along segments and over vertices, past stems, and coming to rest. walk.c
+ * alone includes this. */
+#ifndef CEDUO_ROLLING_H
+#define CEDUO_ROLLING_H
+
+#include <float.h>
+
+#include "flying.h"
+
+#ifndef ROUNDING
+#define ROUNDING 1e-9 /* what is nearer to a limit is looked at more closely; only speed depends on it */
+#endif
+#ifndef STOP_ROUNDING
+#define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: a rock stops no nearer than this */
+#endif
+
+enum after_roll { ROLLED, TOOK_OFF, STANDS, ROLLED_OUT, STOPPED };
+
+/* ---- rolling ---- */
+
+/* Whether a free flight that ends at `l` is so short and flat that the rock rolls: less than R along the ground, and
+ * less than R above the segment it starts from, which it leaves with speed `off`. */
+HOT bool is_roll(const struct walker *w, const struct flight *f, double off, const struct landing *l)
+{
+    double r = w->rock.radius;
+    if (l->left || fabs(l->x - f->x) >= r)
+        return false;
+    if (!(off * off < r * (2 * w->g->gravity * w->g->segments[f->segment].c)))
+        return false;
+    return ceduo_ground_between(w->g, f->segment, f->x, f->z, l->segment, l->x, l->z) < r;
+}
+
+/* A roll under way on segment `at.segment`: direction, square of the speed, metres to go. */
+struct roll {
+    int dir;
+    double u2, left;
+};
+
+static inline void set_rolling_speed(struct walker *w, const struct roll *r)
+{
+    const struct ground_segment *s = &w->g->segments[w->at.segment];
+    double u = r->dir * sqrt(r->u2);
+    w->along = u;
+    w->at.vx = u * s->c;
+    w->at.vz = u * s->s;
+    w->spin = w->k > 0 ? u / w->rock.radius : 0;
+}
+
+/* Where the roll is after ds metres of its segment; exactly at its end where `to_end`. */
+static inline void roll_point(const struct walker *w, int dir, double ds, bool to_end, double *x, double *z)
+{
+    const struct ground *g = w->g;
+    size_t j = w->at.segment;
+    const struct ground_segment *s = &g->segments[j];
+    if (to_end) {
+        *x = g->x[dir > 0 ? j + 1 : j];
+        *z = g->z[dir > 0 ? j + 1 : j];
+    } else if (s->steep) {
+        *z = clamp(w->at.z + dir * s->s * ds, g->z[j], g->z[j + 1]);
+        *x = clamp(g->x[j] + (*z - g->z[j]) / s->m, g->x[j], g->x[j + 1]);
+    } else {
+        *x = clamp(w->at.x + dir * s->c * ds, g->x[j], g->x[j + 1]);
+        *z = ground_height(g, j, *x);
+    }
+}
+
+/* The marks that a roll of ds metres to x passes. */
+SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
+{
+    const struct ground_segment *s = &w->g->segments[w->at.segment];
+    double rate = ds > 0 ? (u2_end - r->u2) / ds : 0;
+    while (w->next_x <= x) {
+        double z = w->marks->z[w->next_mark];
+        double u2 = r->u2 + rate * ground_length(s, w->at.x, w->at.z, w->next_x, z);
+        double u = u2 > 0 ? sqrt(u2) : 0;
+        pass_mark(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
+    }
+}
+
+SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)
+{
+    const struct ground_segment *s = &w->g->segments[w->at.segment];
+    double u = r->dir * sqrt(r->u2), u1 = r->dir * sqrt(u2_end);
+    struct ceduo_piece p = {.rolls = true,
+                            .x = w->at.x,
+                            .z = w->at.z,
+                            .vx = u * s->c,
+                            .vz = u * s->s,
+                            .x1 = x1,
+                            .z1 = z1,
+                            .vx1 = u1 * s->c,
+                            .vz1 = u1 * s->s,
+                            .spin = w->k > 0 ? u / w->rock.radius : 0,
+                            .contacts = w->contacts};
+    w->watch->piece(w->watch->context, &p);
+}
+
+/* Moves along the segment by ds to a point and notes what is passed. */
+static void roll_to(struct walker *w, struct roll *r, double ds, double u2_end, double x, double z)
+{
+    if (r->dir > 0 && w->next_x <= x)
+        pass_in_roll(w, r, ds, u2_end, x);
+    if (w->watch && w->watch->piece)
+        show_roll(w, r, u2_end, x, z);
+    r->u2 = u2_end;
+    w->at.x = x;
+    w->at.z = z;
+    set_rolling_speed(w, r);
+}
+
+/* The same, exactly onto the segment's end where `to_end`. */
+static void roll_piece(struct walker *w, struct roll *r, double ds, double u2_end, bool to_end)
+{
+    double x, z;
+    roll_point(w, r->dir, ds, to_end, &x, &z);
+    roll_to(w, r, ds, u2_end, x, z);
+}
+
+enum at_stem { NO_STEM, PASSED_STEM, STOPPED_AT_STEM };
+
+/* Rolls to the next stem, if it is met within the next ds metres, over which u2 changes by `rate` a metre. The rest of
+ * the roll goes on behind it. */
+static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, struct roll *r, double ds, double rate)
+{
+    const struct ground *g = w->g;
+    size_t j = w->at.segment;
+    double x_end, z_end;
+    roll_point(w, r->dir, ds, false, &x_end, &z_end);
+    for (;;) {
+        double x = r->dir > 0 ? w->stem_ahead : w->stem_behind;
+        if (r->dir > 0 ? !(x <= x_end) : !(x >= x_end))
+            return NO_STEM;
+        struct stem stem;
+        if (!take_stem(w, r->dir > 0 ? 0 : 1, &stem)) {
+            if (w->gives_up)
+                return STOPPED_AT_STEM;
+            continue;
+        }
+        double z = ground_height(g, j, x), way = ground_length(&g->segments[j], w->at.x, w->at.z, x, z);
+        double u2 = r->u2 + rate * way;
+        roll_to(w, r, way, u2 > 0 ? u2 : 0, x, z);
+        r->left -= way;
+        double share = hit_stem(w, &stem, x, 0, 0.5 * w->rock.mass * r->u2 * (1 + w->k));
+        r->u2 *= share * share;
+        set_rolling_speed(w, r);
+        return share > 0 ? PASSED_STEM : STOPPED_AT_STEM;
+    }
+}
+
+/* At the end of the segment: onto the next one, off the profile, or into the air. `l` is set where it takes off. */
+static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct landing *l)
+{
+    const struct ground *g = w->g;
+    size_t j = w->at.segment;
+    if (r->dir > 0 ? j + 1 == g->n : j == 0)
+        return ROLLED_OUT;
+    size_t next = r->dir > 0 ? j + 1 : j - 1;
+    const struct ground_segment *a = &g->segments[j], *b = &g->segments[next];
+    double turn = r->dir * (a->c * b->s - a->s * b->c); /* > 0: the ground turns up, a concave vertex */
+    if (turn > 0) {
+        double cosine = a->c * b->c + a->s * b->s;
+        r->u2 = cosine > 0 ? r->u2 * (cosine * cosine) : 0;
+    }
+    w->at.segment = next;
+    if (turn < 0) {
+        double u = r->dir * sqrt(r->u2);
+        struct flight off = {
+            .x = w->at.x, .z = w->at.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
+        *l = next_landing(g, &off);
+        if (!is_roll(w, &off, off.vz * b->c - off.vx * b->s, l)) {
+            w->at = off;
+            return TOOK_OFF;
+        }
+    }
+    return ROLLED;
+}
+
+/* Ground ahead of a roll: a vertex less than R away, when it was looked for the last such. */
+struct ahead {
+    bool known;
+    size_t vertex;
+};
+
+static void look_ahead(const struct walker *w, int dir, size_t v, struct ahead *to)
+{
+    const double *along = w->g->along;
+    size_t last = dir > 0 ? w->g->n : 0, step = 1;
+    if (!to->known)
+        to->vertex = v;
+    to->known = true;
+    double r = w->rock.radius * (1 - ROUNDING);
+    for (;; step *= 2) { /* in ever larger steps, */
+        size_t room = dir > 0 ? last - to->vertex : to->vertex;
+        size_t next = dir > 0 ? to->vertex + step : to->vertex - step;
+        if (step > room || !(fabs(along[next] - along[v]) < r))
+            break;
+        to->vertex = next;
+    }
+    for (; step > 0; step /= 2) { /* then smaller ones */
+        size_t room = dir > 0 ? last - to->vertex : to->vertex;
+        size_t next = dir > 0 ? to->vertex + step : to->vertex - step;
+        if (step <= room && fabs(along[next] - along[v]) < r)
+            to->vertex = next;
+    }
+}
+
+/* Whether a rock that comes along segment j over its end v with speed u (u2 = u^2) surely rolls on at this convex vertex:
+ * it rises little, and would be under the ground at a vertex less than R away. Looking at some vertices is enough, as most
+ * often the farthest tells. */
+static bool surely_rolls(const struct walker *w, int dir, size_t j, size_t v, double turn, double c_next, double u2,
+                         struct ahead *ahead)
+{
+    const struct ground *g = w->g;
+    const struct ground_segment *s = &g->segments[j];
+    if (!(u2 * (turn * turn) < w->rock.radius * (2 * g->gravity * c_next) * (1 - ROUNDING)))
+        return false;
+    if (!ahead->known || !(fabs(g->along[ahead->vertex] - g->along[v]) > w->rock.radius / 2))
+        look_ahead(w, dir, v, ahead);
+    for (size_t far = dir > 0 ? ahead->vertex - v : v - ahead->vertex; far > 0; far /= 4) {
+        size_t p = dir > 0 ? v + far : v - far;
+        double dx = fabs(g->x[p] - g->x[v]), above = dir * s->s * dx - s->c * (g->z[p] - g->z[v]);
+        if (2 * u2 * s->c * above < g->gravity * (dx * dx) * (1 - ROUNDING))
+            return true;
+    }
+    return false;
+}
+
+/* Rolls over whole segments, from the vertex that `at` is on, as long as nothing but the speed changes: what may be a
+ * standstill or a flight, a mark or the end of the roll is left to others, and those who look on see each segment. */
+static void roll_over_segments(struct walker *w, struct roll *r)
+{
+    const struct ground *g = w->g;
+    if (w->stems || (w->watch && w->watch->piece))
+        return;
+    int dir = r->dir;
+    double pull = 2 * g->gravity / (1 + w->k);
+    struct ahead ahead = {.known = false};
+    for (;;) {
+        size_t j = w->at.segment, v = dir > 0 ? j + 1 : j;
+        double ds = g->along[j + 1] - g->along[j];
+        if (v == (dir > 0 ? g->n : 0) || !(ds < r->left) || (dir > 0 && w->next_x <= g->x[v]))
+            return;
+        size_t next = dir > 0 ? j + 1 : j - 1;
+        const struct ground_segment *a = &g->segments[j], *b = &g->segments[next];
+        double u2 = r->u2 + pull * (dir * (g->z[j] - g->z[j + 1]) - a->mu * (g->x[j + 1] - g->x[j]));
+        if (!(u2 > 0))
+            return;
+        double turn = dir * (a->c * b->s - a->s * b->c);
+        if (turn > 0) {
+            double cosine = a->c * b->c + a->s * b->s;
+            u2 = cosine > 0 ? u2 * (cosine * cosine) : 0;
+        } else if (turn < 0 && !surely_rolls(w, dir, j, v, turn, b->c, u2, &ahead)) {
+            return;
+        }
+        r->u2 = u2;
+        r->left -= ds;
+        w->at.x = g->x[v];
+        w->at.z = g->z[v];
+        w->at.segment = next;
+    }
+}
+
+/* Rolls for a length R along the ground from speed u; 0: downhill. */
+SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
+{
+    const struct ground *g = w->g;
+    int downhill = g->segments[w->at.segment].m > 0 ? -1 : 1;
+    struct roll r = {.dir = u > 0 ? 1 : u < 0 ? -1 : downhill, .u2 = u * u, .left = w->rock.radius};
+    for (;;) {
+        size_t j = w->at.segment, v = r.dir > 0 ? j + 1 : j;
+        const struct ground_segment *s = &g->segments[j];
+        double to_end = ground_length(s, w->at.x, w->at.z, g->x[v], g->z[v]);
+        double ds = to_end < r.left ? to_end : r.left;
+        double rate = 2 * g->gravity * (-r.dir * s->s - s->mu * s->c) / (1 + w->k);
+        double u2 = r.u2 + rate * ds;
+        bool stands = ds > 0 && rate <= 0 && !(u2 > 0);
+        if (stands) {
+            double stop = rate < 0 ? -r.u2 / rate : 0;
+            if (stop <= STOP_ROUNDING * (fabs(w->at.x) + fabs(w->at.z)))
+                stop = 0; /* not a place of its own: rounding must not lift the rock */
+            ds = stop < ds ? stop : ds;
+        }
+        if (w->stems && ds > 0) {
+            enum at_stem then = roll_to_stem(w, &r, ds, rate);
+            if (then == STOPPED_AT_STEM)
+                return STOPPED;
+            if (then == PASSED_STEM && r.left > 0)
+                continue;
+            if (then == PASSED_STEM)
+                return ROLLED;
+        }
+        if (stands) {
+            roll_piece(w, &r, ds, 0, false);
+            return STANDS;
+        }
+        roll_piece(w, &r, ds, u2, ds == to_end);
+        r.left -= ds;
+        if (!(r.left > 0))
+            return ROLLED;
+        enum after_roll then = roll_over_vertex(w, &r, l);
+        if (then != ROLLED)
+            return then;
+        roll_over_segments(w, &r);
+    }
+}
+
+/* Speed along the ground once a rock that comes with speed `along` rolls without slip. */
+static inline double roll_speed(const struct walker *w, double along)
+{
+    return (along + w->k * w->spin * w->rock.radius) / (1 + w->k);
+}
+
+/* ---- resting ---- */
+
+/* Whether the ground, from the start of segment j on towards dir, rises to height z before it falls. */
+static bool rises_to(const struct ground *g, size_t j, int dir, double z)
+{
+    for (;;) {
+        if (g->z[dir > 0 ? j + 1 : j] >= z)
+            return true;
+        if (dir > 0 ? j + 1 == g->n : j == 0)
+            return false;
+        j = dir > 0 ? j + 1 : j - 1;
+        if (dir * g->segments[j].m < 0)
+            return false;
+    }
+}
+
+/* The first segment from j on towards dir that is not level, with the metres of level ground before it; false where the
+ * profile ends. */
+static bool past_level(const struct ground *g, size_t *j, int dir, double *level)
+{
+    *level = 0;
+    for (;;) {
+        if (dir > 0 ? *j + 1 == g->n : *j == 0)
+            return false;
+        *j = dir > 0 ? *j + 1 : *j - 1;
+        if (g->segments[*j].m != 0)
+            return true;
+        *level += g->along[*j + 1] - g->along[*j];
+    }
+}
+
+/* Whether the bottom of a pit lies less than R downhill: a vertex, or a level stretch shorter than R, between two sides
+ * steeper than their friction, of which the far one leads up to where the rock stands. */
+static bool in_pit(const struct ground *g, const struct walker *w)
+{
+    size_t j = w->at.segment;
+    int dir = g->segments[j].m < 0 ? 1 : -1;
+    double r = w->rock.radius, x = w->at.x, z = w->at.z, way = 0;
+    for (;;) { /* segment j falls */
+        const struct ground_segment *side = &g->segments[j];
+        size_t v = dir > 0 ? j + 1 : j;
+        double level;
+        way += ground_length(side, x, z, g->x[v], g->z[v]);
+        if (!(way < r) || !past_level(g, &j, dir, &level) || !(level < r))
+            return false;
+        const struct ground_segment *next = &g->segments[j];
+        if (dir * next->m > 0)
+            return fabs(side->m) > side->mu && fabs(next->m) > next->mu && rises_to(g, j, dir, w->at.z);
+        if (level > 0) /* a terrace, no pit */
+            return false;
+        x = g->x[v];
+        z = g->z[v];
+    }
+}
+
+static bool rests(const struct walker *w)
+{
+    const struct ground_segment *s = &w->g->segments[w->at.segment];
+    return !(fabs(s->m) > s->mu) || in_pit(w->g, w);
+}
+
+#endif
