@@ -89,7 +89,7 @@ static void put_keys(FILE *out)
 static void put_goals(FILE *out)
 {
     fputs(".Bl -tag -width Ds -compact\n", out);
-    for (int i = 0; i < CEDUO_GOALS; i++) {
+    for (enum ceduo_goal i = 0; i < CEDUO_GOALS; i++) {
         const struct ceduo_goal_row *g = &ceduo_goals[i];
         fputs(".It Cm ", out);
         put(out, g->word);

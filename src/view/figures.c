@@ -25,7 +25,7 @@ static const void *member(const struct ceduo_figure *f, const void *object)
 #define READ(name, type, result)                                                              \
     static struct ceduo_value name(const struct ceduo_figure *f, const void *object)          \
     {                                                                                         \
-        const type m = *(const type *)member(f, object);                                      \
+        type const m = *(type const *)member(f, object);                                      \
         return result;                                                                        \
     }
 READ(number_at, double, NUMBER(m))
@@ -33,7 +33,7 @@ READ(count_at, uint64_t, COUNT(m))
 READ(unsigned_at, unsigned, COUNT(m))
 READ(flag_at, bool, IS(m))
 READ(text_at, char *, WORD(m))
-READ(fixed_text_at, const char *, WORD(m))
+READ(fixed_text_at, char const *, WORD(m))
 READ(light_at, enum ceduo_light, WORD(ceduo_words_light(m)))
 
 /* A member of a struct, read by its type; numbers in an object of their own there. */
@@ -223,9 +223,11 @@ VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
 
 /* ---- the tables ---- */
 
-#define NO_ROCK "no rock arrives"
-#define FEW     "fewer than two rocks arrive"
-#define NO_END  "too few rocks arrive to bound it"
+#define NO_ROCK  "no rock arrives"
+#define FEW      "fewer than two rocks arrive"
+#define NO_END   "too few rocks arrive to bound it"
+#define NO_STEMS "the stand has no stems"
+#define UNSAID   "the control has no accepted_kJ"
 
 static const struct ceduo_figure distribution[] = {
     {"mean", "", "mean", AT(distribution, mean), .null = NO_ROCK},
@@ -258,9 +260,9 @@ static const struct ceduo_figure arrivals[] = {
     {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach_lo)},
     {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach_hi)},
     {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
-     AT(arrivals, exceed_probability), .null = "the control has no accepted_kJ"},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = "the control has no accepted_kJ"},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = "the control has no accepted_kJ"},
+     AT(arrivals, exceed_probability), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = UNSAID},
     {"speed_m_s", "m/s", "speed of the rocks that reach it", IN(arrivals, speed, distribution)},
     {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = KILO},
     {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = KILO},
@@ -277,12 +279,12 @@ static const struct ceduo_figure wooded[] = {
 
 static const struct ceduo_figure adc[] = {
     {"rule", "", "form that was used: gsteiger-stools, gsteiger-stems, interception or crofton", .value = rule_of,
-     .null = "the stand has no stems"},
-    {"adc_m", "m", "what it gives", AT(stand_result, adc_m), .null = "the stand has no stems"},
-    {"gsteiger_stools_m", "m", "ADC by gsteiger-stools", AT(stand_result, adc.gsteiger_stools), .null = "the stand has no stems"},
-    {"gsteiger_stems_m", "m", "ADC by gsteiger-stems", AT(stand_result, adc.gsteiger_stems), .null = "the stand has no stems"},
-    {"interception_m", "m", "ADC by interception", AT(stand_result, adc.interception), .null = "the stand has no stems"},
-    {"crofton_m", "m", "ADC by crofton", AT(stand_result, adc.crofton), .null = "the stand has no stems"},
+     .null = NO_STEMS},
+    {"adc_m", "m", "what it gives", AT(stand_result, adc_m), .null = NO_STEMS},
+    {"gsteiger_stools_m", "m", "ADC by gsteiger-stools", AT(stand_result, adc.gsteiger_stools), .null = NO_STEMS},
+    {"gsteiger_stems_m", "m", "ADC by gsteiger-stems", AT(stand_result, adc.gsteiger_stems), .null = NO_STEMS},
+    {"interception_m", "m", "ADC by interception", AT(stand_result, adc.interception), .null = NO_STEMS},
+    {"crofton_m", "m", "ADC by crofton", AT(stand_result, adc.crofton), .null = NO_STEMS},
     END};
 
 static const struct ceduo_figure stand_result[] = {
@@ -297,7 +299,7 @@ static const struct ceduo_figure stand_result[] = {
      AT(stand_result, free_run_probability)},
     {"contacts", "", "contacts over the whole belt: length over ADC", AT(stand_result, contacts)},
     {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
-     AT(stand_result, energy_per_contact), .null = "the stand has no stems"},
+     AT(stand_result, energy_per_contact), .null = NO_STEMS},
     {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO},
     {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO},
     END};

@@ -48,8 +48,10 @@ static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_
 
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column wooded[] = {BY_CONTACT, {NULL, -10, 0, 0}, {N_("to first"), -11, 0, 0}, {N_("energy"), 4, 2, 0}};
-    static const struct ceduo_page_column by_index[] = {BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {N_("left kJ"), -10, 0, 0}};
+    static const struct ceduo_page_column wooded[] = {
+        BY_CONTACT, {NULL, -10, 0, 0}, {N_("to first"), -11, 0, 0}, {N_("energy"), 4, 2, 0}};
+    static const struct ceduo_page_column by_index[] = {
+        BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {N_("left kJ"), -10, 0, 0}};
     if (r->wooded) {
         ceduo_page_table(page, wooded, sizeof wooded / sizeof wooded[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));

@@ -28,8 +28,8 @@ static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *s
                             const struct ceduo_option_result *found)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("m"), 10, 4, CEDUO_WHOLE}, {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0}, {NULL, 6, 1, 0},
-        {N_("free run"), -9, 0, 0},                   {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
+        {N_("m"), 10, 4, CEDUO_WHOLE}, {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
+        {N_("free run"), -9, 0, 0},    {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", ceduo_number_shortest(scene->simulation.threshold, room));
@@ -50,7 +50,8 @@ static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const 
 
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
 {
-    static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION, CEDUO_CROFTON};
+    static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION,
+                                            CEDUO_CROFTON};
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
     ceduo_text_format(line, _("%s by %s; other forms:"), b->name, ceduo_rule_words.names[s->rule]);
     for (size_t k = 0, n = 0; k < sizeof rules / sizeof rules[0]; k++) {
@@ -143,9 +144,12 @@ static void add_size(struct ceduo_page *page, const struct ceduo_block *b)
     ceduo_page_number(page, b->diameter, 3);
     ceduo_page_number(page, b->adc, 3);
     ceduo_page_number(page, b->contacts, 3);
-    const struct ceduo_arrivals share = {.exceed_probability = b->exceed_probability, .exceed_lo = b->exceed_lo,
-                                         .exceed_hi = b->exceed_hi, .reach_probability = b->reach_probability,
-                                         .reach_lo = b->reach_lo, .reach_hi = b->reach_hi};
+    const struct ceduo_arrivals share = {.exceed_probability = b->exceed_probability,
+                                         .exceed_lo = b->exceed_lo,
+                                         .exceed_hi = b->exceed_hi,
+                                         .reach_probability = b->reach_probability,
+                                         .reach_lo = b->reach_lo,
+                                         .reach_hi = b->reach_hi};
     ceduo_page_share(page, isnan(b->reach_probability) ? NULL : &share);
 }
 
@@ -153,8 +157,10 @@ static void add_size(struct ceduo_page *page, const struct ceduo_block *b)
 
 void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_block *blocks)
 {
-    static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},           {"m3", -8, 0, 0},           {"kg", -9, 0, 0}, {N_("wide m"), -8, 0, 0},
-                                                       {N_("ADC m"), -8, 0, 0}, {N_("contacts"), -10, 0, 0}, {NULL, -18, 0, 0}};
+    static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},           {"m3", -8, 0, 0},
+                                                       {"kg", -9, 0, 0},        {N_("wide m"), -8, 0, 0},
+                                                       {N_("ADC m"), -8, 0, 0}, {N_("contacts"), -10, 0, 0},
+                                                       {NULL, -18, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     char room[CEDUO_NUMBER_ROOM];
     if (page->width < SIZES_WIDTH)

@@ -5,20 +5,15 @@
 
 #include "base/intl.h"
 
-void ceduo_page_of_1000(struct text *text, double probability, double lo, double hi)
-{
-    ceduo_text_format(text, "%.0f (%.0f\xe2\x80\x93%.0f)", probability * 1000, floor(lo * 1000), ceil(hi * 1000));
-}
-
 void ceduo_page_share(struct ceduo_page *page, const struct ceduo_arrivals *a)
 {
     struct text *text = ceduo_page_text(page);
     if (!a)
         ceduo_text_put(text, "-");
     else if (!isnan(a->exceed_probability))
-        ceduo_page_of_1000(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_words_of_1000(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
     else
-        ceduo_page_of_1000(text, a->reach_probability, a->reach_lo, a->reach_hi);
+        ceduo_words_of_1000(text, a->reach_probability, a->reach_lo, a->reach_hi);
 }
 
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign)

@@ -28,8 +28,6 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
 
 /* ---- words that several of them use ---- */
 
-/* "991 (984–995)": of 1000 rocks, with the 95 % interval. */
-void ceduo_page_of_1000(struct text *text, double probability, double lo, double hi);
 /* Of those that arrive with too much energy, or where that is not said of all; a cell with "-" for NULL. */
 void ceduo_page_share(struct ceduo_page *page, const struct ceduo_arrivals *arrivals);
 /* "480 ±10": of 1000, with its sign where it is a difference; "-" for NaN. */

@@ -41,10 +41,11 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_words_number(line, slope->x[slope->vertices - 1], 4);
     ceduo_text_put(line, _(" m long, "));
     ceduo_words_number(line, high - low, 4);
-    ceduo_text_format(line, ngettext(" m high, %zu segment; law %s, facets %s%s", " m high, %zu segments; law %s, facets %s%s",
-                                     slope->vertices - 1),
-                      slope->vertices - 1, ceduo_law_words.names[s->simulation.law], ceduo_facets_words.names[slope->facets],
-                      assumed_mark(report, "slope"));
+    ceduo_text_format(line,
+                      ngettext(" m high, %zu segment; law %s, facets %s%s",
+                               " m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
+                      slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
+                      ceduo_facets_words.names[slope->facets], assumed_mark(report, "slope"));
 }
 
 static void add_head(struct ceduo_page *page, const struct ceduo_report *report)
@@ -77,12 +78,12 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
 static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
 {
     ceduo_text_put(ceduo_page_text(page), name);
-    ceduo_page_of_1000(ceduo_page_text(page), a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_words_of_1000(ceduo_page_text(page), a->reach_probability, a->reach_lo, a->reach_hi);
     struct text *exceed = ceduo_page_text(page);
     if (isnan(a->exceed_probability))
         ceduo_text_put(exceed, "-");
     else
-        ceduo_page_of_1000(exceed, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_words_of_1000(exceed, a->exceed_probability, a->exceed_lo, a->exceed_hi);
     struct ceduo_page_cell *mean = ceduo_page_cell(page);
     if (a->reached > 0) {
         mean->kind = CEDUO_CELL_MEAN;
@@ -97,12 +98,12 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
 }
 
 /* The two runs below one another. */
-static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
-                               const struct ceduo_arrivals *bare)
+static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c,
+                               const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0}, {N_("mean kJ"), -12, 0, 0},
-        {N_("95 %"), -6, 0, 0},              {N_("m/s"), -5, 0, 0},     {N_("m up"), -5, 0, 0}};
+        {N_("of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {N_("mean kJ"), -12, 0, 0},
+        {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0},     {N_("m up"), -5, 0, 0}};
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_page_limit(page, c, "");
     if (wooded)
@@ -115,11 +116,11 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line, "%s: ", name);
-    ceduo_page_of_1000(line, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_words_of_1000(line, a->reach_probability, a->reach_lo, a->reach_hi);
     ceduo_text_put(line, _(" of 1000 arrive"));
     if (!isnan(a->exceed_probability)) {
         ceduo_text_put(line, ", ");
-        ceduo_page_of_1000(line, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_words_of_1000(line, a->exceed_probability, a->exceed_lo, a->exceed_hi);
         ceduo_text_put(line, _(" with more than it bears"));
     }
     if (a->reached > 0) {
@@ -140,8 +141,8 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
     double n = (double)f->rocks;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line, _("Of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave the slope"),
-                      (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000,
-                      (double)e->count[CEDUO_AT_REST] / n * 1000, (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
+                      (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000, (double)e->count[CEDUO_AT_REST] / n * 1000,
+                      (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
     if (e->count[CEDUO_UNFINISHED] > 0)
         ceduo_text_format(line, _("; %llu of %llu never come to an end"),
                           (unsigned long long)e->count[CEDUO_UNFINISHED], (unsigned long long)f->rocks);
@@ -172,7 +173,8 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
                           _("Without forest no rock arrives (of 1000, below %.1f with 95 %%)."), bare->reach_hi * 1000);
     else if (wooded && none_arrives(wooded))
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."), wooded->reach_hi * 1000);
+                          _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."),
+                          wooded->reach_hi * 1000);
 }
 
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)

@@ -52,10 +52,11 @@ static void put_safe(const struct printer *p, struct text *to, const char *strin
 static const struct {
     const char *first;
     size_t indent;
-} styles[] = {[CEDUO_PAGE_TITLE] = {"", 0},        [CEDUO_PAGE_FACT] = {"", 9},      [CEDUO_PAGE_SECTION] = {"", 2},
-              [CEDUO_PAGE_PLACE] = {"  ", 4},      [CEDUO_PAGE_CAPTION] = {"    ", 4}, [CEDUO_PAGE_SENTENCE] = {"    ", 6},
-              [CEDUO_PAGE_DETAIL] = {"      ", 8}, [CEDUO_PAGE_NOTE] = {"  ", 2},    [CEDUO_PAGE_ITEM] = {"  ", 4},
-              [CEDUO_PAGE_WARNING] = {"    ! ", 6}};
+} styles[] = {
+    [CEDUO_PAGE_TITLE] = {"", 0},        [CEDUO_PAGE_FACT] = {"", 9},        [CEDUO_PAGE_SECTION] = {"", 2},
+    [CEDUO_PAGE_PLACE] = {"  ", 4},      [CEDUO_PAGE_CAPTION] = {"    ", 4}, [CEDUO_PAGE_SENTENCE] = {"    ", 6},
+    [CEDUO_PAGE_DETAIL] = {"      ", 8}, [CEDUO_PAGE_NOTE] = {"  ", 2},      [CEDUO_PAGE_ITEM] = {"  ", 4},
+    [CEDUO_PAGE_WARNING] = {"    ! ", 6}};
 
 /* Of several blanks one is left, of those at the end none. */
 static void squeeze(struct text *text)
@@ -207,8 +208,8 @@ static void write_cell(const struct printer *p, struct text *to, const struct ce
     }
 }
 
-static void put_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
-                     int width)
+static void put_cell(const struct printer *p, const struct ceduo_page_column *column,
+                     const struct ceduo_page_cell *cell, int width)
 {
     struct text text = {0};
     put_blanks(p->text, (size_t)column->gap);
@@ -229,8 +230,13 @@ static void put_table(const struct printer *p, const struct ceduo_page_block *ta
     for (size_t row = 0; row + n <= table->cells_count; row += n) {
         for (size_t i = 0; i < n; i++) {
             const struct ceduo_page_column *c = &table->columns[i];
-            bool spans = row == 0 && (c->flags & CEDUO_SPAN), ends = row == 0 && i == n - 1 && c->width > 0;
-            put_cell(p, c, &table->cells[row + i], spans ? abs(c[0].width) + c[1].gap + c[1].width : ends ? 0 : c->width);
+            bool spans = row == 0 && (c->flags & CEDUO_SPAN);
+            int width = c->width;
+            if (spans)
+                width = abs(width) + c[1].gap + c[1].width;
+            else if (row == 0 && i == n - 1 && width > 0) /* the last head is never cut */
+                width = 0;
+            put_cell(p, c, &table->cells[row + i], width);
             i += spans;
         }
         ceduo_text_char(p->text, '\n');

@@ -31,8 +31,9 @@ static void add_year(struct ceduo_page *page, const struct ceduo_year *y, size_t
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("year"), 9, 4, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {N_("free run"), -7, 0, CEDUO_SPAN}, {"", 5, 1, 0},
-        {N_("kJ/100 m"), -9, 0, 0},      {NULL, -16, 0, 0},       {N_("mean kJ"), -8, 0, 0}, {N_("energy"), 0, 2, 0}};
+        {N_("year"), 9, 4, 0}, {N_("ADC m"), -7, 0, 0},    {"", 5, 1, 0},    {N_("free run"), -7, 0, CEDUO_SPAN},
+        {"", 5, 1, 0},         {N_("kJ/100 m"), -9, 0, 0}, {NULL, -16, 0, 0}, {N_("mean kJ"), -8, 0, 0},
+        {N_("energy"), 0, 2, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Year by year, up to %s m:"),
                       ceduo_number_shortest(last_control(r)->x_given, room));
@@ -123,8 +124,9 @@ static void add_rotation(struct ceduo_page *page, const struct ceduo_result *r, 
 
 static void add_rotations_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years_summary *sums)
 {
-    static const struct ceduo_page_column flown[] = {{N_("option"), 23, 2, 0}, {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
-                                                     {N_("energy"), -7, 0, 0},           {NULL, -13, 0, 0},         {N_("worst (year)"), -14, 0, 0}};
+    static const struct ceduo_page_column flown[] = {
+        {N_("option"), 23, 2, 0}, {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
+        {N_("energy"), -7, 0, 0}, {NULL, -13, 0, 0},         {N_("worst (year)"), -14, 0, 0}};
     static const struct ceduo_page_column by_index[] = {
         {N_("option"), 23, 2, 0}, {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0}, {N_("ADC m (year)"), -14, 0, 0}};
     if (sums[0].flown > 0) {

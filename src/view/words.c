@@ -229,10 +229,9 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
         ceduo_text_put(text, _("No stem stands on the way."));
 }
 
-/* "480 (474-487) of 1000" */
-static void put_share(struct text *text, double p, double lo, double hi)
+void ceduo_words_of_1000(struct text *text, double p, double lo, double hi)
 {
-    ceduo_text_format(text, _("%.0f (%.0f\xe2\x80\x93%.0f) of 1000"), p * 1000, floor(lo * 1000), ceil(hi * 1000));
+    ceduo_text_format(text, "%.0f (%.0f\xe2\x80\x93%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
 }
 
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
@@ -247,8 +246,8 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
     } else if (!a) {
         ceduo_text_put(text, _("Not computed yet."));
     } else {
-        put_share(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        ceduo_text_format(text, _(" arrive with more than %g kJ (%.0f are allowed)."), c->accepted * KILO,
+        ceduo_words_of_1000(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
+        ceduo_text_format(text, _(" of 1000 arrive with more than %g kJ (%.0f are allowed)."), c->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
         if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
             ceduo_text_format(text, _(" %llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);
