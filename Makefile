@@ -121,7 +121,7 @@ TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
 # These take longest, and start first: none is left to run alone at the end. Many wait for most of their time, so that one
 # more runs than there are cores.
 SLOW := test_bits.sh test_screens.py test_wide test_faults.py test_years.py test_workflows.py test_alternatives.py test_shard.py \
-	test_terminal.py test_hangs.py test_constants.sh test_rotation.py test_input.py test_stems_runs test_memory_files test_memory
+	test_terminal.py test_hangs.py test_constants.sh test_rotation.py test_input_streams.py test_stems_runs test_memory_files test_memory
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
 SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Slopes by CSV: what is read alike, and faults at their places."""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import Folder, Suite, expect, expect_equal, expect_in, result, scene, tests_of
+from inputs import check, expect_places
+
+
+
+def slope_numbers(folder, content):
+    folder.write("line.csv", content)
+    run = result(folder.write("s.yaml", scene(slope={"csv": "line.csv", "segments": [{"rn": 0.3, "rt": 0.8}]})))
+    return run["options"][0]["controls"]
+
+
+def test_csv_good():
+    """CSV slopes: QGIS' header, semicolons, tabs, quotes, more columns, CRLF, BOM, blank lines give one slope"""
+    with Folder() as f:
+        plain = "distance,elevation\n0,64\n50,30\n100,0\n"
+        wanted = slope_numbers(f, plain)
+        for text in (plain.replace(",", ";"), plain.replace(",", "\t"), plain.replace("\n", "\r\n"), "\ufeff" + plain,
+                     plain.rstrip("\n"), plain + "\n\n", plain + ",\n", plain.upper(), "x,z\n0,64\n50,30\n100,0\n",
+                     "fid,elevation,note,distance\n1,64,a,0\n2,30,\"b\",50\n3,0,c,100\n",
+                     '"distance","elevation"\n"0","64"\n"50","30"\n"100","0"\n', plain.replace("50,", " 50 , "),
+                     "distance,elevation\n0,6.4e1\n5e1,30.0\n+100,0\n", "distance,elevation,\n0,64,\n50,30,\n100,0,\n"):
+            expect_equal(slope_numbers(f, text), wanted, repr(text))
+        many = "distance,elevation\n" + "".join(f"{x / 1024},{64 - x / 1600}\n" for x in range(0, 102401))
+        slope_numbers(f, many)
+
+
+CSV_CASES = [
+    # (content, place, words)
+    ("", None, "nothing"), ("distance,height\n0,1\n", (1, None), "'distance' and 'elevation'"),
+    ("0,64\n100,0\n", (1, None), "'distance' and 'elevation'"), ("\n\n", (1, None), "'distance' and 'elevation'"),
+    ("distance,elevation\n", None, "two vertices"), ("distance,elevation\n0,64\n", None, "two vertices"),
+    ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
+    ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"),
+    ("distance;elevation\n0;64\n50;30,5\n100;0\n", (3, 4), "'30,5' is no number"),
+    ("distance;elevation\n0;64\n50;30,5\n100;0\n", (3, 4), "dot"),
+    ("distance,elevation\n0,64\n50,30\n40,0\n", (4, 1), "distance 40 does not lie beyond 50"),
+    ("distance,elevation\n0,64\n50,30\n50,0\n", (4, 1), "must rise"),
+    ("distance,elevation\n0,64\n50,abc\n100,0\n", (3, 4), "'abc' is no number"),
+    ("distance,elevation\n0,64\n50,nan\n100,0\n", (3, 4), "'nan' is no number"),
+    ("distance,elevation\n0,64\n50,NULL\n100,0\n", (3, 4), "'NULL' is no number"),
+    ("distance,elevation\n0,64\n50,-\n100,0\n", (3, 4), "'-' is no number"),
+    ("distance,elevation\n0,64\n50,1e999\n100,0\n", (3, 4), "beyond"),
+    ("distance,elevation\n0,64\n50,1e10\n100,0\n", (3, 4), "beyond"),
+    ("distance,elevation\n0,64\n50,-9999999999\n100,0\n", (3, 4), "beyond"),
+    ("distance,elevation\n0,64\n50,0x10\n100,0\n", (3, 4), "'0x10' is no number"),
+    ("distance,elevation\n0,64\n50,\x1b[31m\n100,0\n", (3, 4), "is no number"),
+    ("distance,elevation\n0,64\n50,\x00\n100,0\n", (3, 4), "is no number"),
+    ("distance,elevation\n0,64\n50," + "9" * 1000 + "\n100,0\n", (3, 4), ""),
+    ("distance,elevation,distance\n0,64,1\n50,30,2\n100,0,3\n", (1, None), "distance"),
+]
+
+
+def csv_refused(content, place, words):
+    with Folder() as f:
+        f.write("line.csv", content)
+        f.write("s.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: line.csv\ncontrols_m: [75]\n")
+        done = check(f, "s.yaml")
+        problems = expect_places(done.err, {"line.csv": content})
+        expect_in(words, done.err)
+        if place:
+            mine = [p for p in problems if p[0] and p[0].endswith("line.csv") and p[1] == place[0] and
+                    place[1] in (None, p[2])]
+            expect(mine, f"no problem at line.csv:{place[0]}:{place[1]}", done)
+        expect("line.csv" in done.err, "the file is not named", done)
+
+
+def test_csv_and_vertices():
+    """csv and vertices_m together are refused"""
+    with Folder() as f:
+        f.write("line.csv", "distance,elevation\n0,64\n100,0\n")
+        f.write("s.yaml", scene(slope={"csv": "line.csv", "vertices_m": [[0, 64], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.8}]}))
+        expect_in("keep one", check(f, "s.yaml").err)
+
+
+def main():
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    for content, place, words in CSV_CASES:
+        suite.check(f"CSV {ascii(content[-40:])}: {words or 'refused'}", csv_refused, content, place, words)
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()

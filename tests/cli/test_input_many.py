@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Many problems at once, each told once, and files that stand together: bases, options, materials."""
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import Folder, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand
+from inputs import FILES, SLOPE, STAND, check, expect_places, flat_scene
+
+
+def test_twenty():
+    """25 problems in one file: the first 20 and the number of the rest"""
+    with Folder() as f:
+        data = flat_scene().decode() + "".join(f"unknown{i}: 1\n" for i in range(25))
+        f.write("s.yaml", data)
+        done = check(f, "s.yaml")
+        problems = expect_places(done.err, {"s.yaml": data})
+        expect_equal(len(problems), 21)
+        expect(all(f"unknown{i}: " in problems[i][3] for i in range(20)), done)
+        expect_equal(problems[20][3], "5 more problems")
+        data = flat_scene().decode() + "".join(f"unknown{i}: 1\n" for i in range(21))
+        f.write("s.yaml", data)
+        expect_equal(check(f, "s.yaml").err.splitlines()[-1], "1 more problem")
+        data = flat_scene().decode() + "".join(f"unknown{i}: 1\n" for i in range(20))
+        f.write("s.yaml", data)
+        expect("more" not in check(f, "s.yaml").err.splitlines()[-1], "exactly twenty")
+
+
+def test_all_at_once():
+    """Several kinds of problem in one file are all reported in one go"""
+    with Folder() as f:
+        data = flat_scene().decode().replace("diameter_m: 0.5", "diameter_m: -0.5").replace("x_m: 90", "x: 90").replace(
+            "vx_m_s: 1", "vx_m_s: fast")
+        f.write("s.yaml", data)
+        problems = expect_places(check(f, "s.yaml").err, {"s.yaml": data})
+        expect_equal([p[1] for p in problems], [3, 4, 8], str(problems))  # that x_m is missing follows from 'x'
+
+
+def told(text, *wanted, more=None):
+    """The problems of a scene: one for each of `wanted`, which stands in it, and none besides."""
+    with Folder() as f:
+        for name, content in {"s.yaml": text, "slope.yaml": SLOPE, "stand.yaml": STAND, **(more or {})}.items():
+            f.write(name, content)
+        done = check(f, "s.yaml")
+        problems = [p[3] for p in expect_places(done.err, {"s.yaml": text, "slope.yaml": SLOPE, "stand.yaml": STAND, **(more or {})})]
+        for words in wanted:
+            expect_equal(sum(words in p for p in problems), 1, f"{words!r} in {problems}")
+        expect_equal(len(problems), len(wanted), str(problems))
+
+
+GROUND = "slope: {vertices_m: [[0, 64], [50, 30], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+HEAD = "ceduo: scene/1\nrock: {diameter_m: 0.5}\n" + GROUND
+
+
+def test_all_without_reference():
+    """A reference that leads nowhere is one problem; all the rest is still looked at"""
+    told("ceduo: scene/1\nrock: {diameter_m: -1}\n" + GROUND + "controls: [{x_m: 900}, {x_m: a}]\nforest:\n"
+         "  - {from_m: 10, to_m: 40, stand: nowhere}\n  - {from_m: 30, to_m: 70, stand: {base: nothing, shoots: [{per_ha: -7}]}}\n",
+         "cannot find 'nowhere'", "cannot find 'nothing'",
+         "rock.diameter_m: -1", "controls[0].x_m: 900 lies beyond", "controls[1].x_m: 'a'",
+         "forest[1].from_m: 30 lies before the end", "shoots[0].per_ha: -7")
+    told("ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: nowhere\ncontrols: [{x_m: 5}, {x_m: 5}]\n"
+         "forest: [{from_m: 40, to_m: 10, stand: stand.yaml}]\n",
+         "cannot find 'nowhere'", "controls[1].x_m: 5 is given twice", "forest[0].to_m: 10 does not lie beyond from_m")
+    told(HEAD + "controls_m: [75]\nforest: [{from_m: 10, to_m: 40, stand: bad.yaml}, {from_m: 40, to_m: 30, stand: bad.yaml}]\n",
+         "malformed YAML", "forest[1].to_m: 30 does not lie beyond", more={"bad.yaml": "name: [\n"})
+
+
+def test_all_with_values():
+    """What does not fit together is told along with wrong and missing values, as far as its own values are good"""
+    told("ceduo: scene/1\n", "'rock' is missing", "'slope' is missing", "'controls' is missing")
+    told("ceduo: scene/1\nrock: {shape: cube, height_m: 1}\nrelease: {x_m: b, height_m: -1}\n"
+         "slope: {vertices_m: [[0, 64], [50], [40, 20], [30, 0]], segments: [{rn: 2, rt: 0.8}, {rn: 0.3}], "
+         "materials: [{from_m: 0, to_m: 0, material: cliff}]}\n"
+         "controls: [{x_m: 9}, {x_m: 9, accepted_kJ: -1}]\n"
+         "forest: [{from_m: 10, to_m: x, stand: {stools: {per_ha: 9}, shoots: [{per_ha: 5, dbh_m: 1, height_m: 1}]}}, "
+         "{from_m: 9, to_m: 8, stand: {shoots: [{per_ha: 5, dbh_m: 0, height_m: 1}]}}]\n",
+         "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: a pair",
+         "slope.vertices_m[3]: x 30 does not lie beyond 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
+         "segments say the ground already", "controls[1].x_m: 9 is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
+         "'spacing_m' is missing", "5 shoots on 9 stools", "forest[1].to_m: 8 does not lie", "shoots without stools",
+         "dbh_m: 0 is not above")
+    told(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
+         "forest: [{from_m: -5, to_m: 200, stand: stand.yaml}]\n",
+         "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 does not lie beyond the release",
+         "controls_m[2]: 200 lies beyond", "controls_m[3]: 75 does not lie beyond the release", "forest[0].from_m: -5 lies before",
+         "forest[0].to_m: 200 lies beyond the slope")
+    told("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
+         "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",
+         "one of diameter_m, volume_m3 and mass_kg", "'sand' is unknown", "materials[1].from_m: 5 leaves a gap",
+         "options[1]: 'name' is missing", "options[1].forest: a list is wanted", "options[2].name: 'a' is given twice",
+         "'controls' is missing")
+
+
+def test_all_but_what_follows():
+    """What only follows from another problem is not told"""
+    told("ceduo: scene/1\nrock: {diametre_m: 0.5}\nslope: {vertices_m: 5, materials: 6}\ncontrol: [{x_m: 900}]\n"
+         "forest: [{from_m: 10, to_m: 400, stand: {stools: 7, shoots: [{per_ha: 9, dbh_m: 1, height_m: 1}]}}]\n",
+         "rock.diametre_m: unknown key", "slope.vertices_m: a list", "slope.materials: a list", "control: unknown key",
+         "stools: a mapping is wanted")
+    told(HEAD + "controls: 75\noptions: {}\n", "controls: a list", "options: a list")
+    told(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: a text",
+         "vertices_m and csv together")
+    told(HEAD.replace("diameter_m: 0.5", "shape: 5, height_m: 9") + "release: 7\ncontrols_m: [50]\nforest: [9, {from_m: 8}]\n",
+         "rock.shape: '5'", "release: a mapping", "forest[0]: a mapping", "'to_m' is missing", "'stand' is missing")
+
+
+def stand_fault(body, *words, place=None, more=None):
+    with Folder() as f:
+        for name, text in {**FILES, "stand.yaml": body, **(more or {})}.items():
+            f.write(name, text)
+        done = check(f, "scene.yaml")
+        expect(all(w in done.err for w in words), f"none says {words}", done)
+        if place:
+            expect_in(place, done.err)
+
+
+def test_base_loop():
+    """Stands that start from one another in a loop are refused"""
+    stand_fault("ceduo: stand/1\nbase: stand.yaml\n", "loop", place="stand.yaml:2:7: ")
+    stand_fault("ceduo: stand/1\nbase: other.yaml\n", "loop", more={"other.yaml": "ceduo: stand/1\nbase: stand.yaml\n"})
+
+
+def test_base_merge():
+    """A stand's own mappings are merged into its base, its lists replace the base's"""
+    base = stand(ceduo="stand/1", name="base", trees=[{"per_ha": 100, "dbh_m": 0.25, "height_m": 12},
+                                                      {"per_ha": 50, "dbh_m": 0.5, "height_m": 20}])
+    with Folder() as f:
+        f.write("stands/base.yaml", base)
+        f.write("stands/middle.yaml", "ceduo: stand/1\nbase: base.yaml\nname: middle\nstools: {spacing_m: 0.75}\n")
+        def found(own):
+            path = f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 60, "stand": own}]))
+            return result(path)["options"][0]["stands"][0]
+        one = found({"base": "stands/base.yaml"})
+        expect_equal((one["name"], one["stools_per_ha"], one["trees_per_ha"]), ("base", 2000, 150))
+        one = found({"base": "stands/base.yaml", "stools": {"per_ha": 1000}})
+        expect_equal((one["stools_per_ha"], one["stems_per_ha"]), (1000, 5150))
+        wide = found({"base": "stands/base.yaml", "stools": {"per_ha": 1000, "spacing_m": 0.5}})
+        expect(wide["adc"]["interception_m"] != one["adc"]["interception_m"], "spacing is merged")
+        one = found({"base": "stands/base.yaml", "trees": [{"per_ha": 30, "dbh_m": 0.25, "height_m": 12}]})
+        expect_equal((one["trees_per_ha"], one["stools_per_ha"]), (30, 2000))
+        one = found({"base": "stands/base.yaml", "trees": []})
+        expect_equal(one["trees_per_ha"], 0)
+        one = found({"base": "stands/base.yaml", "energy": {"u_J_m3": 50000}, "shoots": [
+            {"per_ha": 4000, "dbh_m": 0.0625, "height_m": 6, "volume_m3": 0.01}], "trees": []})
+        expect_near(one["energy_per_contact_J"], 500, 1e-9, "energy is merged")
+        one = found("stands/middle.yaml")
+        expect_equal((one["name"], one["stools_per_ha"], one["trees_per_ha"]), ("middle", 2000, 150))
+        same = found({"base": "stands/middle.yaml", "stools": {"spacing_m": 0.25}, "name": "base"})
+        expect_equal(same, found({"base": "stands/base.yaml"}), "two steps")
+
+
+def test_base_place():
+    """A fault in a base is shown in the base's file, one in what is put over it in that file"""
+    bad = STAND.replace("dbh_m: 0.07", "dbh_m: 0,07")
+    with Folder() as f:
+        for name, text in {**FILES, "stand.yaml": "ceduo: stand/1\nbase: old.yaml\n", "old.yaml": bad}.items():
+            f.write(name, text)
+        done = check(f, "scene.yaml")
+        expect_in("old.yaml:8:12: shoots[0].dbh_m", done.err)
+        f.write("old.yaml", STAND)
+        f.write("stand.yaml", "ceduo: stand/1\nbase: old.yaml\nstools: {per_ha: -5}\n")
+        expect_in("stand.yaml:3:18: stools.per_ha: -5", check(f, "scene.yaml").err)
+
+
+def test_options_bad():
+    """Options: names twice, no name, an empty list, a fault deep inside, each at its place"""
+    head = flat_scene().decode()
+    belt = "{from_m: 10, to_m: 20, stand: {trees: [{per_ha: 10, dbh_m: @, height_m: 9}]}}".replace("@", "0.2")
+    for tail, line, words in (
+            ("options:\n  - {name: a}\n  - {name: a}\n", 11, "options[1].name: 'a' is given twice"),
+            ("options:\n  - {name: a}\n  - {forest: []}\n", 11, "options[1]: 'name' is missing"),
+            ("options: []\n", 9, "options: the list is empty"),
+            ("options: {name: a}\n", 9, "a list is wanted"),
+            (f"options:\n  - {{name: a}}\n  - {{name: b, forest: [{belt.replace('0.2', '-1')}]}}\n", 11,
+             "options[1].forest[0].stand.trees[0].dbh_m: -1 is below 0 m"),
+            (f"options:\n  - {{name: a}}\n  - {{name: b, forest: [{belt}, {belt}]}}\n", 11, "options[1].forest[1].from_m")):
+        with Folder() as f:
+            data = head + tail
+            f.write("s.yaml", data)
+            problems = expect_places(check(f, "s.yaml").err, {"s.yaml": data})
+            expect(any(p[1] == line and words in p[3] for p in problems), f"none says {words} on line {line}", problems)
+
+
+def materials_refused(rows, words):
+    with Folder() as f:
+        f.write("s.yaml", scene(slope={"vertices_m": [[0, 64], [100, 0]], "materials": rows}))
+        expect_in(words, check(f, "s.yaml").err)
+
+
+def test_materials():
+    """Materials must cover the slope without gap or overlap, from the library"""
+    def row(a, b, name="talus"):
+        return {"from_m": a, "to_m": b, "material": name}
+    for rows, words in (([row(0, 40), row(50, 100)], "materials[1].from_m: 50 leaves a gap or overlaps; it must begin at 40"),
+                        ([row(0, 40), row(30, 100)], "materials[1].from_m: 30 leaves a gap or overlaps"),
+                        ([row(10, 100)], "materials[0].from_m: 10 leaves a gap"),
+                        ([row(0, 90)], "materials[0].to_m: 90 ends before the profile, at 100"),
+                        ([row(40, 40)], "materials[0].to_m: 40 does not lie beyond from_m"),
+                        ([row(0, 100, "lava")], "'lava' is unknown"), ([], "the list is empty")):
+        materials_refused(rows, words)
+    with Folder() as f:
+        split = scene(slope={"vertices_m": [[0, 64], [100, 0]], "materials": [row(-5, 30), row(30, 200, "colluvium")]})
+        good("--batch", f.write("s.yaml", split))
+
+
+if __name__ == "__main__":
+    run_all(__name__)

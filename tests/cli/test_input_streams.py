@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is no ordinary file: folders, devices, FIFOs, sockets, terminals; names with control characters."""
+import os
+import pty
+import re
+import resource
+import socket
+import subprocess
+import sys
+import time
+from functools import partial
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, SANITIZED, SLOWER, USAGE, Folder, Skip, ceduo, environment, expect,
+                     expect_equal, expect_in, good, run_all, scene, together, wooded_scene)
+from inputs import MODES, check, flat_scene
+
+
+def test_no_file():
+    """Missing file, folder, loop of links, forbidden file: named, with the system's reason"""
+    with Folder() as f:
+        (f.path / "folder").mkdir()
+        (f.path / "folder.yaml").mkdir()
+        (f.path / "a").symlink_to("b")
+        (f.path / "b").symlink_to("a")
+        for name, words in (("missing.yaml", "No such file"), ("folder", "directory"), ("folder.yaml", "directory"),
+                            ("a", "symbolic links"), ("x" * 300, "too long"), ("missing/s.yaml", "No such file"),
+                            (str(PROFILES / "scenes/paper-site.yaml") + "/x", "Not a directory")):
+            done = check(f, name)
+            expect(f"{name}: " in done.err and words in done.err, done)
+        done = check(f, "")
+        expect(done.err.strip() != "", done)
+
+
+def test_no_file_below():
+    """The same for what a scene refers to, at the reference or in the file's name"""
+    with Folder() as f:
+        (f.path / "folder.yaml").mkdir()
+        (f.path / "loop.yaml").symlink_to("loop.yaml")
+        (f.path / "loop.csv").symlink_to("loop.csv")
+        (f.path / "folder.csv").mkdir()
+        for target in ("missing.yaml", "folder.yaml", "loop.yaml", "folder.csv", "loop.csv", "", ".", "/", "x" * 5000):
+            f.write("s.yaml", scene(slope=target))
+            expect_in("slope", check(f, "s.yaml").err)
+            f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 20, "stand": target}]))
+            expect_in("stand", check(f, "s.yaml").err)
+
+
+def test_devices():
+    """/dev/zero, /dev/null, a FIFO without writer: refused within 5 s"""
+    with Folder() as f:
+        os.mkfifo(f.path / "fifo")
+        os.mkfifo(f.path / "fifo.yaml")
+        names = ["/dev/zero", "/dev/null", "fifo"]
+        for target in ("fifo.yaml", "/dev/zero", "/dev/null"):
+            for change in ({"slope": target}, {"slope": {"csv": target}},
+                           {"forest": [{"from_m": 10, "to_m": 20, "stand": {"base": target}}]}):
+                names.append(f.write(f"s{len(names)}.yaml", scene(**change)).name)
+        together(*[(partial(check, f, name, modes=[mode]),) for name in names for mode in MODES])
+
+
+def expect_refused(done, name, words):
+    expect(done.status == INPUT and done.out == "" and f"{name}: cannot read it: {words}" in done.err, done)
+
+
+def bounded():
+    """What reads without an end comes to the end of its memory, not of the machine's."""
+    if not SANITIZED:
+        resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+
+
+DEVICE = "a device or a socket; name a file\n"
+
+
+def test_no_files():
+    """Sockets, block devices and other devices but terminals are refused by every reader, as a path and as standard input"""
+    with Folder() as f, socket.socket(socket.AF_UNIX) as there:
+        there.bind(str(f.path / "socket.yaml"))
+        f.write("s.yaml", flat_scene())
+        blocks = [p for p in Path("/dev").iterdir() if p.is_block_device() and os.access(p, os.R_OK)][:1]
+        for path in (f.path / "socket.yaml", Path("/dev/zero"), *blocks):
+            for words in (("--check", path), ("--batch", path), ("--merge", path), ("--script", path, "s.yaml")):
+                expect_refused(ceduo(*words, cwd=f.path, timeout=20, preexec_fn=bounded), path, DEVICE)
+            for slope in (str(path), {"csv": str(path)}):
+                expect_refused(ceduo("--check", f.write("refers.yaml", scene(slope=slope)), timeout=20, preexec_fn=bounded), path, DEVICE)
+            if path.is_socket():
+                continue
+            for mode in ("--check", "--merge"):
+                with open(path, "rb") as stream:
+                    done = subprocess.run([CEDUO, mode, "-"], stdin=stream, capture_output=True, text=True, env=environment(),
+                                          preexec_fn=bounded, timeout=20 * SLOWER, check=False)
+                expect((done.returncode, done.stderr) == (INPUT, f"standard input: cannot read it: {DEVICE}"), mode, path, done)
+
+
+def test_no_end():
+    """A file of the system that never ends, as /proc/kmsg, is refused, as a path and as standard input"""
+    endless = Path("/proc/kmsg")
+    try:
+        os.close(os.open(endless, os.O_RDONLY | os.O_NONBLOCK))
+    except OSError as why:
+        raise Skip(f"{endless} cannot be read here: {why}") from why
+    with Folder() as f:
+        f.write("s.yaml", flat_scene())
+        for words in (("--check", endless), ("--merge", endless), ("--script", endless, "s.yaml")):
+            expect_refused(ceduo(*words, cwd=f.path, timeout=20), endless, "it does not end; name a file that does\n")
+        for mode in ("--check", "--merge"):
+            with open(endless, "rb", buffering=0) as stream:
+                done = subprocess.run([CEDUO, mode, "-"], stdin=stream, capture_output=True, text=True, env=environment(),
+                                      timeout=20 * SLOWER, check=False)
+            expect("standard input: cannot read it: it does not end" in done.stderr and done.returncode == INPUT, mode, done)
+
+
+def test_streams():
+    """A terminal, a socket as standard input, /dev/stdin and /dev/null are read to their end"""
+    text = flat_scene()
+    master, slave = pty.openpty()
+    with Folder() as f:
+        os.write(master, text + b"\x04")  # the key that ends it
+        for name in (os.ttyname(slave), "-"):
+            with open(os.ttyname(slave), "rb") as stream:
+                done = subprocess.run([CEDUO, "--check", name], stdin=stream, capture_output=True, env=environment(),
+                                      timeout=20 * SLOWER, check=False)
+            expect(done.returncode == DONE and done.stderr == b"", name, done)
+            os.write(master, text + b"\x04")
+        ours, theirs = socket.socketpair()
+        with ours, theirs:
+            ours.sendall(text)
+            ours.shutdown(socket.SHUT_WR)
+            done = subprocess.run([CEDUO, "--check", "-"], stdin=theirs, capture_output=True, env=environment(), timeout=20 * SLOWER,
+                                  check=False)
+            expect(done.returncode == DONE and done.stderr == b"", done)
+        done = subprocess.run(["sh", "-c", 'exec "$0" --check - <&-', CEDUO], capture_output=True, env=environment(), check=False)
+        expect_equal((done.returncode, done.stderr), (INPUT, b"standard input: cannot read it: Bad file descriptor\n"), "closed")
+        good("--check", "/dev/stdin", stdin=text)
+        f.write("s.yaml", text)
+        good("--script", "/dev/null", "s.yaml", cwd=f.path)
+        expect_in("/dev/null: holds no value", check(f, "/dev/null").err)
+        expect_in("standard input: holds no value", check(f, "-", stdin=b"").err)
+        expect_in("/dev/null: holds no part", ceduo("--merge", "/dev/null").err)
+        f.write("empty.yaml", b"")  # as large as those of the system, but it ends
+        expect_in("empty.yaml: holds no value", check(f, "empty.yaml").err)
+    os.close(master)
+    os.close(slave)
+
+
+def test_fifo():
+    """A FIFO with a slow writer is read to its end"""
+    with Folder() as f:
+        fifo = f.path / "fifo.yaml"
+        os.mkfifo(fifo)
+        writer = subprocess.Popen(["sh", "-c", '(sleep 0.4; cat "$0") > "$1"', f.write("s.yaml", flat_scene()), fifo])
+        try:
+            time.sleep(0.1)
+            done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
+            err = done.communicate(timeout=10)[1]
+            expect_equal((done.returncode, err), (DONE, b""))
+        finally:
+            writer.kill()
+            writer.wait()
+
+
+def waits_for_its_writer(fifo):
+    os.mkfifo(fifo)
+    done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
+    time.sleep(1)
+    expect(done.poll() is None, "it did not wait")
+    with open(fifo, "wb") as out:
+        out.write(flat_scene())
+    expect_equal((done.communicate(timeout=10 * SLOWER)[1], done.returncode), (b"", DONE))
+
+
+def tells_of_no_writer(mode, fifo):
+    os.mkfifo(fifo)
+    done = ceduo(mode, fifo)
+    expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: nobody writes to this FIFO\n"))
+    expect(2 < done.seconds < 10 * SLOWER, done)
+
+
+def test_fifo_first():
+    """A FIFO is waited for whose writer comes a second later; one that nobody writes to is told of, not taken for empty"""
+    with Folder() as f:
+        together((waits_for_its_writer, f.path / "fifo.yaml"),
+                 *[(tells_of_no_writer, mode, f.path / f"fifo{mode}") for mode in MODES])
+
+
+def test_names_with_escapes():
+    """Control characters in names and titles never come out raw: table, CSV, JSON, messages, file names"""
+    nasty = "\\e[31mred\\a\\u009b2J\\u202eevil\\n\\t\\r"
+    text = flat_scene().decode().replace("title: small", f'title: "{nasty}"').replace("name: road", f'name: "{nasty}"')
+    text += (f'options:\n  - name: "{nasty}"\n    source: {{kind: assumed, text: "{nasty}"}}\n    forest:\n'
+             f'      - {{from_m: 10, to_m: 20, stand: {{name: "{nasty}", species: fagus-sylvatica, '
+             'trees: [{per_ha: 100, dbh_m: 0.3, height_m: 40}]}}\n')
+    with Folder() as f:
+        path = f.write("s.yaml", text)
+        for form in ("table", "csv", "json"):
+            done = good("--batch", "-f", form, path)
+            raw = [c for c in done.out if c in "\x1b\x07\x9b\t\r" or (c == "\u202e" and form == "table")]
+            expect(not raw, form, [hex(ord(c)) for c in raw], done.out)
+        for name in ("\x1b[31m.yaml", "new\nline.yaml", "\x9b.yaml", "ü.yaml"):
+            done = check(f, name)
+            expect(not re.search("[\x1b\x07\x9b]", done.err) and len(done.err.splitlines()) == 1, ascii(done.err))
+            bad = f.write(name, "rock: [\x1b]")
+            done = check(f, bad.name)
+            expect(not re.search("[\x1b\x07\x9b]", done.err), ascii(done.err))
+        done = check(f, os.fsdecode(b"\xff\xfe.yaml"))
+        expect_in("\\xff\\xfe", done.err)
+        done = ceduo("--batch", "--option", "\x1b[31m", path)
+        expect(done.status == USAGE, done)
+
+
+NASTY = "\x1b[31mred\a\x9b2J\u202eevil\nline"
+
+
+def test_names_in_every_mode():
+    """Control characters in the names of files, options and arguments come out raw in no mode, on neither stream"""
+    mapping = wooded_scene(title=NASTY, simulation={"rocks": 20})
+    mapping["options"] = [{"name": NASTY, "forest": mapping.pop("forest")}]
+    path = f"options[{NASTY}].forest[0].stand.stools.per_ha"
+    with Folder() as f:
+        def run(*words, status):
+            done = ceduo(*words, cwd=f.path, env={"XDG_DATA_HOME": str(f.path)})  # looks for them in both streams
+            expect_equal(done.status, status, ascii(words))
+            expect("\x9b" not in done.err and "\u202e" not in done.err, ascii(done.err))
+            if words[0] != "--shard" and "json" not in words:
+                expect("\x9b" not in done.out and "\u202e" not in done.out, ascii(done.out))
+            return done
+
+        name = f.write(f"{NASTY}.yaml", mapping).name
+        f.write(f"ceduo/scenes/{name}", mapping)
+        for form in ("table", "csv", "json"):
+            run("--batch", "-f", form, name, status=DONE)
+            run("--years", "0:2", "-f", form, name, status=DONE)
+            run("--batch", "-f", form, "-o", f"{NASTY}/x", name, status=OUTPUT)
+            for goal, scenes in (("adc=30", [name]), ("adc=30", [name, name]), ("adc=0.001", [name])):
+                run("--find", f"{path}=500:5000", "--goal", goal, "-f", form, *scenes, status=DONE)
+        for plot in ("profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"):
+            run("--plot", plot, name, status=DONE)
+        for i in (1, 2):
+            run("--shard", f"{i}/2", "-o", f"{NASTY}{i}", name, status=DONE)
+        run("--merge", f"{NASTY}1", f"{NASTY}2", status=DONE)
+        expect_in("once more", run("--merge", f"{NASTY}1", f"{NASTY}1", f"{NASTY}2", status=INPUT).err)
+        expect_in("missing: 2", run("--merge", f"{NASTY}1", status=INPUT).err)
+        for words in (("--merge", f"{NASTY}0"), ("--merge", name), ("--check", f"{NASTY}0"), ("--script", f"{NASTY}0", name)):
+            run(*words, status=INPUT)
+        run("--list-profiles", status=DONE)
+        for text, status in ((f"{NASTY[:5]}\n", USAGE), (f"key {NASTY[:5]}\n", USAGE), (f"dump {NASTY[:5]}/x\n", OUTPUT),
+                             ("key s\ndump -\nkey o\ntype red\nkey Enter\ndump -\nkey Esc w\ndump -\nkey Enter\ndump -\n", DONE)):
+            f.write(NASTY, text)
+            done = run("--script", NASTY, name, status=status)
+            expect(status == DONE or len(done.err.splitlines()) == 1, ascii(done.err))
+        for option in ("format", "rows", "plot", "charset", "rocks", "tolerance", "years", "size", "find", "goal", "shard", "seed",
+                       "threads", "option", "set", NASTY, f"check={NASTY}"):
+            run("--batch", f"--{option}", f"{NASTY}?", name, status=USAGE)
+        for word in (f"-{NASTY}", f"--{NASTY}", f"--batch={NASTY}"):
+            run(word, name, status=USAGE)
+
+
+def test_name_not_utf8():
+    """A file name that is no UTF-8 leaves JSON, CSV and table well-formed"""
+    with Folder() as f:
+        name = os.fsencode(f.path) + b"/\xff\xfe.yaml"
+        with open(name, "wb") as file:
+            file.write(flat_scene().replace(b"title: small\n", b""))
+        for form in ("json", "csv", "table"):
+            done = good("--batch", "-f", form, os.fsdecode(name))
+            done.out_bytes.decode("utf-8")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
