@@ -9,7 +9,6 @@ from harness import Folder, Suite, expect, expect_equal, expect_in, result, scen
 from inputs import check, expect_places
 
 
-
 def slope_numbers(folder, content):
     folder.write("line.csv", content)
     run = result(folder.write("s.yaml", scene(slope={"csv": "line.csv", "segments": [{"rn": 0.3, "rt": 0.8}]})))
