@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Figures of few values, of none, and of values beyond every bin; a search for a value that is given up. */
+#include "expect.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ceduo/ceduo.h"
+#include "base/bytes.h"
+#include "core/envelope.h"
+#include "core/histogram.h"
+#include "core/run_pack.h"
+
+/* ---- few values ---- */
+
+static int by_value(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* Chance that at most k of n, by its definition. */
+static double binomial(size_t n, double p, size_t k)
+{
+    double sum = 0;
+    for (size_t i = 0; i <= k; i++)
+        sum += exp(lgamma((double)n + 1) - lgamma((double)i + 1) - lgamma((double)(n - i) + 1) + (double)i * log(p) +
+                   (double)(n - i) * log1p(-p));
+    return sum;
+}
+
+static void intervals_of_few_values(void **state)
+{
+    (void)state;
+    const double p[] = {.01, .05, .5, .95, .99};
+    for (size_t i = 0; i < 5; i++)
+        for (size_t n = 1; n <= 120; n++) {
+            size_t lo, hi;
+            ceduo_quantile_interval(n, p[i], &lo, &hi);
+            assert_true(lo <= n && hi >= 1 && hi <= n + 1);
+            assert_true(lo == 0 || binomial(n, p[i], lo - 1) < .025 + 1e-9);
+            assert_true(binomial(n, p[i], lo) > .025 - 1e-9);
+            assert_true(hi < 2 || binomial(n, p[i], hi - 2) < .975 + 1e-9);
+            assert_true(binomial(n, p[i], hi - 1) > .975 - 1e-9);
+        }
+    assert_int_equal(ceduo_quantile_rank(10, 0), 1);
+    assert_int_equal(ceduo_quantile_rank(10, 1), 10);
+}
+
+static void expect_near(double found, double wanted, double relative)
+{
+    if (isnan(wanted))
+        assert_true(isnan(found));
+    else
+        assert_true(fabs(found - wanted) <= relative * wanted);
+}
+
+/* Values of all sizes, some of them 0: exact as sorted, binned but for the width of a bin. */
+static void distributions_of_few_values(void **state)
+{
+    (void)state;
+    uint64_t bits = 1;
+    for (size_t n = 0; n <= 200; n++) {
+        double values[200], sorted[200];
+        struct ceduo_moments m = {0};
+        struct histogram h = {0};
+        for (size_t i = 0; i < n; i++) {
+            bits = bits * 6364136223846793005u + 1442695040888963407u;
+            values[i] = bits >> 62 == 0 ? 0 : ldexp(1 + (double)(bits >> 12 & 1023) / 1024, (int)(bits >> 40 & 31) - 16);
+            sorted[i] = values[i];
+            ceduo_moments_add(&m, values[i]);
+            assert_true(ceduo_histogram_add(&h, values[i]));
+        }
+        qsort(sorted, n, sizeof *sorted, by_value);
+        struct ceduo_distribution binned = ceduo_distribution_binned(&h, &m),
+                                  exact = ceduo_distribution_exact(values, n, &m);
+        size_t lo = 0, hi = 0;
+        if (n > 0)
+            ceduo_quantile_interval(n, .95, &lo, &hi);
+        const double wanted[] = {n > 0 ? sorted[ceduo_quantile_rank(n, .5) - 1] : NAN,
+                                 n > 0 ? sorted[ceduo_quantile_rank(n, .95) - 1] : NAN,
+                                 n > 0 ? sorted[ceduo_quantile_rank(n, .99) - 1] : NAN,
+                                 lo > 0 ? sorted[lo - 1] : NAN,
+                                 n > 0 && hi <= n ? sorted[hi - 1] : NAN};
+        const double of_exact[] = {exact.p50, exact.p95, exact.p99, exact.p95_lo, exact.p95_hi};
+        const double of_binned[] = {binned.p50, binned.p95, binned.p99, binned.p95_lo, binned.p95_hi};
+        for (size_t i = 0; i < 5; i++) {
+            expect_near(of_exact[i], wanted[i], 0);
+            expect_near(of_binned[i], wanted[i], 3.1e-5);
+        }
+        expect_near(exact.max, n > 0 ? sorted[n - 1] : NAN, 0);
+        double squares = 0;
+        for (size_t i = 0; i < n; i++)
+            squares += (sorted[i] - m.mean) * (sorted[i] - m.mean);
+        expect_near(exact.sd, n > 1 ? sqrt(squares / (double)(n - 1)) : NAN, 1e-12);
+        expect_near(exact.se, n > 1 ? exact.sd / sqrt((double)n) : NAN, 1e-12);
+        ceduo_histogram_clear(&h);
+    }
+}
+
+static void values_beyond_every_bin(void **state)
+{
+    (void)state;
+    struct histogram h = {0}, more = {0};
+    const double values[] = {1e-300, 0, 5.5e-20, 1, 1e300};
+    for (size_t i = 0; i < 5; i++)
+        assert_true(ceduo_histogram_add(&h, values[i]));
+    assert_int_equal(h.n, 5);
+    assert_int_equal(h.zeros, 2);
+    assert_true(ceduo_histogram_value(&h, 2) == 0);
+    expect_near(ceduo_histogram_value(&h, 3), 5.5e-20, 3.1e-5);
+    expect_near(ceduo_histogram_value(&h, 4), 1, 3.1e-5);
+    assert_true(ceduo_histogram_value(&h, 5) > 9e18); /* in the last octave */
+    assert_true(isnan(ceduo_histogram_value(&h, 6)));
+    assert_true(ceduo_histogram_reserve(&more, &h));
+    ceduo_histogram_merge(&more, &h);
+    ceduo_histogram_merge(&more, &h);
+    assert_int_equal(more.n, 10);
+    for (uint64_t rank = 1; rank <= 10; rank++)
+        assert_true(ceduo_histogram_value(&more, rank) == ceduo_histogram_value(&h, (rank + 1) / 2));
+    ceduo_histogram_clear(&more);
+    struct bytes b = {0};
+    assert_true(ceduo_histogram_pack(&h, &b, 0));
+    for (size_t n = 0; n <= b.length; n++)
+        for (uint64_t most = 0; most < 7; most++) { /* short of bytes, or more values than there may be */
+            struct bytes from = {.reads = true, .from = b.to, .length = n};
+            bool good = ceduo_histogram_pack(&more, &from, most);
+            assert_int_equal(good, n == b.length && most >= 5);
+            assert_true(!good || (more.n == 5 && more.zeros == 2));
+            ceduo_histogram_clear(&more);
+        }
+    free(b.to);
+    ceduo_histogram_clear(&h);
+}
+
+static void columns_are_refused(void **state)
+{
+    (void)state;
+    double column[11], back[11];
+    uint64_t there, again;
+    for (size_t i = 0; i < 11; i++)
+        column[i] = i % 3 == 0 ? NAN : (double)i;
+    struct bytes b = {0};
+    assert_true(ceduo_bytes_column(&b, column, 11, &there));
+    assert_int_equal(there, 7);
+    assert_int_equal(b.length, 2 + 7 * 8);
+    for (size_t n = 0; n <= b.length; n++) {
+        struct bytes from = {.reads = true, .from = b.to, .length = n};
+        assert_int_equal(ceduo_bytes_column(&from, back, 11, &again), n == b.length);
+    }
+    for (size_t i = 0; i < 11; i++)
+        assert_true(isnan(column[i]) ? isnan(back[i]) : back[i] == column[i]);
+    const struct {
+        size_t at;
+        unsigned char bytes[2];
+    } rows[] = {{0, {0xb6, 0x0c}},     /* as many bits, one of them behind the last */
+                {0, {0xb7, 0x05}},     /* one more */
+                {2 + 6, {0xf0, 0x7f}}}; /* infinite */
+    for (size_t i = 0; i < 3; i++) {
+        unsigned char was[2];
+        memcpy(was, b.to + rows[i].at, 2);
+        memcpy(b.to + rows[i].at, rows[i].bytes, 2);
+        struct bytes from = {.reads = true, .from = b.to, .length = b.length};
+        assert_false(ceduo_bytes_column(&from, back, 11, &again));
+        memcpy(b.to + rows[i].at, was, 2);
+    }
+    free(b.to);
+}
+
+/* The highest and fastest of all: its size is kept, whatever its bin. */
+static void cells_take_any_value(void **state)
+{
+    (void)state;
+    struct envelope_cell *cell = calloc(1, sizeof *cell);
+    struct ceduo_envelope e;
+    assert_non_null(cell);
+    ceduo_envelope_add(cell, 1e200, 1e-200, 1e300);
+    ceduo_envelope_settle(cell);
+    ceduo_envelope_read(cell, &e);
+    assert_int_equal(e.passed, 1);
+    assert_true(e.speed.max == 1e200 && e.energy.max == 1e300 && e.height.max == 1e-200);
+    assert_true(e.speed.p50 > 1e4 && e.energy.p50 > 1e9 && e.height.p50 == 0);
+    free(cell);
+}
+
+/* ---- looking for a value that is given up ---- */
+
+static atomic_bool cancel;
+static unsigned looked;
+
+static enum ceduo_status give_up(void *context, double value, double *goal)
+{
+    const unsigned *when = context;
+    *goal = 1 / value;
+    atomic_store(&cancel, ++looked >= *when);
+    return CEDUO_OK;
+}
+
+static enum ceduo_status refuse(void *context, double value, double *goal)
+{
+    const unsigned *when = context;
+    *goal = 1 / value;
+    return ++looked >= *when ? CEDUO_BAD_SLOPE : CEDUO_OK;
+}
+
+/* Wherever the search stands: no value is looked at after it, and none is found. */
+static void a_search_ends_at_once(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < 4; kind++) { /* where nothing passes, all is looked through */
+        struct ceduo_found found;
+        double target = kind < 2 ? .3 : -1;
+        struct ceduo_find_def def = {.lo = 1, .hi = 1000, .whole = kind % 2, .target = target, .cancel = &cancel};
+        unsigned when = UINT32_MAX;
+        def.context = &when;
+        def.goal = give_up;
+        looked = 0;
+        atomic_store(&cancel, false);
+        assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+        unsigned all = looked;
+        assert_true(found.found == (kind < 2) && all > 5);
+        for (when = 1; when < all; when++)
+            for (int k = 0; k < 2; k++) {
+                def.goal = k == 0 ? give_up : refuse;
+                looked = 0;
+                atomic_store(&cancel, false);
+                assert_int_equal(ceduo_find(&def, &found), k == 0 ? CEDUO_CANCELLED : CEDUO_BAD_SLOPE);
+                assert_int_equal(looked, when);
+                assert_false(found.found);
+            }
+    }
+}
+
+/* Goals without end, and one that is met exactly: by halves. */
+static enum ceduo_status steps_down(void *context, double value, double *goal)
+{
+    const double *levels = context;
+    *goal = value < 3 ? levels[0] : levels[1];
+    return CEDUO_OK;
+}
+
+static void goals_without_end(void **state)
+{
+    (void)state;
+    const double levels[][2] = {{INFINITY, -INFINITY}, {1, -INFINITY}, {INFINITY, 0}, {1, .5}, {NAN, 0}};
+    for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
+        struct ceduo_found found;
+        double pair[2] = {levels[i][0], levels[i][1]};
+        const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = steps_down, .context = pair};
+        assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+        assert_true(found.found && found.value >= 3 && found.value < 3 + 1e-7);
+        assert_true(found.goal_at_value == levels[i][1] && found.side == CEDUO_SMALLEST);
+    }
+}
+
+static enum ceduo_status falls(void *context, double value, double *goal)
+{
+    const double *top = context;
+    *goal = *top - value;
+    return CEDUO_OK;
+}
+
+/* A tolerance that is met by the first step; and a range so large that halving does not come to an end: given up. */
+static void few_values_and_too_many(void **state)
+{
+    (void)state;
+    struct ceduo_found found;
+    double top = 10;
+    struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = falls, .context = &top, .tolerance = .5};
+    assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+    assert_true(found.found && found.value >= 4.5 && found.value < 4.5 + 4 && found.side == CEDUO_SMALLEST);
+    assert_int_equal(found.evaluations, 3);
+    def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = falls, .context = &top};
+    assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
+    assert_true(found.found && found.value >= 5 && found.goal_at_value <= 5.5);
+    assert_true(found.evaluations > 55 && found.evaluations < 200);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intervals_of_few_values),
+        cmocka_unit_test(distributions_of_few_values),
+        cmocka_unit_test(values_beyond_every_bin),
+        cmocka_unit_test(columns_are_refused),
+        cmocka_unit_test(cells_take_any_value),
+        cmocka_unit_test(goals_without_end),
+        cmocka_unit_test(a_search_ends_at_once),
+        cmocka_unit_test(few_values_and_too_many),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes and rocks that are refused, grounds, growth and belts at their edges. */
+#include "expect.h"
+
+#include <math.h>
+
+#include "ceduo/ceduo.h"
+#include "core/ground.h"
+#include "core/wood.h"
+#include "physics/paper_site.h"
+
+/* ---- scenes that are refused ---- */
+
+static struct paper_site site;
+
+static void expect_slope(double *where, double value, enum ceduo_status wanted)
+{
+    double was = *where;
+    *where = value;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), wanted);
+    *where = was;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
+}
+
+static void slopes_are_refused(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    struct ceduo_segment *s = &slope->segments[3];
+    const double outside[] = {-.01, 1.01, NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < 5; i++) {
+        expect_slope(&s->rn.mean, outside[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->rt.mean, outside[i], CEDUO_BAD_SLOPE);
+    }
+    const double negative[] = {-.01, NAN, INFINITY};
+    for (size_t i = 0; i < 3; i++) {
+        expect_slope(&s->rn.spread, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->rt.spread, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->friction, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->roughness_rad, negative[i], CEDUO_BAD_SLOPE);
+    }
+    expect_slope(&s->rn.mean, 0, CEDUO_OK);
+    expect_slope(&s->rt.mean, 1, CEDUO_OK);
+    expect_slope(&s->roughness_rad, 1.5707963267948968, CEDUO_BAD_SLOPE); /* a right angle */
+    expect_slope(&s->roughness_rad, 1.57, CEDUO_OK);
+    expect_slope(&s->roughness_m, .1, CEDUO_BAD_SLOPE); /* said twice */
+    s->roughness_rad = NAN;
+    s->roughness_m = .1;
+    expect_slope(&s->roughness_m, 0, CEDUO_OK);
+    expect_slope(&s->roughness_m, -.1, CEDUO_BAD_SLOPE);
+    expect_slope(&slope->x[4], NAN, CEDUO_BAD_SLOPE);
+    expect_slope(&slope->z[4], INFINITY, CEDUO_BAD_SLOPE);
+    expect_slope(&slope->x[4], slope->x[3], CEDUO_BAD_SLOPE);
+    slope->vertices = 1;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
+}
+
+static void scenes_are_refused(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_scene *scene = &site.scene;
+    struct ceduo_control controls[2] = {site.control, site.control};
+    scene->controls = controls;
+    scene->controls_count = 2;
+    double end = scene->slope.x[scene->slope.vertices - 1];
+    const struct {
+        double *number, value;
+        enum ceduo_status wanted;
+        size_t where;
+    } rows[] = {{&scene->rock.diameter.mean, 0, CEDUO_BAD_ROCK, 9},
+                {&scene->release.x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.x.mean, NAN, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.x.mean, end, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.x.spread, 1, CEDUO_RELEASE_OFF_SLOPE, 9},
+                {&scene->release.height.mean, -1, CEDUO_RELEASE_BELOW, 9},
+                {&scene->release.height.spread, 1, CEDUO_RELEASE_BELOW, 9},
+                {&controls[0].x, end + 1, CEDUO_CONTROL_OFF_SLOPE, 0},
+                {&controls[1].x, NAN, CEDUO_CONTROL_OFF_SLOPE, 1},
+                {&controls[1].x, 0, CEDUO_CONTROL_BEHIND, 1}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        size_t where = 9;
+        double was = *rows[i].number;
+        *rows[i].number = rows[i].value;
+        assert_int_equal(ceduo_scene_check(scene, &where), rows[i].wanted);
+        assert_int_equal(where, rows[i].where);
+        assert_int_equal(ceduo_scene_check(scene, NULL), rows[i].wanted);
+        *rows[i].number = was;
+        assert_int_equal(ceduo_scene_check(scene, NULL), CEDUO_OK);
+    }
+    assert_int_equal(ceduo_species_find("no-such-tree"), -1);
+}
+
+/* Of a rock that is none nothing is known, and none is flown. */
+static void no_rock_no_figures(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_block blocks[CEDUO_BLOCKS];
+    struct ceduo_way way;
+    site.control.measured_speed = 10;
+    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    site.scene.rock.diameter.mean = 0;
+    struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
+    assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated) && !stand.passes_threshold);
+    struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
+    assert_true(isnan(index.measured) && index.contact != CEDUO_PASS);
+    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
+        assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    }
+    /* good itself, but too heavy when it is as large as the others */
+    site.scene.rock = ceduo_scene_default().rock;
+    site.scene.rock.diameter.mean = 1e-90;
+    site.scene.rock.mass.mean = 1e200;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
+    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
+        assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);
+    }
+}
+
+static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status wanted)
+{
+    struct ceduo_rock rock;
+    assert_int_equal(ceduo_rock_of_means(def, &rock), wanted);
+}
+
+static void rocks_are_refused(void **state)
+{
+    (void)state;
+    const double no_size[] = {0, -1, INFINITY, -INFINITY};
+    struct ceduo_rock_def def = ceduo_scene_default().rock;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+    def.diameter.mean = 1;
+    expect_rock(&def, CEDUO_OK);
+    for (size_t i = 0; i < 4; i++) {
+        def.diameter.mean = no_size[i];
+        expect_rock(&def, CEDUO_BAD_ROCK);
+    }
+    /* too small or too large: mass, moment or radius would be 0 or infinite */
+    const double sizes[] = {1e-120, 1e-100, 1e100, 1e103};
+    for (size_t i = 0; i < 4; i++) {
+        def.diameter.mean = sizes[i];
+        expect_rock(&def, CEDUO_BAD_ROCK);
+    }
+    def.mass.mean = def.diameter.mean = 1;
+    def.density.mean = INFINITY; /* even where nothing needs it */
+    expect_rock(&def, CEDUO_BAD_ROCK);
+    def.density.mean = 2600;
+    expect_rock(&def, CEDUO_OK);
+    def.diameter.mean = 4e-324;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+
+    def = ceduo_scene_default().rock;
+    def.shape = CEDUO_CYLINDER;
+    def.diameter.mean = 1;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+    def.height.mean = 1;
+    expect_rock(&def, CEDUO_OK);
+    def.diameter.mean = NAN;
+    expect_rock(&def, CEDUO_BAD_ROCK);
+
+    def = ceduo_scene_default().rock;
+    for (int shape = CEDUO_ELLIPSOID; shape <= CEDUO_BLOCK; shape++) {
+        def.shape = (enum ceduo_shape)shape;
+        for (int all = 0; all < 8; all++) {
+            for (int i = 0; i < 3; i++)
+                def.axes[i].mean = all >> i & 1 ? 1 : NAN;
+            expect_rock(&def, all == 7 ? CEDUO_OK : CEDUO_BAD_ROCK);
+        }
+        def.mass.mean = 1;
+        for (int i = 0; i < 3; i++)
+            def.axes[i].mean = 1e308;
+        expect_rock(&def, CEDUO_BAD_ROCK); /* the sum of the axes is infinite */
+        def.mass.mean = NAN;
+    }
+}
+
+/* ---- grounds and growth ---- */
+
+/* Two segments on one line: how many are made of them. */
+static size_t segments_made(void)
+{
+    struct ground g;
+    assert_true(ceduo_ground_init(&g, &site.scene.slope, 9.81, .3, false));
+    size_t n = g.n;
+    ceduo_ground_release(&g);
+    return n;
+}
+
+static void alike_neighbours_are_one(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    struct ceduo_segment *a = &slope->segments[0], *b = &slope->segments[1];
+    slope->vertices = 3;
+    for (int i = 0; i < 3; i++) {
+        slope->x[i] = 10 * i;
+        slope->z[i] = -5 * i;
+    }
+    *b = *a;
+    assert_int_equal(segments_made(), 1);
+    double *const numbers[] = {&b->rn.mean, &b->rt.mean, &b->friction, &b->roughness_rad, &b->rn.spread, &b->rt.spread, &slope->z[1]};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        double was = *numbers[i];
+        *numbers[i] += .01;
+        assert_int_equal(segments_made(), 2);
+        *numbers[i] = was;
+    }
+    b->rn.kind = CEDUO_UNIFORM; /* of no spread */
+    assert_int_equal(segments_made(), 1);
+    a->rn.spread = b->rn.spread = .01;
+    assert_int_equal(segments_made(), 2);
+    a->rn.kind = CEDUO_UNIFORM;
+    assert_int_equal(segments_made(), 1);
+    a->roughness_m = b->roughness_m = .1;
+    a->roughness_rad = b->roughness_rad = NAN;
+    assert_int_equal(segments_made(), 1);
+    b->roughness_m = .2;
+    assert_int_equal(segments_made(), 2);
+    b->roughness_m = NAN;
+    b->roughness_rad = .1;
+    assert_int_equal(segments_made(), 2);
+}
+
+/* A short segment that is turned from the line further than one may be is no part of it, be its end on it or not. */
+static void turned_segments_are_their_own(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    const double x[] = {0, 1e-6, 1.1e-6, 1000};
+    slope->vertices = 4;
+    for (size_t i = 0; i < 4; i++) {
+        slope->x[i] = x[i];
+        slope->segments[i] = slope->segments[0];
+    }
+    slope->z[0] = slope->z[1] = 0;
+    slope->z[3] = -500;
+    slope->z[2] = 1.5e-7 * 1e-7; /* turned by 1.5e-7 rad */
+    assert_int_equal(segments_made(), 3);
+    slope->z[2] = .5e-7 * 1e-7;
+    assert_int_equal(segments_made(), 2);
+}
+
+/* Stools so wide and so many that a table for all that a rock can be among would not fit into memory: there is a most. */
+static void tables_of_stools_have_an_end(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    const struct ceduo_simulation *simulation = &site.scene.simulation;
+    struct wood wood;
+    assert_true(ceduo_wood_init(&wood, simulation, &site.option, .68));
+    assert_true(wood.places >= 63 && wood.places < 1000);
+    ceduo_wood_release(&wood);
+    site.belts[0].stand.stools_per_ha = 1e6;
+    site.plots[0].shoots.per_ha = 1e10;
+    site.belts[0].stand.spacing = 20;
+    assert_true(ceduo_wood_init(&wood, simulation, &site.option, .68));
+    assert_int_equal(wood.places, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
+    ceduo_wood_release(&wood);
+}
+
+/* A stand of whose growth something is not known stays as it is; and is never cut. */
+static void growth_is_known_or_not(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    struct ceduo_curve *shoots = &stand->growth.shoots;
+    struct ceduo_grown_stand grown;
+    stand->growth = paper_growth;
+    stand->growth.sdi_most = 0;
+    stand->cutting = (struct ceduo_cutting){.rotation = 25};
+    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_most, &shoots->height_rate};
+    stand->shoots[0].age = 10;
+    for (size_t i = 0; i <= 4; i++) {
+        double was = i < 4 ? *numbers[i] : 0;
+        if (i < 4)
+            *numbers[i] = 0;
+        assert_int_equal(ceduo_stand_at(stand, NAN, 5, &grown), CEDUO_OK);
+        bool grows = grown.stand.shoots[0].dbh > stand->shoots[0].dbh;
+        assert_int_equal(grows, i == 4);
+        assert_int_equal(ceduo_first_cut(stand, 3) != CEDUO_NEVER, i == 4);
+        ceduo_grown_stand_release(&grown);
+        if (i < 4)
+            *numbers[i] = was;
+    }
+    site.scene.options = &site.option; /* what is shown of it: up to a rotation after the cut, where that is not too far */
+    site.scene.options_count = 1;
+    site.belts[1].stand.cutting.rotation = 0;
+    const unsigned usual[][2] = {{3, 29}, {100, 120}, {119, 120}, {130, 10}};
+    for (size_t i = 0; i < 4; i++) {
+        site.belts[0].cut_year = usual[i][0];
+        assert_int_equal(ceduo_years_usual(&site.scene), usual[i][1]);
+    }
+    stand->growth.shoots_old = 0;
+    assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
+    stand->shoots_count = 0; /* trees alone: cut when they are old enough, if that is known */
+    stand->stools_per_ha = 0;
+    stand->growth = (struct ceduo_growth){.sdi_most = 0};
+    assert_true(stand->trees_count == 1);
+    stand->trees[0].age = NAN;
+    assert_int_equal(ceduo_first_cut(stand, NAN), CEDUO_NEVER);
+    stand->trees[0].age = 10;
+    assert_int_equal(ceduo_first_cut(stand, NAN), 15);
+    stand->cutting.rotation = 0;
+    assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
+}
+
+/* ---- the index ---- */
+
+static void belts_beside_the_way(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_belt *belts = site.belts;
+    struct ceduo_control control = site.control;
+    struct ceduo_index both = ceduo_assess_index(&site.scene, &site.option, &control, 1e5);
+    control.x = belts[0].to; /* the second belt lies behind the control */
+    struct ceduo_index first = ceduo_assess_index(&site.scene, &site.option, &control, 1e5);
+    struct ceduo_stand_result of_first = ceduo_assess_stand(&site.scene, &belts[0]),
+                              of_second = ceduo_assess_stand(&site.scene, &belts[1]);
+    double before = belts[0].to - fmax(belts[0].from, site.scene.release.x.mean);
+    assert_true(fabs(first.length - before) < 1e-12 && both.length > first.length);
+    assert_true(fabs(first.contacts - before / of_first.adc_m) < 1e-9);
+    assert_true(fabs(both.contacts - first.contacts - of_second.contacts) < 1e-9);
+    site.scene.release.x.mean = belts[0].to; /* the first lies behind the release */
+    control.x = site.control.x;
+    struct ceduo_index second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
+    assert_true(fabs(second.contacts - of_second.contacts) < 1e-9);
+    assert_true(isnan(second.residual) && !second.exhausted);
+    control.measured_speed = 10;
+    struct ceduo_rock rock;
+    assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
+    second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
+    assert_true(fabs(second.measured - 50 * rock.mass) < 1e-6);
+    assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(slopes_are_refused),
+        cmocka_unit_test(scenes_are_refused),
+        cmocka_unit_test(no_rock_no_figures),
+        cmocka_unit_test(rocks_are_refused),
+        cmocka_unit_test(alike_neighbours_are_one),
+        cmocka_unit_test(turned_segments_are_their_own),
+        cmocka_unit_test(tables_of_stools_have_an_end),
+        cmocka_unit_test(growth_is_known_or_not),
+        cmocka_unit_test(belts_beside_the_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,486 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs and pools at their limits: parts, rocks that cannot be drawn or never end, keys that tell what rocks meet. */
+#include "expect.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "ceduo/ceduo.h"
+#include "core/run_pack.h"
+#include "physics/paper_site.h"
+
+static struct paper_site site;
+
+/* ---- keys ---- */
+
+static uint64_t key_of(void)
+{
+    return ceduo_option_key(&site.scene, &site.option);
+}
+
+/* Whether a number matters to the rocks: it is changed, and put back. */
+static bool matters(double *number, double value)
+{
+    uint64_t before = key_of();
+    double was = *number;
+    *number = value;
+    bool other = key_of() != before;
+    *number = was;
+    assert_true(key_of() == before);
+    return other;
+}
+
+static void keys_tell_what_rocks_meet(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    struct ceduo_stems *shoots = &stand->shoots[0];
+    assert_true(matters(&shoots->dbh, .123) && matters(&shoots->per_ha, 1234) && matters(&shoots->dbh_sd, .01));
+    assert_true(matters(&stand->spacing, .123) && matters(&site.belts[0].to, 50));
+    assert_true(matters(&shoots->volume, 1.5) && matters(&stand->u, 12345));
+    assert_false(matters(&stand->fracture_ratio, 9) || matters(&shoots->age, 50));
+    stand->energy = CEDUO_DORREN;
+    assert_true(matters(&stand->fracture_ratio, 9));
+    assert_false(matters(&shoots->volume, 1.5) || matters(&stand->u, 12345));
+    stand->energy = CEDUO_BRAUNER;
+    size_t trees = stand->trees_count;
+    stand->trees_count = 0; /* half the volume and twice the work take the same */
+    stand->u = 1000;
+    shoots->volume = 2;
+    uint64_t key = key_of();
+    stand->u = 2000;
+    shoots->volume = 1;
+    assert_true(key_of() == key);
+    stand->trees_count = trees;
+    /* where diameters differ, a volume that is given goes with them, and one that is not is the species' */
+    shoots->dbh_sd = .01;
+    assert_true(matters(&shoots->volume, NAN));
+    int species = stand->species;
+    key = key_of();
+    stand->species = ceduo_species_find("acer");
+    assert_true(key_of() != key);
+    stand->species = species;
+    site.scene.simulation.contact_model = CEDUO_POISSON;
+    key = key_of();
+    site.scene.simulation.rule = CEDUO_CROFTON;
+    assert_true(key_of() != key);
+    site.scene.simulation.contact_model = CEDUO_INDEX;
+    assert_true(key_of() == 0);
+    site.scene.simulation.contact_model = CEDUO_STEMS;
+    for (size_t i = 0; i < 2; i++)
+        site.belts[i].stand.shoots_count = site.belts[i].stand.trees_count = 0;
+    assert_true(key_of() == 0); /* bare: as without forest */
+    site.belts[1].stand.shoots_count = 1;
+    key = key_of();
+    site.belts[0].to -= 1;
+    assert_true(key != 0 && key_of() == key);
+}
+
+/* ---- runs ---- */
+
+static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
+    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
+    return run;
+}
+
+static void runs_that_take_no_part(void **state)
+{
+    (void)state;
+    static const double cells[] = {10};
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 1500;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene), part = def, other;
+    part.part = true;
+    struct ceduo_run *from = run_of(&part, 1024), *to;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(paper_run_save(from, &bytes, &n), CEDUO_OK);
+    to = run_of(&def, 0);
+    assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_OK);
+    ceduo_run_free(to);
+    for (int i = 0; i < 3; i++) {
+        other = i == 0 ? part : def;
+        other.cells = i == 1 ? 1 : 0;
+        other.cell_x = cells;
+        to = run_of(&other, i == 2 ? 10 : 0);
+        assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_BAD_PART); /* a part; with cells; within a block */
+        ceduo_run_free(to);
+    }
+    free(bytes);
+    ceduo_run_free(from);
+}
+
+/* Rocks of which some are drawn too light to compute with: these, and only these, are unfinished, at each control. */
+static void rocks_that_cannot_be_drawn(void **state)
+{
+    (void)state;
+    static const double cells[] = {50};
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 300;
+    site.scene.rock = ceduo_scene_default().rock;
+    site.scene.rock.diameter.mean = .5;
+    site.scene.rock.mass = (struct ceduo_number){.mean = 3e-322, .spread = 2.9e-322, .kind = CEDUO_UNIFORM};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.cells = 1;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 300);
+    struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
+    uint64_t bad = 0, reached = 0;
+    for (uint64_t rock = 0; rock < 300; rock++) {
+        struct ceduo_way way;
+        struct ceduo_crossing crossing;
+        enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &way, &crossing);
+        assert_true(status == CEDUO_OK || status == CEDUO_BAD_ROCK);
+        bad += status == CEDUO_BAD_ROCK;
+        reached += status == CEDUO_OK && crossing.reached;
+    }
+    ceduo_follower_free(follower);
+    struct ceduo_ends e;
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    assert_true(bad > 50 && bad < 250);
+    assert_int_equal(e.count[CEDUO_UNFINISHED], bad);
+    assert_int_equal(a.unfinished, bad);
+    assert_int_equal(a.reached, reached);
+    ceduo_run_free(run);
+}
+
+/* One number of the release has a spread: a run flies its rocks as they are followed one by one. */
+static void each_spread_is_drawn(void **state)
+{
+    (void)state;
+    enum { ROCKS = 40 };
+    for (int i = 0; i < 5; i++) {
+        paper_site_init(&site);
+        site.scene.simulation.law = CEDUO_LAW_CRSP;
+        struct ceduo_release *r = &site.scene.release;
+        r->x.mean = r->height.mean = 3;
+        struct ceduo_number *const numbers[] = {&r->x, &r->height, &r->vx, &r->vz, &r->spin};
+        numbers[i]->spread = .5;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        struct ceduo_run *run = run_of(&def, ROCKS);
+        struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
+        double energies[ROCKS];
+        size_t n = ceduo_run_energies(run, 0, energies, ROCKS), reached = 0;
+        for (uint64_t rock = 0; rock < ROCKS; rock++) {
+            struct ceduo_way way;
+            struct ceduo_crossing c;
+            assert_int_equal(ceduo_follower_follow(follower, rock, NULL, &way, &c), CEDUO_OK);
+            if (!c.reached)
+                continue;
+            double speed = sqrt(c.vx * c.vx + c.vz * c.vz);
+            double energy = .5 * way.rock.mass * (speed * speed) + .5 * way.rock.moment * (c.spin * c.spin);
+            assert_true(reached < n && energies[reached++] == energy);
+        }
+        assert_true(reached == n && n > 5);
+        ceduo_follower_free(follower);
+        ceduo_run_free(run);
+    }
+}
+
+static void count_piece(void *context, const struct ceduo_piece *piece)
+{
+    (void)piece;
+    ++*(unsigned *)context;
+}
+
+static void count_stem(void *context, const struct ceduo_stem_passed *stem)
+{
+    (void)stem;
+    *(unsigned *)context += 1000000;
+}
+
+/* Whoever looks on, at pieces, at stems or at nothing, changes nothing. */
+static void looking_on_changes_nothing(void **state)
+{
+    (void)state;
+    unsigned seen;
+    const struct ceduo_watch watches[] = {{NULL, count_piece, count_stem, &seen},
+                                          {NULL, count_piece, NULL, &seen},
+                                          {NULL, NULL, count_stem, &seen},
+                                          {NULL, NULL, NULL, &seen}};
+    paper_site_init(&site);
+    site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* some are flown over */
+    for (uint64_t rock = 0; rock < 60; rock++) {
+        const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
+        struct ceduo_way alone, way;
+        assert_int_equal(ceduo_way_follow(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
+        for (int i = 0; i < 4; i++) {
+            seen = 0;
+            assert_int_equal(ceduo_way_follow(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
+            assert_true(way.x == alone.x && way.z == alone.z && way.end == alone.end && way.contacts == alone.contacts);
+            assert_true(way.stems_hit == alone.stems_hit && way.stems_drawn == alone.stems_drawn);
+            assert_int_equal(seen % 1000000 > 0, i < 2);
+            assert_true(seen / 1000000 >= (i % 2 == 0 ? alone.stems_hit : 0) && (i % 2 == 0 || seen < 1000000));
+        }
+    }
+}
+
+/* A rock that bounces in its place for ever is given up, unfinished before the control; the cells do not see it. */
+static void a_rock_without_end(void **state)
+{
+    (void)state;
+    static const double cells[] = {1, 50};
+    paper_site_init(&site);
+    struct ceduo_slope *slope = &site.scene.slope;
+    slope->vertices = 2;
+    slope->z[1] = slope->z[0];
+    slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5};
+    site.control.x = slope->x[1];
+    site.scene.release = (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0)};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.cells = 2;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 1);
+    struct ceduo_arrivals a;
+    struct ceduo_envelope e;
+    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    ceduo_run_envelope(run, 0, &e);
+    assert_true(a.unfinished == 1 && a.reached == 0 && e.passed == 0);
+    assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MOST);
+    ceduo_run_free(run);
+}
+
+/* Where samples are kept no more, differences come from the first so many rocks: their error is as that of all. */
+static void differences_of_the_first_rocks(void **state)
+{
+    (void)state;
+    enum { ROCKS = CEDUO_PAIRED_ROCKS + 70000 };
+    paper_site_init(&site);
+    site.scene.simulation.rocks = ROCKS;
+    site.scene.release.vx = (struct ceduo_number){.mean = 5, .spread = 2, .kind = CEDUO_UNIFORM};
+    site.control.x = 1;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.arrivals_only = true;
+    struct ceduo_scene slower = site.scene;
+    slower.release.vx.mean = 4;
+    struct ceduo_run_def other = def;
+    other.scene = &slower;
+    struct ceduo_run *exact[2] = {run_of(&def, ROCKS), run_of(&other, ROCKS)}, *binned[2];
+    def.exact_bytes = other.exact_bytes = (CEDUO_PAIRED_ROCKS + 40000) * 3 * sizeof(double);
+    binned[0] = run_of(&def, CEDUO_PAIRED_ROCKS + 30000); /* with samples until here */
+    assert_int_equal(ceduo_run_extend(binned[0], ROCKS), CEDUO_OK);
+    binned[1] = run_of(&other, ROCKS);
+    struct ceduo_difference all = ceduo_run_difference(exact[0], exact[1], 0), first = ceduo_run_difference(binned[0], binned[1], 0);
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_arrivals(binned[0], 0, &a), CEDUO_OK);
+    assert_true(!a.exact && a.reached == ROCKS);
+    assert_true(first.energy_per_released.mean == all.energy_per_released.mean && all.energy_per_released.mean > 0);
+    EXPECT_NEAR(first.energy_per_released.se, all.energy_per_released.se, .01 * all.energy_per_released.se);
+    for (int i = 0; i < 2; i++) {
+        ceduo_run_free(exact[i]);
+        ceduo_run_free(binned[i]);
+    }
+}
+
+/* Years that were not flown yet say nothing of what arrives. */
+static void years_before_they_are_flown(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 20;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run *run = run_of(&def, 20);
+    struct ceduo_flown bare;
+    struct ceduo_years *years;
+    assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, 0, 3, 1, &years), CEDUO_OK);
+    ceduo_years_assess(years, &site.scene, &bare);
+    struct ceduo_years_summary s = ceduo_years_sum(years, 0);
+    assert_true(s.years == 4 && s.flown == 0 && isnan(s.worst) && isnan(s.reach.mean) && isnan(s.exceed.mean));
+    assert_true(s.unprotected_contact == 0 && s.unprotected_energy == 0);
+    ceduo_years_free(years);
+    ceduo_flown_free(&bare);
+    ceduo_run_free(run);
+}
+
+static void little_is_asked_of_a_run(void **state)
+{
+    (void)state;
+    static const double cells[] = {20, 152};
+    double energies[8];
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 300;
+    site.scene.slope.segments[0].friction = 9; /* holds all that are released without speed */
+    site.scene.release = (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0),
+                                                ceduo_number(0)};
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.threads = 0; /* as one */
+    def.cells = 2;
+    def.cell_x = cells;
+    struct ceduo_run *run = run_of(&def, 300);
+    for (size_t i = 0; i < 2; i++) {
+        struct ceduo_envelope e;
+        ceduo_run_envelope(run, i, &e);
+        assert_int_equal(e.passed, 0);
+        assert_true(isnan(e.mean_energy) && isnan(e.speed.p5) && isnan(e.energy.max));
+    }
+    uint64_t reached;
+    double mean, se;
+    ceduo_run_energy(run, 0, &reached, &mean, &se);
+    assert_true(reached == 0 && isnan(mean) && isnan(se));
+    assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK); /* as long as it was made for */
+    assert_int_equal(ceduo_run_rocks(run), 300);
+    ceduo_run_free(run);
+
+    paper_site_init(&site);
+    def = ceduo_run_def_default(&site.scene);
+    def.rocks_most = 300;
+    run = run_of(&def, 0);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 8);
+    ceduo_run_free(run);
+    def.exact_bytes = 100;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_energies(run, 0, energies, 8), 0);
+    ceduo_run_free(run);
+    struct ceduo_arrivals steps, once; /* room is taken twice over, where that fits */
+    const double of_control[] = {site.control.x};
+    def.exact_bytes = 4 * sizeof(double) * 300; /* speed, height, stops, and room to sort */
+    def.cells = 1;
+    def.cell_x = of_control;
+    run = run_of(&def, 200);
+    assert_int_equal(ceduo_run_extend(run, 300), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &steps), CEDUO_OK);
+    struct ceduo_envelope at_control; /* a cell where a control is */
+    ceduo_run_envelope(run, 0, &at_control);
+    assert_int_equal(at_control.passed, steps.reached);
+    assert_true(at_control.speed.max == steps.speed.max && at_control.energy.max == steps.energy.max);
+    ceduo_run_free(run);
+    def.cells = 0;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_arrivals(run, 0, &once), CEDUO_OK);
+    assert_true(steps.exact && once.exact && steps.reached > 0);
+    assert_memory_equal(&steps, &once, offsetof(struct ceduo_arrivals, exact));
+    ceduo_run_free(run);
+    site.scene.controls_count = 0; /* nobody asks what arrives; where they stop is told all the same */
+    def.exact_bytes = 100;
+    struct ceduo_ends binned, exact;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &binned), CEDUO_OK);
+    ceduo_run_free(run);
+    def.exact_bytes = CEDUO_EXACT_BYTES;
+    run = run_of(&def, 300);
+    assert_int_equal(ceduo_run_ends(run, &exact), CEDUO_OK);
+    ceduo_run_free(run);
+    assert_memory_equal(binned.count, exact.count, sizeof exact.count);
+    assert_true(exact.stop_x.n > 0);
+    EXPECT_NEAR(binned.stop_p50, exact.stop_p50, 3.1e-5 * exact.stop_p50);
+
+    struct ceduo_pool *pool;
+    site.scene.slope.vertices = 1;
+    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_BAD_SLOPE);
+    assert_null(run);
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_BAD_SLOPE);
+    assert_null(pool);
+}
+
+/* The pool of a scene as it flies it, or as a part of that. */
+static struct ceduo_pool *pool_of(bool part)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
+    def.part = part;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    return pool;
+}
+
+static void pools_of_another_kind(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 20;
+    site.scene.options = &site.option;
+    site.scene.options_count = 1;
+    struct ceduo_pool *part = pool_of(true);
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_pool_extend(part, 20), CEDUO_OK);
+    assert_int_equal(ceduo_pool_save(part, &bytes, &n), CEDUO_OK);
+    bytes = realloc(bytes, n + 1);
+    assert_non_null(bytes);
+    bytes[n] = 0;
+    for (int i = 0; i < 5; i++) { /* as it is; of other runs, of another forest, shorter, longer */
+        struct ceduo_pool *whole = pool_of(false);
+        bytes[0] ^= i == 1;
+        bytes[8] ^= i == 2;
+        size_t length = i == 3 ? n - 1 : i == 4 ? n + 1 : n;
+        assert_int_equal(ceduo_pool_adopt(whole, bytes, length), i == 0 ? CEDUO_OK : CEDUO_BAD_PART);
+        bytes[0] ^= i == 1;
+        bytes[8] ^= i == 2;
+        ceduo_pool_free(whole);
+    }
+    free(bytes);
+    ceduo_pool_free(part);
+    site.scene.controls_count = 0; /* and a result of no control at all */
+    struct ceduo_pool *pool = pool_of(false);
+    struct ceduo_result *result;
+    assert_int_equal(ceduo_pool_extend(pool, 20), CEDUO_OK);
+    assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
+    assert_int_equal(ceduo_result_rocks(result), 20);
+    ceduo_result_free(result);
+    ceduo_pool_free(pool);
+}
+
+/* Forests that the scene has no more: the runs asked for last stay, so many of them. */
+static void a_pool_forgets_what_is_old(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    site.scene.simulation.rocks = 10;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
+    struct ceduo_run *run;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    enum { MORE = CEDUO_POOL_SPARE + 5 };
+    double to = site.belts[1].to;
+    for (int i = 1; i <= MORE; i++) {
+        site.belts[1].to = to - i;
+        assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
+    }
+    site.belts[1].to = to - 1; /* the first is asked for once more */
+    assert_int_equal(ceduo_pool_run(pool, &site.option, &run), CEDUO_OK);
+    assert_int_equal(ceduo_pool_work(pool).reused, 1);
+    site.belts[1].to = to;
+    ceduo_pool_turn(pool, &site.scene);
+    assert_int_equal(ceduo_pool_work(pool).runs, 2 + MORE); /* made; those that are forgotten count */
+    assert_non_null(ceduo_pool_find(pool, NULL));
+    assert_non_null(ceduo_pool_find(pool, &site.option));
+    for (int i = 1; i <= MORE; i++) {
+        site.belts[1].to = to - i;
+        assert_int_equal(ceduo_pool_find(pool, &site.option) != NULL, i == 1 || i > MORE - CEDUO_POOL_SPARE + 1);
+    }
+    site.belts[1].to = to;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_pool_save(pool, &bytes, &n), CEDUO_OK);
+    assert_int_equal(ceduo_pool_adopt(pool, bytes, 8), CEDUO_BAD_PART);
+    free(bytes);
+    ceduo_pool_free(pool);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(keys_tell_what_rocks_meet),
+        cmocka_unit_test(runs_that_take_no_part),
+        cmocka_unit_test(rocks_that_cannot_be_drawn),
+        cmocka_unit_test(each_spread_is_drawn),
+        cmocka_unit_test(looking_on_changes_nothing),
+        cmocka_unit_test(a_rock_without_end),
+        cmocka_unit_test(differences_of_the_first_rocks),
+        cmocka_unit_test(years_before_they_are_flown),
+        cmocka_unit_test(little_is_asked_of_a_run),
+        cmocka_unit_test(a_pool_forgets_what_is_old),
+        cmocka_unit_test(pools_of_another_kind),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
