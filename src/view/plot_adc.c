@@ -90,11 +90,8 @@ static void draw_bar(const struct adc_picture *p, double metres, enum ceduo_role
         ceduo_canvas_bar(p->canvas, bar_left(p), p->row, p->bar, share_of(p, metres), role);
     if (ceduo_canvas_is_blank(p->canvas, at, p->row))
         ceduo_canvas_label(p->canvas, at, p->row, CEDUO_ROLE_CONTROL, "\xe2\x94\x82");
-    struct text value = {0};
-    ceduo_text_format(&value, isfinite(metres) ? _("%s m") : "%s", ceduo_plot_number(metres, 3, room));
-    ceduo_plot_put_right(p->canvas, bar_left(p) + p->bar + VALUE - 1, p->row, VALUE - 1, CEDUO_ROLE_TEXT,
-                         value.bytes ? value.bytes : "");
-    ceduo_text_free(&value);
+    ceduo_plot_say_right(p->canvas, bar_left(p) + p->bar + VALUE - 1, p->row, VALUE - 1, CEDUO_ROLE_TEXT,
+                         isfinite(metres) ? _("%s m") : "%s", ceduo_plot_number(metres, 3, room));
 }
 
 static void put_verdict(const struct adc_picture *p, const struct ceduo_stand_result *r, const char *before)
@@ -115,8 +112,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
                       ceduo_number_shortest(belt->to_given, to));
     if (r->bare)
         ceduo_text_put(&name, _(": no stems, nothing to meet: NO"));
-    ceduo_canvas_put(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, name.bytes ? name.bytes : "");
-    ceduo_text_free(&name);
+    ceduo_plot_put_fitting(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, 1, &name);
     for (int f = 0; f < FORMS && !r->bare; f++, p->row++) {
         enum ceduo_rule rule = (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f);
         double value = ceduo_adc_value(&r->adc, rule);
@@ -135,8 +131,7 @@ static void draw_belt_briefly(struct adc_picture *p, const struct ceduo_belt *be
 {
     struct text name = {0};
     ceduo_plot_belt_name(&name, belt);
-    ceduo_canvas_put(p->canvas, p->area->left, p->row, p->name, CEDUO_ROLE_BELT, name.bytes ? name.bytes : "");
-    ceduo_text_free(&name);
+    ceduo_plot_put_fitting(p->canvas, p->area->left, p->row, p->name, CEDUO_ROLE_BELT, 1, &name);
     draw_bar(p, r->adc_m, r->passes_threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD);
     put_verdict(p, r, "");
     p->row++;

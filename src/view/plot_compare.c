@@ -216,11 +216,9 @@ static void put_heads(const struct comparison *c, int row)
     ceduo_text_put(&heads[0][1], _("ADC, m"));
     write_middle_head(c, heads[1]);
     write_last_head(c, heads[2]);
-    for (int i = 0; i < c->columns; i++)
-        ceduo_plot_put_fitting(c->canvas, column_left(c, i), row, c->bar + 1 + VALUE, CEDUO_ROLE_TITLE, HEADS,
-                               heads[i]);
-    for (int i = 0; i < 3 * HEADS; i++)
-        ceduo_text_free(&heads[i / HEADS][i % HEADS]);
+    for (int i = 0; i < 3; i++)
+        ceduo_plot_put_fitting(c->canvas, column_left(c, i), row, i < c->columns ? c->bar + 1 + VALUE : 0,
+                               CEDUO_ROLE_TITLE, HEADS, heads[i]);
 }
 
 /* What is to be held against the options. */
@@ -255,14 +253,10 @@ static void put_foot(const struct comparison *c, int first_free)
                       threshold);
     ceduo_text_format(&rule[1], _("pass: ADC of every belt and every gap below %g m"), threshold);
     write_bare(c, bare);
-    if (first_free < row)
-        ceduo_plot_put_fitting(c->canvas, c->area->left, row - 1, c->area->width, CEDUO_ROLE_DIM, HEADS, rule);
+    ceduo_plot_put_fitting(c->canvas, c->area->left, row - 1, first_free < row ? c->area->width : 0, CEDUO_ROLE_DIM,
+                           HEADS, rule);
     ceduo_plot_put_fitting(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM, bare[1].bytes ? HEADS : 1,
                            bare);
-    for (int i = 0; i < HEADS; i++) {
-        ceduo_text_free(&rule[i]);
-        ceduo_text_free(&bare[i]);
-    }
 }
 
 /* ---- the picture ---- */

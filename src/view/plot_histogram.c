@@ -131,7 +131,7 @@ static void draw_row(const struct histogram *h, int i, double most)
     bin_label(h, i, &label);
     number_of(h, i, &number);
     marks_of(h, i, &marks);
-    ceduo_plot_put_right(h->canvas, column - 2, row, h->label, CEDUO_ROLE_AXIS, label.bytes ? label.bytes : "");
+    ceduo_plot_put_right(h->canvas, column - 2, row, h->label, CEDUO_ROLE_AXIS, &label);
     ceduo_canvas_bar(h->canvas, column, row, h->bar, length_of(h, i) / most, role_of(h, i));
     if (h->bare && h->bare_counts[i] > 0) {
         double share = per_1000(h->bare, h->bare_counts, h->bare_n, i) / most;
@@ -139,12 +139,8 @@ static void draw_row(const struct histogram *h, int i, double most)
         ceduo_canvas_label(h->canvas, at, row, CEDUO_ROLE_BARE, "\xe2\x94\x82");
     }
     column += h->bar + 1;
-    ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT,
-                         number.bytes ? number.bytes : "");
-    ceduo_canvas_put(h->canvas, column + h->numbers + 1, row, h->marks, CEDUO_ROLE_TITLE, marks.bytes ? marks.bytes : "");
-    ceduo_text_free(&label);
-    ceduo_text_free(&number);
-    ceduo_text_free(&marks);
+    ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT, &number);
+    ceduo_plot_put_fitting(h->canvas, column + h->numbers + 1, row, h->marks, CEDUO_ROLE_TITLE, 1, &marks);
 }
 
 static int digits_of(double number)
@@ -158,7 +154,7 @@ static void put_number_head(const struct histogram *h)
 {
     int end = h->area->left + h->label + 1 + h->bar + 1 + h->numbers;
     if (h->heads && h->bare && h->numbers > 0)
-        ceduo_plot_put_right(h->canvas, end - 1, h->top - 1, end - h->area->left, CEDUO_ROLE_AXIS, _("wood (bare)"));
+        ceduo_plot_say_right(h->canvas, end - 1, h->top - 1, end - h->area->left, CEDUO_ROLE_AXIS, "%s", _("wood (bare)"));
 }
 
 static void draw_rows(struct histogram *h)
@@ -234,8 +230,6 @@ static void put_head(const struct histogram *h)
     if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))
         ceduo_text_format(&heads[0], _("; drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
     ceduo_plot_put_fitting(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT, HEADS, heads);
-    for (int i = 0; i < HEADS; i++)
-        ceduo_text_free(&heads[i]);
 }
 
 static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)

@@ -21,9 +21,9 @@ __attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ced
     va_start(args, format);
     ceduo_text_vformat(&line, format, args);
     va_end(args);
-    if (n->row < n->end)
-        ceduo_canvas_put(n->canvas, n->left, n->row++, n->width, role, line.bytes ? line.bytes : "");
-    ceduo_text_free(&line);
+    bool room = n->row < n->end;
+    ceduo_plot_put_fitting(n->canvas, n->left, n->row, room ? n->width : 0, role, 1, &line);
+    n->row += room;
 }
 
 static void note_scale(struct notes *n, double factor)
@@ -102,15 +102,9 @@ static void note_control(struct notes *n, size_t c)
 /* The factor alone, at the right of the top row. */
 static void put_factor(struct ceduo_canvas *canvas, const struct ceduo_area *area, double factor)
 {
-    struct text text = {0};
-    if (area->width >= 30)
-        ceduo_text_format(&text, _(" heights \xc3\x97%g"), factor);
-    else
-        ceduo_text_format(&text, " \xc3\x97%g", factor);
     if (factor != 1)
-        ceduo_plot_put_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
-                             text.bytes ? text.bytes : "");
-    ceduo_text_free(&text);
+        ceduo_plot_say_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
+                             area->width >= 30 ? _(" heights \xc3\x97%g") : " \xc3\x97%g", factor);
 }
 
 bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,

@@ -11,6 +11,18 @@
 
 /* ---- text ---- */
 
+int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                           size_t count, struct text *texts)
+{
+    size_t i = 0;
+    while (i + 1 < count && ceduo_canvas_label_width(canvas, texts[i].bytes ? texts[i].bytes : "") > most)
+        i++;
+    int cells = ceduo_canvas_put(canvas, column, row, most, role, texts[i].bytes ? texts[i].bytes : "");
+    for (i = 0; i < count; i++)
+        ceduo_text_free(&texts[i]);
+    return cells;
+}
+
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                    ...)
 {
@@ -19,29 +31,26 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    int cells = ceduo_canvas_put(canvas, column, row, most, role, text.bytes ? text.bytes : "");
-    ceduo_text_free(&text);
-    return cells;
-}
-
-int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                           size_t count, const struct text *texts)
-{
-    const char *bytes = "";
-    for (size_t i = 0; i < count; i++) {
-        bytes = texts[i].bytes ? texts[i].bytes : "";
-        if (ceduo_canvas_label_width(canvas, bytes) <= most)
-            break;
-    }
-    return ceduo_canvas_put(canvas, column, row, most, role, bytes);
+    return ceduo_plot_put_fitting(canvas, column, row, most, role, 1, &text);
 }
 
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                          const char *text)
+                          struct text *text)
 {
-    int width = ceduo_canvas_label_width(canvas, text);
+    int width = ceduo_canvas_label_width(canvas, text->bytes ? text->bytes : "");
     width = width < most ? width : most;
-    ceduo_canvas_put(canvas, column + 1 - width, row, width, role, text);
+    ceduo_plot_put_fitting(canvas, column + 1 - width, row, width, role, 1, text);
+}
+
+void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                          const char *format, ...)
+{
+    struct text text = {0};
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&text, format, args);
+    va_end(args);
+    ceduo_plot_put_right(canvas, column, row, most, role, &text);
 }
 
 void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence)

@@ -12,13 +12,15 @@
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                    ...) __attribute__((format(printf, 6, 7)));
 
-/* The same, its last cell in column `column`. */
+/* The same, its last cell in column `column`. Frees the text. */
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                          const char *text);
+                          struct text *text);
+void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
+                          const char *format, ...) __attribute__((format(printf, 6, 7)));
 
-/* The first of `count` texts that has room, the last one cut where none has. */
+/* The first of `count` texts that has room, the last one cut where none has. Frees them all. */
 int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                           size_t count, const struct text *texts);
+                           size_t count, struct text *texts);
 
 /* A sentence in the middle of the area, where there is nothing to draw. */
 void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence);

@@ -280,7 +280,7 @@ static void name_forest(const struct profile *p)
         most = room > most ? room : most;
     }
     if (most == width || most >= FOREST_LEAST)
-        ceduo_plot_put_right(p->canvas, area_end(p->area) - 1, p->area->top + row, most, CEDUO_ROLE_CLOUD, bytes);
+        ceduo_plot_say_right(p->canvas, area_end(p->area) - 1, p->area->top + row, most, CEDUO_ROLE_CLOUD, "%s", bytes);
     ceduo_text_free(&name);
 }
 

@@ -171,8 +171,6 @@ static void put_words(const struct plan *p, const struct ceduo_area *area)
                       ceduo_plot_number(p->strip, 2, room), p->met, PATCH_M);
     ceduo_text_format(&words[1], _("One pattern of many: %zu stools or trees are met"), p->met);
     ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 2, words);
-    ceduo_text_free(&words[0]);
-    ceduo_text_free(&words[1]);
 }
 
 static void draw_pattern(struct plan *p, const struct ceduo_area *area, bool words)
@@ -247,8 +245,6 @@ static void put_words_of_way(const struct plan *p, const struct ceduo_area *area
         ceduo_text_format(&words[i], _("; across \xc3\x97%.2g"), t->factor);
     }
     ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
-    for (int i = 0; i < 3; i++)
-        ceduo_text_free(&words[i]);
 }
 
 /* The stems that the rock came to from `from` on, at their places along and beside its way. */

@@ -370,8 +370,6 @@ static void put_cut(const struct strip *s, const struct peak *peak, int column, 
     ceduo_text_format(&words[1], _("; %s up to %s %s"), name, value, unit);
     ceduo_text_format(&words[2], _("; up to %s"), value);
     ceduo_plot_put_fitting(s->canvas, column, s->area->top, room, CEDUO_ROLE_WARN, 3, words);
-    for (int i = 0; i < 3; i++)
-        ceduo_text_free(&words[i]);
 }
 
 static void put_caption(const struct strip *s, const struct peak *peak)
