@@ -342,7 +342,7 @@ void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const 
     ceduo_text_free(&text);
 }
 
-int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
+static int draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
 {
     int lines = 0;
     size_t width = area.width > 0 ? (size_t)area.width : 0;
@@ -353,6 +353,23 @@ int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role
             ceduo_app_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
     }
     return lines;
+}
+
+bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top)
+{
+    struct ceduo_area none = {0, 0, area.width, 0};
+    int most = top ? draw_wrapped(app, none, role, text, 0) - area.height : 0;
+    if (top && *top > most)
+        *top = most > 0 ? most : 0;
+    draw_wrapped(app, area, role, text, top ? *top : 0);
+    return top && *top < most;
+}
+
+void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)
+{
+    if (text->bytes)
+        ceduo_app_text(app, area, role, text->bytes, NULL);
+    ceduo_text_free(text);
 }
 
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused)

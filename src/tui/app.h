@@ -141,8 +141,12 @@ void ceduo_app_search(struct app *app);
 
 /* ---- drawing ---- */
 
-/* Text in a rectangle, wrapped, from line `skip` on; returns the lines there are. */
-int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
+/* Text in a rectangle, wrapped, from line `*top` on, which is made to fit (NULL: the first); returns whether it goes on
+ * below. */
+bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top);
+
+/* The same from its first line; frees the text. */
+void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 

@@ -172,12 +172,8 @@ static void put_warnings(struct pen *pen)
     ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
-    int room = pen->area.top + pen->area.height - pen->y;
-    if (w.bytes && room > 0) {
-        struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, room};
-        ceduo_app_text(app, rest, CEDUO_ROLE_WARN, w.bytes, 0);
-    }
-    ceduo_text_free(&w);
+    struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, pen->area.top + pen->area.height - pen->y};
+    ceduo_app_put(app, rest, CEDUO_ROLE_WARN, &w);
 }
 
 /* How sure the figures are, and whether they are still being refined. */

@@ -112,47 +112,43 @@ static void move(struct popup *p, int by, size_t n)
     p->at = n > 0 ? (size_t)at : 0;
 }
 
-static void text_key(struct app *app, int key)
+/* The lines that a key moves by; 0: it does not move. */
+static int lines_of(int key)
 {
-    struct popup *p = app->popup;
     switch (ceduo_action_of(key)) {
-    case ACTION_UP: p->top -= p->top > 0; break;
-    case ACTION_DOWN: p->top++; break;
-    case ACTION_PAGE_UP: p->top = p->top > 10 ? p->top - 10 : 0; break;
-    case ACTION_PAGE_DOWN: p->top += 10; break;
-    case ACTION_TOP: p->top = 0; break;
-    case ACTION_BOTTOM: p->top = 10000; break;
-    default: ceduo_popup_close(app); break;
+    case ACTION_UP: return -1;
+    case ACTION_DOWN: return 1;
+    case ACTION_PAGE_UP: return -10;
+    case ACTION_PAGE_DOWN: return 10;
+    case ACTION_TOP: return -100000;
+    case ACTION_BOTTOM: return 100000;
+    default: return 0;
     }
 }
 
-static void list_key(struct app *app, int key)
+static void text_key(struct app *app, struct popup *p, int key)
 {
-    struct popup *p = app->popup;
+    int by = lines_of(key);
+    p->top = p->top + by > 0 ? p->top + by : 0;
+    if (by == 0)
+        ceduo_popup_close(app);
+}
+
+static void list_key(struct app *app, struct popup *p, int key)
+{
     if (key == K_ESCAPE || key == 'q') {
         ceduo_popup_close(app);
-        return;
-    }
-    if (key == K_ENTER && p->items_count > 0) {
+    } else if (key == K_ENTER && p->items_count > 0) {
         app->popup = NULL;
         p->chosen(app, p, p->items[p->at].value);
         free_popup(p);
-        return;
-    }
-    switch (ceduo_action_of(key)) {
-    case ACTION_UP: move(p, -1, p->items_count); break;
-    case ACTION_DOWN: move(p, 1, p->items_count); break;
-    case ACTION_PAGE_UP: move(p, -10, p->items_count); break;
-    case ACTION_PAGE_DOWN: move(p, 10, p->items_count); break;
-    case ACTION_TOP: p->at = 0; break;
-    case ACTION_BOTTOM: move(p, 100000, p->items_count); break;
-    default: break;
+    } else {
+        move(p, lines_of(key), p->items_count);
     }
 }
 
-static void fields_key(struct app *app, int key)
+static void fields_key(struct app *app, struct popup *p, int key)
 {
-    struct popup *p = app->popup;
     bool last = p->at + 1 >= p->fields_count;
     p->message[0] = '\0';
     ceduo_jobs_stop_seek(app->figures.jobs); /* that these fields asked for */
@@ -176,141 +172,112 @@ static void fields_key(struct app *app, int key)
     }
 }
 
-void ceduo_popup_key(struct app *app, int key)
-{
-    switch (app->popup->kind) {
-    case POPUP_TEXT:
-        text_key(app, key);
-        break;
-    case POPUP_LIST:
-        list_key(app, key);
-        break;
-    case POPUP_FIELDS:
-        fields_key(app, key);
-        break;
-    }
-}
-
 /* ---- drawing ---- */
 
 static void draw_box(struct app *app, struct ceduo_area r, const char *title)
 {
-    for (int y = r.top; y < r.top + r.height; y++)
-        for (int x = r.left; x < r.left + r.width; x++) {
-            bool top = y == r.top, bottom = y == r.top + r.height - 1;
-            bool left = x == r.left, right = x == r.left + r.width - 1;
-            const char *c = top && left       ? "\xe2\x94\x8c"
-                            : top && right    ? "\xe2\x94\x90"
-                            : bottom && left  ? "\xe2\x94\x94"
-                            : bottom && right ? "\xe2\x94\x98"
-                            : top || bottom   ? "\xe2\x94\x80"
-                            : left || right   ? "\xe2\x94\x82"
-                                              : " ";
-            ceduo_cells_label(app->cells, x, y, CEDUO_ROLE_AXIS, c);
+    static const char *const corners[2][2] = {{"\xe2\x94\x8c", "\xe2\x94\x90"}, {"\xe2\x94\x94", "\xe2\x94\x98"}};
+    for (int y = 0; y < r.height; y++)
+        for (int x = 0; x < r.width; x++) {
+            bool upright = x == 0 || x == r.width - 1, level = y == 0 || y == r.height - 1;
+            const char *c = upright && level ? corners[y > 0][x > 0]
+                            : level          ? "\xe2\x94\x80"
+                            : upright        ? "\xe2\x94\x82"
+                                             : " ";
+            ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
         }
-    struct ceduo_area head = {r.left + 2, r.top, r.width - 4, 1};
-    ceduo_app_text(app, head, CEDUO_ROLE_TITLE, title, 0);
+    ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, NULL);
 }
 
-/* Says on the edge of a box that what is in it goes on. */
-static void draw_more(struct app *app, struct ceduo_area r, bool above, bool below)
+/* Says on the edge of the box that what is in it goes on. */
+static void draw_more(struct app *app, const struct popup *p, bool above, bool below)
 {
+    const struct ceduo_area *r = &p->box;
     const char *words[] = {_(" more above "), _(" more below ")};
     for (int i = 0; i < 2; i++)
         if (i == 0 ? above : below)
-            ceduo_app_label(app, r.left + r.width - 2 - (int)ceduo_utf8_width(words[i]), i == 0 ? r.top : r.top + r.height - 1,
-                            CEDUO_ROLE_TITLE, "%s", words[i]);
+            ceduo_app_label(app, r->left + r->width - 2 - (int)ceduo_utf8_width(words[i]),
+                            i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, "%s", words[i]);
 }
 
-/* A rectangle in the middle, as large as the screen allows. */
-static struct ceduo_area middle(const struct app *app, int width, int height)
+/* A box in the middle, as large as the screen allows, with so many lines for the note that stands over the rest; the area
+ * within. */
+static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
-    width = width > app->width - 2 ? app->width - 2 : width;
+    note_lines = p->text.bytes ? note_lines : 0;
+    int width = app->width - 2 < 84 ? app->width - 2 : 84, height = lines + note_lines + 2;
     height = height > app->height - 2 ? app->height - 2 : height;
-    return (struct ceduo_area){(app->width - width) / 2, (app->height - height) / 2, width, height};
+    struct ceduo_area r = {(app->width - width) / 2, (app->height - height) / 2, width, height};
+    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, note_lines};
+    p->box = r;
+    draw_box(app, r, p->title);
+    if (note_lines > 0)
+        ceduo_app_text(app, in, CEDUO_ROLE_DIM, p->text.bytes, NULL);
+    in.top += note_lines;
+    in.height = r.height - 2 - note_lines;
+    return in;
 }
 
 static void draw_text(struct app *app, struct popup *p)
 {
-    if (p->preview)
-        p->preview(app, p, "");
-    struct ceduo_area r = middle(app, 84, app->height - 2);
-    draw_box(app, r, p->title);
-    struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, r.height - 2};
-    const char *text = p->text.bytes ? p->text.bytes : "";
-    struct ceduo_area none = {0, 0, in.width, 0};
-    int lines = ceduo_app_text(app, none, CEDUO_ROLE_TEXT, text, 0);
-    int most = lines > in.height ? lines - in.height : 0;
-    p->top = (int)p->top > most ? (size_t)most : p->top;
-    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, text, (int)p->top);
-    draw_more(app, r, p->top > 0, (int)p->top < most);
+    struct ceduo_area in = draw_frame(app, p, app->height, 0);
+    bool more = ceduo_app_text(app, in, CEDUO_ROLE_TEXT, p->text.bytes ? p->text.bytes : "", &p->top);
+    draw_more(app, p, p->top > 0, more);
 }
 
 static void draw_list(struct app *app, struct popup *p)
 {
-    if (p->preview && p->items_count > 0)
-        p->preview(app, p, p->items[p->at].value);
-    int note_lines = p->text.bytes ? 3 : 0;
-    struct ceduo_area r = middle(app, 84, (int)p->items_count + 2 + note_lines);
-    draw_box(app, r, p->title);
-    size_t room = (size_t)(r.height - 2 - note_lines);
-    if (p->at < p->top)
-        p->top = p->at;
-    if (p->at >= p->top + room)
-        p->top = p->at + 1 - room;
-    for (size_t i = 0; i < room && p->top + i < p->items_count; i++) {
-        bool here = p->top + i == p->at;
-        ceduo_cells_put(app->cells, r.left + 2, r.top + 1 + note_lines + (int)i, r.width - 4,
-                       here ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[p->top + i].text);
-    }
-    draw_more(app, r, p->top > 0, p->top + room < p->items_count);
-    struct ceduo_area note = {r.left + 2, r.top + 1, r.width - 4, note_lines};
-    if (p->text.bytes)
-        ceduo_app_text(app, note, CEDUO_ROLE_DIM, p->text.bytes, 0);
+    struct ceduo_area in = draw_frame(app, p, (int)p->items_count, 3);
+    int at = (int)p->at, n = (int)p->items_count;
+    p->top = at < p->top ? at : at >= p->top + in.height ? at + 1 - in.height : p->top;
+    for (int i = p->top; i < p->top + in.height && i < n; i++)
+        ceduo_cells_put(app->cells, in.left, in.top + i - p->top, in.width, i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT,
+                        p->items[i].text);
+    draw_more(app, p, p->top > 0, p->top + in.height < n);
 }
 
 static void draw_fields(struct app *app, struct popup *p)
 {
-    int note_lines = p->text.bytes ? 4 : 0;
-    struct ceduo_area r = middle(app, 84, (int)p->fields_count + 4 + note_lines);
-    draw_box(app, r, p->title);
-    struct ceduo_area note = {r.left + 2, r.top + 1, r.width - 4, note_lines};
-    if (p->text.bytes)
-        ceduo_app_text(app, note, CEDUO_ROLE_DIM, p->text.bytes, 0);
+    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2, 4);
+    int x = in.left + 32, width = in.width - 32;
     for (size_t i = 0; i < p->fields_count; i++) {
-        int y = r.top + 1 + note_lines + (int)i, x = r.left + 34;
-        struct ceduo_area label = {r.left + 2, y, 31, 1}, value = {x, y, r.width - 36, 1};
-        ceduo_app_text(app, label, CEDUO_ROLE_DIM, p->labels[i], 0);
-        const char *text = ceduo_utf8_end(p->fields[i].text, value.width > 1 ? (size_t)value.width - 1 : 0);
-        ceduo_cells_label(app->cells, value.left, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
+        int y = in.top + (int)i;
+        const char *text = ceduo_utf8_end(p->fields[i].text, width > 1 ? (size_t)width - 1 : 0);
+        ceduo_app_text(app, (struct ceduo_area){in.left, y, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);
+        ceduo_cells_label(app->cells, x, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
         if (i == p->at)
-            ceduo_cells_label(app->cells, value.left + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
+            ceduo_cells_label(app->cells, x + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
     }
-    struct ceduo_area foot = {r.left + 2, r.top + r.height - 2, r.width - 4, 1};
-    if (p->message[0])
-        ceduo_app_text(app, foot, CEDUO_ROLE_WARN, p->message, 0);
+    in.top += in.height - 1;
+    in.height = 1;
+    ceduo_app_text(app, in, CEDUO_ROLE_WARN, p->message, NULL);
+}
+
+/* ---- the one that is open ---- */
+
+static const struct {
+    void (*key)(struct app *app, struct popup *popup, int key);
+    void (*draw)(struct app *app, struct popup *popup);
+    const char *bar;
+} kinds[] = {
+    [POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
+    [POPUP_LIST] = {list_key, draw_list, N_("Up Down move  Enter choose  Esc never mind")},
+    [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Up back  Esc never mind")}};
+
+void ceduo_popup_key(struct app *app, int key)
+{
+    kinds[app->popup->kind].key(app, app->popup, key);
 }
 
 const char *ceduo_popup_bar(const struct app *app)
 {
-    static const char *const bars[] = {[POPUP_TEXT] = N_("Up Down PgUp PgDn read on  any other key closes"),
-                                       [POPUP_LIST] = N_("Up Down move  Enter choose  Esc never mind"),
-                                       [POPUP_FIELDS] = N_("Enter next, at the last one done  Up back  Esc never mind")};
-    return _(bars[app->popup->kind]);
+    return _(kinds[app->popup->kind].bar);
 }
 
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    switch (p->kind) {
-    case POPUP_TEXT:
-        draw_text(app, p);
-        break;
-    case POPUP_LIST:
-        draw_list(app, p);
-        break;
-    case POPUP_FIELDS:
-        draw_fields(app, p);
-        break;
-    }
+    if (p->preview && (p->kind != POPUP_LIST || p->items_count > 0))
+        p->preview(app, p, p->kind == POPUP_LIST ? p->items[p->at].value : "");
+    kinds[p->kind].draw(app, p);
 }

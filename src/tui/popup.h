@@ -30,7 +30,9 @@ struct popup {
     char labels[POPUP_FIELDS_MOST][40];
     struct line fields[POPUP_FIELDS_MOST]; /* to fill */
     size_t fields_count;
-    size_t at, top;
+    size_t at;            /* the item or field under the cursor */
+    int top;              /* the first line shown */
+    struct ceduo_area box; /* where it was drawn */
     char message[256];
     char path[1024];      /* what a choice is for */
     char *kept;           /* a text that goes with it */

@@ -65,7 +65,7 @@ static void draw_explanation(struct app *app)
     bool two_lines = safe.bytes && app->message[0] && (int)ceduo_utf8_width(safe.bytes) > app->width;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
     if (two_lines)
-        ceduo_app_text(app, lines, role, safe.bytes, 0);
+        ceduo_app_text(app, lines, role, safe.bytes, NULL);
     else if (safe.bytes)
         ceduo_cells_put(app->cells, 0, app->height - 2, app->width, role, safe.bytes);
     ceduo_text_free(&text);
@@ -112,7 +112,7 @@ void ceduo_screen_draw(struct app *app)
         char text[128];
         snprintf(text, sizeof text, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
                  WIDTH_LEAST, HEIGHT_LEAST, app->width, app->height);
-        ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, 0);
+        ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, NULL);
         return;
     }
     int side = app->width >= 140 ? 44 : app->width >= 100 ? 36 : 28;

@@ -204,7 +204,7 @@ static void put_foot(const struct app *app, size_t options, struct text *words)
 static void draw(struct app *app, struct ceduo_area area)
 {
     if (!app->figures.result) {
-        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
+        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
         return;
     }
     size_t n = app->figures.result->options_count;
@@ -218,8 +218,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_area foot = {area.left, area.top + area.height - foot_lines, area.width, foot_lines};
     struct text words = {0};
     put_foot(app, n, &words);
-    ceduo_app_text(app, foot, CEDUO_ROLE_DIM, words.bytes ? words.bytes : "", 0);
-    ceduo_text_free(&words);
+    ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &words);
 }
 
 static void choose(struct app *app, long i)

@@ -16,7 +16,7 @@ static void fill_page(struct app *app, struct text *text, int width)
 static void draw(struct app *app, struct ceduo_area area)
 {
     if (!app->figures.result) {
-        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling …"), 0);
+        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling …"), NULL);
         return;
     }
     struct ceduo_picture picture = ceduo_app_picture(app);
@@ -39,14 +39,7 @@ static void draw(struct app *app, struct ceduo_area area)
     page.width -= 2; /* the mark of more below stands beside the text */
     struct text text = {0};
     fill_page(app, &text, page.width);
-    const char *bytes = text.bytes ? text.bytes : "";
-    struct ceduo_area none = {0, 0, page.width, 0};
-    int lines = ceduo_app_text(app, none, CEDUO_ROLE_TEXT, bytes, 0), most = lines - page.height;
-    int *scroll = &ceduo_app_state(app)->scroll;
-    if (*scroll > most)
-        *scroll = most > 0 ? most : 0;
-    ceduo_app_text(app, page, CEDUO_ROLE_TEXT, bytes, *scroll);
-    if (*scroll < most)
+    if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, text.bytes ? text.bytes : "", &ceduo_app_state(app)->scroll))
         ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_text_free(&text);
 }

@@ -58,9 +58,7 @@ static void draw(struct app *app, struct ceduo_area area)
                                "mass nor shape: on the ground they scale the energy alone."),
                       rock.mass, rock.volume, rock.mean_diameter, rock.moment);
     struct ceduo_area foot = {area.left, area.top + area.height - 2, area.width, 2};
-    if (text.bytes)
-        ceduo_app_text(app, foot, CEDUO_ROLE_DIM, text.bytes, 0);
-    ceduo_text_free(&text);
+    ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
 const struct view ceduo_view_rock = {.title = N_("rock"), .panes = 1, .build = build, .draw = draw};

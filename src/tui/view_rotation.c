@@ -125,8 +125,7 @@ static void draw(struct app *app, struct ceduo_area area)
         say_all(app, picture.years, &text);
         ceduo_text_char(&text, '\n');
         say_year(app, picture.years, &text);
-        ceduo_app_text(app, text_area, CEDUO_ROLE_TEXT, text.bytes ? text.bytes : "", 0);
-        ceduo_text_free(&text);
+        ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
     }
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
     ceduo_app_draw_form(app, below, true);

@@ -56,9 +56,7 @@ static void draw_figures(struct app *app, struct ceduo_area area)
                                    "100 m (%s)"),
                           r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,
                           r.adc.interception, r.adc.crofton, r.per_100m * 1e-3, ceduo_rule_words.names[r.rule]);
-    if (text.bytes)
-        ceduo_app_text(app, area, CEDUO_ROLE_DIM, text.bytes, 0);
-    ceduo_text_free(&text);
+    ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
 }
 
 static void draw(struct app *app, struct ceduo_area area)
