@@ -18,46 +18,16 @@ void ceduo_line_set(struct line *line, const char *text)
     line->fresh = true;
 }
 
-static size_t before(const struct line *line, size_t at)
-{
-    while (at > 0 && ((unsigned char)line->text[--at] & 0xc0) == 0x80)
-        continue;
-    return at;
-}
-
-static size_t after(const struct line *line, size_t at)
-{
-    do
-        at++;
-    while (((unsigned char)line->text[at] & 0xc0) == 0x80);
-    return at;
-}
-
 static void cut(struct line *line, size_t from, size_t to)
 {
     memmove(line->text + from, line->text + to, strlen(line->text + to) + 1);
     line->at = from;
 }
 
-/* UTF-8 of a code point. */
-static size_t encode(uint32_t c, char out[4])
-{
-    if (c < 0x80) {
-        out[0] = (char)c;
-        return 1;
-    }
-    size_t n = c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
-    for (size_t i = n; i-- > 1; c >>= 6)
-        out[i] = (char)(0x80 | (c & 0x3f));
-    static const unsigned char lead[5] = {0, 0, 0xc0, 0xe0, 0xf0};
-    out[0] = (char)(lead[n] | c);
-    return n;
-}
-
 static bool insert(struct line *line, int key)
 {
     char bytes[4];
-    size_t n = encode((uint32_t)key, bytes), length = strlen(line->text);
+    size_t n = ceduo_utf8_encode((uint32_t)key, bytes), length = strlen(line->text);
     if (length + n + 1 > sizeof line->text)
         return true; /* full */
     memmove(line->text + line->at + n, line->text + line->at, length - line->at + 1);
@@ -72,12 +42,15 @@ bool ceduo_line_key(struct line *line, int key)
     line->fresh = false;
     if (fresh && ((key >= ' ' && key < K_SPECIAL) || key == K_BACKSPACE))
         cut(line, 0, strlen(line->text));
+    const char *at = line->text + line->at;
+    size_t before = (size_t)(ceduo_utf8_back(line->text, at) - line->text);
+    size_t after = line->at + (*at ? ceduo_utf8_step(at) : 0);
     switch (key) {
     case K_LEFT:
-        line->at = line->at > 0 ? before(line, line->at) : 0;
+        line->at = before;
         return true;
     case K_RIGHT:
-        line->at = line->text[line->at] ? after(line, line->at) : line->at;
+        line->at = after;
         return true;
     case K_HOME:
         line->at = 0;
@@ -86,12 +59,10 @@ bool ceduo_line_key(struct line *line, int key)
         line->at = strlen(line->text);
         return true;
     case K_BACKSPACE:
-        if (line->at > 0)
-            cut(line, before(line, line->at), line->at);
+        cut(line, before, line->at);
         return true;
     case K_DELETE:
-        if (line->text[line->at])
-            cut(line, line->at, after(line, line->at));
+        cut(line, line->at, after);
         return true;
     case K_CTRL_U:
         cut(line, 0, line->at);

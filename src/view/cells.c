@@ -162,7 +162,7 @@ static uint32_t next_code(struct reader *reader)
     if (*reader->text == '\0')
         return 0;
     uint32_t code;
-    size_t n = ceduo_utf8_decode(reader->text, strlen(reader->text), &code);
+    size_t n = ceduo_utf8_decode(reader->text, strnlen(reader->text, 4), &code);
     reader->text += n > 0 ? n : 1;
     if (n == 0 || is_control(code) || ceduo_utf8_columns(code) != 1)
         return '?';
