@@ -516,16 +516,6 @@ static void bind_source(struct binder *b, const struct node *node)
     ceduo_text_free(&whole);
 }
 
-/* Of a mapping that is itself good. */
-__attribute__((format(printf, 3, 4))) static void report_at(struct binder *b, const struct node *node,
-                                                            const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    report_v(b->problems, node, false, path_here(b), format, args);
-    va_end(args);
-}
-
 static void report_missing(struct binder *b, const struct object *object, const struct node *node)
 {
     for (size_t i = 0; i < object->n; i++) {
@@ -538,7 +528,8 @@ static void report_missing(struct binder *b, const struct object *object, const 
         note_bad(b);
         leave(b, before);
         if (!told)
-            report_at(b, node, _("'%s' is missing: %s"), f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
+            ceduo_node_problem(b->problems, node, path_here(b), _("'%s' is missing: %s"), f->key,
+                               f->type == FIELD_TAG ? f->value : _(f->meaning)); /* the mapping itself is good */
     }
 }
 

@@ -21,6 +21,23 @@ void ceduo_derive_complain(struct deriver *d, const char *path, const char *form
     ceduo_text_free(&message);
 }
 
+void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x,
+                         double y)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    struct text message = {0};
+    for (; *format; format++)
+        if (strncmp(format, "%s", 2) != 0) {
+            ceduo_text_char(&message, *format);
+        } else {
+            ceduo_text_put(&message, ceduo_number_shortest(x, room));
+            x = y;
+            format++;
+        }
+    ceduo_derive_complain(d, ceduo_derive_text(d, "%s%s", path, within), "%s", message.bytes ? message.bytes : "");
+    ceduo_text_free(&message);
+}
+
 void *ceduo_derive_take(struct deriver *d, size_t n, size_t size)
 {
     void *p = ceduo_arena_take(d->arena, (n + 1) * size);

@@ -44,6 +44,9 @@ void ceduo_derive_options(struct deriver *d);
 void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* The same at a path and what it goes on with. In the format %s stands for x, a second one for y. */
+void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x, double y);
+
 /* Room for n + 1 in the file's arena. */
 void *ceduo_derive_take(struct deriver *d, size_t n, size_t size);
 

@@ -28,24 +28,22 @@ void ceduo_derive_release(struct deriver *d)
 
 static void check_control(struct deriver *d, const char *path, const struct ceduo_control *c, size_t i)
 {
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     const struct ceduo_scene *scene = &d->draft.scene;
     double end = d->profile ? scene->slope.x[scene->slope.vertices - 1] : INFINITY;
     bool starts = d->profile && ceduo_derive_sound(d, "release.x_m");
     double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
     if (c->x > end) {
-        ceduo_derive_complain(d, path, _("%s lies beyond the slope, which ends at %s m"),
-                              ceduo_number_shortest(c->x_given, a), ceduo_number_shortest(end + d->origin, b));
+        ceduo_derive_refuse(d, path, "", _("%s lies beyond the slope, which ends at %s m"), c->x_given,
+                            end + d->origin);
         return;
     }
     if (c->x <= last) {
-        ceduo_derive_complain(d, path, _("%s does not lie beyond the release, %s m"),
-                              ceduo_number_shortest(c->x_given, a), ceduo_number_shortest(last + d->origin, b));
+        ceduo_derive_refuse(d, path, "", _("%s does not lie beyond the release, %s m"), c->x_given, last + d->origin);
         return;
     }
     for (size_t k = 0; k < i; k++)
         if (scene->controls[k].x == c->x) {
-            ceduo_derive_complain(d, path, _("%s is given twice"), ceduo_number_shortest(c->x_given, a));
+            ceduo_derive_refuse(d, path, "", _("%s is given twice"), c->x_given, 0);
             return;
         }
 }
@@ -105,73 +103,60 @@ static enum ceduo_system system_of(const struct ceduo_stand *stand)
 static void check_spreads(struct deriver *d, const char *path, const char *list, const struct ceduo_stems *stems,
                           size_t n)
 {
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     for (size_t i = 0; i < n; i++)
         if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
-            ceduo_derive_complain(
-                d, ceduo_derive_text(d, "%s.%s[%zu].dbh_sd_m", path, list, i),
+            ceduo_derive_refuse(
+                d, ceduo_derive_text(d, "%s.%s[%zu].dbh_sd_m", path, list, i), "",
                 _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
-                ceduo_number_shortest(stems[i].dbh_sd, a), ceduo_number_shortest(stems[i].dbh, b));
+                stems[i].dbh_sd, stems[i].dbh);
 }
 
 static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand *s)
 {
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     if ((int)s->system < 0)
         s->system = system_of(s);
     if (!ceduo_derive_known(d, "%s", path)) /* what it starts from is not there */
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_derive_known(d, "%s.growth.shoots_young", path))
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.growth.shoots_young", path),
-                              _("%s is below shoots_old, %s: shoots only become fewer"),
-                              ceduo_number_shortest(s->growth.shoots_young, a),
-                              ceduo_number_shortest(s->growth.shoots_old, b));
+        ceduo_derive_refuse(d, path, ".growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
+                            s->growth.shoots_young, s->growth.shoots_old);
     if (s->system == CEDUO_BARE && (s->shoots_count > 0 || s->trees_count > 0))
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.system", path),
-                              _("'bare', but there are stems; name the system or take them out"));
+        ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or take them out"), 0,
+                            0);
     check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(d, path, "trees", s->trees, s->trees_count);
     if (!ceduo_derive_known(d, "%s.stools.per_ha", path) || !ceduo_derive_known(d, "%s.shoots", path))
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MOST)
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.shoots", path),
-                              _("%s shoots on each stool are more than the %d that can be drawn"),
-                              ceduo_number_shortest(ceduo_stand_shoots(s) / s->stools_per_ha, a), SHOOTS_MOST);
+        ceduo_derive_refuse(d, path, ".shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
+                            ceduo_stand_shoots(s) / s->stools_per_ha, SHOOTS_MOST);
     if (s->shoots_count > 0 && !(s->stools_per_ha > 0))
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.shoots", path),
-                              _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+        ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0,
+                            0);
     else if (s->shoots_count == 0 && s->stools_per_ha > 0)
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.stools", path),
-                              _("stools without shoots; add 'shoots', or take the stools out"));
+        ceduo_derive_refuse(d, path, ".stools", _("stools without shoots; add 'shoots', or take the stools out"), 0, 0);
     else if (s->shoots_count > 0 && ceduo_stand_shoots(s) < s->stools_per_ha)
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.stools.per_ha", path),
-                              _("%s shoots on %s stools: a stool has one shoot at least"),
-                              ceduo_number_shortest(ceduo_stand_shoots(s), a),
-                              ceduo_number_shortest(s->stools_per_ha, b));
+        ceduo_derive_refuse(d, path, ".stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
+                            ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
 static void check_belt(struct deriver *d, const char *path, const struct ceduo_belt *f, const struct ceduo_belt *before)
 {
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     const struct ceduo_slope *s = &d->draft.scene.slope;
     double begin = d->profile ? d->origin : -INFINITY, end = d->profile ? s->x[s->vertices - 1] + d->origin : INFINITY;
     if (f->to_given <= f->from_given) {
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.to_m", path), _("%s does not lie beyond from_m, %s"),
-                              ceduo_number_shortest(f->to_given, a), ceduo_number_shortest(f->from_given, b));
+        ceduo_derive_refuse(d, path, ".to_m", _("%s does not lie beyond from_m, %s"), f->to_given, f->from_given);
         return;
     }
     if (before && f->from_given < before->to_given)
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.from_m", path),
-                              _("%s lies before the end of the belt before it, %s; belts must not overlap"),
-                              ceduo_number_shortest(f->from_given, a), ceduo_number_shortest(before->to_given, b));
+        ceduo_derive_refuse(d, path, ".from_m",
+                            _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+                            f->from_given, before->to_given);
     else if (f->from_given < begin)
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.from_m", path),
-                              _("%s lies before the slope, which begins at %s m"),
-                              ceduo_number_shortest(f->from_given, a), ceduo_number_shortest(begin, b));
+        ceduo_derive_refuse(d, path, ".from_m", _("%s lies before the slope, which begins at %s m"), f->from_given,
+                            begin);
     if (f->to_given > end)
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.to_m", path),
-                              _("%s lies beyond the slope, which ends at %s m"), ceduo_number_shortest(f->to_given, a),
-                              ceduo_number_shortest(end, b));
+        ceduo_derive_refuse(d, path, ".to_m", _("%s lies beyond the slope, which ends at %s m"), f->to_given, end);
 }
 
 /* What the stand calls itself, or else its file. */

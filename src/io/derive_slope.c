@@ -36,7 +36,6 @@ static bool read_vertices(struct deriver *d, struct points *p)
 
 static bool check_vertices(struct deriver *d, const struct points *p)
 {
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     bool csv = ceduo_derive_given(d, "slope", "csv"), rising = true;
     if (p->n < 2) {
         ceduo_derive_complain(d, csv ? "slope.csv" : "slope.vertices_m", _("a profile needs two vertices or more"));
@@ -44,10 +43,10 @@ static bool check_vertices(struct deriver *d, const struct points *p)
     }
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
-            ceduo_derive_complain(
-                d, ceduo_derive_text(d, "slope.vertices_m[%zu]", i),
-                _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
-                ceduo_number_shortest(p->x[i], a), ceduo_number_shortest(p->x[i - 1], b));
+            ceduo_derive_refuse(
+                d, ceduo_derive_text(d, "slope.vertices_m[%zu]", i), "",
+                _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"), p->x[i],
+                p->x[i - 1]);
             rising = false;
         }
     return rising && (csv || ceduo_derive_sound(d, "slope.vertices_m"));
@@ -126,7 +125,6 @@ static void check_materials(struct deriver *d, const struct points *p)
 {
     const struct material_belt *rows = d->draft.materials;
     size_t n = d->draft.materials_count, before = d->problems->met;
-    char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
     if (n == 0) {
         ceduo_derive_complain(d, "slope.materials", _("the list is empty"));
         return;
@@ -134,18 +132,15 @@ static void check_materials(struct deriver *d, const struct points *p)
     for (size_t i = 0; i < n; i++) {
         double wanted = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
         if (rows[i].to <= rows[i].from)
-            ceduo_derive_complain(d, ceduo_derive_text(d, "slope.materials[%zu].to_m", i),
-                                  _("%s does not lie beyond from_m, %s"), ceduo_number_shortest(rows[i].to, a),
-                                  ceduo_number_shortest(rows[i].from, b));
+            ceduo_derive_refuse(d, ceduo_derive_text(d, "slope.materials[%zu].to_m", i), "",
+                                _("%s does not lie beyond from_m, %s"), rows[i].to, rows[i].from);
         else if (i == 0 ? rows[i].from > wanted : rows[i].from < wanted || rows[i].from > wanted)
-            ceduo_derive_complain(d, ceduo_derive_text(d, "slope.materials[%zu].from_m", i),
-                                  _("%s leaves a gap or overlaps; it must begin at %s"),
-                                  ceduo_number_shortest(rows[i].from, a), ceduo_number_shortest(wanted, b));
+            ceduo_derive_refuse(d, ceduo_derive_text(d, "slope.materials[%zu].from_m", i), "",
+                                _("%s leaves a gap or overlaps; it must begin at %s"), rows[i].from, wanted);
     }
     if (d->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
-        ceduo_derive_complain(d, ceduo_derive_text(d, "slope.materials[%zu].to_m", n - 1),
-                              _("%s ends before the profile, at %s"), ceduo_number_shortest(rows[n - 1].to, a),
-                              ceduo_number_shortest(p->x[p->n - 1], b));
+        ceduo_derive_refuse(d, ceduo_derive_text(d, "slope.materials[%zu].to_m", n - 1), "",
+                            _("%s ends before the profile, at %s"), rows[n - 1].to, p->x[p->n - 1]);
 }
 
 /* A vertex where the ground changes within a segment; on the line, so that it changes nothing else. */

@@ -36,7 +36,7 @@ static bool ends_in(const char *text, const char *end)
 }
 
 /* A copy of `found` that stands where `place` stood. */
-static const struct node *in_place_of(struct arena *arena, const struct node *found, const struct node *place)
+static struct node *in_place_of(struct arena *arena, const struct node *found, const struct node *place)
 {
     struct node *copy = ceduo_arena_take(arena, sizeof *copy);
     if (!copy)
@@ -128,21 +128,15 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
     if (below->kind != NODE_MAP) /* which is told where it is bound */
         return in_place_of(r->arena, below, node);
     const struct node *merged = merge(r->arena, below, node);
-    struct node *copy = merged ? ceduo_arena_take(r->arena, sizeof *copy) : NULL;
-    if (!copy) {
+    struct node *placed = merged ? in_place_of(r->arena, merged, node) : NULL;
+    if (!placed) {
         ceduo_problem_memory(r->problems);
         return NULL;
     }
-    *copy = *merged;
-    copy->source = node->source;
-    copy->line = node->line;
-    copy->column = node->column;
-    copy->key = node->key;
-    copy->key_line = node->key_line;
-    copy->key_column = node->key_column;
-    copy->written = node;
-    copy->followed = copy;
-    return copy;
+    placed->source = node->source; /* what is wrong with it is wrong here, not in the file of the base */
+    placed->line = node->line;
+    placed->column = node->column;
+    return placed;
 }
 
 /* The document in a file, read once. */

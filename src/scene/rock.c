@@ -6,12 +6,22 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* The sizes of one rock, all drawn. */
-struct sizes {
-    double diameter, height, volume, mass, density, axes[3];
+/* The sizes of one rock, all drawn: the numbers of a def, in its order. */
+union sizes {
+    struct {
+        double diameter, height, volume, mass, density, axes[3];
+    };
+    double all[8];
 };
 
-static void complete_sphere(struct sizes *s, struct ceduo_rock *rock)
+static const struct ceduo_number *number_of(const struct ceduo_rock_def *def, size_t i)
+{
+    const struct ceduo_number *const numbers[] = {&def->diameter, &def->height,  &def->volume,  &def->mass,
+                                                  &def->density,  &def->axes[0], &def->axes[1], &def->axes[2]};
+    return numbers[i];
+}
+
+static void complete_sphere(union sizes *s, struct ceduo_rock *rock)
 {
     if (isnan(s->diameter)) {
         double volume = isnan(s->volume) ? s->mass / s->density : s->volume;
@@ -22,7 +32,7 @@ static void complete_sphere(struct sizes *s, struct ceduo_rock *rock)
     rock->k = 2.0 / 5;
 }
 
-static void complete_block(const struct sizes *s, struct ceduo_rock *rock)
+static void complete_block(const union sizes *s, struct ceduo_rock *rock)
 {
     const double *a = s->axes;
     double longest = fmax(a[0], fmax(a[1], a[2]));
@@ -34,11 +44,10 @@ static void complete_block(const struct sizes *s, struct ceduo_rock *rock)
 }
 
 /* What is given is above 0, what the shape needs is given. */
-static bool good_sizes(enum ceduo_shape shape, const struct sizes *s)
+static bool good_sizes(enum ceduo_shape shape, const union sizes *s)
 {
-    const double all[] = {s->diameter, s->height, s->volume, s->mass, s->density, s->axes[0], s->axes[1], s->axes[2]};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (all[i] <= 0 || isinf(all[i]))
+    for (size_t i = 0; i < 8; i++)
+        if (s->all[i] <= 0 || isinf(s->all[i]))
             return false;
     if (shape == CEDUO_SPHERE)
         return !isnan(s->diameter) || !isnan(s->volume) || !isnan(s->mass);
@@ -47,7 +56,7 @@ static bool good_sizes(enum ceduo_shape shape, const struct sizes *s)
     return !isnan(s->axes[0]) && !isnan(s->axes[1]) && !isnan(s->axes[2]);
 }
 
-static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, struct sizes *s, struct ceduo_rock *rock)
+static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, union sizes *s, struct ceduo_rock *rock)
 {
     if (!good_sizes(shape, s))
         return CEDUO_BAD_ROCK;
@@ -78,8 +87,9 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, struct sizes *s
 
 enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct ceduo_rock *rock)
 {
-    struct sizes s = {def->diameter.mean, def->height.mean, def->volume.mean,
-                      def->mass.mean,     def->density.mean, {def->axes[0].mean, def->axes[1].mean, def->axes[2].mean}};
+    union sizes s;
+    for (size_t i = 0; i < 8; i++)
+        s.all[i] = number_of(def, i)->mean;
     return rock_from_sizes(def->shape, &s, rock);
 }
 
@@ -91,22 +101,16 @@ struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def)
 
 bool ceduo_rock_varies(const struct ceduo_rock_def *def)
 {
-    const struct ceduo_number *n[] = {&def->diameter, &def->height,  &def->volume,  &def->mass,
-                                      &def->density,  &def->axes[0], &def->axes[1], &def->axes[2]};
-    for (size_t i = 0; i < sizeof n / sizeof n[0]; i++)
-        if (n[i]->spread > 0)
+    for (size_t i = 0; i < 8; i++)
+        if (number_of(def, i)->spread > 0)
             return true;
     return false;
 }
 
 enum ceduo_status ceduo_rock_draw(const struct ceduo_rock_def *def, const double u[8], struct ceduo_rock *rock)
 {
-    struct sizes s = {.diameter = ceduo_number_draw(def->diameter, u[0], 0, INFINITY),
-                      .height = ceduo_number_draw(def->height, u[1], 0, INFINITY),
-                      .volume = ceduo_number_draw(def->volume, u[2], 0, INFINITY),
-                      .mass = ceduo_number_draw(def->mass, u[3], 0, INFINITY),
-                      .density = ceduo_number_draw(def->density, u[4], 0, INFINITY)};
-    for (int i = 0; i < 3; i++)
-        s.axes[i] = ceduo_number_draw(def->axes[i], u[5 + i], 0, INFINITY);
+    union sizes s;
+    for (size_t i = 0; i < 8; i++)
+        s.all[i] = ceduo_number_draw(*number_of(def, i), u[i], 0, INFINITY);
     return rock_from_sizes(def->shape, &s, rock);
 }

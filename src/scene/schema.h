@@ -61,7 +61,6 @@ struct field {
 };
 
 struct object {
-    const char *name;
     const struct field *fields;
     size_t n;
     size_t size;        /* of the structure that it fills */
