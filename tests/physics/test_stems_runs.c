@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "full.h"
 #include "stems_scene.h"
 
 /* ---- the paper's site ---- */
@@ -23,7 +24,7 @@ static void rocks_on_the_papers_site_arrive_as_in_independent_implementations(vo
     (void)state;
     static const struct site_row rows[] = {{CEDUO_POISSON, 66.75, 15.29, 83.9, 15.2},
                                            {CEDUO_STEMS, 62.06, 14.67, 83.2, 15.4}};
-    const uint64_t rocks = 300000;
+    const uint64_t rocks = FULL_OR(300000, 100000);
     for (size_t i = 0; i < LENGTH(rows); i++) {
         const struct site_row *r = &rows[i];
         paper_site_init(&site);
