@@ -120,8 +120,9 @@ SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.p
 TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
 # These take longest, and start first: none is left to run alone at the end. Many wait for most of their time, so that one
 # more runs than there are cores.
-SLOW := test_bits.sh test_screens.py test_wide test_faults.py test_years.py test_workflows.py test_alternatives.py test_shard.py \
-	test_terminal.py test_hangs.py test_constants.sh test_rotation.py test_input_streams.py test_stems_runs test_memory_files test_memory
+SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults.py test_hangs.py test_popups.py test_alternatives.py \
+	test_shard.py test_constants.sh test_random_scenes.py test_terminal.py test_rotation.py test_ways.py test_memory test_memory_files \
+	test_install.py test_input_streams.py
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
 SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
