@@ -161,6 +161,8 @@ static uint32_t next_code(struct reader *reader)
         return (uint32_t)*reader->pending++;
     if (*reader->text == '\0')
         return 0;
+    if (*reader->text >= ' ' && *reader->text <= '~') /* most texts are of these alone */
+        return (uint32_t)*reader->text++;
     uint32_t code;
     size_t n = ceduo_utf8_decode(reader->text, strnlen(reader->text, 4), &code);
     reader->text += n > 0 ? n : 1;
