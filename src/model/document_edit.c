@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edits: each makes a tree that differs from the one before in what it says, and commits it. */
+/* Implements edits: each makes a changed copy of the tree and commits it. */
 #include "document_parts.h"
 
 #include <stdlib.h>

@@ -4,21 +4,21 @@
 
 #include "document.h"
 
-/* What the files of the document share. */
+/* Shared by the files that implement document.h. */
 
-/* Makes `root` the scene and a new state of the document. NULL: an edit failed, for want of memory where there is no
- * problem yet. False, and everything as it was, where it is no scene. */
+/* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene, or
+ * is NULL: then an edit failed, for want of memory unless there is a problem already. */
 bool ceduo_document_commit(struct document *document, const struct node *root, const char *what,
                            struct problems *problems);
 
-/* Reads a text that was typed, or is the whole file; `name` stands in messages. NULL with the reason in `problems`. */
+/* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in `problems`. */
 const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text,
                                         struct problems *problems);
 
-/* Takes note of the file on disk as it is now. */
+/* Notes size and time of the file on disk, to see later whether it has changed. */
 void ceduo_document_note_disk(struct document *document);
 
-/* What a save that was killed may have left beside the file is removed. */
+/* Removes what a killed save may have left beside the file. */
 void ceduo_document_tidy(const char *path);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The file of the document: whose it is, what is written, and the copy of unsaved work. */
+/* Implements saving, and the copy of unsaved work that survives a crash. */
 #include "document_parts.h"
 
 #include <errno.h>

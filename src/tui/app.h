@@ -11,9 +11,9 @@
 #include "view/cells.h"
 #include "view/plot.h"
 
-/* The terminal program without a terminal: what it knows and what every part of it may do. The parts stand on this in
- * layers: editing of fields and lists; popups; views; the screen, which draws them all; and the program, which takes keys
- * in. The terminal shows the cells, a script dumps it. */
+/* The terminal program without a terminal: its state, and the calls that all its parts share. The parts stand on it in
+ * layers: popups; editing of fields and lists; views; the screen, which draws them all; and the program, which handles
+ * keys. The terminal shows the cells; a script dumps them. */
 
 enum view_number {
 #define V(NAME, name, key, word, help) VIEW_##NAME,
@@ -25,11 +25,11 @@ enum view_number {
 struct app;
 struct popup; /* what lies over the views: help, lists, questions */
 
-/* A view: what it shows and how it takes keys. */
+/* Describes a view: what it shows and how it handles keys. */
 struct view {
     const char *title; /* marked for translation */
     int panes;         /* that Tab goes through; the first is the form */
-    bool years;        /* shows the years to come: they are computed while it is open */
+    bool years;        /* compute the years to come while it is open */
     void (*build)(struct app *app, struct form *form);        /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
     bool (*act)(struct app *app, enum action action); /* true: done; NULL: no keys of its own */
@@ -41,7 +41,7 @@ VIEWS(V)
 #undef V
 extern const struct view *const ceduo_views[VIEW_COUNT];
 
-/* What each view remembers. */
+/* The state of a view. */
 struct view_state {
     struct form form;
     struct ceduo_area form_area; /* where it was drawn, for the mouse */
@@ -69,10 +69,10 @@ struct app {
     bool message_bad;
     char search[128];
     struct popup *popup;
-    bool opened;           /* a document has just taken its place: what was left behind of it is to be offered */
-    bool no_recovery;      /* a script: nothing is offered, no copy is kept */
+    bool opened;           /* a document was just opened: offer unsaved work that was left behind */
+    bool no_recovery;      /* for a script: offer no unsaved work and keep no copy */
     bool quit_once_saved;
-    bool quit, redraw;     /* redraw: the terminal is to be painted anew */
+    bool quit, redraw;     /* redraw: paint the whole terminal again */
     bool stopped;          /* out of memory: cannot go on */
 };
 
@@ -81,7 +81,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       bool no_recovery, struct problems *problems);
 void ceduo_app_free(struct app *app);
 
-/* Opens another document in place of this one; it must be saved or given up before. */
+/* Opens another document in place of this one, which must be saved or given up before. */
 bool ceduo_app_open(struct app *app, const char *path);
 bool ceduo_app_open_text(struct app *app, const char *text);
 
@@ -95,17 +95,17 @@ void ceduo_app_warn(struct app *app, const char *format, ...) __attribute__((for
 
 /* ---- the document ---- */
 
-/* After an edit: good: forms and figures follow; otherwise the reason, in app->problems, is shown. */
+/* Ends an edit: updates form and figures if it was good, otherwise shows the reason in app->problems. Returns `good`. */
 bool ceduo_app_edited(struct app *app, bool good);
 
-/* Sets a value (as it stands in a file), and takes out what would then be said twice. */
+/* Sets a value, written as in a file, and removes what would then be given twice. */
 bool ceduo_app_set(struct app *app, const char *path, const char *value);
 
 /* ---- what is shown ---- */
 
 void ceduo_app_show(struct app *app, enum view_number view);
 
-/* Forms and figures follow what is shown now. */
+/* Updates form and figures after a change of what is shown. */
 void ceduo_app_refresh(struct app *app);
 
 struct view_state *ceduo_app_state(struct app *app); /* of the view that is open */
@@ -116,7 +116,7 @@ void ceduo_app_show_option(struct app *app, size_t option);
 /* What a picture shows of the scene as it is now. */
 struct ceduo_picture ceduo_app_picture(const struct app *app);
 
-/* The path of the forest of the option shown: "forest" or "options[2].forest"; of its belt's stand. */
+/* Writes the path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. */
 void ceduo_app_forest(const struct app *app, char *path, size_t size);
 void ceduo_app_stand(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
@@ -126,7 +126,7 @@ const struct ceduo_option_result *ceduo_app_found(const struct app *app);
  * bare slope; NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
 
-/* The cursor on a belt of the form shows that belt. */
+/* Shows the belt that the cursor of the form is on. */
 void ceduo_app_follow_belt(struct app *app);
 
 /* Follows the way of the rock that is shown through the forest of the option shown, unless it is that way already. */
@@ -141,16 +141,16 @@ void ceduo_app_search(struct app *app);
 
 /* ---- drawing ---- */
 
-/* Text in a rectangle, wrapped, from line `*top` on, which is made to fit (NULL: the first); returns whether it goes on
- * below. */
+/* Draws wrapped text in a rectangle from line `*top` on (NULL: the first); limits `*top` to the text. Returns whether
+ * more lines follow below. */
 bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top);
 
-/* The same from its first line; frees the text. */
+/* Draws a text from its first line and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
-/* The form of the view that is open; an area without height: none. */
+/* Draws the form of the view that is open; nothing in an area without height. */
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused);
 
 #endif

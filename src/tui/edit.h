@@ -4,13 +4,13 @@
 
 #include "app.h"
 
-/* Editing the field and the list item under the cursor of the form. */
+/* Edits the field or the list item under the cursor of the form. */
 
 /* Opens the field, as a line or with the list of its choices. */
 void ceduo_edit_start(struct app *app);
-/* A key while the line is open. */
+/* Handles a key while the line is open. */
 void ceduo_edit_key(struct app *app, int key);
-/* One step up (+1) or down (-1). */
+/* Changes the value by one step up (+1) or down (-1). */
 void ceduo_edit_step(struct app *app, int direction);
 
 void ceduo_items_add(struct app *app);

@@ -5,8 +5,8 @@
 #include "model/jobs.h"
 #include "ceduo/result.h"
 
-/* What is known of the scene by the newest runs. It follows edits by itself: what the rocks meet is asked for anew, the
- * rest is assessed at once. */
+/* The figures of the scene. After an edit they are assessed again at once; runs are asked for only where the edit changes
+ * what the rocks meet. */
 struct figures {
     struct jobs *jobs;
     struct ceduo_outlook *outlook; /* newest; NULL before the first */

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Items of the list under the cursor: belts, controls, segments, cohorts, classes. Most are copied as they are; some must
- * not stand where another does, or need something else to stand on. */
+/* Adds, deletes, duplicates and moves items of the list under the cursor: belts, controls, segments, cohorts, classes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +7,7 @@
 #include "base/intl.h"
 #include "edit.h"
 
-/* The item under the cursor. It is kept apart from the form, which each edit makes anew. */
+/* The item under the cursor, copied because each edit builds the form again. */
 struct item {
     char list[FORM_PATH]; /* path of its list */
     const char *key;      /* last word of that path */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Popups of three kinds: text to read, a list to choose from, fields to fill. One that is done with is taken off before
- * what it leads to, which may open another. */
+/* Implements popups of three kinds: text to read, a list to choose from, fields to fill. A popup is closed before its
+ * callback runs, because that may open another. */
 #include "popup.h"
 
 #include <stdlib.h>
@@ -112,7 +112,7 @@ static void move(struct popup *p, int by, size_t n)
     p->at = n > 0 ? (size_t)at : 0;
 }
 
-/* The lines that a key moves by; 0: it does not move. */
+/* Returns how many lines a key moves by; 0 if it does not move. */
 static int lines_of(int key)
 {
     switch (ceduo_action_of(key)) {
@@ -189,7 +189,7 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
     ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, NULL);
 }
 
-/* Says on the edge of the box that what is in it goes on. */
+/* Marks on the edge of the box that there is more above or below. */
 static void draw_more(struct app *app, const struct popup *p, bool above, bool below)
 {
     const struct ceduo_area *r = &p->box;
@@ -200,8 +200,7 @@ static void draw_more(struct app *app, const struct popup *p, bool above, bool b
                             i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, "%s", words[i]);
 }
 
-/* A box in the middle, as large as the screen allows, with so many lines for the note that stands over the rest; the area
- * within. */
+/* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
     note_lines = p->text.bytes ? note_lines : 0;

@@ -41,16 +41,15 @@ struct popup {
     popup_filled *filled;
 };
 
-/* Each opens one in place of any other; NULL where there is no memory, which is said. */
+/* Each opens a popup in place of any other. NULL, with a warning, if there is no memory. */
 struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
-/* NULL is allowed: then they do nothing. */
+/* Both do nothing for NULL. */
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 
-/* Whether the file that the first field names may be written: one that is there is replaced only where Enter says so once
- * more, which the first time is said. */
+/* Returns whether the file named in the first field may be written. For an existing file it asks for Enter once more. */
 bool ceduo_popup_may_write(struct app *app, struct popup *popup);
 
 /* ---- the one that is open ---- */

@@ -22,17 +22,17 @@ void ceduo_popup_found(struct app *app, struct sought *sought);
 
 /* ---- saving, and unsaved work (popup_save.c) ---- */
 
-/* Writes where the scene came from; asks where it cannot, or where the file has changed. */
+/* Saves to the scene's own file; asks for a name where there is none, and what to do where the file has changed. */
 void ceduo_popup_save(struct app *app);
 void ceduo_popup_save_as(struct app *app);
 
-/* Ends the program, or asks. */
+/* Ends the program; asks first if there is unsaved work. */
 void ceduo_popup_quit(struct app *app);
 
-/* Whether unsaved work keeps another scene from being opened; it is said. */
+/* Returns whether there is unsaved work, and warns that it must be saved before another scene is opened. */
 bool ceduo_popup_unsaved(struct app *app);
 
-/* Offers what a program that is gone left behind of the document that was just opened. */
+/* Offers unsaved work on this document that an earlier process left behind. */
 void ceduo_popup_recover(struct app *app);
 
 #endif

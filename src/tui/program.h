@@ -4,9 +4,9 @@
 
 #include "app.h"
 
-/* Takes keys and the mouse in. Only this decides what a key does; views and popups may have their own meaning for it. */
+/* Handles keys and the mouse. A popup gets a key first, then the open field, then the view; what is left is done here. */
 
-/* As ceduo_app_create() and ceduo_app_free(), popups and all. */
+/* Same as ceduo_app_create() and ceduo_app_free(), including popups. */
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
                           bool no_recovery, struct problems *problems);
 void ceduo_program_free(struct app *app);

@@ -4,11 +4,11 @@
 
 #include "app.h"
 
-/* Draws everything on app->cells: titles of the views, the view that is open, the column of figures, what the cursor is
- * on, the bar of keys, and a popup over them. */
+/* Draws everything on app->cells: titles of the views, the open view, the column of figures, the explanation of the field
+ * under the cursor, the bar of keys, and the popup over them. */
 void ceduo_screen_draw(struct app *app);
 
-/* The view whose title stands in this column of the top row; VIEW_COUNT where there is none. */
+/* Returns the view whose title stands in this column of the top row; VIEW_COUNT if there is none. */
 enum view_number ceduo_screen_view_at(int column);
 
 #endif

@@ -6,16 +6,16 @@
 #include <stddef.h>
 
 /*
- * What pictures are drawn on. Every picture is laid out in character cells, counted from 0 at the top left, and draws its
- * data in frames of such cells. How that is shown is the surface's own: cells of a terminal (cells.h), or lines and text
- * of a page whose unit is a cell. A picture is written once; a surface is one table of functions.
+ * Pictures draw on a canvas. A picture is laid out in character cells, counted from 0 at the top left, and draws its data
+ * in frames of such cells. A surface shows it: cells of a terminal (cells.h), or vectors on a page whose unit is a cell.
+ * A surface is one table of functions, so that each picture is written once.
  *
- * What falls outside the surface is cut off. Data points that are not finite are never drawn. No function here keeps a
- * pointer it is given.
+ * Whatever falls outside the surface is cut off. Data points that are not finite are never drawn. No function here keeps
+ * a pointer it is given.
  */
 
-/* What a mark is about; its colour is for whoever shows it. BLANK draws nothing. Name, letter in dumps, and rank where
- * marks meet: what is thin and asked for wins over what fills. */
+/* A role says what a mark is about; the surface chooses its colour. BLANK draws nothing. Each line: name, letter in dumps,
+ * rank. Where marks meet in a cell the highest rank gives the role: thin marks win over those that fill. */
 #define CEDUO_ROLES(X)                                                                                                 \
     X(BLANK, ' ', 0)                                                                                                   \
     X(TEXT, 't', 19)                                                                                                   \

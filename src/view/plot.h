@@ -52,7 +52,7 @@ void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *are
 void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                           const struct ceduo_picture *picture);
 
-/* The four forms of the ADC of each of the option's belts, beside the threshold. */
+/* The four rules of the ADC for each of the option's belts, beside the threshold. */
 void ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
 
 /* A stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same stand.

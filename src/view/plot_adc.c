@@ -7,9 +7,9 @@
 #include "words.h"
 #include "scene/words.h"
 
-/* The forms of the ADC as bars on a log scale. */
+/* Draws the rules of the ADC as bars on a log scale. */
 
-#define FORMS (CEDUO_CROFTON - CEDUO_GSTEIGER_STOOLS + 1)
+#define RULES (CEDUO_CROFTON - CEDUO_GSTEIGER_STOOLS + 1)
 #define VALUE 9 /* columns of "12.3 m" and blanks */
 
 struct adc_picture {
@@ -43,7 +43,7 @@ static void find_scale(struct adc_picture *p, const struct ceduo_option *option)
     double least = p->threshold, most = p->threshold;
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_stand_result r = ceduo_assess_stand(p->picture->scene, &option->belts[i]);
-        for (int f = 0; f < FORMS; f++) {
+        for (int f = 0; f < RULES; f++) {
             double v = ceduo_adc_value(&r.adc, (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f));
             if (!isfinite(v) || !(v > 0))
                 continue;
@@ -102,7 +102,7 @@ static void put_verdict(const struct adc_picture *p, const struct ceduo_stand_re
                    r->passes_threshold ? _("passes") : _("NO"));
 }
 
-/* A belt in five rows: its name, and its four forms. */
+/* Draws a belt in five rows: its name and its four rules. */
 static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, const struct ceduo_stand_result *r)
 {
     char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
@@ -113,7 +113,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
     if (r->bare)
         ceduo_text_put(&name, _(": no stems, nothing to meet: NO"));
     ceduo_plot_put_fitting(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, 1, &name);
-    for (int f = 0; f < FORMS && !r->bare; f++, p->row++) {
+    for (int f = 0; f < RULES && !r->bare; f++, p->row++) {
         enum ceduo_rule rule = (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f);
         double value = ceduo_adc_value(&r->adc, rule);
         bool applied = rule == r->rule;
@@ -126,7 +126,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
     }
 }
 
-/* A belt in one row, the applied form alone. */
+/* Draws a belt in one row, with the applied rule alone. */
 static void draw_belt_briefly(struct adc_picture *p, const struct ceduo_belt *belt, const struct ceduo_stand_result *r)
 {
     struct text name = {0};
@@ -142,7 +142,7 @@ static int full_rows(const struct ceduo_option *option)
 {
     int rows = 0;
     for (size_t i = 0; i < option->belts_count; i++)
-        rows += ceduo_stand_is_bare(&option->belts[i].stand) ? 1 : 1 + FORMS;
+        rows += ceduo_stand_is_bare(&option->belts[i].stand) ? 1 : 1 + RULES;
     return rows;
 }
 
