@@ -33,7 +33,8 @@ endif
 WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Wformat=2
 OPTIMISE_release := -O2
 OPTIMISE_debug := -O0 -g
-# Without forced inlining and notes of each variable the wide kernels take a tenth of the time to compile; lines are told.
+# Without forced inlining and debug information on variables, the wide kernels compile in a tenth of the time; reports still
+# have line numbers.
 OPTIMISE_asan := -O1 -g1 -Dalways_inline=unused -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPTIMISE_tsan := -O1 -g1 -Dalways_inline=unused -fsanitize=thread
 # A function inlined by force would be counted once for each caller. Counting safely between threads takes more than twice
@@ -118,8 +119,8 @@ T := $(BUILD)/tests
 UNIT := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/unit/test_*.c tests/physics/test_*.c))
 SCRIPTS := $(wildcard tests/cli/test_*.py tests/cli/test_*.sh tests/tui/test_*.py tests/physics/test_*.sh)
 TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
-# These take longest, and start first: none is left to run alone at the end. Many wait for most of their time, so that one
-# more runs than there are cores.
+# These take longest and start first, so that none runs alone at the end. Many mostly wait, so there is one job more than
+# there are cores.
 SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults.py test_hangs.py test_popups.py test_alternatives.py \
 	test_shard.py test_constants.sh test_random_scenes.py test_terminal.py test_rotation.py test_ways.py test_memory test_memory_files \
 	test_install.py test_input_streams.py
@@ -237,7 +238,7 @@ do-net: all $(T)/tables $(BUILD)/man/completion
 
 DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
 DEBIAN_BENCH := python3-numpy gnuplot-nox
-# FULL: nothing is left out that `make check` leaves out to be short.
+# FULL: also runs what `make check` leaves out to be short.
 do-check-all: export FULL := 1
 do-check-all: do-check
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
