@@ -1068,6 +1068,88 @@ static void nothing_is_drawn_beside_the_area(void **state)
     }
 }
 
+/* A surface that is no grid of cells: it only counts what a page of vectors would draw. */
+struct page {
+    int labels, lines, ways, bars, axes;
+    bool strayed; /* a line left its frame */
+};
+
+static int page_label(void *to, int column, int row, enum ceduo_role role, const char *text)
+{
+    (void)column, (void)row, (void)role;
+    ((struct page *)to)->labels++;
+    return (int)strlen(text);
+}
+
+static int page_label_width(const void *to, const char *text)
+{
+    (void)to;
+    return (int)strlen(text);
+}
+
+static bool page_is_blank(const void *to, int column, int row)
+{
+    (void)to, (void)column, (void)row;
+    return true;
+}
+
+static void page_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
+{
+    struct page *page = to;
+    double right = pen->raster.nx - 0.5 + 1e-9, bottom = pen->raster.ny - 0.5 + 1e-9, edge = -0.5 - 1e-9;
+    *(pen->stroke == CEDUO_STROKE_WAY ? &page->ways : &page->lines) += 1;
+    page->strayed |= !(a.x >= edge && a.x <= right && b.x >= edge && b.x <= right && a.y >= edge && a.y <= bottom &&
+                       b.y >= edge && b.y <= bottom);
+}
+
+static void page_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
+{
+    struct page *page = to;
+    (void)column, (void)row, (void)width, (void)role;
+    page->bars++;
+    page->strayed |= !(fraction > 0 && fraction <= 1);
+}
+
+static void page_axis(void *to, const struct ceduo_frame *frame, int count, const int *ticks)
+{
+    (void)frame, (void)count, (void)ticks;
+    ((struct page *)to)->axes++;
+}
+
+static bool page_cloud_start(void *to)
+{
+    (void)to;
+    return true;
+}
+
+static void page_cloud_show(void *to, double quantile)
+{
+    (void)to, (void)quantile;
+}
+
+static void pictures_draw_on_another_surface(void **state)
+{
+    (void)state;
+    static const struct ceduo_surface surface = {page_label, page_label_width, page_is_blank,    page_line,      page_bar,
+                                                 page_axis,  page_axis,        page_cloud_start, page_cloud_show};
+    static struct site s;
+    wooded_site_init(&s);
+    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_area area = {0, 0, 100, 30};
+    for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
+        struct page page = {0};
+        struct ceduo_canvas canvas = {&surface, &page, 8, 16};
+        bool bars = plot == CEDUO_PLOT_HISTOGRAM || plot == CEDUO_PLOT_ADC || plot == CEDUO_PLOT_COMPARE;
+        ceduo_plot_kinds[plot].draw(&canvas, &area, &p);
+        if (page.labels == 0 || page.strayed)
+            fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
+        if (plot != CEDUO_PLOT_ROTATION && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
+            fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
+        if (plot == CEDUO_PLOT_PROFILE && page.ways == 0)
+            fail_msg("profile: no ways");
+    }
+}
+
 static void names_are_found(void **state)
 {
     (void)state;
@@ -1232,6 +1314,7 @@ int main(void)
         cmocka_unit_test(the_way_is_shown_in_the_belt_shown),
         cmocka_unit_test(a_dense_stand_is_drawn_in_time),
         cmocka_unit_test(nothing_is_drawn_beside_the_area),
+        cmocka_unit_test(pictures_draw_on_another_surface),
         cmocka_unit_test(names_are_found),
         cmocka_unit_test(titles_name_what_is_shown),
         cmocka_unit_test(pictures_name_what_is_not_known),
