@@ -4,8 +4,8 @@
 
 #include "report.h"
 
-/* What a result says, figure by figure: one table for each kind of object. JSON nests the tables as they name each other,
- * CSV joins their keys with dots, and the manual lists them. A new figure is a member of its struct and a row in figures.c. */
+/* The figures of a result: one table for each kind of object. JSON nests the tables as they name each other, CSV joins
+ * their keys with dots, the manual lists them. To add a figure, add a member to its struct and a row to figures.c. */
 
 enum ceduo_value_kind { CEDUO_NULL, CEDUO_VALUE_NUMBER, CEDUO_VALUE_COUNT, CEDUO_VALUE_FLAG, CEDUO_VALUE_TEXT };
 
@@ -19,7 +19,7 @@ struct ceduo_value {
     };
 };
 
-/* A place in a report: what the figures of an option, a belt, a control or a year are read from. */
+/* A place in a report. The figures of an option, a belt, a control or a year are read from it. */
 struct ceduo_place {
     const struct ceduo_report *report;
     size_t option, belt, control;
@@ -27,20 +27,20 @@ struct ceduo_place {
     struct ceduo_years_summary sum;    /* of the option's years, where they are asked for */
 };
 
-/* A row. It is a value, an object or a list of objects by `of`, or sentences. A table ends with a row without any. */
+/* A row is a value, an object or list of objects (`of`), or sentences (`say`). A row with none of them ends a table. */
 struct ceduo_figure {
-    const char *key;     /* NULL: the figures of `of` stand here, not in an object of their own */
+    const char *key;     /* NULL: the figures of `of` stand here without an object of their own */
     const char *unit;    /* "": none */
     const char *meaning; /* for the manual, as is */
-    const char *null;    /* where it does not exist; NULL: it always does */
-    const void *(*from)(const void *object); /* another object to read from, NULL where there is none; without: the same */
+    const char *null;    /* when it is null; NULL: never */
+    const void *(*from)(const void *object); /* the object to read from; NULL: the same */
     struct ceduo_value (*value)(const struct ceduo_figure *figure, const void *object);
     size_t offset;       /* in the object */
     double scale;        /* of numbers, and of all numbers in `of`; 0: 1 */
     const struct ceduo_figure *of;
-    bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i, false beyond the last */
+    bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i; false after the last */
     void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
-    bool optional;       /* JSON leaves it out where it is null or empty */
+    bool optional;       /* JSON omits it if it is null or empty */
 };
 
 static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
@@ -48,21 +48,21 @@ static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
     return !f->value && !f->of && !f->say;
 }
 
-/* What a row of values is in an object, which may be NULL; `scale` is of the table. */
+/* The value of a row in an object, which may be NULL; `scale` is that of the table. */
 struct ceduo_value ceduo_figure_value(const struct ceduo_figure *figure, const void *object, double scale);
 
-/* The object of a row with `of`, NULL where there is none; and the scale of its numbers. */
+/* The object of a row with `of`, NULL if there is none; the scale of its numbers. */
 const void *ceduo_figure_object(const struct ceduo_figure *figure, const void *object);
 double ceduo_figure_scale(const struct ceduo_figure *figure, double scale);
 
-/* All of a result, of a struct ceduo_place; and of a search, of a struct ceduo_find_report. */
+/* The whole of a result, read from a struct ceduo_place; and of a search, read from a struct ceduo_find_report. */
 extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
 
-/* Rows of CSV, of a struct ceduo_place: a control, a control in a year, a belt. */
+/* The columns of CSV, read from a struct ceduo_place: of a control, of a control in a year, of a belt. */
 extern const struct ceduo_figure ceduo_control_columns[], ceduo_year_columns[], ceduo_stand_columns[];
-extern const struct ceduo_figure ceduo_find_columns[]; /* of a struct ceduo_find_report */
+extern const struct ceduo_figure ceduo_find_columns[]; /* read from a struct ceduo_find_report */
 
-/* Tables that the manual lists by themselves, because they are long or stand in several objects. */
+/* Tables with a list of their own in the manual: they are long, or part of several objects. */
 struct ceduo_figure_list {
     const char *title; /* NULL: the end */
     const struct ceduo_figure *figures;

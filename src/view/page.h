@@ -4,8 +4,8 @@
 
 #include "base/text.h"
 
-/* A page as a list of blocks, before anybody knows how it will look. page_result.c and its neighbours build it from a result;
- * page_text.c prints it for a terminal. Another sink is one more file that walks the same blocks. */
+/* A page is a list of blocks. page_result.c and its neighbours build it from a result, page_text.c prints it for a
+ * terminal. Another sink is one more file that walks the same blocks. */
 
 enum ceduo_page_kind {
     CEDUO_PAGE_TITLE,
@@ -54,21 +54,21 @@ struct ceduo_page_block {
     struct ceduo_page_block *next;
 };
 
-/* Starts zeroed but for its width. Once memory fails, `failed` stays set and what is missing is missing. */
+/* Starts zeroed but for its width. Once memory fails, `failed` stays set, and nothing more is added. */
 struct ceduo_page {
-    size_t width; /* columns that there are: a table that is wider should be told in sentences */
+    size_t width; /* columns of the paper or pane */
     struct ceduo_page_block *first, *last;
     struct ceduo_page_cell lost; /* takes what there was no memory for */
     bool failed;
 };
 
-/* A new block; its text is to be filled. */
+/* Adds a block and returns its text, which the caller fills. */
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
 struct text *ceduo_page_fact(struct ceduo_page *page, const char *label);
 
-/* A new table, with its heads; then cell by cell into the table that was added last. */
+/* Adds a table with its heads; then its cells, row by row, to the block added last. */
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);
-struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page); /* of the one column without a head of its own */
+struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page); /* of the column whose head is NULL */
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
 struct text *ceduo_page_text(struct ceduo_page *page); /* of a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);

@@ -5,8 +5,8 @@
 #include "page.h"
 #include "report.h"
 
-/* The page of a result, cut by subject: each of these adds blocks. Tables need so many columns; a page with fewer says the same
- * in sentences. */
+/* The page of a result, one file for each subject; each function adds blocks. A page narrower than this says in sentences
+ * what it would show as a table. */
 #define CEDUO_PAGE_WIDTH 80
 
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
@@ -23,21 +23,21 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 void ceduo_page_rotations(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_result *result);
 
-/* What the whole run warns of, and what is assumed. */
+/* Warnings of the whole run, and assumptions. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* ---- words that several of them use ---- */
 
-/* Of those that arrive with too much energy, or where that is not said of all; a cell with "-" for NULL. */
+/* A cell: how many of 1000 arrive with too much energy, or arrive at all if no accepted energy is given; "-" for NULL. */
 void ceduo_page_share(struct ceduo_page *page, const struct ceduo_arrivals *arrivals);
-/* "480 ±10": of 1000, with its sign where it is a difference; "-" for NaN. */
+/* A cell: "480 ±10" of 1000, or "+480 ±10" if `sign`; "-" for NaN. */
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign);
-/* The head of a column of shares: what is too much at a place, or where that is not said, `otherwise`. */
+/* The head of a column of shares: "> 50 kJ", or `otherwise` if the control has no accepted energy. */
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, const char *otherwise);
 void ceduo_page_percent(struct ceduo_page *page, double share);
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light); /* pass, FAIL, ? */
 
-/* A warning of the page that is the context. */
+/* Adds a warning; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);
 
 #endif
