@@ -274,32 +274,32 @@ static void drop(struct jobs *q, enum kind kind)
 {
     if (!q->jobs[kind].wanted)
         return;
-    q->jobs[kind] = (struct job){.number = ++q->requests};
+    q->jobs[kind] = (struct job){0};
     if (q->working == kind)
         atomic_store(&q->cancel, true);
 }
 
-bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, size_t shown, bool years)
+bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, uint64_t key, size_t shown, bool years)
 {
-    struct job job = {.key = ceduo_jobs_key(scene), .rocks = FLIGHTS_FIRST, .option = shown, .scene = *scene};
+    struct job figures = {.key = key, .rocks = FLIGHTS_FIRST, .option = shown, .scene = *scene}, coming = figures;
+    if (years)
+        coming.key = key * 1099511628211u ^ ceduo_years_key(&scene->options[shown]) ^ shown;
     pthread_mutex_lock(&q->lock);
     uint64_t before = q->requests;
-    if (job.key != q->jobs[FIGURES].key || q->jobs[FIGURES].number == 0) { /* otherwise the rocks meet the same */
-        ceduo_outlook_free(q->news.outlook);                               /* of what was asked before */
-        ceduo_years_free(q->news.years);
+    if (q->jobs[FIGURES].number == 0 || q->jobs[FIGURES].key != key) { /* otherwise the rocks meet the same */
+        ceduo_outlook_free(q->news.outlook);                           /* of what was asked before */
         q->news.outlook = NULL;
-        q->news.years = NULL;
-        ask(q, FIGURES, &job);
+        ask(q, FIGURES, &figures);
     }
-    job.key = job.key * 1099511628211u ^ ceduo_years_key(&scene->options[shown]) ^ shown;
-    if (!years) {
+    if (!years)
         drop(q, YEARS);
-    } else if (job.key != q->jobs[YEARS].key || q->jobs[YEARS].number == 0) {
+    else if (q->jobs[YEARS].number == 0 || q->jobs[YEARS].key != coming.key)
+        ask(q, YEARS, &coming);
+    bool asked = q->requests != before;
+    if (asked) {
         ceduo_years_free(q->news.years);
         q->news.years = NULL;
-        ask(q, YEARS, &job);
     }
-    bool asked = q->requests != before;
     pthread_mutex_unlock(&q->lock);
     return asked;
 }

@@ -18,11 +18,11 @@ unsigned ceduo_jobs_threads(const struct jobs *jobs);
 /* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
-/* Asks for the figures of a scene, those of option `shown` and without forest first. Runs of forests that have not changed
- * since the last request are kept; what asks for the same runs changes nothing. `years`: the years to come of that option
- * as well. What the scene points to must stay until the jobs are freed (an arena that is never emptied); the struct itself
- * is copied. True where something is to be done. */
-bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, size_t shown, bool years);
+/* Asks for the figures of a scene, those of option `shown` and without forest first. `key`: its ceduo_jobs_key(). Runs of
+ * forests that have not changed since the last request are kept; what asks for the same runs changes nothing. `years`: the
+ * years to come of that option as well. What the scene points to must stay until the jobs are freed (an arena that is never
+ * emptied); the struct itself is copied. True where something is to be done. */
+bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, uint64_t key, size_t shown, bool years);
 
 /* Asks for a search. Threads and cancel are set here; the path is copied, and the scene as it is now. */
 void ceduo_jobs_seek(struct jobs *jobs, const struct seek *seek);

@@ -81,8 +81,8 @@ static void refresh(struct figures *f, const struct ceduo_scene *scene)
 
 void ceduo_figures_follow(struct figures *f, const struct ceduo_scene *scene, size_t option, bool years)
 {
-    f->busy |= ceduo_jobs_show(f->jobs, scene, option, years);
     f->asked = ceduo_jobs_key(scene);
+    f->busy |= ceduo_jobs_show(f->jobs, scene, f->asked, option, years);
     refresh(f, scene);
 }
 

@@ -26,6 +26,11 @@ static int tear_down(void **state)
     return 0;
 }
 
+static bool show(bool years)
+{
+    return ceduo_jobs_show(jobs, &file.scene, ceduo_jobs_key(&file.scene), 0, years);
+}
+
 static void release(struct jobs_news *news)
 {
     ceduo_outlook_free(news->outlook);
@@ -47,9 +52,9 @@ static struct seek seek_of(uint64_t rocks)
 static void figures_and_years_come_to_an_end(void **state)
 {
     (void)state;
-    assert_true(ceduo_jobs_show(jobs, &file.scene, 0, false));
-    assert_false(ceduo_jobs_show(jobs, &file.scene, 0, false)); /* the same runs */
-    assert_true(ceduo_jobs_show(jobs, &file.scene, 0, true));   /* and years */
+    assert_true(show(false));
+    assert_false(show(false)); /* the same runs */
+    assert_true(show(true));   /* and years */
     assert_true(ceduo_jobs_news(jobs).busy);
     ceduo_jobs_wait(jobs);
     struct jobs_news news = ceduo_jobs_news(jobs);
@@ -62,10 +67,10 @@ static void figures_and_years_come_to_an_end(void **state)
     assert_non_null(news.years);
     assert_int_equal(news.years->years[0].wooded.rocks, FLIGHTS_YEAR);
     release(&news);
-    assert_false(ceduo_jobs_show(jobs, &file.scene, 0, false));
-    assert_false(ceduo_jobs_show(jobs, &file.scene, 0, true)); /* they are known */
+    assert_false(show(false));
+    assert_false(show(true)); /* they are known */
     file.scene.rock.diameter.mean *= 1.1;
-    assert_true(ceduo_jobs_show(jobs, &file.scene, 0, true));
+    assert_true(show(true));
     news = ceduo_jobs_news(jobs);
     assert_true(news.busy);
     release(&news);
@@ -77,7 +82,7 @@ static void a_search_comes_first(void **state)
     (void)state;
     struct seek seek = seek_of(500);
     double diameter = file.scene.rock.diameter.mean;
-    ceduo_jobs_show(jobs, &file.scene, 0, false);
+    show(false);
     ceduo_jobs_seek(jobs, &seek);
     assert_true(ceduo_jobs_wait_seek(jobs));
     struct jobs_news news = ceduo_jobs_news(jobs);
