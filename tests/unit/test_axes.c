@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "unit/grid.h"
+
+/* ---- Ticks ---- */
+
+/* The labels of the ticks of a range, with a blank between. */
+static void expect_ticks(double lo, double hi, int max_count, const char *expected)
+{
+    double ticks[CEDUO_TICKS_MAX];
+    double step;
+    char all[1024] = "";
+    int count = ceduo_ticks(lo, hi, max_count, ticks, &step);
+    assert_true(count <= max_count || count == 0);
+    for (int i = 0; i < count; ++i) {
+        char label[CEDUO_TICK_LABEL_SIZE];
+        assert_false(ticks[i] == 0.0 && signbit(ticks[i]));
+        size_t length = ceduo_tick_label(ticks[i], step, sizeof label, label);
+        assert_int_equal(length, strlen(label));
+        strcat(all, i > 0 ? " " : "");
+        strcat(all, label);
+    }
+    assert_string_equal(all, expected);
+}
+
+static void ticks_are_round(void **state)
+{
+    (void)state;
+    expect_ticks(0, 150, 5, "0 50 100 150");
+    expect_ticks(0, 150, 4, "0 50 100 150");
+    expect_ticks(0, 150, 3, "0 100");
+    expect_ticks(0, 150, 11, "0 20 40 60 80 100 120 140");
+    expect_ticks(0, 0.3, 4, "0.0 0.1 0.2 0.3");
+    expect_ticks(0, 1, 3, "0.0 0.5 1.0");
+    expect_ticks(0.3, 0, 4, "0.0 0.1 0.2 0.3");
+    expect_ticks(-1, 1, 5, "-1.0 -0.5 0.0 0.5 1.0");
+    expect_ticks(-0.35, 0.35, 8, "-0.3 -0.2 -0.1 0.0 0.1 0.2 0.3");
+    expect_ticks(-250, -120, 4, "-250 -200 -150");
+    expect_ticks(1203, 1297, 5, "1220 1240 1260 1280");
+    double tenths[4];
+    assert_int_equal(ceduo_ticks(0, 0.3, 4, tenths, NULL), 4);
+    assert_true(tenths[3] == 0.3); /* the nearest number there is, and not 3 * 0.1 */
+}
+
+static void ticks_of_awkward_ranges(void **state)
+{
+    (void)state;
+    const double nan = (double)NAN;
+    expect_ticks(0, 0, 5, "0");
+    expect_ticks(-0.0, -0.0, 5, "0");
+    expect_ticks(7.25, 7.25, 5, "7.25");
+    expect_ticks(-3, -3, 1, "-3");
+    expect_ticks(0, 1e-9, 3, "0 5e-10 1e-9");
+    expect_ticks(-1e-9, 1e-9, 3, "-1e-9 0 1e-9");
+    expect_ticks(0, 1e12, 6, "0 2e11 4e11 6e11 8e11 1e12");
+    expect_ticks(1e12, 1e12 + 10, 3, "1000000000000 1000000000005 1000000000010");
+    expect_ticks(1e12, 1e12 + 1e-3, 3, "1e12");
+    expect_ticks(0, 1e-305, 3, "0");
+    expect_ticks(0, 1e299, 3, "0 5e298 1e299");
+    expect_ticks(-1e308, 1e308, 3, "");
+    expect_ticks(0, nan, 3, "");
+    expect_ticks(-(double)INFINITY, 0, 3, "");
+    expect_ticks(0, 1, 0, "");
+    expect_ticks(0, 1, -4, "");
+    /* Only one is allowed, and the next coarser step has none in the range. */
+    expect_ticks(6, 8, 1, "6");
+    expect_ticks(0, 1, 1, "0");
+}
+
+static void ticks_are_evenly_spaced_and_never_too_many(void **state)
+{
+    (void)state;
+    double ticks[CEDUO_TICKS_MAX];
+    double step;
+    for (int k = -12; k <= 12; ++k) {
+        double size = pow(10, k);
+        for (int i = 1; i < 60; ++i) {
+            double lo = (i * 37 % 23 - 11) * 0.31 * size;
+            double hi = lo + i * 0.17 * size;
+            int max_count = 1 + i % 12;
+            int count = ceduo_ticks(lo, hi, max_count, ticks, &step);
+            assert_in_range(count, 1, max_count);
+            for (int j = 0; j < count; ++j) {
+                assert_true(ticks[j] >= lo - 1e-6 * step && ticks[j] <= hi + 1e-6 * step);
+                assert_true(j == 0 || fabs(ticks[j] - ticks[j - 1] - step) < 1e-6 * step);
+            }
+        }
+    }
+    assert_int_equal(ceduo_ticks(0, 60, 100000, ticks, NULL), 61);
+    assert_in_range(ceduo_ticks(0, 99, 100000, ticks, NULL), 1, CEDUO_TICKS_MAX);
+}
+
+static void tick_labels_have_no_minus_nought(void **state)
+{
+    (void)state;
+    char label[CEDUO_TICK_LABEL_SIZE];
+    ceduo_tick_label(-0.0, 1, sizeof label, label);
+    assert_string_equal(label, "0");
+    ceduo_tick_label(-1e-9, 0.1, sizeof label, label);
+    assert_string_equal(label, "0.0");
+    ceduo_tick_label(-0.1, 0.1, sizeof label, label);
+    assert_string_equal(label, "-0.1");
+    ceduo_tick_label(-2e10, 1e10, sizeof label, label);
+    assert_string_equal(label, "-2e10");
+    ceduo_tick_label(-1e-10, 1e-10, sizeof label, label);
+    assert_string_equal(label, "-1e-10");
+    assert_int_equal(ceduo_tick_label(1234, 1, 3, label), 2);
+    assert_string_equal(label, "12");
+    assert_int_equal(ceduo_tick_label(1234, 1, 0, NULL), 0);
+}
+
+/* ---- Axes ---- */
+
+static void axes_in_unicode_and_ascii(void **state)
+{
+    (void)state;
+    static const char *const expected[] = {
+        "100┤\n"
+        "   │\n"
+        " 50┤\n"
+        "   │\n"
+        "  0┤\n"
+        "   └┬───────────┬───────────┬──────────\n"
+        "    0           50         100 m\n",
+        "100+\n"
+        "   |\n"
+        " 50+\n"
+        "   |\n"
+        "  0+\n"
+        "   ++-----------+-----------+----------\n"
+        "    0           50         100 m\n",
+    };
+    for (int i = 0; i < 2; ++i) {
+        enum ceduo_charset charset = i == 0 ? BRAILLE : ASCII;
+        struct ceduo_cells *cells = cells_in(40, 7, charset);
+        struct ceduo_frame frame = {.width = 35, .height = 5, .x1 = 140, .y1 = 100};
+        frame.left = ceduo_frame_axis_width(&frame, kind_of(charset));
+        assert_int_equal(frame.left, 4);
+        ceduo_canvas_axis_left(&cells->canvas, &frame);
+        ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
+        expect_text(cells, expected[i]);
+        ceduo_cells_free(cells);
+    }
+}
+
+static void axis_labels_leave_out_what_has_no_room(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(12, 5, ASCII);
+    struct ceduo_frame frame = {.left = 3, .width = 9, .height = 3, .x1 = 100, .y0 = 0, .y1 = 1000};
+    ceduo_canvas_axis_left(&cells->canvas, &frame); /* 1000 does not fit in two columns, 0 does */
+    expect_and_clear(cells, "  +\n  |\n 0+\n\n\n");
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
+    expect_and_clear(cells, "\n\n\n   +-------+\n   0 m   100\n");
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "kilojoules");
+    expect_and_clear(cells, "\n\n\n   +-------+\n   0     100\n");
+    frame.x0 = 123456;
+    frame.x1 = 123457;
+    frame.width = 4;
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, NULL);
+    expect_and_clear(cells, "\n\n\n   ----\n\n");
+    ceduo_cells_free(cells);
+}
+
+static void unit_without_room_after_the_last_number_follows_the_first(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(36, 3, ASCII);
+    struct ceduo_frame frame = {.left = 1, .width = 35, .height = 1, .x1 = 120, .y1 = 1};
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
+    expect_text(cells, "\n +-----+----+-----+-----+----+-----+\n 0 m   20   40    60    80  100  120\n");
+    ceduo_cells_free(cells);
+}
+
+static void strip_of_two_rows_has_two_labels(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(6, 2, BRAILLE);
+    struct ceduo_frame frame = {.left = 2, .width = 4, .height = 2, .x1 = 1, .y1 = 2};
+    ceduo_canvas_axis_left(&cells->canvas, &frame);
+    expect_text(cells, "2┤\n0┤\n");
+    ceduo_cells_free(cells);
+}
+
+static void turned_axis_has_its_unit_at_the_right(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(20, 3, ASCII);
+    struct ceduo_frame frame = {.left = 1, .width = 19, .height = 1, .x0 = 25, .x1 = -5, .y1 = 1};
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
+    expect_text(cells, "\n ---+-----+-----+---\n    20    10    0 y\n");
+    ceduo_cells_free(cells);
+}
+
+/* Counts the runs of text in a row that are at least two blanks apart. */
+static int words_in(const char *row)
+{
+    int words = 0;
+    int blanks = 2;
+    for (; *row != '\0'; ++row) {
+        words += *row != ' ' && blanks >= 2;
+        blanks = *row == ' ' ? blanks + 1 : 0;
+    }
+    return words;
+}
+
+static void bottom_labels_never_touch(void **state)
+{
+    (void)state;
+    for (int width = 4; width < 90; ++width) {
+        struct ceduo_cells *cells = cells_in(width + 3, 4, ASCII);
+        for (int k = -9; k < 12; ++k) {
+            struct ceduo_frame frame = {.left = 2, .width = width, .height = 2, .y1 = 1};
+            frame.x0 = -0.37 * pow(10, k);
+            frame.x1 = 1.13 * pow(10, k) * (1 + width % 5);
+            ceduo_cells_clear(cells);
+            ceduo_canvas_axis_bottom(&cells->canvas, &frame, NULL);
+            char line[128];
+            char labels[128];
+            ceduo_cells_text(cells, 2, sizeof line, line);
+            ceduo_cells_text(cells, 3, sizeof labels, labels);
+            int ticks = 0;
+            for (const char *c = line; *c != '\0'; ++c) {
+                ticks += *c == '+';
+            }
+            assert_int_equal(words_in(labels), ticks);
+            assert_true(strlen(labels) <= (size_t)width + 2);
+        }
+        ceduo_cells_free(cells);
+    }
+}
+
+static void axis_width_holds_every_label(void **state)
+{
+    (void)state;
+    for (int height = 1; height < 40; ++height) {
+        struct ceduo_frame frame = {.width = 4, .height = height, .x1 = 1, .y0 = -12.5, .y1 = 3.3 * height};
+        frame.left = ceduo_frame_axis_width(&frame, kind_of(BRAILLE));
+        struct ceduo_cells *cells = cells_in(frame.left + 4, height, BRAILLE);
+        ceduo_canvas_axis_left(&cells->canvas, &frame);
+        int widest = 0;
+        int last_tick = -2;
+        for (int row = 0; row < height; ++row) {
+            bool tick = ceduo_cells_glyph(cells, frame.left - 1, row) == 0x2524;
+            bool label = frame.left > 1 && ceduo_cells_glyph(cells, frame.left - 2, row) != ' ';
+            assert_int_equal(tick, label);
+            assert_false(tick && height > 3 && row == last_tick + 1); /* a row between two labels */
+            last_tick = tick ? row : last_tick;
+            widest = ceduo_cells_glyph(cells, 0, row) != ' ' ? 1 : widest;
+        }
+        assert_int_equal(widest, 1); /* and wastes no column */
+        ceduo_cells_free(cells);
+    }
+    struct ceduo_frame bad = {.width = 4, .height = 0, .x1 = 1, .y1 = 1};
+    assert_int_equal(ceduo_frame_axis_width(&bad, kind_of(BRAILLE)), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ticks_are_round),
+        cmocka_unit_test(ticks_of_awkward_ranges),
+        cmocka_unit_test(ticks_are_evenly_spaced_and_never_too_many),
+        cmocka_unit_test(tick_labels_have_no_minus_nought),
+        cmocka_unit_test(axes_in_unicode_and_ascii),
+        cmocka_unit_test(axis_labels_leave_out_what_has_no_room),
+        cmocka_unit_test(unit_without_room_after_the_last_number_follows_the_first),
+        cmocka_unit_test(strip_of_two_rows_has_two_labels),
+        cmocka_unit_test(turned_axis_has_its_unit_at_the_right),
+        cmocka_unit_test(bottom_labels_never_touch),
+        cmocka_unit_test(axis_width_holds_every_label),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

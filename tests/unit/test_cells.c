@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "unit/grid.h"
+
+/* ---- The cells ---- */
+
+static void sizes_are_limited(void **state)
+{
+    (void)state;
+    assert_null(ceduo_cells_create(0, 10, BRAILLE));
+    assert_null(ceduo_cells_create(10, 0, BRAILLE));
+    assert_null(ceduo_cells_create(-1, -1, BRAILLE));
+    assert_null(ceduo_cells_create(1001, 10, BRAILLE));
+    assert_null(ceduo_cells_create(10, 501, BRAILLE));
+    ceduo_cells_free(cells_in(1000, 500, BRAILLE));
+    ceduo_cells_free(NULL);
+}
+
+static void blank_canvas_is_empty_rows(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(4, 2, BRAILLE);
+    expect_text(cells, "\n\n");
+    expect_roles(cells, "\n\n");
+    assert_int_equal(ceduo_cells_glyph(cells, 0, 0), ' ');
+    assert_int_equal(ceduo_cells_glyph(cells, -1, 7), ' ');
+    assert_int_equal(ceduo_cells_role(cells, 4, 0), CEDUO_ROLE_BLANK);
+    ceduo_cells_free(cells);
+}
+
+static void each_dot_has_its_glyph(void **state)
+{
+    (void)state;
+    static const struct {
+        enum ceduo_charset charset;
+        const char *glyphs[4][2]; /* row from the top, column */
+    } sets[] = {
+        {BRAILLE, {{"⠁\n", "⠈\n"}, {"⠂\n", "⠐\n"}, {"⠄\n", "⠠\n"}, {"⡀\n", "⢀\n"}}},
+        {BLOCK, {{"▘\n", "▝\n"}, {"▖\n", "▗\n"}}},
+        {ASCII, {{"'\n"}, {".\n"}}},
+    };
+    for (size_t i = 0; i < 3; ++i) {
+        struct ceduo_cells *cells = cells_in(2, 1, sets[i].charset);
+        struct ceduo_frame frame = dots_of(cells);
+        for (int y = 0; y < cells->canvas.dots_y; ++y) {
+            for (int x = 0; x < cells->canvas.dots_x; ++x) {
+                draw_point(cells, &frame, CEDUO_ROLE_WAY, x, frame.y1 - y);
+                expect_and_clear(cells, sets[i].glyphs[y][x]);
+            }
+        }
+        ceduo_cells_free(cells);
+    }
+}
+
+static void all_quadrants(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(16, 1, BLOCK);
+    struct ceduo_frame frame = dots_of(cells);
+    for (int mask = 0; mask < 16; ++mask) {
+        for (int bit = 0; bit < 4; ++bit) {
+            if (mask >> bit & 1) {
+                draw_point(cells, &frame, CEDUO_ROLE_WAY, 2 * mask + bit % 2, 1 - bit / 2);
+            }
+        }
+    }
+    expect_text(cells, " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█\n");
+    ceduo_cells_free(cells);
+}
+
+static void row_text_is_cut_at_a_character(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(5, 2, BRAILLE);
+    char buffer[16];
+    ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TEXT, "a±b  ");
+    assert_int_equal(ceduo_cells_text(cells, 0, sizeof buffer, buffer), 4);
+    assert_string_equal(buffer, "a±b");
+    assert_int_equal(ceduo_cells_text(cells, 0, 4, buffer), 4);
+    assert_string_equal(buffer, "a±");
+    assert_int_equal(ceduo_cells_text(cells, 0, 3, buffer), 4);
+    assert_string_equal(buffer, "a"); /* half of ± would fit, and so would the b behind it */
+    assert_int_equal(ceduo_cells_text(cells, 0, 1, buffer), 4);
+    assert_string_equal(buffer, "");
+    assert_int_equal(ceduo_cells_text(cells, 0, 0, NULL), 4);
+    assert_int_equal(ceduo_cells_text(cells, 2, sizeof buffer, buffer), 0);
+    assert_string_equal(buffer, "");
+    ceduo_cells_free(cells);
+}
+
+/* ---- Roles ---- */
+
+static void rank_decides_the_role_whoever_draws_first(void **state)
+{
+    (void)state;
+    static const enum ceduo_role falling[] = {
+        CEDUO_ROLE_CURSOR, CEDUO_ROLE_WAY,    CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,
+        CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND, CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
+    };
+    struct ceduo_cells *cells = cells_in(2, 1, BRAILLE);
+    struct ceduo_frame frame = dots_of(cells);
+    for (size_t i = 1; i < sizeof falling / sizeof falling[0]; ++i) {
+        ceduo_cells_clear(cells);
+        draw_point(cells, &frame, falling[i - 1], 0, 0);
+        draw_point(cells, &frame, falling[i], 1, 0);
+        draw_point(cells, &frame, falling[i], 2, 0);
+        draw_point(cells, &frame, falling[i - 1], 3, 0);
+        assert_int_equal(ceduo_cells_role(cells, 0, 0), falling[i - 1]);
+        assert_int_equal(ceduo_cells_role(cells, 1, 0), falling[i - 1]);
+        expect_text(cells, "⣀⣀\n"); /* the dots of both are seen */
+    }
+    ceduo_cells_free(cells);
+}
+
+static void text_hides_dots(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(5, 1, ASCII);
+    struct ceduo_frame frame = dots_of(cells);
+    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 4, 0);
+    ceduo_cells_label(cells, 1, 0, CEDUO_ROLE_DIM, "a b");
+    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_CURSOR, 0, 1, 4, 1);
+    expect_text(cells, ":a b:\n");
+    expect_roles(cells, "xdddx\n");
+    ceduo_cells_label(cells, 1, 0, CEDUO_ROLE_BAD, "c");
+    expect_text(cells, ":c b:\n");
+    expect_roles(cells, "xBddx\n");
+    ceduo_cells_free(cells);
+}
+
+static void every_role_has_its_letter(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(CEDUO_ROLE_COUNT, 1, ASCII);
+    for (int role = 0; role < CEDUO_ROLE_COUNT; ++role) {
+        ceduo_cells_label(cells, role, 0, (enum ceduo_role)role, "#");
+    }
+    expect_text(cells, " ###################\n");
+    expect_roles(cells, " tdTagcemwsSbCGBWrox\n");
+    ceduo_cells_free(cells);
+}
+
+/* ---- Text ---- */
+
+static void labels_are_cut_at_the_canvas(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(4, 1, BRAILLE);
+    assert_int_equal(ceduo_cells_label(cells, 2, 0, CEDUO_ROLE_TITLE, "stool"), 5);
+    assert_int_equal(ceduo_cells_label(cells, -3, 0, CEDUO_ROLE_TEXT, "Ø m²"), 4);
+    expect_text(cells, "² st\n");
+    expect_roles(cells, "t TT\n");
+    ceduo_cells_clear(cells);
+    assert_int_equal(ceduo_cells_label_right(cells, 2, 0, CEDUO_ROLE_TEXT, "±1"), 2);
+    expect_and_clear(cells, " ±1\n");
+    ceduo_cells_label(cells, 0, 1, CEDUO_ROLE_TEXT, "below");
+    ceduo_cells_label(cells, 0, -1, CEDUO_ROLE_TEXT, "above");
+    ceduo_cells_label(cells, 9, 0, CEDUO_ROLE_TEXT, "right");
+    expect_and_clear(cells, "\n");
+    ceduo_cells_free(cells);
+}
+
+static void odd_characters_become_question_marks(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *utf8, *ascii;
+    } cases[] = {
+        {"a\tb\x7f", "a?b?\n", "a?b?\n"},
+        {"\x80|\xC0\xAF|\xFF", "?|??|?\n", "?|??|?\n"}, /* lone, overlong, never valid */
+        {"\xE2\x82|", "??|\n", "??|\n"},                /* broken off within */
+        {"|\xF0\x9F", "|??\n", "|??\n"},                /* broken off at the end */
+        {"\xED\xA0\x80", "???\n", "???\n"},             /* a surrogate */
+        {"\xF4\x90\x80\x80", "????\n", "????\n"},       /* above U+10FFFF */
+        {"\xE0\x80\x80\xF0\x80\x80\x80", "???????\n", "???????\n"},
+        {"森x", "?x\n", "?x\n"}, /* two cells */
+        {"🌲!", "?!\n", "?!\n"},
+        {"e\xCC\x81", "e?\n", "e?\n"}, /* a combining accent */
+        {"𝑥", "𝑥\n", "?\n"},           /* four bytes, one cell */
+        {"⠿Ж", "⠿Ж\n", "??\n"},
+    };
+    struct ceduo_cells *utf8 = cells_in(12, 1, BRAILLE);
+    struct ceduo_cells *ascii = cells_in(12, 1, ASCII);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        ceduo_cells_label(utf8, 0, 0, CEDUO_ROLE_TEXT, cases[i].text);
+        ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, cases[i].text);
+        expect_and_clear(utf8, cases[i].utf8);
+        expect_and_clear(ascii, cases[i].ascii);
+    }
+    ceduo_cells_free(utf8);
+    ceduo_cells_free(ascii);
+}
+
+static void ascii_has_near_equivalents(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"2×3", "2x3"},
+        {"±0.3 %", "+-0.3 %"},
+        {"0…2", "0...2"},
+        {"ADS 1 · 2", "ADS 1 . 2"},
+        {"≤ 10 ≥", "<= 10 >="},
+        {"a — b–c", "a - b-c"},
+        {"35°", "35"},
+        {"✔ ✘", "+ x"},
+        {"−1", "-1"},
+        {"m²", "m2"},
+        {"é", "e"},
+        {"─│┌┤", "-|++"},
+        {"█▏", "##"},
+        {"→", "->"},
+        {"Ø ∞", "O inf"},
+        {"♣", "Y"},
+    };
+    struct ceduo_cells *ascii = cells_in(12, 1, ASCII);
+    struct ceduo_cells *block = cells_in(12, 1, BLOCK);
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
+        char text[64];
+        ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, pairs[i][0]);
+        ceduo_cells_text(ascii, 0, sizeof text, text);
+        assert_string_equal(text, pairs[i][1]);
+        ceduo_cells_label(block, 0, 0, CEDUO_ROLE_TEXT, pairs[i][0]);
+        ceduo_cells_text(block, 0, sizeof text, text);
+        assert_string_equal(text, pairs[i][0]);
+        ceduo_cells_clear(ascii);
+        ceduo_cells_clear(block);
+    }
+    ceduo_cells_label_right(ascii, 11, 0, CEDUO_ROLE_TEXT, "±0.3…");
+    expect_text(ascii, "    +-0.3...\n");
+    assert_int_equal(ceduo_cells_label_width(ASCII, "±0.3…"), 8);
+    assert_int_equal(ceduo_cells_label_width(BRAILLE, "±0.3…"), 5);
+    assert_int_equal(ceduo_cells_label_width(BRAILLE, ""), 0);
+    ceduo_cells_free(ascii);
+    ceduo_cells_free(block);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sizes_are_limited),
+        cmocka_unit_test(blank_canvas_is_empty_rows),
+        cmocka_unit_test(each_dot_has_its_glyph),
+        cmocka_unit_test(all_quadrants),
+        cmocka_unit_test(row_text_is_cut_at_a_character),
+        cmocka_unit_test(rank_decides_the_role_whoever_draws_first),
+        cmocka_unit_test(text_hides_dots),
+        cmocka_unit_test(every_role_has_its_letter),
+        cmocka_unit_test(labels_are_cut_at_the_canvas),
+        cmocka_unit_test(odd_characters_become_question_marks),
+        cmocka_unit_test(ascii_has_near_equivalents),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
