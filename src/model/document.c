@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/intl.h"
 #include "io/resolve.h"
 #include "recovery.h"
@@ -17,15 +18,9 @@
 /* Room for one more state. */
 static bool reserve_state(struct document *d)
 {
-    if (d->count < d->room)
-        return true;
-    size_t room = d->room ? 2 * d->room : 64;
-    struct document_state *states = realloc(d->states, room * sizeof *states);
-    if (!states)
-        return false;
-    d->states = states;
-    d->room = room;
-    return true;
+    struct document_state *states = ceduo_grow(d->states, d->count, &d->room, sizeof *states);
+    d->states = states ? states : d->states;
+    return states != NULL;
 }
 
 static void push_state(struct document *d, const struct node *root, const char *what)

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/intl.h"
 #include "base/utf8.h"
 #include "model/alternatives.h"
@@ -186,7 +187,8 @@ static void say_way(struct app *app)
 
 bool ceduo_app_follow_rock(struct app *app)
 {
-    uint64_t key = app->figures.asked ^ (uint64_t)(app->option + 1) * 1099511628211u;
+    uint64_t key = app->figures.asked;
+    hash_count(&key, app->option);
     bool good = ceduo_rock_way_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
     if (!good)
         ceduo_rock_way_free(&app->way);

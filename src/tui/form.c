@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/intl.h"
 #include "base/utf8.h"
 
@@ -25,17 +26,11 @@ void ceduo_form_free(struct form *form)
 
 static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
 {
-    static struct form_row spare;
-    if (form->n == form->room) {
-        size_t room = form->room ? 2 * form->room : 32;
-        struct form_row *rows = realloc(form->rows, room * sizeof *rows);
-        if (!rows) {
-            form->failed = true;
-            return &spare;
-        }
-        form->rows = rows;
-        form->room = room;
-    }
+    static struct form_row spare; /* for want of memory: a line that nobody sees */
+    struct form_row *rows = ceduo_grow(form->rows, form->n, &form->room, sizeof *rows);
+    if (!rows)
+        return &spare;
+    form->rows = rows;
     struct form_row *row = &form->rows[form->n++];
     memset(row, 0, sizeof *row);
     row->kind = kind;

@@ -34,7 +34,6 @@ struct form {
     size_t n, room;
     size_t row, column; /* the cursor */
     size_t top;         /* first line shown */
-    bool failed;
 };
 
 void ceduo_form_clear(struct form *form); /* the cursor stays */

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/grow.h"
 #include "base/intl.h"
 #include "base/utf8.h"
 
@@ -65,16 +66,10 @@ struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_fille
 
 void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 {
-    if (!p)
+    struct popup_item *items = p ? ceduo_grow(p->items, p->items_count, &p->items_room, sizeof *items) : NULL;
+    if (!items)
         return;
-    if (p->items_count == p->items_room) {
-        size_t room = p->items_room ? 2 * p->items_room : 32;
-        struct popup_item *items = realloc(p->items, room * sizeof *items);
-        if (!items)
-            return;
-        p->items = items;
-        p->items_room = room;
-    }
+    p->items = items;
     struct text safe = {0};
     ceduo_text_safe(&safe, text);
     const char *shown = ceduo_arena_string(&p->arena, safe.bytes ? safe.bytes : "");

@@ -3,40 +3,28 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
+#include "base/grow.h"
 #include "base/intl.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
 #define PIECES_MOST 20000
 #define SECONDS_MOST 0.05 /* that a key may take */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static bool is_enough(void *context)
 {
     const struct rock_way *s = context;
-    return now() - s->begun > SECONDS_MOST;
+    return ceduo_clock() - s->begun > SECONDS_MOST;
 }
 
 static void add_piece(void *context, const struct ceduo_piece *piece)
 {
     struct rock_way *s = context;
-    if (s->n >= PIECES_MOST)
+    struct ceduo_piece *pieces = s->n < PIECES_MOST ? ceduo_grow(s->pieces, s->n, &s->room, sizeof *pieces) : NULL;
+    if (!pieces)
         return;
-    if (s->n == s->room) {
-        size_t room = s->room ? 2 * s->room : 64;
-        struct ceduo_piece *pieces = realloc(s->pieces, room * sizeof *pieces);
-        if (!pieces)
-            return;
-        s->pieces = pieces;
-        s->room = room;
-    }
+    s->pieces = pieces;
     s->pieces[s->n++] = *piece;
 }
 
@@ -45,16 +33,13 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
     struct rock_way *s = context;
     if (s->n >= PIECES_MOST)
         return;
-    if (s->stems_count == s->stems_room) {
-        size_t room = s->stems_room ? 2 * s->stems_room : 64;
-        struct ceduo_stem_passed *stems = realloc(s->stems, room * sizeof *stems);
-        s->stems = stems ? stems : s->stems;
-        size_t *pieces = stems ? realloc(s->stem_piece, room * sizeof *pieces) : NULL;
-        if (!pieces)
-            return;
-        s->stem_piece = pieces;
-        s->stems_room = room;
-    }
+    size_t room = s->stems_room; /* of both arrays */
+    struct ceduo_stem_passed *stems = ceduo_grow(s->stems, s->stems_count, &room, sizeof *stems);
+    s->stems = stems ? stems : s->stems;
+    size_t *pieces = stems ? ceduo_grow(s->stem_piece, s->stems_count, &s->stems_room, sizeof *pieces) : NULL;
+    if (!pieces)
+        return;
+    s->stem_piece = pieces;
     s->stem_piece[s->stems_count] = stem->hit ? s->n : s->n + 1; /* flown over: on the piece that is under way */
     s->stems[s->stems_count++] = *stem;
 }
@@ -98,7 +83,7 @@ bool ceduo_rock_way_follow(struct rock_way *s, const struct ceduo_scene *scene, 
         s->n = s->at = s->stems_count = 0;
         s->key = key;
         s->rock = rock;
-        s->begun = now();
+        s->begun = ceduo_clock();
         const struct ceduo_watch watch = {.enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
         enum ceduo_status status = ceduo_way_follow(scene, option, rock, &watch, &s->way, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
