@@ -33,7 +33,6 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
         return false;
     file->notes = d.notes;
     file->ground_assumed = d.ground_assumed;
-    file->origin_x = d.profile ? d.origin : file->origin_x;
     file->scene = d.draft.scene;
     file->scene.title = (char *)(uintptr_t)title_of(file, file->scene.title);
     bool good = problems->count == before && !problems->memory;

@@ -15,7 +15,6 @@ struct scene_file {
     const struct source_note *notes; /* where values come from, last first */
     const struct node *slope_node;   /* that scene.slope was made from */
     bool ground_assumed;             /* the slope's file says no ground: talus was taken */
-    double origin_x;                 /* what was taken off every x */
 };
 
 /* Reads a scene ("-": standard input; a name without a file: a shipped scene), applies `sets` (PATH=VALUE, from left to

@@ -248,7 +248,7 @@ bool ceduo_document_add_option(struct document *d, const char *stand, struct pro
         ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "",
                           first->belts[i].from_given, first->belts[i].to_given, stand);
     if (first->belts_count == 0)
-        ceduo_text_format(&yaml, "{from_m: %.10g, to_m: %.10g, stand: %s}", d->file.origin_x, c->x_given, stand);
+        ceduo_text_format(&yaml, "{from_m: %.10g, to_m: %.10g, stand: %s}", d->file.scene.slope.origin_x, c->x_given, stand);
     ceduo_text_put(&yaml, "]}");
     const struct node *item = yaml.bytes ? ceduo_document_parse(d, "options", yaml.bytes, problems) : NULL;
     const struct node *root = item ? with_options(d, d->file.root, problems) : NULL;

@@ -179,7 +179,7 @@ bool ceduo_app_news(struct app *app)
 static void say_way(struct app *app)
 {
     struct text text = {0};
-    ceduo_rock_way_say(&app->way, &app->document.file.scene, app->document.file.origin_x, &text);
+    ceduo_rock_way_say(&app->way, &app->document.file.scene, &text);
     if (text.bytes)
         ceduo_app_say(app, "%s", text.bytes);
     ceduo_text_free(&text);

@@ -35,7 +35,7 @@ static bool free_stretch(const struct app *app, double *from, double *to, size_t
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
-    double origin = app->document.file.origin_x, end = s->slope.x[s->slope.vertices - 1];
+    double origin = app->document.file.scene.slope.origin_x, end = s->slope.x[s->slope.vertices - 1];
     double at = s->release.x.mean;
     for (size_t i = 0; i <= o->belts_count; i++) {
         double next = i < o->belts_count ? o->belts[i].from : end;
@@ -72,7 +72,7 @@ static bool add_control(struct app *app, const struct item *item)
     double start = s->release.x.mean + s->release.x.spread * 3;
     double x = last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2;
     char control[64];
-    snprintf(control, sizeof control, "{x_m: %.6g}", x + app->document.file.origin_x);
+    snprintf(control, sizeof control, "{x_m: %.6g}", x + app->document.file.scene.slope.origin_x);
     return ceduo_document_insert(&app->document, item->list, 1000000, control, &app->problems);
 }
 

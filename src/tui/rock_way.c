@@ -138,8 +138,9 @@ static void say_end(const struct rock_way *s, double origin, struct text *text)
         ceduo_text_format(text, _(", %llu stems hit"), (unsigned long long)s->way.stems_hit);
 }
 
-void ceduo_rock_way_say(const struct rock_way *s, const struct ceduo_scene *scene, double origin, struct text *text)
+void ceduo_rock_way_say(const struct rock_way *s, const struct ceduo_scene *scene, struct text *text)
 {
+    double origin = scene->slope.origin_x;
     if (s->at == 0 || s->at > s->n) {
         say_end(s, origin, text);
         return;

@@ -30,8 +30,8 @@ void ceduo_rock_way_move(struct rock_way *way, int by);
 /* How many of the stems lie on what is shown. */
 size_t ceduo_rock_way_stems(const struct rock_way *way);
 
-/* What happens where the way is shown to, or how it ends. `origin` is added to every x. */
-void ceduo_rock_way_say(const struct rock_way *way, const struct ceduo_scene *scene, double origin, struct text *text);
+/* What happens where the way is shown to, or how it ends. */
+void ceduo_rock_way_say(const struct rock_way *way, const struct ceduo_scene *scene, struct text *text);
 
 void ceduo_rock_way_free(struct rock_way *way);
 
