@@ -14,7 +14,8 @@ enum ceduo_status ceduo_pool_create(const struct ceduo_run_def *def, struct cedu
 void ceduo_pool_free(struct ceduo_pool *pool);
 
 /* A pool for the scene of `def` from what was kept: *pool is turned to it, see ceduo_pool_turn(), or freed and made anew
- * where its rocks meet anything else than a forest that differs. *pool may be NULL; it is NULL unless CEDUO_OK. */
+ * where its rocks meet anything else than a forest that differs. *pool may be NULL; it is NULL unless CEDUO_OK. A pool
+ * that is kept flies as it was made: threads, cancel and progress stay those. */
 enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 
 /* The run through the forest of `option` (NULL: without forest), as long as it is; the pool's. CEDUO_NO_MEMORY. */

@@ -10,8 +10,8 @@
 
 #include "base/intl.h"
 #include "options.h"
-#include "together.h"
 #include "say.h"
+#include "together.h"
 
 /* ---- the help ---- */
 

@@ -2,12 +2,12 @@
 /* --find: the value of one parameter for which a goal is reached. */
 #include <string.h>
 
+#include "base/intl.h"
 #include "batch.h"
+#include "interrupt.h"
+#include "model/seek.h"
 #include "output.h"
 #include "say.h"
-#include "interrupt.h"
-#include "base/intl.h"
-#include "model/seek.h"
 
 static void put(struct text *out, const struct arguments *a, const struct ceduo_find_report *report)
 {

@@ -5,12 +5,12 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include "batch.h"
-#include "output.h"
-#include "command_line.h"
-#include "ceduo/version.h"
-#include "interactive.h"
 #include "base/intl.h"
+#include "batch.h"
+#include "ceduo/version.h"
+#include "command_line.h"
+#include "interactive.h"
+#include "output.h"
 
 #ifndef CEDUO_LOCALEDIR
 #define CEDUO_LOCALEDIR "/usr/local/share/locale"
@@ -78,7 +78,7 @@ int main(int argc, char **argv)
 {
     keep_standard_streams();
     set_locale();
-    signal(SIGXFSZ, SIG_IGN); /* a file that is too large for its limit is an error like a full disk */
+    signal(SIGXFSZ, SIG_IGN);    /* a file that is too large for its limit is an error like a full disk */
     gsl_set_error_handler_off(); /* its own would abort */
     struct arguments arguments;
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);

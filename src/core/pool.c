@@ -3,9 +3,9 @@
 
 #include <stdlib.h>
 
-#include "run_pack.h"
 #include "ceduo/key.h"
 #include "ceduo/part.h"
+#include "run_pack.h"
 
 struct pooled {
     uint64_t key;

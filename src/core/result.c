@@ -75,8 +75,9 @@ static struct ceduo_difference no_difference(double accepted)
     return d;
 }
 
-void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
-                       const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls)
+void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option,
+                       const struct ceduo_flown *bare, const struct ceduo_flown *wooded,
+                       struct ceduo_stand_result *stands, struct ceduo_index *controls)
 {
     for (size_t k = 0; k < option->belts_count; k++)
         stands[k] = ceduo_assess_stand(scene, &option->belts[k]);

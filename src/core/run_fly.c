@@ -19,8 +19,8 @@ struct worker {
     struct stems *stems;    /* likewise; NULL: no forest */
     struct walker first;    /* a rock at its release: where all are alike, they are as this one */
     struct block *block;
-    uint64_t from, next, to; /* rocks of the block: the first, the next to begin, behind the last */
-    struct arrival *arrivals; /* [control][CEDUO_BLOCK_ROCKS] */
+    uint64_t from, next, to;         /* rocks of the block: the first, the next to begin, behind the last */
+    struct arrival *arrivals;        /* [control][CEDUO_BLOCK_ROCKS] */
     double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
     struct histogram *bins;
     struct envelope_cell *cells;
@@ -263,7 +263,8 @@ static bool init_stems(struct worker *w)
     if (!w->stems)
         return false;
     for (size_t i = 0; i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->ready.scene.simulation.contact_model == CEDUO_POISSON))
+        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood,
+                              run->ready.scene.simulation.contact_model == CEDUO_POISSON))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

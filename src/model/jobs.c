@@ -14,7 +14,7 @@ enum kind { SEEK, FIGURES, YEARS, KINDS, NONE = KINDS }; /* of two steps as coar
 
 struct job {
     bool wanted;     /* not done */
-    uint64_t number; /* of the request; a result of another number is stale */
+    uint64_t number; /* of the request; 0: none. A result of another number is stale */
     uint64_t key;    /* of what was asked for last; 0: nothing */
     uint64_t rocks;  /* of the next step; a search has one, and goes first */
     double asked;

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/question.h"
 #include "base/intl.h"
+#include "ceduo/question.h"
 #include "scene/schema.h"
 
 /* One search under way. */
@@ -122,12 +122,13 @@ static bool is_askable(const struct seek *s, struct problems *problems)
     bool needs_accepted = s->search.goal == CEDUO_GOAL_EXCEED;
     for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
         if (isnan(s->file->scene.controls[c].accepted)) {
-            ceduo_problem(problems, &goal_source, 0, 0, _("exceed: controls[%zu] does not say what it bears; add accepted_kJ"),
-                          c);
+            ceduo_problem(problems, &goal_source, 0, 0,
+                          _("exceed: controls[%zu] does not say what it bears; add accepted_kJ"), c);
             return false;
         }
     if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX) {
-        ceduo_problem(problems, &goal_source, 0, 0, _("exceed: the contact model index flies no rock through the wood"));
+        ceduo_problem(problems, &goal_source, 0, 0,
+                      _("exceed: the contact model index flies no rock through the wood"));
         return false;
     }
     return true;
@@ -144,7 +145,8 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
     struct ceduo_find_def def = {.lo = search->lo,
                                  .hi = search->hi,
                                  .whole = is_whole(field_at(search->path)),
-                                 .target = ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
+                                 .target =
+                                     ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
                                  .goal = goal_at,
                                  .context = &s,
                                  .tolerance = 1e-4,
