@@ -8,7 +8,6 @@
 
 #include "base/grow.h"
 #include "base/intl.h"
-#include "base/utf8.h"
 
 #define LABEL       18 /* columns of a line's label */
 #define COLUMN_MOST 22 /* of a table's column */
@@ -290,14 +289,16 @@ static void draw_cell(const struct form_row *row, struct ceduo_cells *cells, int
     char shown[80];
     cell_place(row, width, k, &from, &span);
     snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
-    const char *text = cursor && edit ? ceduo_utf8_end(edit, span > 1 ? (size_t)span - 1 : 0) : shown;
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
-    ceduo_cells_put(cells, left + from, y, span, cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM,
-            text);
-    if (cursor && edit)
-        ceduo_cells_label(cells, left + from + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
+    if (cursor && edit) {
+        int n = ceduo_cells_put_end(cells, left + from, y, span - 1, CEDUO_ROLE_CURSOR, edit);
+        ceduo_cells_label(cells, left + from + n, y, CEDUO_ROLE_CURSOR, "_");
+        return;
+    }
+    enum ceduo_role role = cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM;
+    ceduo_cells_put(cells, left + from, y, span, role, shown);
 }
 
 static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width,

@@ -236,11 +236,11 @@ static void draw_fields(struct app *app, struct popup *p)
     int x = in.left + 32, width = in.width - 32;
     for (size_t i = 0; i < p->fields_count; i++) {
         int y = in.top + (int)i;
-        const char *text = ceduo_utf8_end(p->fields[i].text, width > 1 ? (size_t)width - 1 : 0);
         ceduo_app_text(app, (struct ceduo_area){in.left, y, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);
-        ceduo_cells_label(app->cells, x, y, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, text);
+        int n = ceduo_cells_put_end(app->cells, x, y, width - 1, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT,
+                                    p->fields[i].text);
         if (i == p->at)
-            ceduo_cells_label(app->cells, x + (int)ceduo_utf8_width(text), y, CEDUO_ROLE_CURSOR, "_");
+            ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
     }
     in.top += in.height - 1;
     in.height = 1;

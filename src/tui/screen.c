@@ -43,7 +43,7 @@ static void draw_title(struct app *app)
     ceduo_text_safe(&title, app->document.file.scene.title);
     int room = app->width - x - 1;
     if (title.bytes && room > 4) {
-        int columns = (int)ceduo_utf8_width(title.bytes);
+        int columns = ceduo_cells_label_width(app->charset, title.bytes);
         ceduo_cells_put(app->cells, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
                        title.bytes);
     }

@@ -197,6 +197,13 @@ int ceduo_cells_put(struct ceduo_cells *cells, int column, int row, int most, en
     return ceduo_canvas_put(&cells->canvas, column, row, most, role, text);
 }
 
+int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
+{
+    while (*text && ceduo_cells_label_width(cells->charset, text) > most)
+        text += ceduo_utf8_step(text);
+    return ceduo_cells_label(cells, column, row, role, text);
+}
+
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
 {
     struct reader reader = {charset, text, ""};

@@ -65,6 +65,9 @@ int ceduo_cells_label_right(struct ceduo_cells *cells, int column, int row, enum
 /* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
 int ceduo_cells_put(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
 
+/* Write the end of a text that fits into `most` cells; returns the cells it took. */
+int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
+
 /* The number of cells a text takes in a character set. */
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text);
 

@@ -233,6 +233,29 @@ static void ascii_has_near_equivalents(void **state)
     ceduo_cells_free(block);
 }
 
+static void texts_are_cut_at_either_end(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(8, 1, BRAILLE);
+    assert_int_equal(ceduo_cells_put(cells, 0, 0, 5, CEDUO_ROLE_TEXT, "coppice"), 5);
+    expect_and_clear(cells, "copp…\n");
+    assert_int_equal(ceduo_cells_put(cells, 0, 0, 7, CEDUO_ROLE_TEXT, "coppice"), 7);
+    expect_and_clear(cells, "coppice\n");
+    assert_int_equal(ceduo_cells_put(cells, 0, 0, 0, CEDUO_ROLE_TEXT, "coppice"), 0);
+    expect_and_clear(cells, "\n");
+    /* cells count, not columns: a mark and a wide character are a '?' each */
+    assert_int_equal(ceduo_cells_put_end(cells, 0, 0, 4, CEDUO_ROLE_TEXT, "ae\u0301ber"), 4);
+    expect_and_clear(cells, "?ber\n");
+    assert_int_equal(ceduo_cells_put_end(cells, 0, 0, 4, CEDUO_ROLE_TEXT, "日本x"), 3);
+    expect_and_clear(cells, "??x\n");
+    assert_int_equal(ceduo_cells_put_end(cells, 0, 0, 0, CEDUO_ROLE_TEXT, "x"), 0);
+    ceduo_cells_free(cells);
+    cells = cells_in(8, 1, ASCII);
+    assert_int_equal(ceduo_cells_put(cells, 0, 0, 4, CEDUO_ROLE_TEXT, "35 … 40"), 4);
+    expect_text(cells, "35 ~\n");
+    ceduo_cells_free(cells);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -247,6 +270,7 @@ int main(void)
         cmocka_unit_test(labels_are_cut_at_the_canvas),
         cmocka_unit_test(odd_characters_become_question_marks),
         cmocka_unit_test(ascii_has_near_equivalents),
+        cmocka_unit_test(texts_are_cut_at_either_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
