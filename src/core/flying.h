@@ -6,7 +6,7 @@
 
 #include "law_crsp.h"
 #include "law_lumped.h"
-#include "walk.h"
+#include "walker.h"
 
 #ifndef PAUSE
 #define PAUSE 4000 /* contacts, or stems */

@@ -2,46 +2,7 @@
 #ifndef CEDUO_WALK_H
 #define CEDUO_WALK_H
 
-#include <stdatomic.h>
-#include <stdint.h>
-
-#include "ceduo/way.h"
-#include "landing.h"
-#include "marks.h"
-#include "random.h"
-#include "sincos.h"
-#include "stems.h"
-
-/* One rock under way. */
-struct walker {
-    const struct ground *g;
-    const struct marks *marks;
-    uint64_t seed, number;
-    bool scale_rn;
-    struct ceduo_rock rock;
-    double k; /* 0 where the law knows no spin */
-    double rn_u, rt_u; /* quantiles of this rock's ground */
-    struct flight at; /* where it is now */
-    double along;     /* after a roll: speed along the segment */
-    double spin;
-    uint64_t contacts;
-    uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
-    uint64_t stems_pause; /* the same, of the effort spent on stems */
-    size_t next_mark;
-    double next_x;    /* of that mark, infinite behind the last */
-    struct stems *stems;       /* NULL: no forest */
-    double stem_ahead, stem_behind; /* x of the next stem either way; infinite: none */
-    uint64_t stems_hit, stools_met;
-    uint64_t facets_of;        /* i, of */
-    struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
-    void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
-    const struct ceduo_watch *watch; /* NULL: nobody looks */
-    void *context;                   /* of cross */
-    bool arrivals_only;        /* behind the last mark nobody asks on: the way ends soon after it, CEDUO_UNFINISHED */
-    const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
-    bool cancelled;            /* it was raised, or memory ran out: the way is not at its end */
-    bool gives_up;             /* among stems: cancelled, or there were too many */
-};
+#include "walker.h"
 
 /* Draws rock number `number` of the scene and puts it at its release. walker.stems and those who look on are the
  * caller's to set before. */
@@ -57,19 +18,6 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 
 /* ---- the way in pieces, for the wide walk ---- */
-
-/* Velocity in the axes of the segment under the rock. */
-struct velocity {
-    double along, off;
-};
-
-/* Where a rock stands between two contacts: in flight to `l`, or on the ground at its next contact. */
-struct course {
-    struct flight at;
-    bool flies;
-    struct velocity v; /* on the ground */
-    struct landing l;  /* in flight */
-};
 
 /* From the release to the first contact. In all of these false: the way ended before, at w->at. */
 bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end);

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WALKER_H
+#define CEDUO_WALKER_H
+
+#include <stdatomic.h>
+#include <stdint.h>
+
+#include "ceduo/way.h"
+#include "landing.h"
+#include "marks.h"
+#include "random.h"
+#include "sincos.h"
+#include "stems.h"
+
+/* One rock under way. */
+struct walker {
+    const struct ground *g;
+    const struct marks *marks;
+    uint64_t seed, number;
+    bool scale_rn;
+    struct ceduo_rock rock;
+    double k; /* 0 where the law knows no spin */
+    double rn_u, rt_u; /* quantiles of this rock's ground */
+    struct flight at; /* where it is now */
+    double along;     /* after a roll: speed along the segment */
+    double spin;
+    uint64_t contacts;
+    uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
+    uint64_t stems_pause; /* the same, of the effort spent on stems */
+    size_t next_mark;
+    double next_x;    /* of that mark, infinite behind the last */
+    struct stems *stems;       /* NULL: no forest */
+    double stem_ahead, stem_behind; /* x of the next stem either way; infinite: none */
+    uint64_t stems_hit, stools_met;
+    uint64_t facets_of;        /* i, of */
+    struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
+    void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
+    const struct ceduo_watch *watch; /* NULL: nobody looks */
+    void *context;                   /* of cross */
+    bool arrivals_only;        /* behind the last mark nobody asks on: the way ends soon after it, CEDUO_UNFINISHED */
+    const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
+    bool cancelled;            /* it was raised, or memory ran out: the way is not at its end */
+    bool gives_up;             /* among stems: cancelled, or there were too many */
+};
+
+/* Velocity in the axes of the segment under the rock. */
+struct velocity {
+    double along, off;
+};
+
+/* Where a rock stands between two contacts: in flight to `l`, or on the ground at its next contact. */
+struct course {
+    struct flight at;
+    bool flies;
+    struct velocity v; /* on the ground */
+    struct landing l;  /* in flight */
+};
+
+#endif
