@@ -84,8 +84,8 @@ $(BUILD)/%.o: %.c Makefile
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
-# Leaves out the build of another commit, which names other headers.
--include $(shell find build -path build/before -prune -o -name '*.d' -print 2>/dev/null)
+# Those of this variant alone: another may be being built.
+-include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
 # ---- a fresh machine ----
 
