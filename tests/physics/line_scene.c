@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/random.h"
+
 void line_scene_init(struct line_scene *s, size_t vertices, const double *x, const double *z, struct line_ground ground,
                      double radius, enum ceduo_law law)
 {
@@ -141,6 +143,11 @@ static void random_ground(struct line_scene *s, struct line_random *r, double ra
 static double random_speed(struct line_random *r)
 {
     return line_chance(r, 0.25) ? 0 : line_uniform(r, -10, 15);
+}
+
+double line_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact)
+{
+    return random_pair(seed, rock, contact >> 1, RANDOM_FACET).u[contact & 1];
 }
 
 void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_every)

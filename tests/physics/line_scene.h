@@ -35,6 +35,9 @@ double line_uniform(struct line_random *r, double lo, double hi);
 double line_log_uniform(struct line_random *r, double lo, double hi);
 bool line_chance(struct line_random *r, double p);
 
+/* The facet draw of a contact, as the walk takes them: Threefry 2x64 gives two at once. */
+double line_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);
+
 /* Random scene number `number`: 1 to 200 segments; terrain of noise of 5 cm to 5 m, of long slopes, with walls and
  * slivers of 1e-9 m, or of level steps; survey coordinates; rocks of 1 cm to 10 m; both laws, facets on either side;
  * friction, Rn and Rt from 0 on. One in `lasting_every` (0: none) has Rn or Rt 1, so that a rock may go on for ever. */

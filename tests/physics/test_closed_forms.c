@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/random.h"
 #include "line_scene.h"
 #include "paper_site.h"
 
@@ -832,19 +831,13 @@ static void a_uniform_spread(void **state)
 
 /* ---- facet draws ---- */
 
-/* As the walk draws them: Threefry 2x64 gives two at once. */
-static double facet_draw(uint64_t seed, uint64_t rock, uint64_t contact)
-{
-    return random_pair(seed, rock, contact >> 1, RANDOM_FACET).u[contact & 1];
-}
-
 static void facet_draws_are_even_and_depend_on_all_they_should(void **state)
 {
     (void)state;
     const uint64_t n = 200000;
     double sum = 0, squares = 0, product = 0, last = .5;
     for (uint64_t i = 0; i < n; i++) {
-        double u = facet_draw(1, i / 20, i % 20);
+        double u = line_facet_draw(1, i / 20, i % 20);
         EXPECT(u, >=, 0);
         EXPECT(u, <, 1);
         sum += u;
@@ -856,11 +849,11 @@ static void facet_draws_are_even_and_depend_on_all_they_should(void **state)
     EXPECT_NEAR(sum / count, .5, 4 * se);
     EXPECT_NEAR(squares / count, 1 / 3., 4 * sqrt(4 / 45. / count));
     EXPECT(fabs(product / count), <, 4 / 12. / sqrt(count));
-    double u = facet_draw(1, 2, 3);
-    EXPECT(u, ==, facet_draw(1, 2, 3));
-    EXPECT(u, !=, facet_draw(2, 2, 3));
-    EXPECT(u, !=, facet_draw(1, 3, 3));
-    EXPECT(u, !=, facet_draw(1, 2, 2));
+    double u = line_facet_draw(1, 2, 3);
+    EXPECT(u, ==, line_facet_draw(1, 2, 3));
+    EXPECT(u, !=, line_facet_draw(2, 2, 3));
+    EXPECT(u, !=, line_facet_draw(1, 3, 3));
+    EXPECT(u, !=, line_facet_draw(1, 2, 2));
 }
 
 int main(void)

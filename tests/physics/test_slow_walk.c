@@ -84,7 +84,7 @@ static double draw(void *context, uint64_t contact)
 {
     struct slow_context *c = context;
     c->contact = contact;
-    return nudge(ceduo_way_facet_draw(c->seed, c->rock, contact), c->change);
+    return nudge(line_facet_draw(c->seed, c->rock, contact), c->change);
 }
 
 static void note_contact(void *context, double x, double z, double vx, double vz, double spin)
