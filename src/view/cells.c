@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grid, text in it, what it shows; and how pictures draw on it (ceduo_surface, canvas.h). */
+/* Implements the grid, text in it, and its output. cells_surface.c draws pictures on it. */
 #include "cells.h"
 
 #include <assert.h>
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,12 +16,10 @@ static size_t cell_count(const struct ceduo_cells *cells)
     return (size_t)cells->width * (size_t)cells->height;
 }
 
-static size_t dot_count(const struct ceduo_cells *cells)
+size_t ceduo_cells_dots(const struct ceduo_cells *cells)
 {
     return cell_count(cells) * (size_t)(cells->canvas.dots_x * cells->canvas.dots_y);
 }
-
-static const struct ceduo_surface surface;
 
 struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset charset)
 {
@@ -34,7 +31,7 @@ struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset
     cells->width = width;
     cells->height = height;
     cells->charset = charset;
-    cells->canvas = (struct ceduo_canvas){&surface, cells, charset == CEDUO_CHARSET_ASCII ? 1 : 2,
+    cells->canvas = (struct ceduo_canvas){&ceduo_cells_surface, cells, charset == CEDUO_CHARSET_ASCII ? 1 : 2,
                                           charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};
     cells->cell = calloc(cell_count(cells), sizeof *cells->cell);
     if (!cells->cell) {
@@ -57,11 +54,10 @@ void ceduo_cells_clear(struct ceduo_cells *cells)
 {
     memset(cells->cell, 0, cell_count(cells) * sizeof *cells->cell);
     if (cells->density != NULL)
-        memset(cells->density, 0, dot_count(cells) * sizeof *cells->density);
+        memset(cells->density, 0, ceduo_cells_dots(cells) * sizeof *cells->density);
 }
 
-/* NULL outside. */
-static struct ceduo_cell *cell_at(const struct ceduo_cells *cells, int column, int row)
+struct ceduo_cell *ceduo_cells_at(const struct ceduo_cells *cells, int column, int row)
 {
     if (column < 0 || column >= cells->width || row < 0 || row >= cells->height)
         return NULL;
@@ -80,13 +76,12 @@ static int role_rank(unsigned role)
     return ranks[role];
 }
 
-/* x and y in dots of the whole grid. */
-static void set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_role role)
+void ceduo_cells_set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_role role)
 {
     if (x < 0 || y < 0 || role == CEDUO_ROLE_BLANK)
         return;
     int across = cells->canvas.dots_x, down = cells->canvas.dots_y;
-    struct ceduo_cell *cell = cell_at(cells, x / across, y / down);
+    struct ceduo_cell *cell = ceduo_cells_at(cells, x / across, y / down);
     if (cell == NULL)
         return;
     unsigned bit = (unsigned)(y % down * across + x % across);
@@ -95,9 +90,9 @@ static void set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_role rol
         cell->role = (uint8_t)role;
 }
 
-static void set_code(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, uint32_t code)
+void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, uint32_t code)
 {
-    struct ceduo_cell *cell = cell_at(cells, column, row);
+    struct ceduo_cell *cell = ceduo_cells_at(cells, column, row);
     if (cell == NULL || role == CEDUO_ROLE_BLANK)
         return;
     cell->code = code;
@@ -181,7 +176,7 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
     uint32_t code;
     while (count < INT_MAX && (code = next_code(&reader)) != 0) {
         if (column < cells->width)
-            set_code(cells, column++, row, role, code);
+            ceduo_cells_set_code(cells, column++, row, role, code);
         ++count;
     }
     return count;
@@ -253,13 +248,13 @@ static uint32_t glyph_of(const struct ceduo_cell *cell, enum ceduo_charset chars
 
 uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row)
 {
-    const struct ceduo_cell *cell = cell_at(cells, column, row);
+    const struct ceduo_cell *cell = ceduo_cells_at(cells, column, row);
     return cell == NULL ? ' ' : glyph_of(cell, cells->charset);
 }
 
 enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, int row)
 {
-    const struct ceduo_cell *cell = cell_at(cells, column, row);
+    const struct ceduo_cell *cell = ceduo_cells_at(cells, column, row);
     return cell == NULL ? CEDUO_ROLE_BLANK : (enum ceduo_role)cell->role;
 }
 
@@ -324,143 +319,3 @@ char *ceduo_cells_roles(const struct ceduo_cells *cells)
     *to = '\0';
     return roles;
 }
-
-/* ---- Pictures ---- */
-
-/* The nearest of n dots. */
-static int nearest(double position, int n)
-{
-    return (int)lround(fmin(fmax(position, 0.0), n - 1));
-}
-
-/* Counts in how many ways a dot lies; once in a dot in which one part of a way ends and the next begins. */
-static void count_dot(struct ceduo_cells *cells, struct ceduo_pen *pen, int x, int y)
-{
-    int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;
-    if (!cells->density || x < 0 || x >= width || y < 0 || y >= height || (x == pen->last_x && y == pen->last_y))
-        return;
-    pen->last_x = x;
-    pen->last_y = y;
-    uint32_t *count = &cells->density[(size_t)y * (size_t)width + (size_t)x];
-    *count += *count < UINT32_MAX;
-}
-
-static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
-{
-    const struct ceduo_raster *r = &pen->raster;
-    int x = nearest(a.x, r->nx), y = nearest(a.y, r->ny);
-    int dx = nearest(b.x, r->nx) - x, dy = nearest(b.y, r->ny) - y;
-    int dots = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
-    for (int i = 0; i <= dots; i += pen->stroke == CEDUO_STROKE_DOTTED ? 2 : 1) {
-        double part = dots > 0 ? (double)i / dots : 0;
-        int at_x = r->left + x + (int)lround(part * dx), at_y = r->top + y + (int)lround(part * dy);
-        if (pen->stroke == CEDUO_STROKE_WAY)
-            count_dot(to, pen, at_x, at_y);
-        else
-            set_dot(to, at_x, at_y, pen->role);
-    }
-}
-
-/* To an eighth of a cell, in ASCII to a cell. */
-static void draw_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
-{
-    enum { full_block = 0x2588, eighth_block = 0x258F };
-    const struct ceduo_cells *cells = to;
-    bool ascii = cells->charset == CEDUO_CHARSET_ASCII;
-    int parts = ascii ? 1 : 8; /* of a cell */
-    int length = (int)lround(fraction * width * parts);
-    length = length < 1 ? 1 : length;
-    for (int i = 0; i < length / parts; ++i)
-        set_code(to, column + i, row, role, ascii ? '#' : full_block);
-    if (length % parts > 0)
-        set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
-}
-
-static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const int *rows)
-{
-    for (int row = frame->top; row < frame->top + frame->height; ++row)
-        ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
-    for (int i = 0; i < count; ++i)
-        ceduo_cells_label(to, frame->left - 1, rows[i], CEDUO_ROLE_AXIS, "\xe2\x94\xa4");
-}
-
-/* Meets the left axis in a corner if that was drawn before. */
-static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count, const int *columns)
-{
-    int row = frame->top + frame->height;
-    const struct ceduo_cell *above = cell_at(to, frame->left - 1, row - 1);
-    if (above && above->code != 0 && above->role == CEDUO_ROLE_AXIS)
-        ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x94");
-    for (int column = frame->left; column < frame->left + frame->width; ++column)
-        ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, "\xe2\x94\x80");
-    for (int i = 0; i < count; ++i)
-        ceduo_cells_label(to, columns[i], row, CEDUO_ROLE_AXIS, "\xe2\x94\xac");
-}
-
-static bool start_cloud(void *to)
-{
-    struct ceduo_cells *cells = to;
-    free(cells->density);
-    cells->density = calloc(dot_count(cells), sizeof *cells->density);
-    return cells->density != NULL;
-}
-
-/* How many dots were passed, but no more than `limit` times. */
-static size_t passed_dots(const struct ceduo_cells *cells, uint32_t limit)
-{
-    size_t n = dot_count(cells);
-    size_t passed = 0;
-    for (size_t i = 0; i < n; ++i)
-        passed += cells->density[i] > 0 && cells->density[i] <= limit;
-    return passed;
-}
-
-/* Halves the range of counts rather than sorting them: no memory, and at most 32 passes. */
-static uint32_t density_level(const struct ceduo_cells *cells, double quantile)
-{
-    size_t all = passed_dots(cells, UINT32_MAX);
-    if (all == 0)
-        return 0;
-    double wanted = quantile > 0.0 ? fmax(fmin(quantile, 1.0) * (double)all, 1.0) : 1.0;
-    uint32_t lo = 1;
-    uint32_t hi = UINT32_MAX;
-    while (lo < hi) {
-        uint32_t middle = lo + (hi - lo) / 2;
-        if ((double)passed_dots(cells, middle) >= wanted)
-            hi = middle;
-        else
-            lo = middle + 1;
-    }
-    return lo;
-}
-
-static void show_cloud(void *to, double quantile)
-{
-    struct ceduo_cells *cells = to;
-    uint32_t level = cells->density ? density_level(cells, quantile) : 0;
-    int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;
-    const uint32_t *count = cells->density;
-    for (int y = 0; level > 0 && y < height; ++y)
-        for (int x = 0; x < width; ++x, ++count)
-            if (*count >= level)
-                set_dot(cells, x, y, CEDUO_ROLE_CLOUD);
-}
-
-static int put_label(void *to, int column, int row, enum ceduo_role role, const char *text)
-{
-    return ceduo_cells_label(to, column, row, role, text);
-}
-
-static int label_width(const void *to, const char *text)
-{
-    const struct ceduo_cells *cells = to;
-    return ceduo_cells_label_width(cells->charset, text);
-}
-
-static bool is_blank(const void *to, int column, int row)
-{
-    return ceduo_cells_glyph(to, column, row) == ' ';
-}
-
-static const struct ceduo_surface surface = {put_label,      label_width,      is_blank,    draw_line, draw_bar,
-                                             draw_axis_left, draw_axis_bottom, start_cloud, show_cloud};

@@ -71,6 +71,20 @@ int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most
 /* The number of cells a text takes in a character set. */
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text);
 
+/* ---- For the surface (cells_surface.c) ---- */
+
+extern const struct ceduo_surface ceduo_cells_surface;
+
+/* The cell at a place; NULL outside the grid. */
+struct ceduo_cell *ceduo_cells_at(const struct ceduo_cells *cells, int column, int row);
+
+/* The number of dots of the whole grid. */
+size_t ceduo_cells_dots(const struct ceduo_cells *cells);
+
+/* Draw one dot, counted in dots of the whole grid; write one character. */
+void ceduo_cells_set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_role role);
+void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, uint32_t code);
+
 /* ---- Output ---- */
 
 /* What a cell shows: a code point, ' ' where it is empty or outside the grid; and its role. */
