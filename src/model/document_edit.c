@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implements edits: each makes a changed copy of the tree and commits it. */
-#include "document_parts.h"
+#include "document.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "document_parts.h"
 #include "io/resolve.h"
 
 /* ---- trees ---- */

@@ -2,7 +2,11 @@
 #ifndef CEDUO_DOCUMENT_PARTS_H
 #define CEDUO_DOCUMENT_PARTS_H
 
-#include "document.h"
+#include <stdbool.h>
+
+struct document;
+struct node;
+struct problems;
 
 /* Shared by the files that implement document.h. */
 

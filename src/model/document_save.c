@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implements saving, and the copy of unsaved work that survives a crash. */
-#include "document_parts.h"
+#include "document.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/intl.h"
+#include "document_parts.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"
