@@ -3,9 +3,13 @@
  *
  * A state is a tree; trees share what they have in common, and all lie in the arena of the scene's file, which is freed
  * when the document closes. What is shown is the scene bound from one of them. */
+#include "document.h"
+
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/grow.h"
 #include "base/intl.h"
-#include "document.h"
 #include "document_parts.h"
 #include "io/resolve.h"
 #include "recovery.h"
