@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "expect.h"
+
 #include "unit/grid.h"
 
 /* ---- Ticks ---- */
@@ -38,7 +40,7 @@ static void ticks_are_round(void **state)
     expect_ticks(1203, 1297, 5, "1220 1240 1260 1280");
     double tenths[4];
     assert_int_equal(ceduo_ticks(0, 0.3, 4, tenths, NULL), 4);
-    assert_true(tenths[3] == 0.3); /* the nearest number there is, and not 3 * 0.1 */
+    EXPECT(tenths[3], ==, 0.3); /* the nearest number there is, and not 3 * 0.1 */
 }
 
 static void ticks_of_awkward_ranges(void **state)
@@ -80,7 +82,8 @@ static void ticks_are_evenly_spaced_and_never_too_many(void **state)
             int count = ceduo_ticks(lo, hi, max_count, ticks, &step);
             assert_in_range(count, 1, max_count);
             for (int j = 0; j < count; ++j) {
-                assert_true(ticks[j] >= lo - 1e-6 * step && ticks[j] <= hi + 1e-6 * step);
+                EXPECT(ticks[j], >=, lo - 1e-6 * step);
+                EXPECT(ticks[j], <=, hi + 1e-6 * step);
                 assert_true(j == 0 || fabs(ticks[j] - ticks[j - 1] - step) < 1e-6 * step);
             }
         }
@@ -223,7 +226,7 @@ static void bottom_labels_never_touch(void **state)
                 ticks += *c == '+';
             }
             assert_int_equal(words_in(labels), ticks);
-            assert_true(strlen(labels) <= (size_t)width + 2);
+            EXPECT(strlen(labels), <=, (size_t)width + 2);
         }
         ceduo_cells_free(cells);
     }

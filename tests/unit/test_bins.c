@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures that are read from counts in bins: the middle of a bin, never more than the largest value, and of a quantile
  * the value of its rank. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "expect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,10 +31,11 @@ static void a_cell_reads_the_middle_of_a_bin(void **state)
     (void)state;
     const double values[] = {1.5, 2};
     struct ceduo_envelope e = cell_of(values, 2);
-    assert_true(e.speed.p5 == 97. / 64 && e.speed.p50 == 97. / 64);
-    assert_true(e.height.p50 == 97. / 128);
-    assert_true(e.energy.p50 == 2 * 97. / 64);
-    assert_true(e.mean_energy == (2 * 97. / 64 + 4 * 65. / 64) / 2);
+    EXPECT(e.speed.p5, ==, 97. / 64);
+    EXPECT(e.speed.p50, ==, 97. / 64);
+    EXPECT(e.height.p50, ==, 97. / 128);
+    EXPECT(e.energy.p50, ==, 2 * 97. / 64);
+    EXPECT(e.mean_energy, ==, (2 * 97. / 64 + 4 * 65. / 64) / 2);
 }
 
 /* The middle of the last bin lies above all that is in it. */
@@ -48,10 +44,14 @@ static void a_cell_reads_no_more_than_the_largest(void **state)
     (void)state;
     const double values[] = {1.5, 2};
     struct ceduo_envelope e = cell_of(values, 2);
-    assert_true(e.speed.p95 == 2 && e.speed.max == 2);
-    assert_true(e.height.p95 == 1 && e.energy.p95 == 4);
+    EXPECT(e.speed.p95, ==, 2);
+    EXPECT(e.speed.max, ==, 2);
+    EXPECT(e.height.p95, ==, 1);
+    EXPECT(e.energy.p95, ==, 4);
     e = cell_of(values, 1);
-    assert_true(e.speed.p5 == 1.5 && e.speed.p50 == 1.5 && e.speed.p95 == 1.5);
+    EXPECT(e.speed.p5, ==, 1.5);
+    EXPECT(e.speed.p50, ==, 1.5);
+    EXPECT(e.speed.p95, ==, 1.5);
 }
 
 /* Of 20 rocks 5, 50 and 95 % are the 1st, the 10th and the 19th; of 21 the 2nd, the 11th and the 20th. */
@@ -62,11 +62,13 @@ static void a_cell_reads_the_rock_of_the_rank(void **state)
     for (int i = 0; i < 21; i++)
         values[i] = ldexp(1, i);
     struct ceduo_envelope e = cell_of(values, 20);
-    assert_true(e.speed.p5 == ldexp(65. / 64, 0) && e.speed.p50 == ldexp(65. / 64, 9) &&
-                e.speed.p95 == ldexp(65. / 64, 18));
+    EXPECT(e.speed.p5, ==, ldexp(65. / 64, 0));
+    EXPECT(e.speed.p50, ==, ldexp(65. / 64, 9));
+    EXPECT(e.speed.p95, ==, ldexp(65. / 64, 18));
     e = cell_of(values, 21);
-    assert_true(e.speed.p5 == ldexp(65. / 64, 1) && e.speed.p50 == ldexp(65. / 64, 10) &&
-                e.speed.p95 == ldexp(65. / 64, 19));
+    EXPECT(e.speed.p5, ==, ldexp(65. / 64, 1));
+    EXPECT(e.speed.p50, ==, ldexp(65. / 64, 10));
+    EXPECT(e.speed.p95, ==, ldexp(65. / 64, 19));
 }
 
 /* ---- histograms of long runs: 16384 bins an octave ---- */
@@ -79,15 +81,18 @@ static void a_histogram_reads_the_middle_of_a_bin(void **state)
 {
     (void)state;
     struct histogram h = {0};
-    assert_true(ceduo_histogram_add(&h, 1) && ceduo_histogram_add(&h, 3));
-    assert_true(ceduo_histogram_value(&h, 1) == MIDDLE);
-    assert_true(ceduo_histogram_value(&h, 2) == 2 * (1.5 + 1. / 32768));
+    assert_true(ceduo_histogram_add(&h, 1));
+    assert_true(ceduo_histogram_add(&h, 3));
+    EXPECT(ceduo_histogram_value(&h, 1), ==, MIDDLE);
+    EXPECT(ceduo_histogram_value(&h, 2), ==, 2 * (1.5 + 1. / 32768));
     ceduo_histogram_clear(&h);
 }
 
 static void expect_cut(const struct ceduo_distribution *d, double p50, double p95, double p99, double lo, double hi)
 {
-    assert_true(d->p50 == p50 && d->p95 == p95 && d->p99 == p99);
+    EXPECT(d->p50, ==, p50);
+    EXPECT(d->p95, ==, p95);
+    EXPECT(d->p99, ==, p99);
     assert_true(isnan(lo) ? isnan(d->p95_lo) : d->p95_lo == lo);
     assert_true(isnan(hi) ? isnan(d->p95_hi) : d->p95_hi == hi);
 }
@@ -108,7 +113,7 @@ static void a_distribution_of_bins_has_no_more_than_the_largest(void **state)
         }
         struct ceduo_distribution d = ceduo_distribution_binned(&h, &m);
         double first = ldexp(1, -50);
-        assert_true(d.max == ldexp(first, (int)sizes[k] - 1));
+        EXPECT(d.max, ==, ldexp(first, (int)sizes[k] - 1));
         if (sizes[k] == 1)
             expect_cut(&d, first, first, first, NAN, NAN);
         else if (sizes[k] == 2)

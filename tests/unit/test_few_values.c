@@ -39,11 +39,13 @@ static void intervals_of_few_values(void **state)
         for (size_t n = 1; n <= 120; n++) {
             size_t lo, hi;
             ceduo_quantile_interval(n, p[i], &lo, &hi);
-            assert_true(lo <= n && hi >= 1 && hi <= n + 1);
+            EXPECT(lo, <=, n);
+            EXPECT(hi, >=, 1);
+            EXPECT(hi, <=, n + 1);
             assert_true(lo == 0 || binomial(n, p[i], lo - 1) < .025 + 1e-9);
-            assert_true(binomial(n, p[i], lo) > .025 - 1e-9);
+            EXPECT(binomial(n, p[i], lo), >, .025 - 1e-9);
             assert_true(hi < 2 || binomial(n, p[i], hi - 2) < .975 + 1e-9);
-            assert_true(binomial(n, p[i], hi - 1) > .975 - 1e-9);
+            EXPECT(binomial(n, p[i], hi - 1), >, .975 - 1e-9);
         }
     assert_int_equal(ceduo_quantile_rank(10, 0), 1);
     assert_int_equal(ceduo_quantile_rank(10, 1), 10);
@@ -54,7 +56,7 @@ static void expect_near(double found, double wanted, double relative)
     if (isnan(wanted))
         assert_true(isnan(found));
     else
-        assert_true(fabs(found - wanted) <= relative * wanted);
+        EXPECT_NEAR(found, wanted, relative * wanted);
 }
 
 /* Values of all sizes, some of them 0: exact as sorted, binned but for the width of a bin. */
@@ -109,17 +111,17 @@ static void values_beyond_every_bin(void **state)
         assert_true(ceduo_histogram_add(&h, values[i]));
     assert_int_equal(h.n, 5);
     assert_int_equal(h.zeros, 2);
-    assert_true(ceduo_histogram_value(&h, 2) == 0);
+    EXPECT(ceduo_histogram_value(&h, 2), ==, 0);
     expect_near(ceduo_histogram_value(&h, 3), 5.5e-20, 3.1e-5);
     expect_near(ceduo_histogram_value(&h, 4), 1, 3.1e-5);
-    assert_true(ceduo_histogram_value(&h, 5) > 9e18); /* in the last octave */
+    EXPECT(ceduo_histogram_value(&h, 5), >, 9e18); /* in the last octave */
     assert_true(isnan(ceduo_histogram_value(&h, 6)));
     assert_true(ceduo_histogram_reserve(&more, &h));
     ceduo_histogram_merge(&more, &h);
     ceduo_histogram_merge(&more, &h);
     assert_int_equal(more.n, 10);
     for (uint64_t rank = 1; rank <= 10; rank++)
-        assert_true(ceduo_histogram_value(&more, rank) == ceduo_histogram_value(&h, (rank + 1) / 2));
+        EXPECT(ceduo_histogram_value(&more, rank), ==, ceduo_histogram_value(&h, (rank + 1) / 2));
     ceduo_histogram_clear(&more);
     struct bytes b = {0};
     assert_true(ceduo_histogram_pack(&h, &b, 0));
@@ -180,8 +182,12 @@ static void cells_take_any_value(void **state)
     ceduo_envelope_settle(cell);
     ceduo_envelope_read(cell, &e);
     assert_int_equal(e.passed, 1);
-    assert_true(e.speed.max == 1e200 && e.energy.max == 1e300 && e.height.max == 1e-200);
-    assert_true(e.speed.p50 > 1e4 && e.energy.p50 > 1e9 && e.height.p50 == 0);
+    EXPECT(e.speed.max, ==, 1e200);
+    EXPECT(e.energy.max, ==, 1e300);
+    EXPECT(e.height.max, ==, 1e-200);
+    EXPECT(e.speed.p50, >, 1e4);
+    EXPECT(e.energy.p50, >, 1e9);
+    EXPECT(e.height.p50, ==, 0);
     free(cell);
 }
 
@@ -220,7 +226,8 @@ static void a_search_ends_at_once(void **state)
         atomic_store(&cancel, false);
         assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
         unsigned all = looked;
-        assert_true(found.found == (kind < 2) && all > 5);
+        EXPECT(found.found, ==, (kind < 2));
+        EXPECT(all, >, 5);
         for (when = 1; when < all; when++)
             for (int k = 0; k < 2; k++) {
                 def.goal = k == 0 ? give_up : refuse;
@@ -250,8 +257,11 @@ static void goals_without_end(void **state)
         double pair[2] = {levels[i][0], levels[i][1]};
         const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = .5, .goal = steps_down, .context = pair};
         assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
-        assert_true(found.found && found.value >= 3 && found.value < 3 + 1e-7);
-        assert_true(found.goal_at_value == levels[i][1] && found.side == CEDUO_SMALLEST);
+        assert_true(found.found);
+        EXPECT(found.value, >=, 3);
+        EXPECT(found.value, <, 3 + 1e-7);
+        EXPECT(found.goal_at_value, ==, levels[i][1]);
+        EXPECT(found.side, ==, CEDUO_SMALLEST);
     }
 }
 
@@ -270,12 +280,18 @@ static void few_values_and_too_many(void **state)
     double top = 10;
     struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = falls, .context = &top, .tolerance = .5};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
-    assert_true(found.found && found.value >= 4.5 && found.value < 4.5 + 4 && found.side == CEDUO_SMALLEST);
+    assert_true(found.found);
+    EXPECT(found.value, >=, 4.5);
+    EXPECT(found.value, <, 4.5 + 4);
+    EXPECT(found.side, ==, CEDUO_SMALLEST);
     assert_int_equal(found.evaluations, 3);
     def = (struct ceduo_find_def){.lo = 0, .hi = 1e300, .whole = true, .target = 5.5, .goal = falls, .context = &top};
     assert_int_equal(ceduo_find(&def, &found), CEDUO_OK);
-    assert_true(found.found && found.value >= 5 && found.goal_at_value <= 5.5);
-    assert_true(found.evaluations > 55 && found.evaluations < 200);
+    assert_true(found.found);
+    EXPECT(found.value, >=, 5);
+    EXPECT(found.goal_at_value, <=, 5.5);
+    EXPECT(found.evaluations, >, 55);
+    EXPECT(found.evaluations, <, 200);
 }
 
 int main(void)

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files: where they are found, what is read of them, how they are written and what is left beside them. */
+#include "expect.h"
+
 #include "folder.h"
 
 #include <errno.h>
@@ -149,7 +151,8 @@ static void long_names_are_written(void **state)
         char dead[512];
         snprintf(dead, sizeof dead, "%s/%s%.218s.ceduo-tmp-4194304-12", folder, longer ? "x" : "", name);
         int fd = open(dead, O_CREAT | O_WRONLY, 0600);
-        assert_true(fd >= 0 && close(fd) == 0);
+        EXPECT(fd, >=, 0);
+        EXPECT(close(fd), ==, 0);
         ceduo_file_tidy(path);
         assert_int_equal(access(dead, F_OK), -1);
     }
@@ -172,7 +175,7 @@ static void only_dead_temporaries_are_removed(void **state)
     for (size_t i = 0; i < LENGTH(rows); i++) {
         in_folder(path, rows[i].name);
         int fd = open(path, O_CREAT | O_WRONLY, 0600);
-        assert_true(fd >= 0);
+        EXPECT(fd, >=, 0);
         if (i == 2) {
             assert_int_equal(flock(fd, LOCK_EX), 0); /* that of a living writer */
             held = fd;
@@ -266,7 +269,9 @@ static void files_are_the_same(void **state)
     in_folder(other, "other");
     in_folder(none, "none");
     assert_int_equal(symlink("some", link), 0);
-    assert_true(ceduo_file_same(path, path) && ceduo_file_same(path, link) && ceduo_file_same(link, path));
+    assert_true(ceduo_file_same(path, path));
+    assert_true(ceduo_file_same(path, link));
+    assert_true(ceduo_file_same(link, path));
     assert_false(ceduo_file_same(path, other) || ceduo_file_same(path, none) || ceduo_file_same(none, path));
     assert_false(ceduo_file_same(folder, folder)); /* nothing is read from one, or written */
     int was = dup(STDIN_FILENO), fd = open(path, O_RDONLY);

@@ -88,13 +88,13 @@ static void a_search_comes_first(void **state)
     struct jobs_news news = ceduo_jobs_news(jobs);
     assert_non_null(news.sought);
     assert_int_equal(news.sought->status, CEDUO_OK);
-    assert_true(file.scene.rock.diameter.mean == diameter);
+    EXPECT(file.scene.rock.diameter.mean, ==, diameter);
     struct ceduo_found alone;
     struct problems problems = {0};
     seek.threads = 1;
     assert_int_equal(ceduo_seek(&seek, &alone, &problems), CEDUO_OK);
     assert_true(alone.found);
-    assert_true(alone.value == news.sought->found.value);
+    EXPECT(alone.value, ==, news.sought->found.value);
     assert_int_equal(alone.evaluations, news.sought->found.evaluations);
     release(&news);
     assert_false(ceduo_jobs_wait_seek(jobs));
@@ -117,7 +117,7 @@ static void a_search_is_stopped(void **state)
     double start = ceduo_clock();
     ceduo_jobs_stop_seek(jobs);
     ceduo_jobs_wait(jobs);
-    assert_true(ceduo_clock() - start < 1); /* 0.1 s where nobody else wants the machine */
+    EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s where nobody else wants the machine */
     struct jobs_news news = ceduo_jobs_news(jobs);
     assert_null(news.sought);
     assert_false(news.failed);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What runs give for pictures. */
+#include "expect.h"
+
 #include "unit/site.h"
 
 /* The runs of a scene, flown. */
@@ -33,10 +35,10 @@ static void places_lie_beyond_the_release(void **state)
     double x[CEDUO_OUTLOOK_CELLS];
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
     assert_int_equal(ceduo_outlook_places(&s.scene, x), CEDUO_OUTLOOK_CELLS);
-    assert_true(x[0] > 12);
+    EXPECT(x[0], >, 12);
     for (int i = 1; i < CEDUO_OUTLOOK_CELLS; i++)
-        assert_true(x[i] > x[i - 1]);
-    assert_true(x[CEDUO_OUTLOOK_CELLS - 1] <= 100);
+        EXPECT(x[i], >, x[i - 1]);
+    EXPECT(x[CEDUO_OUTLOOK_CELLS - 1], <=, 100);
     s.scene.release.x = ceduo_number(100);
     assert_int_equal(ceduo_outlook_places(&s.scene, x), 0);
 }
@@ -50,13 +52,13 @@ static void expect_sight(const struct ceduo_sight *sight, const struct ceduo_run
         const struct ceduo_arrivals *found = &sight->flown.arrivals[c];
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, c, &a), CEDUO_OK);
-        assert_true(a.reached > 0);
+        EXPECT(a.reached, >, 0);
         assert_int_equal(found->reached, a.reached);
         assert_int_equal(sight->energies[c].n, a.reached);
         double sum = 0;
         for (size_t i = 0; i < sight->energies[c].n; i++)
             sum += sight->energies[c].values[i];
-        assert_true(fabs(sum / (double)a.reached - found->energy.mean) < 1e-6 * sum);
+        EXPECT_NEAR(sum / (double)a.reached, found->energy.mean, 1e-6 * sum);
     }
     for (size_t i = 0; i < cells; i++) {
         struct ceduo_envelope e;
@@ -79,10 +81,10 @@ static void outlook_is_what_the_runs_say(void **state)
     assert_int_equal(o->controls, 2);
     assert_int_equal(o->options, 2);
     for (size_t i = 0; i < cells; i++)
-        assert_true(o->cell_x[i] == x[i]);
+        EXPECT(o->cell_x[i], ==, x[i]);
     expect_sight(o->bare, ceduo_pool_find(pool, NULL), cells);
     expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]), cells);
-    assert_true(o->wooded[0]->flown.arrivals[1].reached < o->bare->flown.arrivals[1].reached);
+    EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
     assert_int_equal(o->bare->trails_count, 20);
     assert_int_equal(o->wooded[0]->trails_count, 20);
     assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->wooded[0]);
@@ -106,9 +108,9 @@ static void a_forest_without_stems_is_the_bare_slope(void **state)
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
     for (size_t c = 0; c < 2; c++) {
-        assert_true(o->differences[c].reach_probability.mean == 0);
+        EXPECT(o->differences[c].reach_probability.mean, ==, 0);
         double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
-        assert_true(fabs(o->differences[2 + c].reach_probability.mean - more) < 1e-12);
+        EXPECT_NEAR(o->differences[2 + c].reach_probability.mean, more, 1e-12);
     }
     ceduo_outlook_free(o);
     ceduo_pool_free(pool);
@@ -173,7 +175,7 @@ static void figures_come_from_the_longer_run(void **state)
     struct ceduo_outlook *o = outlook_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 600);
     assert_int_equal(o->wooded[0]->picture_rocks, 300);
-    assert_true(o->wooded[0]->envelopes[0].passed <= 300);
+    EXPECT(o->wooded[0]->envelopes[0].passed, <=, 300);
     ceduo_outlook_free(o);
     assert_int_equal(ceduo_pool_extend(pictures, 900), CEDUO_OK);
     o = outlook_of(&def);
@@ -216,7 +218,7 @@ static void sights_are_taken_over(void **state)
         struct ceduo_outlook *left = order ? second : first;
         assert_int_equal(left->wooded[0]->trails_count, 5);
         assert_int_equal(atomic_load(&left->wooded[0]->references), 1);
-        assert_true(left->wooded[0]->trails[4].n >= 2);
+        EXPECT(left->wooded[0]->trails[4].n, >=, 2);
         ceduo_outlook_free(left);
         ceduo_pool_free(pool);
     }
@@ -245,10 +247,10 @@ static void expect_same_energies(const struct ceduo_sight *a, const struct ceduo
 {
     for (size_t c = 0; c < 2; c++) {
         assert_false(b->flown.arrivals[c].exact);
-        assert_true(a->energies[c].n > 0);
+        EXPECT(a->energies[c].n, >, 0);
         assert_int_equal(a->energies[c].n, b->energies[c].n);
         for (size_t i = 0; i < a->energies[c].n; i++)
-            assert_true(fabs(a->energies[c].values[i] - b->energies[c].values[i]) <= 1e-9 * a->energies[c].values[i]);
+            EXPECT_NEAR(a->energies[c].values[i], b->energies[c].values[i], 1e-9 * a->energies[c].values[i]);
     }
 }
 
@@ -287,14 +289,16 @@ static void trails_follow_the_rocks(void **state)
         struct ceduo_way way;
         assert_int_equal(ceduo_way_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
         hit += way.stems_hit;
-        assert_true(t.n >= 2);
-        assert_true(t.x[0] == way.x0 && t.z[0] == way.z0);
-        assert_true(t.x[t.n - 1] == way.x && t.z[t.n - 1] == way.z);
+        EXPECT(t.n, >=, 2);
+        EXPECT(t.x[0], ==, way.x0);
+        EXPECT(t.z[0], ==, way.z0);
+        EXPECT(t.x[t.n - 1], ==, way.x);
+        EXPECT(t.z[t.n - 1], ==, way.z);
         for (size_t k = 0; k < t.n; k++)
             if (t.x[k] >= 0 && t.x[k] <= 100)
-                assert_true(t.z[k] > ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
+                EXPECT(t.z[k], >, ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
     }
-    assert_true(hit > 0);
+    EXPECT(hit, >, 0);
     ceduo_outlook_free(o);
     ceduo_pool_free(pool);
 }
@@ -314,9 +318,9 @@ static void flights_are_sampled_finely(void **state)
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
         double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
-        assert_true(fabs(z - (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds) < 0.06); /* a step is 0.05 m */
+        EXPECT_NEAR(z, (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds, 0.06); /* a step is 0.05 m */
     }
-    assert_true(checked > 3);
+    EXPECT(checked, >, 3);
     ceduo_outlook_free(o);
     ceduo_pool_free(pool);
 }

@@ -43,8 +43,13 @@ static void parts_are_read_back(void **state)
     char *copy = strdup(line.bytes);
     assert_int_equal(ceduo_part_read(&arena, &part, copy, line.length), PART_GOOD);
     assert_string_equal(part.scene, "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8");
-    assert_true(part.shard == 1 && part.shards == 2 && part.place == 3 && part.rocks == 10 && part.seconds == 0.5);
-    assert_true(part.inputs_length == 7 && part.runs_length == 5);
+    EXPECT(part.shard, ==, 1);
+    EXPECT(part.shards, ==, 2);
+    EXPECT(part.place, ==, 3);
+    EXPECT(part.rocks, ==, 10);
+    EXPECT(part.seconds, ==, 0.5);
+    EXPECT(part.inputs_length, ==, 7);
+    EXPECT(part.runs_length, ==, 5);
     assert_memory_equal(part.inputs, "seven!\n", 7);
     assert_memory_equal(part.runs, "seven", 5);
     free(copy);
@@ -68,7 +73,9 @@ static enum part_fault changed(const struct text *line, const char *from, const 
 {
     static const char sum[] = ", \"sum\": \"";
     const char *at = strstr(line->bytes, from), *end = strstr(line->bytes, sum);
-    assert_true(at && end && at < end);
+    assert_true(at);
+    assert_true(end);
+    assert_true(at < end);
     struct text text = {0};
     struct arena arena = {0};
     struct part part;

@@ -103,9 +103,13 @@ static void no_rock_no_figures(void **state)
     assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
     site.scene.rock.diameter.mean = 0;
     struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
-    assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated) && !stand.passes_threshold);
+    assert_true(isnan(stand.adc_m));
+    assert_true(isnan(stand.contacts));
+    assert_true(isnan(stand.dissipated));
+    assert_false(stand.passes_threshold);
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
-    assert_true(isnan(index.measured) && index.contact != CEDUO_PASS);
+    assert_true(isnan(index.measured));
+    EXPECT(index.contact, !=, CEDUO_PASS);
     assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
@@ -255,7 +259,8 @@ static void tables_of_stools_have_an_end(void **state)
     const struct ceduo_simulation *simulation = &site.scene.simulation;
     struct wood wood;
     assert_true(ceduo_wood_init(&wood, simulation, &site.option, .68));
-    assert_true(wood.places >= 63 && wood.places < 1000);
+    EXPECT(wood.places, >=, 63);
+    EXPECT(wood.places, <, 1000);
     ceduo_wood_release(&wood);
     site.belts[0].stand.stools_per_ha = 1e6;
     site.plots[0].shoots.per_ha = 1e10;
@@ -303,7 +308,7 @@ static void growth_is_known_or_not(void **state)
     stand->shoots_count = 0; /* trees alone: cut when they are old enough, if that is known */
     stand->stools_per_ha = 0;
     stand->growth = (struct ceduo_growth){.sdi_most = 0};
-    assert_true(stand->trees_count == 1);
+    EXPECT(stand->trees_count, ==, 1);
     stand->trees[0].age = NAN;
     assert_int_equal(ceduo_first_cut(stand, NAN), CEDUO_NEVER);
     stand->trees[0].age = 10;
@@ -326,19 +331,21 @@ static void belts_beside_the_way(void **state)
     struct ceduo_stand_result of_first = ceduo_assess_stand(&site.scene, &belts[0]),
                               of_second = ceduo_assess_stand(&site.scene, &belts[1]);
     double before = belts[0].to - fmax(belts[0].from, site.scene.release.x.mean);
-    assert_true(fabs(first.length - before) < 1e-12 && both.length > first.length);
-    assert_true(fabs(first.contacts - before / of_first.adc_m) < 1e-9);
-    assert_true(fabs(both.contacts - first.contacts - of_second.contacts) < 1e-9);
+    EXPECT_NEAR(first.length, before, 1e-12);
+    EXPECT(both.length, >, first.length);
+    EXPECT_NEAR(first.contacts, before / of_first.adc_m, 1e-9);
+    EXPECT(fabs(both.contacts - first.contacts - of_second.contacts), <, 1e-9);
     site.scene.release.x.mean = belts[0].to; /* the first lies behind the release */
     control.x = site.control.x;
     struct ceduo_index second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
-    assert_true(fabs(second.contacts - of_second.contacts) < 1e-9);
-    assert_true(isnan(second.residual) && !second.exhausted);
+    EXPECT_NEAR(second.contacts, of_second.contacts, 1e-9);
+    assert_true(isnan(second.residual));
+    assert_false(second.exhausted);
     control.measured_speed = 10;
     struct ceduo_rock rock;
     assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
     second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
-    assert_true(fabs(second.measured - 50 * rock.mass) < 1e-6);
+    EXPECT_NEAR(second.measured, 50 * rock.mass, 1e-6);
     assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);
 }
 

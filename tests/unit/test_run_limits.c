@@ -26,7 +26,7 @@ static bool matters(double *number, double value)
     *number = value;
     bool other = key_of() != before;
     *number = was;
-    assert_true(key_of() == before);
+    EXPECT(key_of(), ==, before);
     return other;
 }
 
@@ -36,9 +36,13 @@ static void keys_tell_what_rocks_meet(void **state)
     paper_site_init(&site);
     struct ceduo_stand *stand = &site.belts[0].stand;
     struct ceduo_stems *shoots = &stand->shoots[0];
-    assert_true(matters(&shoots->dbh, .123) && matters(&shoots->per_ha, 1234) && matters(&shoots->dbh_sd, .01));
-    assert_true(matters(&stand->spacing, .123) && matters(&site.belts[0].to, 50));
-    assert_true(matters(&shoots->volume, 1.5) && matters(&stand->u, 12345));
+    assert_true(matters(&shoots->dbh, .123));
+    assert_true(matters(&shoots->per_ha, 1234));
+    assert_true(matters(&shoots->dbh_sd, .01));
+    assert_true(matters(&stand->spacing, .123));
+    assert_true(matters(&site.belts[0].to, 50));
+    assert_true(matters(&shoots->volume, 1.5));
+    assert_true(matters(&stand->u, 12345));
     assert_false(matters(&stand->fracture_ratio, 9) || matters(&shoots->age, 50));
     stand->energy = CEDUO_DORREN;
     assert_true(matters(&stand->fracture_ratio, 9));
@@ -51,7 +55,7 @@ static void keys_tell_what_rocks_meet(void **state)
     uint64_t key = key_of();
     stand->u = 2000;
     shoots->volume = 1;
-    assert_true(key_of() == key);
+    EXPECT(key_of(), ==, key);
     stand->trees_count = trees;
     /* where diameters differ, a volume that is given goes with them, and one that is not is the species' */
     shoots->dbh_sd = .01;
@@ -59,22 +63,23 @@ static void keys_tell_what_rocks_meet(void **state)
     int species = stand->species;
     key = key_of();
     stand->species = ceduo_species_find("acer");
-    assert_true(key_of() != key);
+    EXPECT(key_of(), !=, key);
     stand->species = species;
     site.scene.simulation.contact_model = CEDUO_POISSON;
     key = key_of();
     site.scene.simulation.rule = CEDUO_CROFTON;
-    assert_true(key_of() != key);
+    EXPECT(key_of(), !=, key);
     site.scene.simulation.contact_model = CEDUO_INDEX;
-    assert_true(key_of() == 0);
+    EXPECT(key_of(), ==, 0);
     site.scene.simulation.contact_model = CEDUO_STEMS;
     for (size_t i = 0; i < 2; i++)
         site.belts[i].stand.shoots_count = site.belts[i].stand.trees_count = 0;
-    assert_true(key_of() == 0); /* bare: as without forest */
+    EXPECT(key_of(), ==, 0); /* bare: as without forest */
     site.belts[1].stand.shoots_count = 1;
     key = key_of();
     site.belts[0].to -= 1;
-    assert_true(key != 0 && key_of() == key);
+    EXPECT(key, !=, 0);
+    EXPECT(key_of(), ==, key);
 }
 
 /* ---- runs ---- */
@@ -143,7 +148,8 @@ static void rocks_that_cannot_be_drawn(void **state)
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    assert_true(bad > 50 && bad < 250);
+    EXPECT(bad, >, 50);
+    EXPECT(bad, <, 250);
     assert_int_equal(e.count[CEDUO_UNFINISHED], bad);
     assert_int_equal(a.unfinished, bad);
     assert_int_equal(a.reached, reached);
@@ -175,9 +181,11 @@ static void each_spread_is_drawn(void **state)
                 continue;
             double speed = sqrt(c.vx * c.vx + c.vz * c.vz);
             double energy = .5 * way.rock.mass * (speed * speed) + .5 * way.rock.moment * (c.spin * c.spin);
-            assert_true(reached < n && energies[reached++] == energy);
+            EXPECT(reached, <, n);
+            assert_true(energies[reached++] == energy);
         }
-        assert_true(reached == n && n > 5);
+        EXPECT(reached, ==, n);
+        EXPECT(n, >, 5);
         ceduo_follower_free(follower);
         ceduo_run_free(run);
     }
@@ -213,10 +221,15 @@ static void looking_on_changes_nothing(void **state)
         for (int i = 0; i < 4; i++) {
             seen = 0;
             assert_int_equal(ceduo_way_follow(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
-            assert_true(way.x == alone.x && way.z == alone.z && way.end == alone.end && way.contacts == alone.contacts);
-            assert_true(way.stems_hit == alone.stems_hit && way.stems_drawn == alone.stems_drawn);
+            EXPECT(way.x, ==, alone.x);
+            EXPECT(way.z, ==, alone.z);
+            EXPECT(way.end, ==, alone.end);
+            EXPECT(way.contacts, ==, alone.contacts);
+            EXPECT(way.stems_hit, ==, alone.stems_hit);
+            EXPECT(way.stems_drawn, ==, alone.stems_drawn);
             assert_int_equal(seen % 1000000 > 0, i < 2);
-            assert_true(seen / 1000000 >= (i % 2 == 0 ? alone.stems_hit : 0) && (i % 2 == 0 || seen < 1000000));
+            EXPECT(seen / 1000000, >=, (i % 2 == 0 ? alone.stems_hit : 0));
+            assert_true(i % 2 == 0 || seen < 1000000);
         }
     }
 }
@@ -241,7 +254,9 @@ static void a_rock_without_end(void **state)
     struct ceduo_envelope e;
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
     ceduo_run_envelope(run, 0, &e);
-    assert_true(a.unfinished == 1 && a.reached == 0 && e.passed == 0);
+    EXPECT(a.unfinished, ==, 1);
+    EXPECT(a.reached, ==, 0);
+    EXPECT(e.passed, ==, 0);
     assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MOST);
     ceduo_run_free(run);
 }
@@ -269,8 +284,10 @@ static void differences_of_the_first_rocks(void **state)
     struct ceduo_difference all = ceduo_run_difference(exact[0], exact[1], 0), first = ceduo_run_difference(binned[0], binned[1], 0);
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_arrivals(binned[0], 0, &a), CEDUO_OK);
-    assert_true(!a.exact && a.reached == ROCKS);
-    assert_true(first.energy_per_released.mean == all.energy_per_released.mean && all.energy_per_released.mean > 0);
+    assert_false(a.exact);
+    EXPECT(a.reached, ==, ROCKS);
+    EXPECT(first.energy_per_released.mean, ==, all.energy_per_released.mean);
+    EXPECT(all.energy_per_released.mean, >, 0);
     EXPECT_NEAR(first.energy_per_released.se, all.energy_per_released.se, .01 * all.energy_per_released.se);
     for (int i = 0; i < 2; i++) {
         ceduo_run_free(exact[i]);
@@ -292,8 +309,13 @@ static void years_before_they_are_flown(void **state)
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, 0, 3, 1, &years), CEDUO_OK);
     ceduo_years_assess(years, &site.scene, &bare);
     struct ceduo_years_summary s = ceduo_years_sum(years, 0);
-    assert_true(s.years == 4 && s.flown == 0 && isnan(s.worst) && isnan(s.reach.mean) && isnan(s.exceed.mean));
-    assert_true(s.unprotected_contact == 0 && s.unprotected_energy == 0);
+    EXPECT(s.years, ==, 4);
+    EXPECT(s.flown, ==, 0);
+    assert_true(isnan(s.worst));
+    assert_true(isnan(s.reach.mean));
+    assert_true(isnan(s.exceed.mean));
+    EXPECT(s.unprotected_contact, ==, 0);
+    EXPECT(s.unprotected_energy, ==, 0);
     ceduo_years_free(years);
     ceduo_flown_free(&bare);
     ceduo_run_free(run);
@@ -318,12 +340,16 @@ static void little_is_asked_of_a_run(void **state)
         struct ceduo_envelope e;
         ceduo_run_envelope(run, i, &e);
         assert_int_equal(e.passed, 0);
-        assert_true(isnan(e.mean_energy) && isnan(e.speed.p5) && isnan(e.energy.max));
+        assert_true(isnan(e.mean_energy));
+        assert_true(isnan(e.speed.p5));
+        assert_true(isnan(e.energy.max));
     }
     uint64_t reached;
     double mean, se;
     ceduo_run_energy(run, 0, &reached, &mean, &se);
-    assert_true(reached == 0 && isnan(mean) && isnan(se));
+    EXPECT(reached, ==, 0);
+    assert_true(isnan(mean));
+    assert_true(isnan(se));
     assert_int_equal(ceduo_run_extend(run, 1000), CEDUO_OK); /* as long as it was made for */
     assert_int_equal(ceduo_run_rocks(run), 300);
     ceduo_run_free(run);
@@ -351,12 +377,15 @@ static void little_is_asked_of_a_run(void **state)
     struct ceduo_envelope at_control; /* a cell where a control is */
     ceduo_run_envelope(run, 0, &at_control);
     assert_int_equal(at_control.passed, steps.reached);
-    assert_true(at_control.speed.max == steps.speed.max && at_control.energy.max == steps.energy.max);
+    EXPECT(at_control.speed.max, ==, steps.speed.max);
+    EXPECT(at_control.energy.max, ==, steps.energy.max);
     ceduo_run_free(run);
     def.cells = 0;
     run = run_of(&def, 300);
     assert_int_equal(ceduo_run_arrivals(run, 0, &once), CEDUO_OK);
-    assert_true(steps.exact && once.exact && steps.reached > 0);
+    assert_true(steps.exact);
+    assert_true(once.exact);
+    EXPECT(steps.reached, >, 0);
     assert_memory_equal(&steps, &once, offsetof(struct ceduo_arrivals, exact));
     ceduo_run_free(run);
     site.scene.controls_count = 0; /* nobody asks what arrives; where they stop is told all the same */
@@ -370,7 +399,7 @@ static void little_is_asked_of_a_run(void **state)
     assert_int_equal(ceduo_run_ends(run, &exact), CEDUO_OK);
     ceduo_run_free(run);
     assert_memory_equal(binned.count, exact.count, sizeof exact.count);
-    assert_true(exact.stop_x.n > 0);
+    EXPECT(exact.stop_x.n, >, 0);
     EXPECT_NEAR(binned.stop_p50, exact.stop_p50, 3.1e-5 * exact.stop_p50);
 
     struct ceduo_pool *pool;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as they are read: every fault is told once, where it is, and changes are put into them. */
+#include "expect.h"
+
 #include "folder.h"
 
 #include <math.h>
@@ -192,7 +194,10 @@ static void files_that_are_followed(void **state)
             fail_msg("%s: %s", rows[i].line, problems.text.bytes);
         if (good) {
             const struct ceduo_stand *s = &file.scene.options[0].belts[0].stand;
-            assert_true(s->stools_per_ha == 1234 && s->spacing == 0.4 && s->shoots_count == 1 && s->shoots[0].per_ha == 6000);
+            EXPECT(s->stools_per_ha, ==, 1234);
+            EXPECT(s->spacing, ==, 0.4);
+            EXPECT(s->shoots_count, ==, 1);
+            EXPECT(s->shoots[0].per_ha, ==, 6000);
         }
         ceduo_text_free(&text);
         ceduo_problems_free(&problems);
@@ -380,7 +385,7 @@ static void grounds_split_segments(void **state)
         assert_int_equal(s->vertices, rows[i].vertices);
         for (size_t v = 0; v < s->vertices; v++) {
             double x = s->x[v], z = x < 40 ? 50 - x * 30 / 40 : 20 - (x - 40) * 20 / 60;
-            assert_true(fabs(s->z[v] + s->origin_z - z) < 1e-12);
+            EXPECT(fabs(s->z[v] + s->origin_z - z), <, 1e-12);
         }
         assert_true(ceduo_scene_assumes_value(&file, "slope.materials[0].material"));
         assert_false(ceduo_scene_assumes_value(&file, "slope.vertices_m[0]"));
@@ -420,7 +425,8 @@ static void problems_are_put_together(void **state)
         ceduo_problem(&problems, NULL, 0, 0, "%s end", word.bytes);
         assert_null(strstr(problems.text.bytes, "\\x"));
         assert_non_null(strstr(problems.text.bytes, "\xe2\x80\xa6 end\n"));
-        assert_true(problems.text.length > 900 && problems.text.length < 1100);
+        EXPECT(problems.text.length, >, 900);
+        EXPECT(problems.text.length, <, 1100);
         ceduo_text_free(&word);
         ceduo_problems_free(&problems);
     }
@@ -474,7 +480,8 @@ static void notes_are_found(void **state)
             assert_string_equal(note->text, rows[i].note);
         assert_int_equal(ceduo_scene_assumes_value(&file, rows[i].path), rows[i].assumed);
     }
-    assert_true(ceduo_scene_assumes(&file, "forest[0].stand") && ceduo_scene_assumes(&file, "forest"));
+    assert_true(ceduo_scene_assumes(&file, "forest[0].stand"));
+    assert_true(ceduo_scene_assumes(&file, "forest"));
     assert_false(ceduo_scene_assumes(&file, "forest[0].stand.shoots") || ceduo_scene_assumes(&file, "forest[0].sta"));
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);

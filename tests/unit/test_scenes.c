@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
+#include "expect.h"
+
 #include "folder.h"
 
 #include <math.h>
@@ -83,7 +85,8 @@ static void bases_go_eight_files_deep(void **state)
             if (n <= 8) {
                 const struct ceduo_belt *belt = &file.scene.options[0].belts[0];
                 assert_string_equal(belt->name, i == 2 ? "own" : "last");
-                assert_true(belt->stand.stools_per_ha == 2000 && belt->stand.trees[0].per_ha == 100);
+                EXPECT(belt->stand.stools_per_ha, ==, 2000);
+                EXPECT(belt->stand.trees[0].per_ha, ==, 100);
             } else {
                 snprintf(place, sizeof place,
                          "%s/8.yaml:2:7: base: more than 8 files that start from one another: a loop?\n", folder);
@@ -131,7 +134,8 @@ static void expect_ground(const struct ceduo_segment *s, const char *name)
                 {"colluvium", (0.28 + 0.30) / 2, (0.78 + 0.83) / 2}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         if (strcmp(rows[i].name, name) == 0) {
-            assert_true(fabs(s->rn.mean - rows[i].rn) < 1e-12 && fabs(s->rt.mean - rows[i].rt) < 1e-12);
+            EXPECT_NEAR(s->rn.mean, rows[i].rn, 1e-12);
+            EXPECT_NEAR(s->rt.mean, rows[i].rt, 1e-12);
             return;
         }
     fail_msg("%s", name);
@@ -157,13 +161,15 @@ static void expect_cut(double x, double z, const char *materials, const struct v
     const struct ceduo_slope *s = &file.scene.slope;
     size_t n = 0;
     for (; wanted[n].ground; n++) {
-        assert_true(n < s->vertices);
+        EXPECT(n, <, s->vertices);
         if (!(s->x[n] == wanted[n].x) || !(fabs(s->z[n] - (wanted[n].z - 50)) < 1e-9))
             fail_msg("vertex %zu at %.17g, %.17g", n, s->x[n], s->z[n]);
         expect_ground(&s->segments[n], wanted[n].ground);
     }
     assert_int_equal(s->vertices, n + 1);
-    assert_true(s->x[n] == 100 && s->origin_x == x && s->origin_z == z + 50);
+    EXPECT(s->x[n], ==, 100);
+    EXPECT(s->origin_x, ==, x);
+    EXPECT(s->origin_z, ==, z + 50);
     ceduo_scene_release(&file);
 }
 

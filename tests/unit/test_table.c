@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of the scene: it covers every member, every row decides about what it says, defaults lie in their ranges, and
  * numbers are read and set in place by their paths. */
+#include "expect.h"
+
 #include "folder.h"
 
 #include <malloc.h>
@@ -154,7 +156,7 @@ static void check_default(void *context, const char *path, const struct field *f
         return;
     if (ceduo_number_read(f->value, &value) != CEDUO_NUMBER_GOOD || !ceduo_schema_in_range(f, value))
         fail_msg("%s: its default, %s, is not in its range", path, f->value);
-    assert_true(ceduo_schema_default(f) == value * f->scale);
+    EXPECT(ceduo_schema_default(f), ==, value * f->scale);
     assert_false(f->flags & FIELD_REQUIRED);
 }
 
@@ -163,12 +165,17 @@ static void every_default_lies_in_its_range(void **state)
     (void)state;
     defaults = 0;
     ceduo_schema_visit(ceduo_schema_scene(), "", check_default, NULL);
-    assert_true(defaults > 20);
+    EXPECT(defaults, >, 20);
     struct ceduo_scene scene = ceduo_scene_default();
-    assert_true(scene.rock.density.mean == 2600 && isnan(scene.rock.diameter.mean) && scene.simulation.rocks == 1000);
-    assert_true(scene.simulation.threshold == 30 && scene.simulation.gravity == 9.81 && isnan(scene.rocks_per_year));
+    EXPECT(scene.rock.density.mean, ==, 2600);
+    assert_true(isnan(scene.rock.diameter.mean));
+    EXPECT(scene.simulation.rocks, ==, 1000);
+    EXPECT(scene.simulation.threshold, ==, 30);
+    EXPECT(scene.simulation.gravity, ==, 9.81);
+    assert_true(isnan(scene.rocks_per_year));
     assert_int_equal(scene.simulation.contact_model, CEDUO_STEMS);
-    assert_true(ceduo_segment_default().friction == .5 && isnan(ceduo_segment_default().rn.mean));
+    EXPECT(ceduo_segment_default().friction, ==, .5);
+    assert_true(isnan(ceduo_segment_default().rn.mean));
 }
 
 /* ---- what a row decides about ---- */
@@ -339,8 +346,9 @@ static void every_row_decides_about_what_it_says(void **state)
     assert_true(keys_with(scenes[2], "slope.materials",
                           "[{from_m: 100, to_m: 140, material: cliff}, {from_m: 140, to_m: 300, material: talus}]",
                           &moved));
-    assert_true(moved.flight != before[2].flight);
-    assert_true(keys_with(scenes[2], "forest[0].stand", "{base: b.yaml}", &moved) && moved.flight != before[2].flight);
+    EXPECT(moved.flight, !=, before[2].flight);
+    assert_true(keys_with(scenes[2], "forest[0].stand", "{base: b.yaml}", &moved));
+    EXPECT(moved.flight, !=, before[2].flight);
 }
 
 /* ---- typed get and put ---- */
@@ -370,7 +378,7 @@ static void check_put(void *context, const char *path, const struct field *f)
             if (!good)
                 assert_true(ceduo_value_get(&v) == was || isnan(was));
             else
-                assert_true(fabs(ceduo_value_get(&v) - number) <= 1e-12 * number);
+                EXPECT_NEAR(ceduo_value_get(&v), number, 1e-12 * number);
             if (!keys_with(scenes[i], place.bytes, values[k], &set))
                 continue;
             struct keys now = keys_of(&file.scene);
@@ -397,23 +405,36 @@ static void paths_of_numbers(void **state)
     struct value v;
     read_text(&file, scenes[1]);
     struct ceduo_scene *s = &file.scene;
-    assert_true(ceduo_value_find(s, "options[a].forest[wood].stand.trees[0].per_ha", &v) && ceduo_value_get(&v) == 80);
-    assert_true(ceduo_value_find(s, "controls[road].accepted_kJ", &v) && ceduo_value_get(&v) == 80);
-    assert_true(ceduo_value_put(&v, 90) && s->controls[0].accepted == 90e3);
-    assert_true(ceduo_value_find(s, "controls[0].x_m", &v) && ceduo_value_put(&v, 185));
-    assert_true(s->controls[0].x_given == 185 && s->controls[0].x == 85);
-    assert_true(ceduo_value_find(s, "release.x_m", &v) && ceduo_value_get(&v) == 101 && ceduo_value_put(&v, 102));
-    assert_true(s->release.x.mean == 2);
-    assert_true(ceduo_value_find(s, "release.vx_m_s.spread", &v) && ceduo_value_put(&v, .25) &&
-                s->release.vx.spread == .25);
-    assert_true(ceduo_value_find(s, "release.vx_m_s.mean", &v) && ceduo_value_put(&v, 2) && s->release.vx.mean == 2);
-    assert_true(ceduo_value_find(s, "release.height_m.spread", &v) &&
-                !ceduo_value_put(&v, 5)); /* it would reach below 0 */
-    assert_true(s->release.height.spread == 0);
-    assert_true(ceduo_value_find(s, "slope.segments[0].rn", &v) && ceduo_value_put(&v, .25)); /* it is for all */
+    assert_true(ceduo_value_find(s, "options[a].forest[wood].stand.trees[0].per_ha", &v));
+    EXPECT(ceduo_value_get(&v), ==, 80);
+    assert_true(ceduo_value_find(s, "controls[road].accepted_kJ", &v));
+    EXPECT(ceduo_value_get(&v), ==, 80);
+    assert_true(ceduo_value_put(&v, 90));
+    EXPECT(s->controls[0].accepted, ==, 90e3);
+    assert_true(ceduo_value_find(s, "controls[0].x_m", &v));
+    assert_true(ceduo_value_put(&v, 185));
+    EXPECT(s->controls[0].x_given, ==, 185);
+    EXPECT(s->controls[0].x, ==, 85);
+    assert_true(ceduo_value_find(s, "release.x_m", &v));
+    EXPECT(ceduo_value_get(&v), ==, 101);
+    assert_true(ceduo_value_put(&v, 102));
+    EXPECT(s->release.x.mean, ==, 2);
+    assert_true(ceduo_value_find(s, "release.vx_m_s.spread", &v));
+    assert_true(ceduo_value_put(&v, .25));
+    EXPECT(s->release.vx.spread, ==, .25);
+    assert_true(ceduo_value_find(s, "release.vx_m_s.mean", &v));
+    assert_true(ceduo_value_put(&v, 2));
+    EXPECT(s->release.vx.mean, ==, 2);
+    assert_true(ceduo_value_find(s, "release.height_m.spread", &v));
+    assert_false(ceduo_value_put(&v, 5)); /* it would reach below 0 */
+    EXPECT(s->release.height.spread, ==, 0);
+    assert_true(ceduo_value_find(s, "slope.segments[0].rn", &v));
+    assert_true(ceduo_value_put(&v, .25)); /* it is for all */
     for (size_t j = 0; j < 3; j++)
-        assert_true(s->slope.segments[j].rn.mean == .25);
-    assert_true(ceduo_value_find(s, "simulation.seed", &v) && ceduo_value_put(&v, 7) && s->simulation.seed == 7);
+        EXPECT(s->slope.segments[j].rn.mean, ==, .25);
+    assert_true(ceduo_value_find(s, "simulation.seed", &v));
+    assert_true(ceduo_value_put(&v, 7));
+    EXPECT(s->simulation.seed, ==, 7);
     assert_false(ceduo_value_put(&v, 7.5) || ceduo_value_put(&v, -1) || ceduo_value_put(&v, NAN) ||
                  ceduo_value_put(&v, 1e17));
     const char *const none[] = {"",
@@ -459,7 +480,8 @@ static void puts_take_no_memory(void **state)
     def.rocks_most = 10;
     size_t before = 0, arena = file.arena.bytes;
     for (int i = 0; i < 100000; i++) {
-        assert_true(ceduo_value_put(&per_ha, 50 + i % 100) && ceduo_value_put(&diameter, .5 + 1e-6 * i));
+        assert_true(ceduo_value_put(&per_ha, 50 + i % 100));
+        assert_true(ceduo_value_put(&diameter, .5 + 1e-6 * i));
         if (i % 100 != 0)
             continue;
         struct ceduo_run *run;

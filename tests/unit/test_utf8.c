@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Characters, columns and lines. What is right stands in RFC 3629, in Unicode's widths and in UAX 14. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <setjmp.h>
-#include <cmocka.h>
+#include "expect.h"
 
 #include <string.h>
 

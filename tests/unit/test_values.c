@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Values of files: where their ranges end, texts that look like something else, words that are near to others. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "expect.h"
+
 #include <math.h>
 #include <regex.h>
 #include <stdio.h>
@@ -102,7 +98,9 @@ static void try_field(void *context, const char *path, const struct field *f)
     ceduo_text_put(&place, listed ? "[0]" : "");
     ceduo_text_format(&whole, "%s%s", place.bytes, points ? "[1]" : "");
     bool count = f->type == FIELD_COUNT;
-    assert_true(isfinite(f->lo) && isfinite(f->hi) && f->lo < f->hi);
+    assert_true(isfinite(f->lo));
+    assert_true(isfinite(f->hi));
+    EXPECT(f->lo, <, f->hi);
     expect_range(whole.bytes, place.bytes, count ? f->lo - 1 : nextafter(f->lo, -INFINITY), false);
     expect_range(whole.bytes, place.bytes, f->lo, !(f->flags & FIELD_ABOVE));
     expect_range(whole.bytes, place.bytes, count ? f->lo + 1 : nextafter(f->lo, INFINITY), true);
@@ -120,7 +118,8 @@ static void every_range_ends_where_its_table_says(void **state)
     (void)state;
     fields = open_ends = 0;
     ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
-    assert_true(fields > 60 && open_ends > 0); /* the table is walked */
+    EXPECT(fields, >, 60);
+    EXPECT(open_ends, >, 0); /* the table is walked */
 }
 
 /* Limits that are promised, whatever the table says: a right angle, shares, 2^53, sizes above nothing. */
@@ -224,7 +223,8 @@ static void expect_text(const char *word)
         fail_msg("'%s' is written %s, which is no text", word, text.bytes);
     const struct source source = {.name = "test", .bytes = text.bytes, .length = text.length};
     const struct node *back = ceduo_yaml_read(&arena, &source, &problems);
-    assert_true(back && back->kind == NODE_SCALAR);
+    assert_true(back);
+    EXPECT(back->kind, ==, NODE_SCALAR);
     assert_string_equal(back->text, word);
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
