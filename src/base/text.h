@@ -26,6 +26,12 @@ void ceduo_text_format(struct text *text, const char *format, ...) __attribute__
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 void ceduo_text_free(struct text *text);
 
+/* Its string, "" if it has none. */
+static inline const char *ceduo_text_string(const struct text *text)
+{
+    return text->bytes ? text->bytes : "";
+}
+
 /* A string that is safe to print: control characters and bytes that are no UTF-8 are written as \xHH. */
 void ceduo_text_safe(struct text *text, const char *string);
 void ceduo_text_safe_n(struct text *text, const char *string, size_t n);

@@ -19,13 +19,13 @@ __attribute__((format(printf, 3, 0))) static void say(struct app *app, bool bad,
     va_list again;
     va_copy(again, args);
     ceduo_text_vformat(&text, format, args);
-    ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
+    ceduo_text_safe(&safe, ceduo_text_string(&text));
     if (text.failed || safe.failed) { /* said even so: of it ASCII is safe */
         vsnprintf(app->message, sizeof app->message, format, again);
         for (char *p = app->message; *p; p++)
             *p = *p >= ' ' && *p <= '~' ? *p : '?';
     } else {
-        snprintf(app->message, sizeof app->message, "%s", safe.bytes ? safe.bytes : "");
+        snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
     }
     va_end(again);
     app->message_bad = bad;

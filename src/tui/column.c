@@ -24,7 +24,7 @@ __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ced
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
+    ceduo_text_safe(&safe, ceduo_text_string(&text));
     if (pen->y < pen->area.top + pen->area.height && safe.bytes) {
         ceduo_cells_put(pen->app->cells, pen->area.left, pen->y, pen->area.width, role, safe.bytes);
     }
@@ -185,7 +185,7 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
     if (a->reached > 0)
         ceduo_text_format(&text, "\xc2\xb1%.2g %% ", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
     ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)a->released);
-    line(pen, CEDUO_ROLE_DIM, "%s", text.bytes ? text.bytes : "");
+    line(pen, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&text));
     ceduo_text_free(&text);
 }
 

@@ -41,7 +41,7 @@ void ceduo_edit_start(struct app *app)
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_put(&text, cell->text);
-    ceduo_line_set(&app->line, text.bytes ? text.bytes : "");
+    ceduo_line_set(&app->line, ceduo_text_string(&text));
     ceduo_text_free(&text);
     app->editing = true;
 }

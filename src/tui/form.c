@@ -372,7 +372,7 @@ void ceduo_form_explain(const struct document *d, const struct form_cell *cell, 
     if (f->unit[0])
         ceduo_text_format(text, "; %s", f->unit);
     if (ceduo_schema_range_text(f, &range))
-        ceduo_text_format(text, ", %s", range.bytes ? range.bytes : "");
+        ceduo_text_format(text, ", %s", ceduo_text_string(&range));
     ceduo_text_free(&range);
     if (f->value)
         ceduo_text_format(text, _(" (default %s)"), f->value);

@@ -72,7 +72,7 @@ void ceduo_popup_item(struct popup *p, const char *text, const char *value)
     p->items = items;
     struct text safe = {0};
     ceduo_text_safe(&safe, text);
-    const char *shown = ceduo_arena_string(&p->arena, safe.bytes ? safe.bytes : "");
+    const char *shown = ceduo_arena_string(&p->arena, ceduo_text_string(&safe));
     const char *kept = ceduo_arena_string(&p->arena, value);
     ceduo_text_free(&safe);
     if (shown && kept)
@@ -215,7 +215,7 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
 static void draw_text(struct app *app, struct popup *p)
 {
     struct ceduo_area in = draw_frame(app, p, app->height, 0);
-    bool more = ceduo_app_text(app, in, CEDUO_ROLE_TEXT, p->text.bytes ? p->text.bytes : "", &p->top);
+    bool more = ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), &p->top);
     draw_more(app, p, p->top > 0, more);
 }
 

@@ -78,7 +78,7 @@ static bool filled_new(struct app *app, struct popup *p)
     bool good = true;
     double first = -1e6, last = 1e6; /* of a file that is not read yet: wide enough */
     if (ends_in_csv(profile))
-        ceduo_text_format(&yaml, "csv: %s", csv.bytes ? csv.bytes : "");
+        ceduo_text_format(&yaml, "csv: %s", ceduo_text_string(&csv));
     else
         good = typed_vertices(profile, &yaml, &first, &last);
     ceduo_text_format(&yaml, ", materials: [{from_m: %.10g, to_m: %.10g, material: %s}]}\n", first, last,
@@ -90,7 +90,7 @@ static bool filled_new(struct app *app, struct popup *p)
     if (!good) {
         ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
     } else {
-        good = ceduo_app_open_text(app, yaml.bytes ? yaml.bytes : "");
+        good = ceduo_app_open_text(app, ceduo_text_string(&yaml));
         char set[FORM_PATH + 64];
         const struct ceduo_slope *s = &app->document.file.scene.slope;
         if (good && p->fields[NEW_STAND].text[0]) {

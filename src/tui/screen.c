@@ -61,7 +61,7 @@ static void draw_explanation(struct app *app)
     } else if (cell && ceduo_app_state(app)->pane == 0) {
         ceduo_form_explain(&app->document, cell, &text);
     }
-    ceduo_text_safe(&safe, text.bytes ? text.bytes : "");
+    ceduo_text_safe(&safe, ceduo_text_string(&text));
     bool two_lines = safe.bytes && app->message[0] && (int)ceduo_utf8_width(safe.bytes) > app->width;
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
     if (two_lines)

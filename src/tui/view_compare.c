@@ -112,7 +112,7 @@ static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
     ceduo_text_safe(&safe, app->figures.result->scene->options[i].name);
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
         ceduo_cells_label(app->cells, area.left + x, y, role, " ");
-    ceduo_cells_put(app->cells, area.left, y, width, role, safe.bytes ? safe.bytes : "");
+    ceduo_cells_put(app->cells, area.left, y, width, role, ceduo_text_string(&safe));
     ceduo_text_free(&safe);
 }
 

@@ -39,7 +39,7 @@ static void draw(struct app *app, struct ceduo_area area)
     page.width -= 2; /* the mark of more below stands beside the text */
     struct text text = {0};
     fill_page(app, &text, page.width);
-    if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, text.bytes ? text.bytes : "", &ceduo_app_state(app)->scroll))
+    if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, ceduo_text_string(&text), &ceduo_app_state(app)->scroll))
         ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_text_free(&text);
 }

@@ -38,7 +38,7 @@ static void put_none(struct text *text, const struct ceduo_search *s, const stru
 {
     struct text path = {0};
     ceduo_text_safe(&path, s->path);
-    ceduo_text_format(text, _("no value of %s from "), path.bytes ? path.bytes : "");
+    ceduo_text_format(text, _("no value of %s from "), ceduo_text_string(&path));
     text->failed |= path.failed;
     ceduo_text_free(&path);
     put_value(text, s->lo);

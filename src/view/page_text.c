@@ -16,11 +16,6 @@ struct printer {
     bool plain; /* ASCII alone */
 };
 
-static const char *string_of(const struct text *text)
-{
-    return text->bytes ? text->bytes : "";
-}
-
 static void put_blanks(struct text *text, size_t n)
 {
     while (n-- > 0)
@@ -33,7 +28,7 @@ static void put_safe(const struct printer *p, struct text *to, const char *strin
     static const char *const signs[][2] = {{"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
     struct text safe = {0};
     ceduo_text_safe(&safe, string);
-    for (const char *at = string_of(&safe); *at;) {
+    for (const char *at = ceduo_text_string(&safe); *at;) {
         size_t i = 0, n = 1;
         while (i < 3 && strncmp(at, signs[i][0], n = strlen(signs[i][0])) != 0)
             i++;
@@ -77,15 +72,15 @@ static void put_paragraph(const struct printer *p, const struct ceduo_page_block
     size_t indent = styles[block->kind].indent, column;
     struct text first = {0}, rest = {0};
     ceduo_text_put(&first, block->label ? block->label : styles[block->kind].first);
-    if (block->label && ceduo_utf8_width(string_of(&first)) < indent)
-        put_blanks(&first, indent - ceduo_utf8_width(string_of(&first)));
-    put_safe(p, &rest, string_of(&block->text));
+    if (block->label && ceduo_utf8_width(ceduo_text_string(&first)) < indent)
+        put_blanks(&first, indent - ceduo_utf8_width(ceduo_text_string(&first)));
+    put_safe(p, &rest, ceduo_text_string(&block->text));
     squeeze(&rest);
     if (block->kind == CEDUO_PAGE_SECTION)
         ceduo_text_char(p->text, '\n');
-    ceduo_text_put(p->text, string_of(&first));
-    column = ceduo_utf8_width(string_of(&first));
-    for (const char *at = string_of(&rest), *next; *at; at = next) {
+    ceduo_text_put(p->text, ceduo_text_string(&first));
+    column = ceduo_utf8_width(ceduo_text_string(&first));
+    for (const char *at = ceduo_text_string(&rest), *next; *at; at = next) {
         size_t n = ceduo_utf8_wrap(at, p->width > column ? p->width - column : 1, &next);
         if (at > rest.bytes) {
             ceduo_text_char(p->text, '\n');
@@ -122,7 +117,7 @@ static void put_padded(const struct printer *p, const char *string, int width)
 /* Whether it has room in a column, with a blank before it. */
 static bool fits(const struct text *cell, size_t width)
 {
-    return ceduo_utf8_width(string_of(cell)) < width;
+    return ceduo_utf8_width(ceduo_text_string(cell)) < width;
 }
 
 /* As short as can be: 3e26, 7e-3; where that has no more room either, what is small as 0.00. */
@@ -164,10 +159,10 @@ static bool write_digits(struct text *text, double mean, double half, int digits
         ceduo_words_number(text, half, 2);
         return true;
     }
-    if (strchr(string_of(text), 'e'))
+    if (strchr(ceduo_text_string(text), 'e'))
         return false;
     /* the error up to whole units of the mean's last place */
-    const char *point = strchr(string_of(text), '.');
+    const char *point = strchr(ceduo_text_string(text), '.');
     int places = point ? (int)strlen(point + 1) : 0;
     double unit = pow(10, -places);
     ceduo_text_format(text, "%s%.*f", sign, places, ceil(half / unit) * unit);
@@ -201,10 +196,10 @@ static void write_cell(const struct printer *p, struct text *to, const struct ce
     else if (cell->kind == CEDUO_CELL_MEAN)
         write_mean(to, cell->value, cell->half, width, p->plain ? "+-" : "\xc2\xb1");
     else
-        put_safe(p, to, string_of(&cell->text));
+        put_safe(p, to, ceduo_text_string(&cell->text));
     if (cell->shorter.length > 0 && !fits(to, width)) {
         ceduo_text_free(to);
-        put_safe(p, to, string_of(&cell->shorter));
+        put_safe(p, to, ceduo_text_string(&cell->shorter));
     }
 }
 
@@ -215,11 +210,11 @@ static void put_cell(const struct printer *p, const struct ceduo_page_column *co
     put_blanks(p->text, (size_t)column->gap);
     write_cell(p, &text, cell, (size_t)abs(width));
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
-        ceduo_text_put(p->text, string_of(&text));
+        ceduo_text_put(p->text, ceduo_text_string(&text));
         ceduo_text_char(p->text, '\n');
         put_blanks(p->text, (size_t)(column->gap + width));
     } else {
-        put_padded(p, string_of(&text), width);
+        put_padded(p, ceduo_text_string(&text), width);
     }
     ceduo_text_free(&text);
 }

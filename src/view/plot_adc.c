@@ -61,7 +61,7 @@ static void draw_scale(const struct adc_picture *p, int row)
     int free_from = bar_left(p), end = bar_left(p) + p->bar;
     struct text threshold = {0};
     ceduo_text_format(&threshold, _("%g m"), p->threshold);
-    const char *limit = threshold.bytes ? threshold.bytes : "";
+    const char *limit = ceduo_text_string(&threshold);
     int at = column_of(p, p->threshold), limit_end = at + ceduo_canvas_label_width(p->canvas, limit);
     ceduo_canvas_label(p->canvas, at, row, CEDUO_ROLE_CONTROL, limit);
     for (double v = p->lo; v <= p->hi * (1 + 1e-9); v = ceduo_plot_round(1.5 * v, true)) {

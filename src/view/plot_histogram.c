@@ -226,7 +226,7 @@ static void put_head(const struct histogram *h)
         write_wooded_heads(h, heads);
     else
         write_bare_heads(h, heads);
-    ceduo_text_put(&heads[0], heads[1].bytes ? heads[1].bytes : "");
+    ceduo_text_put(&heads[0], ceduo_text_string(&heads[1]));
     if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))
         ceduo_text_format(&heads[0], _("; drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
     ceduo_plot_put_fitting(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT, HEADS, heads);

@@ -61,7 +61,7 @@ static void note_belt(struct notes *n, const struct ceduo_belt *belt)
     ceduo_plot_belt_name(&name, belt);
     if (n->row + 3 < n->end)
         n->row++;
-    note(n, CEDUO_ROLE_BELT, "%s", name.bytes ? name.bytes : "");
+    note(n, CEDUO_ROLE_BELT, "%s", ceduo_text_string(&name));
     ceduo_text_free(&name);
     note(n, CEDUO_ROLE_TEXT, _(" %s\xe2\x80\x93%s m"), ceduo_number_shortest(belt->from_given, from),
          ceduo_number_shortest(belt->to_given, to));

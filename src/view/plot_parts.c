@@ -15,9 +15,9 @@ int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int
                            size_t count, struct text *texts)
 {
     size_t i = 0;
-    while (i + 1 < count && ceduo_canvas_label_width(canvas, texts[i].bytes ? texts[i].bytes : "") > most)
+    while (i + 1 < count && ceduo_canvas_label_width(canvas, ceduo_text_string(&texts[i])) > most)
         i++;
-    int cells = ceduo_canvas_put(canvas, column, row, most, role, texts[i].bytes ? texts[i].bytes : "");
+    int cells = ceduo_canvas_put(canvas, column, row, most, role, ceduo_text_string(&texts[i]));
     for (i = 0; i < count; i++)
         ceduo_text_free(&texts[i]);
     return cells;
@@ -37,7 +37,7 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
                           struct text *text)
 {
-    int width = ceduo_canvas_label_width(canvas, text->bytes ? text->bytes : "");
+    int width = ceduo_canvas_label_width(canvas, ceduo_text_string(text));
     width = width < most ? width : most;
     ceduo_plot_put_fitting(canvas, column + 1 - width, row, width, role, 1, text);
 }
@@ -65,7 +65,7 @@ const char *ceduo_plot_number(double value, int digits, char room[PLOT_NUMBER_RO
 {
     struct text text = {0};
     ceduo_words_number(&text, value, digits);
-    snprintf(room, PLOT_NUMBER_ROOM, "%s", text.bytes ? text.bytes : "");
+    snprintf(room, PLOT_NUMBER_ROOM, "%s", ceduo_text_string(&text));
     ceduo_text_free(&text);
     return room;
 }

@@ -218,7 +218,7 @@ static void name_control(const struct profile *p, const struct ceduo_control *co
         return;
     struct text name = {0};
     ceduo_plot_control_name(&name, control);
-    const char *bytes = name.bytes ? name.bytes : "";
+    const char *bytes = ceduo_text_string(&name);
     int width = ceduo_canvas_label_width(p->canvas, bytes);
     for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
         int to_right = column + 2, to_left = column - 1 - width, y = p->area->top + i;
@@ -271,7 +271,7 @@ static void name_forest(const struct profile *p)
         return;
     struct text name = {0};
     ceduo_text_format(&name, _("ways: %s"), option->name);
-    const char *bytes = name.bytes ? name.bytes : "";
+    const char *bytes = ceduo_text_string(&name);
     int width = ceduo_canvas_label_width(p->canvas, bytes), most = 0, row = 0;
     for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
         int room = room_in(p, p->area->top + i);
@@ -303,7 +303,7 @@ static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt
     ceduo_text_char(&name, ' ');
     ceduo_plot_belt_name(&name, belt);
     ceduo_text_char(&name, ' ');
-    const char *bytes = name.bytes ? name.bytes : "";
+    const char *bytes = ceduo_text_string(&name);
     int width = ceduo_canvas_label_width(p->canvas, bytes), room = to - from - 2;
     int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
     ceduo_canvas_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, bytes);

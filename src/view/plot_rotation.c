@@ -129,10 +129,10 @@ static void draw(struct rotation *r)
     if (strips < 2 * STRIP_LEAST) /* room for one: what gets through */
         first = 0;
     else
-        draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, adc.bytes ? adc.bytes : "", adc_of);
+        draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, ceduo_text_string(&adc), adc_of);
     draw_strip(r, a->top + 1 + first, strips - first, most_share(r),
                r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN,
-               share.bytes ? share.bytes : "", share_of);
+               ceduo_text_string(&share), share_of);
     ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
     draw_lights(r, a->top + a->height - LIGHTS);
     draw_cuts(r, a->top);

@@ -239,7 +239,7 @@ static void put_words_of_way(const struct plan *p, const struct ceduo_area *area
                                "The way of this rock: %zu stems hit in %.3g m", t->hit),
                       t->hit, t->metres);
     for (int i = 0; i < 2; i++) {
-        ceduo_text_put(&words[i], words[2].bytes ? words[2].bytes : "");
+        ceduo_text_put(&words[i], ceduo_text_string(&words[2]));
         if (t->flown_over > 0 && i == 0)
             ceduo_text_format(&words[i], _(", %zu flown over"), t->flown_over);
         ceduo_text_format(&words[i], _("; across \xc3\x97%.2g"), t->factor);
