@@ -219,7 +219,7 @@ void ceduo_text_csv(struct text *text, const char *value)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, value);
-    const char *bytes = safe.bytes ? safe.bytes : "";
+    const char *bytes = ceduo_text_string(&safe);
     if (!strpbrk(bytes, ",\"")) {
         ceduo_text_put(text, bytes);
     } else {

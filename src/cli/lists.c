@@ -55,7 +55,7 @@ static void put_parameter(void *context, const char *path, const struct field *f
     else if (!ceduo_schema_range_text(f, &words))
         ceduo_text_char(&words, '-');
     ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_name(f), f->unit[0] ? f->unit : "-",
-                      words.bytes ? words.bytes : "", f->value ? f->value : "-", _(f->meaning));
+                      ceduo_text_string(&words), f->value ? f->value : "-", _(f->meaning));
     ceduo_text_free(&words);
 }
 

@@ -38,7 +38,7 @@ __attribute__((format(printf, 4, 5))) static void complain(struct parts *all, co
     va_start(args, format);
     ceduo_text_vformat(&why, format, args);
     va_end(args);
-    ceduo_say_why(what.bytes ? what.bytes : "", why.bytes ? why.bytes : "");
+    ceduo_say_why(ceduo_text_string(&what), ceduo_text_string(&why));
     all->bad = true;
     ceduo_text_free(&what);
     ceduo_text_free(&why);

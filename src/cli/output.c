@@ -31,7 +31,7 @@ static enum exit_status write_after(int before, const struct arguments *a, const
         ceduo_say_why("ceduo", _("out of memory"));
         return EXIT_RUN;
     }
-    const char *bytes = text->bytes ? text->bytes : "";
+    const char *bytes = ceduo_text_string(text);
     bool good =
         a->output ? ceduo_file_write_after(before, a->output, bytes, text->length) : write_stdout(bytes, text->length);
     if (good)

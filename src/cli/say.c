@@ -83,7 +83,7 @@ enum exit_status ceduo_usage(const char *option, const char *format, ...)
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    ceduo_text_safe(&safe, message.bytes ? message.bytes : "");
+    ceduo_text_safe(&safe, ceduo_text_string(&message));
     bool good = !message.failed && !safe.failed && safe.bytes;
     if (good)
         fprintf(stderr, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);

@@ -25,7 +25,7 @@ enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char
     ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: "), name, file->path);
     for (size_t i = 0; i < file->scene.options_count; i++)
         ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", file->scene.options[i].name);
-    ceduo_say_why("ceduo", message.bytes ? message.bytes : "");
+    ceduo_say_why("ceduo", ceduo_text_string(&message));
     ceduo_text_free(&message);
     return EXIT_USAGE;
 }

@@ -30,7 +30,7 @@ __attribute__((format(printf, 5, 0))) static void report_v(struct problems *prob
     ceduo_text_vformat(&message, format, args);
     bool key = at_key && node->key_line > 0;
     ceduo_problem(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
-                  "%s%s%s", path ? path : "", path && path[0] ? ": " : "", message.bytes ? message.bytes : "");
+                  "%s%s%s", path ? path : "", path && path[0] ? ": " : "", ceduo_text_string(&message));
     problems->memory |= message.failed;
     ceduo_text_free(&message);
 }
@@ -54,7 +54,7 @@ static void note_bad(struct binder *b)
 {
     struct bad_values *bad = b->bad;
     if (bad->n < CEDUO_BAD_MOST &&
-        !(bad->paths[bad->n] = ceduo_arena_string(b->arena, b->path.bytes ? b->path.bytes : "")))
+        !(bad->paths[bad->n] = ceduo_arena_string(b->arena, ceduo_text_string(&b->path))))
         ceduo_problem_memory(b->problems);
     else
         bad->n++;
@@ -63,7 +63,7 @@ static void note_bad(struct binder *b)
 static bool is_bad(const struct binder *b)
 {
     for (size_t i = 0; i < b->bad->n && i < CEDUO_BAD_MOST; i++)
-        if (strcmp(b->bad->paths[i], b->path.bytes ? b->path.bytes : "") == 0)
+        if (strcmp(b->bad->paths[i], ceduo_text_string(&b->path)) == 0)
             return true;
     return false;
 }
@@ -126,7 +126,7 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
         struct text list = {0};
         for (size_t i = 0; i < n; i++)
             ceduo_text_format(&list, "%s%s", i ? ", " : "", words[i]);
-        report_key(b, entry, _("unknown key; known here: %s"), list.bytes ? list.bytes : "");
+        report_key(b, entry, _("unknown key; known here: %s"), ceduo_text_string(&list));
         ceduo_text_free(&list);
     }
     leave(b, before);
@@ -234,9 +234,9 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
         ceduo_text_format(&list, "%s%s", i ? ", " : "", choices->names[i]);
     const char *near = ceduo_text_nearest(node->text, choices->names, choices->n);
     if (near)
-        report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, list.bytes ? list.bytes : "");
+        report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, ceduo_text_string(&list));
     else
-        report(b, node, _("'%s' is unknown; one of: %s"), node->text, list.bytes ? list.bytes : "");
+        report(b, node, _("'%s' is unknown; one of: %s"), node->text, ceduo_text_string(&list));
     ceduo_text_free(&list);
 }
 
@@ -461,7 +461,7 @@ static void except_values(struct binder *b, const struct node *list, struct text
     for (size_t i = 0; i < list->n; i++) {
         ceduo_text_format(text, "%s%s", i > 0 ? ", " : _("; changed since: "), list->items[i]->text);
         size_t before = enter(b, list->items[i]->text);
-        add_note(b, b->path.bytes ? b->path.bytes : "", "changed", _("the source around it is not of this value"));
+        add_note(b, ceduo_text_string(&b->path), "changed", _("the source around it is not of this value"));
         leave(b, before);
     }
 }
@@ -511,7 +511,7 @@ static void bind_source(struct binder *b, const struct node *node)
     ceduo_text_put(&whole, text);
     if (except)
         except_values(b, except, &whole);
-    add_note(b, b->path.bytes ? b->path.bytes : "", kinds[kind], whole.bytes ? whole.bytes : "");
+    add_note(b, ceduo_text_string(&b->path), kinds[kind], ceduo_text_string(&whole));
     b->problems->memory |= whole.failed;
     ceduo_text_free(&whole);
 }

@@ -17,7 +17,7 @@ void ceduo_derive_complain(struct deriver *d, const char *path, const char *form
     const char *within;
     size_t used;
     const struct node *node = ceduo_resolve_walk(d->root, path, &within, &used);
-    ceduo_node_problem(d->problems, node, within, "%s", message.bytes ? message.bytes : "");
+    ceduo_node_problem(d->problems, node, within, "%s", ceduo_text_string(&message));
     ceduo_text_free(&message);
 }
 
@@ -34,7 +34,7 @@ void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within
             x = y;
             format++;
         }
-    ceduo_derive_complain(d, ceduo_derive_text(d, "%s%s", path, within), "%s", message.bytes ? message.bytes : "");
+    ceduo_derive_complain(d, ceduo_derive_text(d, "%s%s", path, within), "%s", ceduo_text_string(&message));
     ceduo_text_free(&message);
 }
 

@@ -170,7 +170,7 @@ static char *take_string(struct arena *arena, struct cursor *c)
     }
     good = good && take(c, "\"") && !text.failed;
     arena->failed |= text.failed; /* no memory, and nothing wrong with the string */
-    char *string = good ? ceduo_arena_string(arena, text.bytes ? text.bytes : "") : NULL;
+    char *string = good ? ceduo_arena_string(arena, ceduo_text_string(&text)) : NULL;
     ceduo_text_free(&text);
     return string;
 }

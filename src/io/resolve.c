@@ -326,7 +326,7 @@ static const struct node *fail_at(struct setter *s, const struct path_step *step
 {
     struct text word = {0};
     ceduo_text_add(&word, step->p, step->n);
-    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", word.bytes ? word.bytes : "",
+    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word),
                   what);
     ceduo_text_free(&word);
     return NULL;
@@ -433,7 +433,7 @@ static bool is_ambiguous(struct setter *s, const struct node *list, const struct
         if (is_named(list->items[i], step))
             ceduo_text_format(&what, "%s[%zu]", n++ > 0 ? ", " : "", i);
     if (n > 1)
-        fail_at(s, step, what.bytes ? what.bytes : "");
+        fail_at(s, step, ceduo_text_string(&what));
     ceduo_text_free(&what);
     return n > 1;
 }

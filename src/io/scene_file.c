@@ -102,7 +102,7 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
         ceduo_text_format(&names, _(" (looked for here and in %s)"), folders.bytes);
     problems->memory |= names.failed || folders.failed || file->arena.failed;
     ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
-                  names.bytes ? names.bytes : "");
+                  ceduo_text_string(&names));
     ceduo_text_free(&names);
     ceduo_text_free(&folders);
 }

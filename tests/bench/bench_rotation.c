@@ -51,7 +51,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks, unsigned t
     struct scene_file file;
     struct problems problems = {0};
     if (!ceduo_scene_read(&file, path, NULL, 0, &problems)) {
-        fputs(problems.text.bytes ? problems.text.bytes : "", stderr);
+        fputs(ceduo_text_string(&problems.text), stderr);
         exit(1);
     }
     struct ceduo_work work = {0};

@@ -129,7 +129,7 @@ static void parts_that_are_cut_within(void **state)
             ceduo_text_add(&text, line.bytes, nul ? length : i);
             if (nul)
                 text.bytes[i] = '\0';
-            uint64_t now = hash_bytes(text.bytes ? text.bytes : "", text.length);
+            uint64_t now = hash_bytes(ceduo_text_string(&text), text.length);
             ceduo_text_format(&text, "%s%016" PRIx64 "\"}", sum, now);
             assert_int_not_equal(read_line(text.bytes, text.length, &part, &arena), PART_GOOD);
             ceduo_text_free(&text);

@@ -1198,7 +1198,7 @@ static void titles_name_what_is_shown(void **state)
         struct text title = {0};
         s.scene.simulation.contact_model = i % 2 ? CEDUO_STEMS : CEDUO_INDEX;
         ceduo_plot_title(&title, (enum ceduo_plot)plot, &p);
-        assert_string_equal(title.bytes ? title.bytes : "", expected[i % 2][plot]);
+        assert_string_equal(ceduo_text_string(&title), expected[i % 2][plot]);
         ceduo_text_free(&title);
     }
     assert_int_equal(ceduo_plot_last_control(&s.scene), 1);

@@ -58,7 +58,7 @@ static char *problems_of(const char *line, bool *good)
     *good = ceduo_scene_read_text(&file, "scene", text, &problems);
     ceduo_problems_close(&problems);
     assert_int_equal(*good, problems.text.length == 0);
-    char *told = strdup(problems.text.bytes ? problems.text.bytes : "");
+    char *told = strdup(ceduo_text_string(&problems.text));
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     free(text);
@@ -505,7 +505,7 @@ static void ranges_are_told(void **state)
         struct text text = {0};
         const struct field f = {.lo = rows[i].lo, .hi = rows[i].hi, .flags = rows[i].flags};
         assert_int_equal(ceduo_schema_range_text(&f, &text), rows[i].text[0] != '\0');
-        assert_string_equal(text.bytes ? text.bytes : "", rows[i].text);
+        assert_string_equal(ceduo_text_string(&text), rows[i].text);
         ceduo_text_free(&text);
     }
 }

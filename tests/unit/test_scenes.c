@@ -43,7 +43,7 @@ static bool read_scene(struct scene_file *file, char told[4096])
     struct problems problems = {0};
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_read(file, path, NULL, 0, &problems);
-    snprintf(told, 4096, "%s", problems.text.bytes ? problems.text.bytes : "");
+    snprintf(told, 4096, "%s", ceduo_text_string(&problems.text));
     ceduo_problems_free(&problems);
     return good;
 }
@@ -265,7 +265,7 @@ static void expect_source(const struct scene_file *file, const char *map, const 
     node = ceduo_node_get(node, "source");
     if (node)
         ceduo_emit_flow(&text, node);
-    if (strcmp(text.bytes ? text.bytes : "", wanted) != 0)
+    if (strcmp(ceduo_text_string(&text), wanted) != 0)
         fail_msg("after %s the source of '%s' is %s, not %s", set, map, text.bytes, wanted);
     ceduo_text_free(&text);
 }

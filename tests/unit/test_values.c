@@ -43,7 +43,7 @@ static char *told_of(const char *scene, const char *path, const char *value)
     ceduo_text_format(&set, "%s=%s", path, value);
     if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
         ceduo_scene_bind(&file, &problems);
-        told = strdup(problems.text.bytes ? problems.text.bytes : "");
+        told = strdup(ceduo_text_string(&problems.text));
     }
     ceduo_text_free(&set);
     ceduo_problems_free(&problems);

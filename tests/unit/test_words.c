@@ -104,7 +104,7 @@ static void expect_best(const char *wanted)
     struct text text = {0};
     struct ceduo_result *result = assess();
     ceduo_words_best(&text, result);
-    assert_string_equal(text.bytes ? text.bytes : "", wanted);
+    assert_string_equal(ceduo_text_string(&text), wanted);
     ceduo_text_free(&text);
     ceduo_result_free(result);
 }
