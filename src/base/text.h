@@ -19,12 +19,6 @@ struct text {
  * freed on the way: one that lacks a word must not pass for whole. */
 bool ceduo_text_lost(void);
 
-/* As a string; "" where nothing was added. */
-static inline const char *ceduo_text_string(const struct text *text)
-{
-    return text->bytes ? text->bytes : "";
-}
-
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);
