@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bytes.h"
 
+#include <endian.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,53 +41,32 @@ size_t ceduo_bytes_left(const struct bytes *b)
     return b->bad ? 0 : b->length - b->at;
 }
 
-static void put(unsigned char *p, uint64_t value)
-{
-    for (int i = 0; i < 8; i++)
-        p[i] = (unsigned char)(value >> (8 * i));
-}
-
-static uint64_t get(const unsigned char *p)
-{
-    uint64_t value = 0;
-    for (int i = 0; i < 8; i++)
-        value |= (uint64_t)p[i] << (8 * i);
-    return value;
-}
-
-static void put_number(unsigned char *p, double value)
+/* Copies eight bytes from the order of this machine to little end first, or back: the two are the same. */
+static void copy_word(void *to, const void *from)
 {
     uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    put(p, bits);
+    memcpy(&bits, from, sizeof bits);
+    bits = htole64(bits);
+    memcpy(to, &bits, sizeof bits);
 }
 
-static double get_number(const unsigned char *p)
+static void pass_word(struct bytes *b, void *value)
 {
-    uint64_t bits = get(p);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    const uint64_t zero = 0;
+    const unsigned char *from = b->reads ? ceduo_bytes_read(b, 8) : NULL;
+    unsigned char *to = b->reads ? value : ceduo_bytes_write(b, 8);
+    if (to)
+        copy_word(to, from ? (const void *)from : b->reads ? &zero : value);
 }
 
 void ceduo_bytes_count(struct bytes *b, uint64_t *value)
 {
-    if (b->reads) {
-        const unsigned char *p = ceduo_bytes_read(b, 8);
-        *value = p ? get(p) : 0;
-        return;
-    }
-    unsigned char *p = ceduo_bytes_write(b, 8);
-    if (p)
-        put(p, *value);
+    pass_word(b, value);
 }
 
 void ceduo_bytes_number(struct bytes *b, double *value)
 {
-    uint64_t bits;
-    memcpy(&bits, value, sizeof bits);
-    ceduo_bytes_count(b, &bits);
-    memcpy(value, &bits, sizeof bits);
+    pass_word(b, value);
 }
 
 /* ---- columns ---- */
@@ -96,7 +76,7 @@ static bool write_values(struct bytes *b, const double *first, const double *col
     unsigned char *p = ceduo_bytes_write(b, there * 8);
     for (size_t i = 0; p && i < n; i++)
         if (!isnan(first[i])) {
-            put_number(p, column[i]);
+            copy_word(p, &column[i]);
             p += 8;
         }
     return !b->no_memory;
@@ -136,7 +116,7 @@ static bool read_values(struct bytes *b, const double *first, double *column, si
             column[i] = NAN;
             continue;
         }
-        column[i] = get_number(p);
+        copy_word(&column[i], p);
         p += 8;
         if (!isfinite(column[i]))
             return false;

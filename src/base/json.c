@@ -19,8 +19,7 @@ static void put_string(struct text *text, const char *string)
         } else if (code == '"' || code == '\\') {
             ceduo_text_char(text, '\\');
             ceduo_text_char(text, (char)code);
-        } else if (code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x2028 && code <= 0x202e) ||
-                   (code >= 0x2066 && code <= 0x2069)) {
+        } else if (!ceduo_utf8_printable(code)) {
             ceduo_text_format(text, "\\u%04x", (unsigned)code);
         } else {
             ceduo_text_add(text, string + i, length);
@@ -80,10 +79,4 @@ void ceduo_json_flag(struct json *json, const char *key, bool value)
 {
     begin(json, key);
     ceduo_text_put(json->text, value ? "true" : "false");
-}
-
-void ceduo_json_null(struct json *json, const char *key)
-{
-    begin(json, key);
-    ceduo_text_put(json->text, "null");
 }

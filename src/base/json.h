@@ -19,6 +19,5 @@ void ceduo_json_number(struct json *json, const char *key, double value); /* nul
 void ceduo_json_count(struct json *json, const char *key, uint64_t value);
 void ceduo_json_string(struct json *json, const char *key, const char *value); /* null for NULL */
 void ceduo_json_flag(struct json *json, const char *key, bool value);
-void ceduo_json_null(struct json *json, const char *key);
 
 #endif

@@ -88,16 +88,12 @@ void ceduo_text_safe_n(struct text *text, const char *string, size_t n)
     for (size_t i = 0; i < n;) {
         uint32_t c = 0;
         size_t length = ceduo_utf8_decode(string + i, n - i, &c);
-        bool printable = length > 0 && c >= 0x20 && !(c >= 0x7f && c < 0xa0) && c != 0x2028 && c != 0x2029 &&
-                         !(c >= 0x202a && c <= 0x202e) && !(c >= 0x2066 && c <= 0x2069);
-        if (printable) {
+        bool printable = length > 0 && ceduo_utf8_printable(c);
+        length += length == 0;
+        if (printable)
             ceduo_text_add(text, string + i, length);
-        } else {
-            size_t bytes = length > 0 ? length : 1;
-            for (size_t k = 0; k < bytes; k++)
-                ceduo_text_format(text, "\\x%02x", (unsigned char)string[i + k]);
-            length = bytes;
-        }
+        for (size_t k = 0; k < length && !printable; k++)
+            ceduo_text_format(text, "\\x%02x", (unsigned char)string[i + k]);
         i += length;
     }
 }

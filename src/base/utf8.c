@@ -23,6 +23,12 @@ size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code)
     return (size_t)length;
 }
 
+bool ceduo_utf8_printable(uint32_t code)
+{
+    return code >= 0x20 && !(code >= 0x7f && code < 0xa0) && !(code >= 0x2028 && code <= 0x202e) &&
+           !(code >= 0x2066 && code <= 0x2069);
+}
+
 size_t ceduo_utf8_encode(uint32_t code, char to[4])
 {
     int length = u8_uctomb((uint8_t *)to, code, 4);

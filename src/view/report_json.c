@@ -24,7 +24,7 @@ static void put_value(struct json *j, const struct ceduo_figure *f, struct ceduo
         break;
     case CEDUO_NULL:
         if (!f->optional)
-            ceduo_json_null(j, f->key);
+            ceduo_json_string(j, f->key, NULL);
     }
 }
 
