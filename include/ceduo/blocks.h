@@ -10,9 +10,7 @@ struct ceduo_block {
     double mass, diameter; /* kg, m: of the mean rock */
     double adc;            /* m, by the scene's rule: the worst belt before the control; infinite where there is none */
     double contacts;       /* with stems on the way to the control, by that rule (Eq. 2 of Ciabocco et al. 2009) */
-    uint64_t released, reached, exceeded; /* through the wood; exceeded: with more than the control accepts */
-    double exceed_probability, exceed_lo, exceed_hi; /* NaN without an accepted energy */
-    double reach_probability, reach_lo, reach_hi;
+    struct ceduo_arrivals arrivals; /* through the forest; 0 released: not simulated */
     bool own;              /* the scene's own block */
 };
 
@@ -23,9 +21,9 @@ struct ceduo_block {
 /* A rock of the same shape and density `factor` times as long in every dimension; spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
 
-/* Flies `rocks` blocks, or fewer of a size that costs very much, of each size through the forest of `option` to a control; sorted by volume. With the contact model
- * index nothing is flown and the shares are NaN. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY, or what
- * ceduo_run_create() says. */
+/* Simulates `rocks` blocks of each size, or fewer of a size that costs very much, through the forest of `option` to a
+ * control; sorted by volume. With the contact model index none is simulated. `cancel` may be NULL. CEDUO_CANCELLED,
+ * CEDUO_NO_MEMORY, or what ceduo_run_create() says. */
 enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
                                uint64_t rocks, unsigned threads, const atomic_bool *cancel,
                                struct ceduo_block blocks[CEDUO_BLOCKS]);

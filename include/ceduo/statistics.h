@@ -49,6 +49,10 @@ struct ceduo_distribution {
     double mean, se, sd, p50, p95, p95_lo, p95_hi, p99, max;
 };
 
+/* From the moments of n values and the value of each rank 1…n, which is asked for in rising order. */
+struct ceduo_distribution ceduo_distribution_by(double (*value)(void *context, size_t rank), void *context, size_t n,
+                                                const struct ceduo_moments *m);
+
 /* From exact values, which are reordered, and their moments. */
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m);
 

@@ -51,23 +51,11 @@ static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct
     enum ceduo_status status = ceduo_run_create(&def, &run);
     if (status != CEDUO_OK)
         return status;
-    struct ceduo_arrivals a;
     status = ceduo_run_extend(run, FIRST_ROCKS);
     if (status == CEDUO_OK)
         status = ceduo_run_extend(run, affordable(run, rocks));
     if (status == CEDUO_OK)
-        status = ceduo_run_arrivals(run, control, &a);
-    if (status == CEDUO_OK) {
-        b->released = a.released;
-        b->reached = a.reached;
-        b->exceeded = a.exceeded;
-        b->exceed_probability = a.exceed_probability;
-        b->exceed_lo = a.exceed_lo;
-        b->exceed_hi = a.exceed_hi;
-        b->reach_probability = a.reach_probability;
-        b->reach_lo = a.reach_lo;
-        b->reach_hi = a.reach_hi;
-    }
+        status = ceduo_run_arrivals(run, control, &b->arrivals);
     ceduo_run_free(run);
     return status;
 }
@@ -112,8 +100,6 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
         b->diameter = rock.mean_diameter;
         b->adc = index.worst_adc;
         b->contacts = index.contacts;
-        b->exceed_probability = b->exceed_lo = b->exceed_hi = NAN;
-        b->reach_probability = b->reach_lo = b->reach_hi = NAN;
         if (flies)
             status = fly_block(&other, option, control, rocks, threads, cancel, b);
     }

@@ -2,6 +2,7 @@
 #include "ground.h"
 
 #include <float.h>
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -184,15 +185,7 @@ fail:
 
 size_t ceduo_ground_segment(const struct ground *ground, double x)
 {
-    size_t lo = 0, hi = ground->n;
-    while (hi - lo > 1) {
-        size_t mid = lo + (hi - lo) / 2;
-        if (ground->x[mid] <= x)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    return lo;
+    return gsl_interp_bsearch(ground->x, x, 0, ground->n);
 }
 
 void ceduo_ground_release(struct ground *ground)

@@ -44,23 +44,6 @@ bool ceduo_histogram_add(struct histogram *h, double value)
     return true;
 }
 
-bool ceduo_histogram_reserve(struct histogram *into, const struct histogram *from)
-{
-    for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)
-        if (from->octave[o] && !octave_of(into, o))
-            return false;
-    return true;
-}
-
-void ceduo_histogram_merge(struct histogram *into, const struct histogram *from)
-{
-    for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)
-        for (size_t i = 0; from->octave[o] && i < BINS; i++)
-            into->octave[o][i] += from->octave[o][i];
-    into->n += from->n;
-    into->zeros += from->zeros;
-}
-
 /* An octave (NULL: empty) as the counts that are not 0, each with its bin. */
 static void write_octave(struct bytes *b, const uint32_t *bins)
 {
@@ -123,15 +106,21 @@ void ceduo_histogram_clear(struct histogram *h)
 bool ceduo_histograms_reserve(struct histogram *into, const struct histogram *from, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        if (!ceduo_histogram_reserve(&into[i], &from[i]))
-            return false;
+        for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)
+            if (from[i].octave[o] && !octave_of(&into[i], o))
+                return false;
     return true;
 }
 
 void ceduo_histograms_merge(struct histogram *into, const struct histogram *from, size_t n)
 {
-    for (size_t i = 0; i < n; i++)
-        ceduo_histogram_merge(&into[i], &from[i]);
+    for (; n > 0; n--, into++, from++) {
+        for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)
+            for (size_t i = 0; from->octave[o] && i < BINS; i++)
+                into->octave[o][i] += from->octave[o][i];
+        into->n += from->n;
+        into->zeros += from->zeros;
+    }
 }
 
 void ceduo_histograms_free(struct histogram *all, size_t n)
@@ -158,21 +147,12 @@ double ceduo_histogram_value(const struct histogram *h, uint64_t rank)
     return NAN;
 }
 
+static double value_of_rank(void *context, size_t rank)
+{
+    return ceduo_histogram_value(*(const struct histogram *const *)context, rank);
+}
+
 struct ceduo_distribution ceduo_distribution_binned(const struct histogram *h, const struct ceduo_moments *m)
 {
-    struct ceduo_distribution d = ceduo_distribution_none();
-    size_t n = (size_t)h->n, lo, hi;
-    if (n == 0)
-        return d;
-    ceduo_quantile_interval(n, 0.95, &lo, &hi);
-    d.mean = m->mean;
-    d.sd = ceduo_moments_sd(m);
-    d.se = ceduo_moments_se(m);
-    d.max = m->max;
-    d.p50 = fmin(m->max, ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.5)));
-    d.p95 = fmin(m->max, ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.95)));
-    d.p99 = fmin(m->max, ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.99)));
-    d.p95_lo = lo > 0 ? fmin(m->max, ceduo_histogram_value(h, lo)) : NAN;
-    d.p95_hi = hi <= n ? fmin(m->max, ceduo_histogram_value(h, hi)) : NAN;
-    return d;
+    return ceduo_distribution_by(value_of_rank, &h, (size_t)h->n, m);
 }

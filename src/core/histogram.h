@@ -21,17 +21,14 @@ struct histogram {
 /* False without memory; the value is then not counted. */
 bool ceduo_histogram_add(struct histogram *h, double value);
 
-/* Room for all that another has; false without memory. Then that can be added, which does not fail. */
-bool ceduo_histogram_reserve(struct histogram *into, const struct histogram *from);
-void ceduo_histogram_merge(struct histogram *into, const struct histogram *from);
-
 /* Writes it or reads it into an empty one. False without memory (b->no_memory), or where what is read is none of at most
  * `most` values. */
 bool ceduo_histogram_pack(struct histogram *h, struct bytes *b, uint64_t most);
 
 void ceduo_histogram_clear(struct histogram *h);
 
-/* The same for n of them: reserve them all, then merge them; free the array too, which may be NULL. */
+/* For n of them: make room for all that others have, false without memory; then add those, which does not fail; free the
+ * array too, which may be NULL. */
 bool ceduo_histograms_reserve(struct histogram *into, const struct histogram *from, size_t n);
 void ceduo_histograms_merge(struct histogram *into, const struct histogram *from, size_t n);
 void ceduo_histograms_free(struct histogram *all, size_t n);

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/grow.h"
 #include "ceduo/key.h"
 #include "ceduo/part.h"
 #include "run_pack.h"
@@ -66,14 +67,10 @@ enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_p
 static enum ceduo_status add_run(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t key,
                                  struct ceduo_run **run)
 {
-    if (pool->count == pool->room) {
-        size_t room = pool->room > 0 ? 2 * pool->room : 8;
-        struct pooled *runs = realloc(pool->runs, room * sizeof *runs);
-        if (!runs)
-            return CEDUO_NO_MEMORY;
-        pool->runs = runs;
-        pool->room = room;
-    }
+    struct pooled *runs = ceduo_grow(pool->runs, pool->count, &pool->room, sizeof *runs);
+    if (!runs)
+        return CEDUO_NO_MEMORY;
+    pool->runs = runs;
     struct ceduo_run_def def = pool->def;
     def.option = key != 0 ? option : NULL;
     enum ceduo_status status = ceduo_run_create(&def, run);

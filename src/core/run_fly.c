@@ -35,13 +35,6 @@ struct chunk {
     atomic_bool stop;
 };
 
-static void block_swap(struct block *a, struct block *b)
-{
-    struct block t = *a;
-    *a = *b;
-    *b = t;
-}
-
 /* ---- one rock ---- */
 
 static void keep_sample(struct worker *w, uint64_t rock, size_t control, const double values[QUANTITIES])
@@ -359,10 +352,13 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
         if (full && run->def.part)
             ceduo_run_block_merge(&run->kept_blocks[run->kept_count++], &run->slots[i], run->controls);
-        if (full)
+        struct block tail = run->tail;
+        if (full) {
             ceduo_run_block_merge(&run->whole, &run->slots[i], run->controls);
-        else
-            block_swap(&run->tail, &run->slots[i]);
+        } else {
+            run->tail = run->slots[i];
+            run->slots[i] = tail;
+        }
         ceduo_run_block_clear(&run->slots[i], run->controls);
     }
     run->rocks = chunk->end;

@@ -91,16 +91,8 @@ struct ceduo_distribution ceduo_distribution_none(void)
     return (struct ceduo_distribution){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 }
 
-/* The rank-th smallest value; what lies before rank `from` is already smaller. */
-static double select_rank(double *values, size_t n, size_t *from, size_t rank)
-{
-    size_t skip = *from > 0 ? *from - 1 : 0;
-    double v = gsl_stats_select(values + skip, 1, n - skip, rank - 1 - skip);
-    *from = rank;
-    return v;
-}
-
-struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
+struct ceduo_distribution ceduo_distribution_by(double (*value)(void *context, size_t rank), void *context, size_t n,
+                                                const struct ceduo_moments *m)
 {
     struct ceduo_distribution d = ceduo_distribution_none();
     if (n == 0)
@@ -109,17 +101,41 @@ struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, con
     d.sd = ceduo_moments_sd(m);
     d.se = ceduo_moments_se(m);
     d.max = m->max;
-    size_t lo, hi, from = 0, r50 = ceduo_quantile_rank(n, 0.5), r95 = ceduo_quantile_rank(n, 0.95);
-    ceduo_quantile_interval(n, 0.95, &lo, &hi);
-    d.p50 = select_rank(values, n, &from, r50);
-    d.p95_lo = lo > 0 ? select_rank(values, n, &from, lo) : NAN; /* not before the median, for any n */
-    d.p95 = select_rank(values, n, &from, r95);
-    size_t r99 = ceduo_quantile_rank(n, 0.99);
-    bool hi_first = hi <= r99;
-    if (hi_first)
-        d.p95_hi = select_rank(values, n, &from, hi);
-    d.p99 = select_rank(values, n, &from, r99);
-    if (!hi_first)
-        d.p95_hi = hi <= n ? select_rank(values, n, &from, hi) : NAN;
+    struct {
+        size_t rank;
+        double *to;
+    } wanted[] = {{ceduo_quantile_rank(n, 0.5), &d.p50}, /* for every n at most the lower bound of the 95 % quantile */
+                  {0, &d.p95_lo},
+                  {ceduo_quantile_rank(n, 0.95), &d.p95},
+                  {0, &d.p95_hi},
+                  {ceduo_quantile_rank(n, 0.99), &d.p99}}, last = wanted[4];
+    ceduo_quantile_interval(n, 0.95, &wanted[1].rank, &wanted[3].rank);
+    if (wanted[3].rank > last.rank) {
+        wanted[4] = wanted[3];
+        wanted[3] = last;
+    }
+    for (size_t i = 0; i < 5; i++)
+        if (wanted[i].rank > 0 && wanted[i].rank <= n)
+            *wanted[i].to = fmin(m->max, value(context, wanted[i].rank));
     return d;
+}
+
+/* Values that are sorted as far as ranks were asked for. */
+struct selection {
+    double *values;
+    size_t n, from; /* what lies before rank `from` is smaller than what comes */
+};
+
+static double select_rank(void *context, size_t rank)
+{
+    struct selection *s = context;
+    size_t skip = s->from > 0 ? s->from - 1 : 0;
+    s->from = rank;
+    return gsl_stats_select(s->values + skip, 1, s->n - skip, rank - 1 - skip);
+}
+
+struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
+{
+    struct selection selection = {.values = values, .n = n};
+    return ceduo_distribution_by(select_rank, &selection, n, m);
 }

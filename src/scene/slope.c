@@ -1,19 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/slope.h"
 
+#include <gsl/gsl_interp.h>
 #include <math.h>
 
 size_t ceduo_slope_segment(const struct ceduo_slope *slope, double x)
 {
-    size_t lo = 0, hi = slope->vertices - 1;
-    while (hi - lo > 1) {
-        size_t mid = lo + (hi - lo) / 2;
-        if (slope->x[mid] <= x)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    return lo;
+    return gsl_interp_bsearch(slope->x, x, 0, slope->vertices - 1);
 }
 
 double ceduo_slope_height(const struct ceduo_slope *slope, double x)

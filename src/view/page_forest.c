@@ -144,13 +144,7 @@ static void add_size(struct ceduo_page *page, const struct ceduo_block *b)
     ceduo_page_number(page, b->diameter, 3);
     ceduo_page_number(page, b->adc, 3);
     ceduo_page_number(page, b->contacts, 3);
-    const struct ceduo_arrivals share = {.exceed_probability = b->exceed_probability,
-                                         .exceed_lo = b->exceed_lo,
-                                         .exceed_hi = b->exceed_hi,
-                                         .reach_probability = b->reach_probability,
-                                         .reach_lo = b->reach_lo,
-                                         .reach_hi = b->reach_hi};
-    ceduo_page_share(page, isnan(b->reach_probability) ? NULL : &share);
+    ceduo_page_share(page, b->arrivals.released > 0 ? &b->arrivals : NULL);
 }
 
 #define SIZES_WIDTH 68

@@ -185,12 +185,12 @@ static void blocks_fly_with_their_own_mass(void **state)
         drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
         size_up(b);
         for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-            EXPECT(b[i].released, ==, BLOCKS_FLOWN);
-            EXPECT(b[i].reached, ==, BLOCKS_FLOWN);
-            EXPECT(b[i].reach_probability, ==, 1);
+            EXPECT(b[i].arrivals.released, ==, BLOCKS_FLOWN);
+            EXPECT(b[i].arrivals.reached, ==, BLOCKS_FLOWN);
+            EXPECT(b[i].arrivals.reach_probability, ==, 1);
             bool exceeds = b[i].volume > 1.1 * volumes[bears];
-            assert_int_equal(b[i].exceeded, exceeds ? BLOCKS_FLOWN : 0);
-            EXPECT(b[i].exceed_probability, ==, (exceeds ? 1 : 0));
+            assert_int_equal(b[i].arrivals.exceeded, exceeds ? BLOCKS_FLOWN : 0);
+            EXPECT(b[i].arrivals.exceed_probability, ==, (exceeds ? 1 : 0));
         }
     }
 }

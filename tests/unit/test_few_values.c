@@ -116,9 +116,9 @@ static void values_beyond_every_bin(void **state)
     expect_near(ceduo_histogram_value(&h, 4), 1, 3.1e-5);
     EXPECT(ceduo_histogram_value(&h, 5), >, 9e18); /* in the last octave */
     assert_true(isnan(ceduo_histogram_value(&h, 6)));
-    assert_true(ceduo_histogram_reserve(&more, &h));
-    ceduo_histogram_merge(&more, &h);
-    ceduo_histogram_merge(&more, &h);
+    assert_true(ceduo_histograms_reserve(&more, &h, 1));
+    ceduo_histograms_merge(&more, &h, 1);
+    ceduo_histograms_merge(&more, &h, 1);
     assert_int_equal(more.n, 10);
     for (uint64_t rank = 1; rank <= 10; rank++)
         EXPECT(ceduo_histogram_value(&more, rank), ==, ceduo_histogram_value(&h, (rank + 1) / 2));
