@@ -3,6 +3,7 @@
 
 #include <stdalign.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,6 +56,18 @@ char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
 char *ceduo_arena_string(struct arena *arena, const char *string)
 {
     return ceduo_arena_copy(arena, string, strlen(string));
+}
+
+char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
+{
+    va_list again;
+    va_copy(again, args);
+    int n = vsnprintf(NULL, 0, format, args);
+    char *p = n >= 0 ? ceduo_arena_take(arena, (size_t)n + 1) : NULL;
+    if (p)
+        vsnprintf(p, (size_t)n + 1, format, again);
+    va_end(again);
+    return p;
 }
 
 void ceduo_arena_free(struct arena *arena)

@@ -2,6 +2,7 @@
 #ifndef CEDUO_ARENA_H
 #define CEDUO_ARENA_H
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -20,6 +21,9 @@ void *ceduo_arena_take(struct arena *arena, size_t size);
 /* A copy of n bytes as a string; of a string. NULL without memory. */
 char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *ceduo_arena_string(struct arena *arena, const char *string);
+
+/* A string as printf() makes it. NULL without memory. */
+char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 
 void ceduo_arena_free(struct arena *arena);
 

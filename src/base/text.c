@@ -77,6 +77,12 @@ void ceduo_text_format(struct text *text, const char *format, ...)
     va_end(args);
 }
 
+void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator)
+{
+    for (size_t i = 0; i < n; i++)
+        ceduo_text_format(text, "%s%s", i > 0 ? separator : "", words[i]);
+}
+
 void ceduo_text_free(struct text *text)
 {
     free(text->bytes);

@@ -26,6 +26,9 @@ void ceduo_text_format(struct text *text, const char *format, ...) __attribute__
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 void ceduo_text_free(struct text *text);
 
+/* The words with a separator between them. */
+void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator);
+
 /* Its string, "" if it has none. */
 static inline const char *ceduo_text_string(const struct text *text)
 {

@@ -1,63 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "batch.h"
-#include "output.h"
-#include "say.h"
-#include "io/file.h"
 #include "base/intl.h"
 #include "base/utf8.h"
+#include "batch.h"
+#include "io/file.h"
 #include "io/node.h"
+#include "output.h"
+#include "say.h"
 #include "scene/schema.h"
 
-/* ---- parameters ---- */
-
-static const char *type_name(const struct field *f)
-{
-    switch (f->type) {
-    case FIELD_NUMBER:
-        return "number";
-    case FIELD_SPREAD:
-        return "number~";
-    case FIELD_SPREADS:
-        return "3 numbers~";
-    case FIELD_COUNT:
-        return "count";
-    case FIELD_CHOICE:
-        return "word";
-    case FIELD_FLAG:
-        return "flag";
-    case FIELD_NUMBERS:
-        return "numbers";
-    case FIELD_POINTS:
-        return "points";
-    case FIELD_FILE:
-        return "file";
-    default:
-        return "text";
-    }
-}
-
-static void put_words(struct text *text, const struct choices *choices)
-{
-    for (size_t i = 0; i < choices->n; i++)
-        ceduo_text_format(text, "%s%s", i ? "|" : "", choices->names[i]);
-}
-
-static void put_parameter(void *context, const char *path, const struct field *f)
-{
-    struct text *text = context;
-    struct text words = {0};
-    if (f->type == FIELD_TAG || strncmp(path, "options[].forest[].", 19) == 0)
-        return; /* as forest[] */
-    if (f->choices)
-        put_words(&words, f->choices);
-    else if (!ceduo_schema_range_text(f, &words))
-        ceduo_text_char(&words, '-');
-    ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_name(f), f->unit[0] ? f->unit : "-",
-                      ceduo_text_string(&words), f->value ? f->value : "-", _(f->meaning));
-    ceduo_text_free(&words);
-}
+/* ---- tables ---- */
 
 #define WIDTH_MOST 44 /* of a column; what is wider sticks out */
 
@@ -81,21 +34,51 @@ static void align(struct text *to, const char *rows)
         }
 }
 
+/* Prints rows as a table, with what stands below it. */
+static enum exit_status print_table(const struct arguments *a, struct text *rows, const char *below)
+{
+    struct text table = {0};
+    align(&table, ceduo_text_string(rows));
+    ceduo_text_put(&table, below);
+    ceduo_say_plainly(&table);
+    enum exit_status status = ceduo_output_write(a, &table);
+    ceduo_text_free(rows);
+    ceduo_text_free(&table);
+    return status;
+}
+
+/* ---- parameters ---- */
+
+static const char *const type_names[] = {
+    [FIELD_TEXT] = "text",          [FIELD_FILE] = "file",          [FIELD_NUMBER] = "number",
+    [FIELD_SPREAD] = "number~",     [FIELD_SPREADS] = "3 numbers~", [FIELD_COUNT] = "count",
+    [FIELD_CHOICE] = "word",        [FIELD_FLAG] = "flag",          [FIELD_NUMBERS] = "numbers",
+    [FIELD_POINTS] = "points"};
+
+static void put_parameter(void *context, const char *path, const struct field *f)
+{
+    struct text *text = context;
+    struct text words = {0};
+    if (f->type == FIELD_TAG || strncmp(path, "options[].forest[].", 19) == 0)
+        return; /* as forest[] */
+    if (f->choices)
+        ceduo_text_words(&words, f->choices->names, f->choices->n, "|");
+    else if (!ceduo_schema_range_text(f, &words))
+        ceduo_text_char(&words, '-');
+    ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_names[f->type], f->unit[0] ? f->unit : "-",
+                      ceduo_text_string(&words), f->value ? f->value : "-", _(f->meaning));
+    ceduo_text_free(&words);
+}
+
 enum exit_status ceduo_batch_parameters(const struct arguments *a)
 {
-    struct text rows = {0}, table = {0};
+    struct text rows = {0};
     ceduo_text_format(&rows, "%s\t%s\t%s\t%s\t%s\t%s\n", _("path"), _("type"), _("unit"), _("range"), _("default"),
                       _("meaning"));
     ceduo_schema_visit(ceduo_schema_scene(), "", put_parameter, &rows);
-    if (rows.bytes)
-        align(&table, rows.bytes);
-    ceduo_text_put(&table, _("\nnumber~: also {mean: ..., spread: ..., kind: normal|uniform}, drawn for each rock\n"
-                             "options[].forest[] holds what forest[] holds; any mapping may hold source: {kind, text}\n"));
-    ceduo_say_plainly(&table);
-    enum exit_status status = ceduo_output_write(a, &table);
-    ceduo_text_free(&rows);
-    ceduo_text_free(&table);
-    return status;
+    return print_table(a, &rows,
+                       _("\nnumber~: also {mean: ..., spread: ..., kind: normal|uniform}, drawn for each rock\n"
+                         "options[].forest[] holds what forest[] holds; any mapping may hold source: {kind, text}\n"));
 }
 
 /* ---- profiles ---- */
@@ -137,18 +120,13 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
 {
     static const char *const kinds[] = {"scenes", "slopes", "stands"};
     struct arena arena = {0};
-    struct text rows = {0}, table = {0};
+    struct text rows = {0};
     const char *const *folders = ceduo_file_folders(&arena);
     ceduo_text_format(&rows, "%s\t%s\t%s\n", _("file"), _("kind"), _("title"));
     for (size_t k = 0; k < 3; k++)
         for (size_t i = 0; folders && folders[i]; i++)
             list_shelf(&arena, &rows, folders[i], kinds[k]);
-    if (rows.bytes)
-        align(&table, rows.bytes);
-    ceduo_say_plainly(&table);
-    enum exit_status status = ceduo_output_write(a, &table);
-    ceduo_text_free(&rows);
-    ceduo_text_free(&table);
+    enum exit_status status = print_table(a, &rows, "");
     ceduo_arena_free(&arena);
     return status;
 }

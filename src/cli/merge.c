@@ -4,11 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
+#include "base/intl.h"
 #include "batch.h"
 #include "ceduo/part.h"
 #include "ceduo/version.h"
 #include "interrupt.h"
-#include "base/intl.h"
 #include "io/part_file.h"
 #include "output.h"
 #include "print.h"
@@ -48,16 +49,12 @@ __attribute__((format(printf, 4, 5))) static void complain(struct parts *all, co
 
 static void add_part(struct parts *all, const struct part *part)
 {
-    if (all->n == all->room) {
-        size_t room = all->room > 0 ? 2 * all->room : 64;
-        struct part *items = realloc(all->items, room * sizeof *items);
-        if (!items) {
-            all->no_memory = true;
-            return;
-        }
-        all->items = items;
-        all->room = room;
+    struct part *items = ceduo_grow(all->items, all->n, &all->room, sizeof *items);
+    if (!items) {
+        all->no_memory = true;
+        return;
     }
+    all->items = items;
     all->items[all->n++] = *part;
 }
 
