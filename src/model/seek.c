@@ -19,49 +19,10 @@ struct search {
 
 /* ---- what kind of number it is ---- */
 
-struct kind {
-    char path[512]; /* with empty brackets */
-    const struct field *field;
-};
-
-/* "forest[0].stand.trees[oak].per_ha" → "forest[].stand.trees[].per_ha" */
-static void strip_path(const char *path, char *to, size_t size)
-{
-    size_t n = 0;
-    bool inside = false;
-    for (; *path && n + 2 < size; path++) {
-        if (*path == ']')
-            inside = false;
-        if (!inside)
-            to[n++] = *path;
-        if (*path == '[')
-            inside = true;
-    }
-    to[n] = '\0';
-}
-
-static void look_at_field(void *context, const char *path, const struct field *field)
-{
-    struct kind *k = context;
-    size_t n = strlen(path), m = strlen(k->path);
-    /* belts of an option hold what those of the forest do */
-    if ((m >= n && strcmp(k->path + (m - n), path) == 0 && (m == n || k->path[m - n - 1] == '.')))
-        k->field = field;
-}
-
-static const struct field *field_at(const char *path)
-{
-    struct kind k = {.field = NULL};
-    strip_path(path, k.path, sizeof k.path);
-    ceduo_schema_visit(ceduo_schema_scene(), "", look_at_field, &k);
-    return k.field;
-}
-
 /* Counts and years are whole numbers; so are densities, which a forester counts. */
 static bool is_whole(const struct field *field)
 {
-    return field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0 || strcmp(field->unit, "y") == 0 ||
-                     field->type == FIELD_NUMBERS);
+    return field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0 || strcmp(field->unit, "y") == 0);
 }
 
 /* Text, a flag, a choice: no number, though one may stand there. */
@@ -115,7 +76,7 @@ static const struct source path_source = {.name = "--find", .is_option = true};
 /* What the goal needs of the scene. */
 static bool is_askable(const struct seek *s, struct problems *problems)
 {
-    if (is_text(field_at(s->search.path))) {
+    if (is_text(ceduo_schema_at(s->search.path))) {
         ceduo_problem(problems, &path_source, 0, 0, _("%s is no number"), s->search.path);
         return false;
     }
@@ -144,7 +105,7 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
         return CEDUO_BAD_SLOPE;
     struct ceduo_find_def def = {.lo = search->lo,
                                  .hi = search->hi,
-                                 .whole = is_whole(field_at(search->path)),
+                                 .whole = is_whole(ceduo_schema_at(search->path)),
                                  .target =
                                      ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
                                  .goal = goal_at,

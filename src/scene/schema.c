@@ -12,6 +12,32 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
     return NULL;
 }
 
+const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step)
+{
+    for (size_t i = 0; i < object->n; i++)
+        if (!step->bracket && ceduo_path_is(step, object->fields[i].key))
+            return &object->fields[i];
+    return NULL;
+}
+
+const struct field *ceduo_schema_at(const char *path)
+{
+    const struct object *object = ceduo_schema_scene();
+    const struct field *f = NULL;
+    struct path_step step;
+    size_t at = 0, n = strlen(path);
+    while (ceduo_path_next(path, n, &at, &step)) {
+        bool item = f && f->type == FIELD_LIST && object == NULL;
+        if (step.bracket != item)
+            return NULL;
+        f = item ? f : object ? ceduo_schema_step(object, &step) : NULL;
+        if (!f)
+            return NULL;
+        object = item || f->type == FIELD_GROUP ? f->object : NULL;
+    }
+    return at == n && f && !f->object ? f : NULL;
+}
+
 /* ---- defaults ---- */
 
 double ceduo_schema_default(const struct field *f)

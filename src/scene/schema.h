@@ -2,6 +2,7 @@
 #ifndef CEDUO_SCHEMA_H
 #define CEDUO_SCHEMA_H
 
+#include "base/path.h"
 #include "base/text.h"
 #include "ceduo/scene.h"
 #include "words.h"
@@ -89,6 +90,10 @@ const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
+const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step);
+
+/* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */
+const struct field *ceduo_schema_at(const char *path);
 
 /* Fills an item with its defaults. */
 void ceduo_schema_init(const struct object *object, void *item);

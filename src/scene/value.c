@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/path.h"
-
 /* Where a path has led to. */
 struct finder {
     struct ceduo_scene *scene;
@@ -79,21 +77,13 @@ static bool enter_list(struct finder *f, const struct field *list)
     return enter_item(f, list->object, items, n);
 }
 
-static const struct field *field_of(const struct object *object, const struct path_step *step)
-{
-    for (size_t i = 0; i < object->n; i++)
-        if (!step->bracket && ceduo_path_is(step, object->fields[i].key))
-            return &object->fields[i];
-    return NULL;
-}
-
 /* The field that the path ends in, or that holds the numbers that it goes on to. */
 static const struct field *find_leaf(struct finder *f)
 {
     struct path_step step;
     const struct field *field;
     while (next(f, &step)) {
-        if (!(field = field_of(f->object, &step)))
+        if (!(field = ceduo_schema_step(f->object, &step)))
             return NULL;
         if (field->type == FIELD_GROUP) {
             f->object = field->object;
