@@ -124,8 +124,7 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
         report_key(b, entry, _("unknown key; did you mean '%s'?"), near);
     } else {
         struct text list = {0};
-        for (size_t i = 0; i < n; i++)
-            ceduo_text_format(&list, "%s%s", i ? ", " : "", words[i]);
+        ceduo_text_words(&list, words, n, ", ");
         report_key(b, entry, _("unknown key; known here: %s"), ceduo_text_string(&list));
         ceduo_text_free(&list);
     }
@@ -230,8 +229,7 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
         return;
     }
     struct text list = {0};
-    for (size_t i = 0; i < choices->n; i++)
-        ceduo_text_format(&list, "%s%s", i ? ", " : "", choices->names[i]);
+    ceduo_text_words(&list, choices->names, choices->n, ", ");
     const char *near = ceduo_text_nearest(node->text, choices->names, choices->n);
     if (near)
         report(b, node, _("'%s' is unknown; did you mean '%s'? (%s)"), node->text, near, ceduo_text_string(&list));

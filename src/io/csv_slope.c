@@ -179,7 +179,7 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *
     const struct source *s = ceduo_file_read(arena, path, CSV_BYTES_MOST, problems);
     if (!s)
         return false;
-    size_t rows = count_lines(s), at = s->length >= 3 && memcmp(s->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t rows = count_lines(s), at = ceduo_source_mark(s);
     points->x = ceduo_arena_take(arena, rows * sizeof(double));
     points->z = ceduo_arena_take(arena, rows * sizeof(double));
     if (!points->x || !points->z) {

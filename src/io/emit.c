@@ -74,7 +74,7 @@ void ceduo_emit_scalar(struct text *text, const char *value, bool quoted)
 
 /* ---- trees ---- */
 
-static void put_flow(struct text *text, const struct node *node)
+void ceduo_emit_flow(struct text *text, const struct node *node)
 {
     if (node->kind == NODE_SCALAR) {
         ceduo_emit_scalar(text, node->text, node->quoted);
@@ -86,29 +86,18 @@ static void put_flow(struct text *text, const struct node *node)
             ceduo_text_put(text, ", ");
         if (node->kind == NODE_MAP)
             ceduo_text_format(text, "%s: ", node->items[i]->key);
-        put_flow(text, node->items[i]);
+        ceduo_emit_flow(text, node->items[i]);
     }
     ceduo_text_char(text, node->kind == NODE_MAP ? '}' : ']');
-}
-
-void ceduo_emit_flow(struct text *text, const struct node *node)
-{
-    put_flow(text, node);
 }
 
 static bool fits_flow(const struct node *node, size_t indent)
 {
     struct text line = {0};
-    put_flow(&line, node);
+    ceduo_emit_flow(&line, node);
     bool fits = !line.failed && line.length + indent <= FLOW_MOST;
     ceduo_text_free(&line);
     return fits;
-}
-
-static void put_indent(struct text *text, size_t indent)
-{
-    for (size_t i = 0; i < indent; i++)
-        ceduo_text_char(text, ' ');
 }
 
 static void put_block(struct text *text, const struct node *node, size_t indent);
@@ -117,7 +106,7 @@ static void put_entry(struct text *text, const struct node *value, size_t indent
 {
     if (value->kind == NODE_SCALAR || value->n == 0 || fits_flow(value, indent + 20)) {
         ceduo_text_char(text, ' ');
-        put_flow(text, value);
+        ceduo_emit_flow(text, value);
         ceduo_text_char(text, '\n');
         return;
     }
@@ -130,15 +119,13 @@ static void put_block(struct text *text, const struct node *node, size_t indent)
     for (size_t i = 0; i < node->n; i++) {
         const struct node *item = node->items[i];
         if (node->kind == NODE_MAP) {
-            put_indent(text, indent);
-            ceduo_text_format(text, "%s:", item->key);
+            ceduo_text_format(text, "%*s%s:", (int)indent, "", item->key);
             put_entry(text, item, indent);
             continue;
         }
         if (item->kind == NODE_SCALAR || item->n == 0 || fits_flow(item, indent + 2)) {
-            put_indent(text, indent);
-            ceduo_text_put(text, "- ");
-            put_flow(text, item);
+            ceduo_text_format(text, "%*s- ", (int)indent, "");
+            ceduo_emit_flow(text, item);
             ceduo_text_char(text, '\n');
             continue;
         }
@@ -160,11 +147,7 @@ void ceduo_emit(struct text *text, const struct node *root)
 /* The entries of `now` that differ from `base`, which nothing was taken from. False where one is gone. */
 static const struct node *difference(struct arena *arena, const struct node *base, const struct node *now)
 {
-    struct node *empty = ceduo_arena_take(arena, sizeof *empty);
-    if (!empty)
-        return NULL;
-    *empty = (struct node){.kind = NODE_MAP};
-    const struct node *out = empty;
+    const struct node *out = ceduo_node_empty(arena, NODE_MAP, NULL);
     for (size_t i = 0; i < base->n; i++)
         if (!ceduo_node_get(now, base->items[i]->key))
             return NULL;
@@ -183,11 +166,6 @@ static const struct node *difference(struct arena *arena, const struct node *bas
     return out;
 }
 
-static const struct node *key_of(struct arena *arena, const struct node *value, const struct node *place)
-{
-    return ceduo_node_renamed(arena, value, place->key);
-}
-
 /* A stand as `base` and what differs; NULL where that cannot say it. */
 static const struct node *as_base(struct arena *arena, const struct node *now, const struct node *loaded)
 {
@@ -196,16 +174,11 @@ static const struct node *as_base(struct arena *arena, const struct node *now, c
     if (!changes)
         return NULL;
     const struct node *start = w->kind == NODE_SCALAR ? NULL : w;
-    if (!start) {
-        struct node *empty = ceduo_arena_take(arena, sizeof *empty);
-        if (!empty)
-            return NULL;
-        *empty = (struct node){.kind = NODE_MAP};
-        start = ceduo_node_with(arena, empty, "base", w);
-    }
+    if (!start && (start = ceduo_node_empty(arena, NODE_MAP, NULL)))
+        start = ceduo_node_with(arena, start, "base", w);
     for (size_t i = 0; start && i < changes->n; i++)
         start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(now, changes->items[i]->key));
-    return start ? key_of(arena, start, now) : NULL;
+    return start ? ceduo_node_renamed(arena, start, now->key) : NULL;
 }
 
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
@@ -216,7 +189,7 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
         for (size_t i = 0; same && i < was->n; i++)
             same = ceduo_node_equal(was->items[i], node->items[i]);
         if (same)
-            return key_of(arena, node->written, node);
+            return ceduo_node_renamed(arena, node->written, node->key);
         const struct node *base = strcmp(node->key, "stand") == 0 ? as_base(arena, node, was) : NULL;
         if (base)
             return base;
@@ -237,15 +210,10 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
 /* Byte of line and column, both from 1, columns in characters. */
 static size_t byte_of(const struct source *s, uint32_t line, uint32_t column)
 {
-    size_t at = 0;
-    for (uint32_t l = 1; l < line; l++) {
-        const char *end = memchr(s->bytes + at, '\n', s->length - at);
-        if (!end)
-            return s->length;
-        at = (size_t)(end - s->bytes) + 1;
-    }
-    if (line == 1 && s->length >= 3 && memcmp(s->bytes, "\xef\xbb\xbf", 3) == 0)
-        at = 3;
+    size_t at, end;
+    if (!ceduo_source_line(s, line, &at, &end))
+        return s->length;
+    at += line == 1 ? ceduo_source_mark(s) : 0;
     for (uint32_t c = 1; c < column && at < s->length; c++)
         do
             at++;
@@ -267,7 +235,7 @@ static bool patch_span(struct patcher *p, const struct node *old, const struct n
     if (from < p->done)
         return false;
     ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);
-    put_flow(p->text, now);
+    ceduo_emit_flow(p->text, now);
     p->done = to;
     return true;
 }

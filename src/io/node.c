@@ -110,6 +110,14 @@ const struct node *ceduo_node_without(struct arena *arena, const struct node *ma
     return map;
 }
 
+const struct node *ceduo_node_empty(struct arena *arena, enum node_kind kind, const struct source *source)
+{
+    struct node *node = ceduo_arena_take(arena, sizeof *node);
+    if (node)
+        *node = (struct node){.kind = kind, .flow = kind == NODE_LIST, .source = source, .line = 1, .column = 1};
+    return node;
+}
+
 const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted)
 {
     struct node *node = ceduo_arena_take(arena, sizeof *node);

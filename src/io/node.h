@@ -60,7 +60,8 @@ const struct node *ceduo_node_renamed(struct arena *arena, const struct node *va
 /* Notes that a node made just now is an edit of `from`, which may have been followed from a file. */
 void ceduo_node_keep_written(const struct node *made, const struct node *from);
 
-/* A scalar that stands nowhere yet. */
+/* A mapping or list without items, and a scalar, that stand nowhere yet. NULL without memory. */
+const struct node *ceduo_node_empty(struct arena *arena, enum node_kind kind, const struct source *source);
 const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted);
 
 /* Whether two values say the same, wherever they stand. */

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/intl.h"
 #include "base/utf8.h"
 
@@ -11,8 +12,7 @@
 #define TAIL         200
 #define COUNTED      1000
 
-/* Byte range of line number `line` (from 1). */
-static bool find_line(const struct source *s, size_t line, size_t *from, size_t *to)
+bool ceduo_source_line(const struct source *s, size_t line, size_t *from, size_t *to)
 {
     size_t at = 0;
     for (size_t i = 1; i < line; i++) {
@@ -40,10 +40,10 @@ static size_t step(const char *p, size_t n)
 static void show_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
     size_t from, to;
-    if (!find_line(s, line, &from, &to) || to == from)
+    if (!ceduo_source_line(s, line, &from, &to) || to == from)
         return;
     size_t first = column > LINE_MOST ? column - LINE_MOST / 2 : 1;
-    size_t mark = from == 0 && to >= 3 && memcmp(s->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; /* takes no column */
+    size_t mark = from == 0 ? ceduo_source_mark(s) : 0;
     size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
         at += step(s->bytes + at, to - at);
@@ -63,8 +63,7 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     }
     ceduo_text_char(out, '\n');
     ceduo_text_put(&caret, "^\n");
-    if (caret.bytes)
-        ceduo_text_put(out, caret.bytes);
+    ceduo_text_put(out, ceduo_text_string(&caret));
     ceduo_text_free(&caret);
 }
 
@@ -85,16 +84,7 @@ static void put_message(struct text *out, const char *message)
     ceduo_text_safe_n(out, message + tail, n - tail);
 }
 
-/* Place and message: the same for a fault that is met twice. FNV-1a. */
-static uint64_t hash_of(const struct text *text)
-{
-    uint64_t hash = 0xcbf29ce484222325;
-    for (size_t i = 0; i < text->length; i++)
-        hash = (hash ^ (unsigned char)text->bytes[i]) * 0x100000001b3;
-    return hash;
-}
-
-/* A file that is used in two places has its faults once. */
+/* By place and message. A file that is used in two places has its faults once. */
 static bool is_known(const struct problems *problems, uint64_t hash)
 {
     for (size_t i = 0; i < problems->count && i < CEDUO_PROBLEMS_MOST; i++)
@@ -123,17 +113,15 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
             ceduo_text_format(&one, ":%zu:%zu", line, column);
         ceduo_text_put(&one, ": ");
     }
-    if (message.bytes)
-        put_message(&one, message.bytes);
+    put_message(&one, ceduo_text_string(&message));
     ceduo_text_char(&one, '\n');
-    uint64_t hash = hash_of(&one);
+    uint64_t hash = hash_bytes(ceduo_text_string(&one), one.length);
     if (!is_known(problems, hash)) {
         if (problems->count < CEDUO_PROBLEMS_MOST) { /* of a million only these look for their line */
             if (source && line > 0)
                 show_line(&one, source, line, column);
             problems->shown[problems->count] = hash;
-            if (one.bytes)
-                ceduo_text_add(&problems->text, one.bytes, one.length);
+            ceduo_text_put(&problems->text, ceduo_text_string(&one));
         }
         problems->count++;
     }

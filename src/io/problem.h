@@ -2,6 +2,8 @@
 #ifndef CEDUO_PROBLEM_H
 #define CEDUO_PROBLEM_H
 
+#include <string.h>
+
 #include "base/text.h"
 
 /* Where text came from: a file, standard input, an option of the command line. */
@@ -12,6 +14,15 @@ struct source {
     bool is_option;   /* a --set: what is wrong with it is a usage error */
     const char *beside; /* of an option: the file that its paths are looked for beside */
 };
+
+/* Bytes of the byte order mark that it begins with; the mark takes no column. */
+static inline size_t ceduo_source_mark(const struct source *source)
+{
+    return source->length >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+/* The bytes of line number `line` (from 1) without its end; false where the source has fewer lines. */
+bool ceduo_source_line(const struct source *source, size_t line, size_t *from, size_t *to);
 
 #define CEDUO_PROBLEMS_MOST 20 /* printed in full */
 

@@ -332,18 +332,10 @@ static const struct node *fail_at(struct setter *s, const struct path_step *step
     return NULL;
 }
 
-static const struct node *empty_map(struct setter *s)
-{
-    struct node *map = ceduo_arena_take(s->arena, sizeof *map);
-    if (map)
-        *map = (struct node){.kind = NODE_MAP, .source = s->set, .line = 1, .column = 1};
-    return map;
-}
-
 /* A number becomes {mean: number} where one of its parts is set. */
 static const struct node *spread_map(struct setter *s, const struct node *node)
 {
-    const struct node *map = empty_map(s);
+    const struct node *map = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     return map && node ? ceduo_node_with(s->arena, map, "mean", node) : map;
 }
 
@@ -356,14 +348,10 @@ static const struct node *source_except(struct setter *s, const struct node *sou
     for (size_t i = 0; list && i < list->n; i++)
         if (list->items[i]->kind == NODE_SCALAR && ceduo_path_is(path, list->items[i]->text))
             return source;
-    struct node *empty = ceduo_arena_take(s->arena, sizeof *empty);
+    list = list ? list : ceduo_node_empty(s->arena, NODE_LIST, source->source);
     char *text = ceduo_arena_copy(s->arena, path->p, path->n);
     const struct node *item = text ? ceduo_node_scalar(s->arena, s->set, text, false) : NULL;
-    if (!empty || !item)
-        return NULL;
-    *empty = (struct node){.kind = NODE_LIST, .flow = true, .source = source->source};
-    list = list ? list : empty;
-    list = ceduo_node_inserted(s->arena, list, list->n, item);
+    list = list && item ? ceduo_node_inserted(s->arena, list, list->n, item) : NULL;
     return list ? ceduo_node_with(s->arena, source, "except", list) : NULL;
 }
 
@@ -412,7 +400,7 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR))
         child = spread_map(s, child);
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
-        child = empty_map(s);
+        child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child)
         return fail_at(s, step, _("there is none to change"));
     if (!last && !child)

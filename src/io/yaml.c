@@ -3,6 +3,7 @@
 #include <string.h>
 #include <yaml.h>
 
+#include "base/grow.h"
 #include "base/intl.h"
 #include "base/utf8.h"
 #include "node.h"
@@ -37,6 +38,12 @@ static size_t column_of(const struct reader *r, yaml_mark_t mark)
         ceduo_problem((r)->problems, (r)->source, line_of(mark), column_of(r, mark), __VA_ARGS__);            \
         (r)->stopped = true;                                                                                     \
     } while (0)
+
+static void stop_for_memory(struct reader *r)
+{
+    ceduo_problem_memory(r->problems);
+    r->stopped = true;
+}
 
 /* The place of byte `offset`: libyaml gives no mark for what is no UTF-8. */
 static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
@@ -80,8 +87,7 @@ static void syntax_problem(struct reader *r)
 {
     const yaml_parser_t *p = &r->parser;
     if (p->error == YAML_MEMORY_ERROR) {
-        ceduo_problem_memory(r->problems);
-        r->stopped = true;
+        stop_for_memory(r);
         return;
     }
     if (p->error == YAML_READER_ERROR) {
@@ -121,8 +127,7 @@ static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t 
 {
     struct node *node = ceduo_arena_take(r->arena, sizeof *node);
     if (!node) {
-        ceduo_problem_memory(r->problems);
-        r->stopped = true;
+        stop_for_memory(r);
         return NULL;
     }
     *node = (struct node){.kind = kind,
@@ -130,6 +135,13 @@ static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t 
                           .line = (uint32_t)line_of(mark),
                           .column = (uint32_t)column_of(r, mark)};
     return node;
+}
+
+/* Where a value ends: so that it can be written anew without the rest of the file. */
+static void note_end(const struct reader *r, struct node *node, const yaml_event_t *event)
+{
+    node->end_line = (uint32_t)line_of(event->end_mark);
+    node->end_column = (uint32_t)column_of(r, event->end_mark);
 }
 
 static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
@@ -147,8 +159,7 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
         STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
         return NULL;
     }
-    node->end_line = (uint32_t)line_of(event->end_mark);
-    node->end_column = (uint32_t)column_of(r, event->end_mark);
+    note_end(r, node, event);
     node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->text = ceduo_arena_copy(r->arena, value, length);
     if (!node->text)
@@ -164,21 +175,15 @@ struct pile {
     size_t n, room;
 };
 
-static bool pile_add(struct reader *r, struct pile *pile, const struct node *item)
+static void pile_add(struct reader *r, struct pile *pile, const struct node *item)
 {
-    if (pile->n == pile->room) {
-        size_t room = pile->room ? 2 * pile->room : 8;
-        const struct node **items = realloc(pile->items, room * sizeof *items);
-        if (!items) {
-            ceduo_problem_memory(r->problems);
-            r->stopped = true;
-            return false;
-        }
-        pile->items = items;
-        pile->room = room;
+    const struct node **items = ceduo_grow(pile->items, pile->n, &pile->room, sizeof *items);
+    if (!items) {
+        stop_for_memory(r);
+        return;
     }
+    pile->items = items;
     pile->items[pile->n++] = item;
-    return true;
 }
 
 static struct node *settle(struct reader *r, struct node *node, struct pile *pile)
@@ -197,35 +202,11 @@ static struct node *settle(struct reader *r, struct node *node, struct pile *pil
     return r->stopped ? NULL : node;
 }
 
-/* Where something in brackets ends: so that it can be written anew without the rest of the file. */
-static void note_end(const struct reader *r, struct node *node, bool flow, const yaml_event_t *event)
+static void read_item(struct reader *r, const yaml_event_t *event, struct pile *pile, int depth)
 {
-    node->flow = flow;
-    node->end_line = (uint32_t)line_of(event->end_mark);
-    node->end_column = (uint32_t)column_of(r, event->end_mark);
-}
-
-static struct node *read_list(struct reader *r, const yaml_event_t *start, int depth)
-{
-    struct node *node = new_node(r, NODE_LIST, start->start_mark);
-    struct pile pile = {0};
-    while (node && !r->stopped) {
-        yaml_event_t event;
-        if (!next_event(r, &event))
-            break;
-        bool end = event.type == YAML_SEQUENCE_END_EVENT;
-        if (end)
-            note_end(r, node, start->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE, &event);
-        if (!end) {
-            struct node *item = read_value(r, &event, depth);
-            if (item)
-                pile_add(r, &pile, item);
-        }
-        yaml_event_delete(&event);
-        if (end)
-            break;
-    }
-    return node ? settle(r, node, &pile) : NULL;
+    struct node *item = read_value(r, event, depth);
+    if (item)
+        pile_add(r, pile, item);
 }
 
 static bool key_is_new(struct reader *r, const struct pile *pile, const yaml_event_t *event)
@@ -267,32 +248,35 @@ static void read_entry(struct reader *r, const yaml_event_t *event, struct pile 
     node->key = ceduo_arena_string(r->arena, (const char *)event->data.scalar.value);
     node->key_line = (uint32_t)line_of(event->start_mark);
     node->key_column = (uint32_t)column_of(r, event->start_mark);
-    if (!node->key) {
-        ceduo_problem_memory(r->problems);
-        r->stopped = true;
-        return;
-    }
-    pile_add(r, pile, node);
+    if (node->key)
+        pile_add(r, pile, node);
+    else
+        stop_for_memory(r);
 }
 
-static struct node *read_map(struct reader *r, const yaml_event_t *start, int depth)
+/* A mapping or list, whose entries end with an event of type `last`. */
+static struct node *read_entries(struct reader *r, enum node_kind kind, const yaml_event_t *start, bool flow,
+                                 yaml_event_type_t last, int depth)
 {
-    struct node *node = new_node(r, NODE_MAP, start->start_mark);
+    struct node *node = new_node(r, kind, start->start_mark);
     struct pile pile = {0};
-    while (node && !r->stopped) {
+    for (bool end = false; node && !end && !r->stopped;) {
         yaml_event_t event;
         if (!next_event(r, &event))
             break;
-        bool end = event.type == YAML_MAPPING_END_EVENT;
+        end = event.type == last;
         if (end)
-            note_end(r, node, start->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE, &event);
-        if (!end)
+            note_end(r, node, &event);
+        else if (kind == NODE_MAP)
             read_entry(r, &event, &pile, depth);
+        else
+            read_item(r, &event, &pile, depth);
         yaml_event_delete(&event);
-        if (end)
-            break;
     }
-    return node ? settle(r, node, &pile) : NULL;
+    if (!node)
+        return NULL;
+    node->flow = flow;
+    return settle(r, node, &pile);
 }
 
 static bool has_anchor_or_tag(struct reader *r, const yaml_event_t *event)
@@ -333,10 +317,12 @@ static struct node *read_value(struct reader *r, const yaml_event_t *event, int 
         node = read_scalar(r, event);
         break;
     case YAML_SEQUENCE_START_EVENT:
-        node = read_list(r, event, depth + 1);
+        node = read_entries(r, NODE_LIST, event, event->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE,
+                            YAML_SEQUENCE_END_EVENT, depth + 1);
         break;
     case YAML_MAPPING_START_EVENT:
-        node = read_map(r, event, depth + 1);
+        node = read_entries(r, NODE_MAP, event, event->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE,
+                            YAML_MAPPING_END_EVENT, depth + 1);
         break;
     default: /* an alias: nothing else stands for a value */
         STOP(r, event->start_mark, _("an alias; write the value out"));
@@ -391,6 +377,5 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
 
 const struct node *ceduo_yaml_read(struct arena *arena, const struct source *source, struct problems *problems)
 {
-    bool bom = source->length >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0;
-    return ceduo_yaml_read_value(arena, source, bom ? 3 : 0, problems);
+    return ceduo_yaml_read_value(arena, source, ceduo_source_mark(source), problems);
 }
