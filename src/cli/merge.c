@@ -266,7 +266,10 @@ static enum exit_status join(struct parts *all, size_t from, size_t end, const s
     enum exit_status status = ceduo_batch_read(&own, inputs.path, &inputs.shelf, &file);
     if (status == EXIT_DONE)
         status = ceduo_batch_choose(&own, &file);
-    if (status == EXIT_USAGE || (status == EXIT_DONE && ceduo_part_key(&file, first->rocks) != first->key))
+    uint64_t key = status == EXIT_DONE ? ceduo_part_key(&file, first->rocks) : UINT64_MAX;
+    if (key == 0)
+        status = out_of_memory(first);
+    else if (status == EXIT_USAGE || (status == EXIT_DONE && key != first->key))
         status = unusable(all, first);
     if (status == EXIT_DONE)
         status = report(all, from, end, &own, &file, out);

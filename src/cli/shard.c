@@ -28,6 +28,8 @@ enum exit_status ceduo_batch_shard(const struct arguments *a, const char *path, 
     enum ceduo_status status = ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
     ceduo_progress_end(&progress);
     part.seconds = ceduo_clock() - progress.start;
+    if (status == CEDUO_OK && part.key == 0)
+        status = CEDUO_NO_MEMORY;
     if (status == CEDUO_OK && part.shard == 1 && !(texts = ceduo_part_inputs(&inputs, &part.inputs_length)))
         status = CEDUO_NO_MEMORY;
     part.runs = runs;

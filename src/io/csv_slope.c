@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "csv_slope.h"
+#include "derive.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#include "file.h"
 #include "base/intl.h"
-#include "scene/schema.h"
+#include "file.h"
 
 /* A line of the file, and a field of it. */
 struct span {

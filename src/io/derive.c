@@ -48,16 +48,13 @@ void *ceduo_derive_take(struct deriver *d, size_t n, size_t size)
 
 const char *ceduo_derive_text(struct deriver *d, const char *format, ...)
 {
-    struct text text = {0};
     va_list args;
     va_start(args, format);
-    ceduo_text_vformat(&text, format, args);
+    const char *text = ceduo_arena_vformat(d->arena, format, args);
     va_end(args);
-    const char *copy = text.bytes ? ceduo_arena_string(d->arena, text.bytes) : NULL;
-    ceduo_text_free(&text);
-    if (!copy)
+    if (!text)
         ceduo_problem_memory(d->problems);
-    return copy ? copy : "";
+    return text ? text : "";
 }
 
 bool ceduo_derive_known(struct deriver *d, const char *format, ...)

@@ -34,6 +34,16 @@ bool ceduo_derive(struct deriver *d);
 
 /* ---- its steps ---- */
 
+/* A profile as its files give it. */
+struct points {
+    double *x, *z;
+    size_t n;
+};
+
+/* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
+ * separated by comma, semicolon or tab. False where that fails. */
+bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
+
 void ceduo_derive_slope(struct deriver *d);
 void ceduo_derive_release(struct deriver *d);
 void ceduo_derive_controls(struct deriver *d);

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/intl.h"
-#include "csv_slope.h"
 #include "resolve.h"
 
 static bool read_vertices(struct deriver *d, struct points *p)

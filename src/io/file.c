@@ -288,6 +288,22 @@ static bool read_into(struct arena *arena, const char *path, size_t most, struct
     return good;
 }
 
+const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems)
+{
+    struct source *kept = ceduo_arena_take(arena, sizeof *kept);
+    source.name = ceduo_arena_string(arena, source.name);
+    source.length = strlen(source.bytes);
+    source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
+    const char *beside = keep(arena, source.beside);
+    if (!kept || !source.name || !source.bytes || (source.beside && !beside)) {
+        ceduo_problem_memory(problems);
+        return NULL;
+    }
+    source.beside = beside;
+    *kept = source;
+    return kept;
+}
+
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems)
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);

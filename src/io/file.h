@@ -8,6 +8,9 @@
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
 #define CSV_BYTES_MOST ((size_t)64 * 1024 * 1024)
 
+/* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory, which is told. */
+const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems);
+
 /* Reads a whole file, at most `most` bytes; "-" is standard input. NULL where that fails, with the reason in
  * `problems`. Name and bytes live in the arena. */
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems);
@@ -46,10 +49,10 @@ bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name
                       const char *folder, const char *path);
 bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length);
 
-/* Reads a file ("-": standard input) of at most `most` bytes into a text. False with errno set. */
 /* What an errno of reading means. */
 const char *ceduo_file_why(int why);
 
+/* Reads a file ("-": standard input) of at most `most` bytes into a text. False with errno set. */
 bool ceduo_file_take(const char *path, struct text *text, size_t most);
 
 /* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else straight.

@@ -17,11 +17,8 @@ bool ceduo_note_of_years(const struct source_note *note)
 
 bool ceduo_notes_assume(const struct source_note *notes, const char *path)
 {
-    size_t n = strlen(path);
     for (const struct source_note *note = notes; note; note = note->before)
-        if (strncmp(note->path, path, n) == 0 &&
-            (note->path[n] == '\0' || note->path[n] == '.' || note->path[n] == '[') &&
-            strcmp(note->kind, "assumed") == 0 && !ceduo_note_of_years(note))
+        if (ceduo_path_leads_to(path, note->path) && strcmp(note->kind, "assumed") == 0 && !ceduo_note_of_years(note))
             return true;
     return false;
 }

@@ -7,12 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/key.h"
-#include "base/hash.h"
-#include "ceduo/version.h"
 #include "base/bytes.h"
+#include "base/hash.h"
 #include "base/json.h"
 #include "base/utf8.h"
+#include "ceduo/key.h"
+#include "ceduo/version.h"
 
 /* ---- base64 ---- */
 
@@ -232,62 +232,16 @@ enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *li
     return good ? PART_GOOD : PART_CHANGED;
 }
 
-/* ---- the key ---- */
+/* ---- bytes ---- */
 
-static void add_count(struct text *text, uint64_t value)
+static void pack_count(struct bytes *b, uint64_t value)
 {
-    char bytes[8];
-    for (int i = 0; i < 8; i++)
-        bytes[i] = (char)(value >> (8 * i) & 0xff);
-    ceduo_text_add(text, bytes, sizeof bytes);
+    ceduo_bytes_count(b, &value);
 }
-
-static void add_string(struct text *text, const char *string)
-{
-    add_count(text, string ? strlen(string) : UINT64_MAX);
-    ceduo_text_put(text, string ? string : "");
-}
-
-static void add_node(struct text *text, const struct node *node)
-{
-    add_count(text, (uint64_t)node->kind << 1 | node->quoted);
-    add_string(text, node->key);
-    add_string(text, node->text);
-    add_count(text, node->n);
-    for (size_t i = 0; i < node->n; i++)
-        add_node(text, node->items[i]);
-}
-
-static void add_number(struct text *text, double value)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    add_count(text, bits);
-}
-
-uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks)
-{
-    const struct ceduo_scene *scene = &file->scene;
-    struct text text = {0};
-    add_count(&text, rocks);
-    add_string(&text, scene->title);
-    add_number(&text, scene->slope.origin_x);
-    add_number(&text, scene->slope.origin_z);
-    add_count(&text, ceduo_scene_key(scene));
-    for (size_t i = 0; i < scene->options_count; i++)
-        add_count(&text, ceduo_option_key(scene, &scene->options[i]));
-    add_node(&text, file->root);
-    uint64_t key = text.bytes ? hash_bytes(text.bytes, text.length) : 0;
-    ceduo_text_free(&text);
-    return key;
-}
-
-/* ---- inputs ---- */
 
 static void pack_string(struct bytes *b, const char *string, size_t n)
 {
-    uint64_t length = string ? n : UINT64_MAX;
-    ceduo_bytes_count(b, &length);
+    pack_count(b, string ? n : UINT64_MAX);
     unsigned char *to = string ? ceduo_bytes_write(b, n) : NULL;
     if (to)
         memcpy(to, string, n);
@@ -300,11 +254,42 @@ static void pack_word(struct bytes *b, const char *word)
 
 static void pack_words(struct bytes *b, const char *const *words, size_t n)
 {
-    uint64_t count = n;
-    ceduo_bytes_count(b, &count);
+    pack_count(b, n);
     for (size_t i = 0; i < n; i++)
         pack_word(b, words[i]);
 }
+
+/* ---- the key ---- */
+
+static void pack_node(struct bytes *b, const struct node *node)
+{
+    pack_count(b, (uint64_t)node->kind << 1 | node->quoted);
+    pack_word(b, node->key);
+    pack_word(b, node->text);
+    pack_count(b, node->n);
+    for (size_t i = 0; i < node->n; i++)
+        pack_node(b, node->items[i]);
+}
+
+uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks)
+{
+    const struct ceduo_scene *scene = &file->scene;
+    double x = scene->slope.origin_x, z = scene->slope.origin_z;
+    struct bytes b = {0};
+    pack_count(&b, rocks);
+    pack_word(&b, scene->title);
+    ceduo_bytes_number(&b, &x);
+    ceduo_bytes_number(&b, &z);
+    pack_count(&b, ceduo_scene_key(scene));
+    for (size_t i = 0; i < scene->options_count; i++)
+        pack_count(&b, ceduo_option_key(scene, &scene->options[i]));
+    pack_node(&b, file->root);
+    uint64_t key = b.no_memory ? 0 : hash_bytes(b.to, b.length);
+    free(b.to);
+    return key;
+}
+
+/* ---- inputs ---- */
 
 unsigned char *ceduo_part_inputs(const struct part_inputs *in, size_t *n)
 {
@@ -315,14 +300,14 @@ unsigned char *ceduo_part_inputs(const struct part_inputs *in, size_t *n)
     pack_words(&b, in->options, in->options_count);
     for (const struct shelf_find *f = in->shelf.finds; f; f = f->before)
         finds++;
-    ceduo_bytes_count(&b, &finds);
+    pack_count(&b, finds);
     for (const struct shelf_find *f = in->shelf.finds; f; f = f->before) {
         const char *const words[] = {f->name, f->beside, f->folder, f->path};
         pack_words(&b, words, 4);
     }
     for (const struct shelf_file *f = in->shelf.files; f; f = f->before)
         files++;
-    ceduo_bytes_count(&b, &files);
+    pack_count(&b, files);
     for (const struct shelf_file *f = in->shelf.files; f; f = f->before) {
         pack_word(&b, f->path);
         pack_string(&b, f->bytes, f->length);

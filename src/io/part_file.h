@@ -36,7 +36,8 @@ void ceduo_part_write(struct text *out, const struct part *part);
 /* Reads a line of n bytes, without its end. What it holds is decoded in place; `scene` is in the arena. */
 enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *line, size_t n);
 
-/* A number for all that a result depends on: the scene as it was read, its numbers, and how many rocks. */
+/* A number for all that a result depends on: the scene as it was read, its numbers, and how many rocks.
+ * 0 without memory. */
 uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks);
 
 /* How a scene was read. */

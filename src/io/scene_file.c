@@ -54,20 +54,16 @@ static const char *equals_of(const char *set)
 
 bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems)
 {
-    struct source *source = ceduo_arena_take(&file->arena, sizeof *source);
-    char *copy = ceduo_arena_string(&file->arena, set);
-    if (!source || !copy) {
-        ceduo_problem_memory(problems);
+    const struct source *source = ceduo_source_keep(
+        &file->arena, (struct source){.name = option, .bytes = set, .is_option = true, .beside = file->path}, problems);
+    if (!source)
         return false;
-    }
-    *source =
-        (struct source){.name = option, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = file->path};
-    const char *equals = equals_of(copy);
-    if (!equals || equals == copy) {
+    const char *equals = equals_of(source->bytes);
+    if (!equals || equals == source->bytes) {
         ceduo_problem(problems, source, 1, 1, _("PATH=VALUE is wanted"));
         return false;
     }
-    size_t length = (size_t)(equals - copy);
+    size_t length = (size_t)(equals - source->bytes);
     const struct node *value = ceduo_yaml_read_value(&file->arena, source, length + 1, problems);
     if (!value)
         return false;
@@ -154,7 +150,7 @@ static bool is_good_with(const struct source *source, const char *const *sets, s
 
 /* A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
  * change is named before that. It is the one after which the scene was never good again. */
-static void name_change(struct arena *arena, const struct source *source, const char *const *sets, size_t n,
+static void name_change(const struct source *source, const char *const *sets, size_t n,
                         struct problems *problems)
 {
     if (n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
@@ -162,14 +158,10 @@ static void name_change(struct arena *arena, const struct source *source, const 
     size_t last = n - 1;
     while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
         last--;
-    struct source *set = ceduo_arena_take(arena, sizeof *set);
-    if (!set) {
-        ceduo_problem_memory(problems);
-        return;
-    }
-    *set = (struct source){.name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
+    const struct source set = {
+        .name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
     struct problems head = {0};
-    ceduo_problem(&head, set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
+    ceduo_problem(&head, &set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
                   _("the scene is good without this change, but not with it:"));
     ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
     ceduo_text_free(&problems->text);
@@ -183,7 +175,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
 {
     if (make_scene(file, source, sets, sets_count, problems))
         return true;
-    name_change(&file->arena, source, sets, sets_count, problems);
+    name_change(source, sets, sets_count, problems);
     return false;
 }
 
@@ -205,14 +197,9 @@ bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const cha
 bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
 {
     *file = (struct scene_file){.path = name};
-    struct source *source = ceduo_arena_take(&file->arena, sizeof *source);
-    char *own_name = ceduo_arena_string(&file->arena, name), *copy = ceduo_arena_string(&file->arena, text);
-    if (!source || !own_name || !copy) {
-        ceduo_problem_memory(problems);
-        return false;
-    }
-    *source = (struct source){.name = own_name, .bytes = copy, .length = strlen(copy)};
-    return read_source(file, source, NULL, 0, problems);
+    const struct source *source =
+        ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text}, problems);
+    return source && read_source(file, source, NULL, 0, problems);
 }
 
 void ceduo_scene_release(struct scene_file *file)

@@ -21,13 +21,10 @@ struct changes {
 
 __attribute__((format(printf, 2, 3))) static void add(struct changes *c, const char *format, ...)
 {
-    struct text text = {0};
     va_list args;
     va_start(args, format);
-    ceduo_text_vformat(&text, format, args);
+    const char *kept = ceduo_arena_vformat(&c->d->file.arena, format, args);
     va_end(args);
-    const char *kept = text.bytes && !text.failed ? ceduo_arena_string(&c->d->file.arena, text.bytes) : NULL;
-    ceduo_text_free(&text);
     if (kept && c->n < CHANGES_MOST)
         c->sets[c->n++] = kept;
     else

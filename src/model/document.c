@@ -11,6 +11,7 @@
 #include "base/grow.h"
 #include "base/intl.h"
 #include "document_parts.h"
+#include "io/file.h"
 #include "io/resolve.h"
 #include "recovery.h"
 
@@ -125,18 +126,10 @@ bool ceduo_document_unsaved(const struct document *d)
 const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text,
                                         struct problems *problems)
 {
-    struct source *source = ceduo_arena_take(&d->file.arena, sizeof *source);
-    char *copy = ceduo_arena_string(&d->file.arena, text);
-    char *title = ceduo_arena_string(&d->file.arena, name);
-    /* a copy: the document may be saved elsewhere, what was typed is looked for where it was typed */
-    char *beside = d->path ? ceduo_arena_string(&d->file.arena, d->path) : NULL;
-    if (!source || !copy || !title) {
-        ceduo_problem_memory(problems);
-        return NULL;
-    }
-    *source = (struct source){
-        .name = title, .bytes = copy, .length = strlen(copy), .is_option = true, .beside = beside};
-    return ceduo_yaml_read(&d->file.arena, source, problems);
+    /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
+    const struct source *source = ceduo_source_keep(
+        &d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path}, problems);
+    return source ? ceduo_yaml_read(&d->file.arena, source, problems) : NULL;
 }
 
 /* The state that was read, or nothing where it was not. */
@@ -186,4 +179,3 @@ void ceduo_document_close(struct document *d)
     free(d->recovery);
     *d = (struct document){0};
 }
-

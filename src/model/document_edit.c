@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "document_parts.h"
+#include "io/file.h"
 #include "io/resolve.h"
 
 /* ---- trees ---- */
@@ -28,12 +29,9 @@ const struct node *ceduo_document_node(const struct document *d, const char *pat
 static const struct node *put(struct document *d, const struct node *root, const char *path, const struct node *value,
                               struct problems *problems)
 {
-    struct source *source = ceduo_arena_take(&d->file.arena, sizeof *source);
-    char *copy = ceduo_arena_string(&d->file.arena, path);
-    if (!source || !copy || !value)
-        return NULL;
-    *source = (struct source){.name = copy, .bytes = copy, .length = strlen(copy), .is_option = true};
-    return ceduo_resolve_set(&d->file.arena, root, source, strlen(copy), value, problems);
+    const struct source *source =
+        ceduo_source_keep(&d->file.arena, (struct source){.name = path, .bytes = path, .is_option = true}, problems);
+    return source && value ? ceduo_resolve_set(&d->file.arena, root, source, source->length, value, problems) : NULL;
 }
 
 /* Splits "a.b[3]" or "a.b" before its last step; false where it has only one. */

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "io/csv_slope.h"
+#include "io/derive.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
