@@ -257,8 +257,8 @@ static bool question(void)
         add(&s.reach, sizeof s.reach);
         add(&s.worst, sizeof s.worst);
         for (size_t i = 0; i < 2 * CEDUO_BLOCKS; i++) {
-            add(&answer.blocks[i].reached, sizeof answer.blocks[i].reached);
-            add(&answer.blocks[i].exceed_hi, sizeof answer.blocks[i].exceed_hi);
+            add(&answer.blocks[i].arrivals.reached, sizeof answer.blocks[i].arrivals.reached);
+            add(&answer.blocks[i].arrivals.exceed_hi, sizeof answer.blocks[i].arrivals.exceed_hi);
         }
     }
     ceduo_answer_release(&answer);
