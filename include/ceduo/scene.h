@@ -39,6 +39,7 @@ struct ceduo_belt {
     double from_given, to_given; /* as the user wrote them */
     char *name;                  /* of the stand */
     bool assumed;                /* some value of the stand is an assumption */
+    bool felled;                 /* of a year: a cut of this year left this stand */
     double cut_year;             /* a year in which it is cut, as in ceduo_first_cut(); NaN: when it is old enough */
     struct ceduo_stand stand;
 };

@@ -11,7 +11,6 @@
 struct ceduo_year {
     unsigned year;                    /* counted from the stands as filed */
     bool cut;                         /* some belt is cut in it */
-    bool *felled;                     /* which of its belts: owned */
     struct ceduo_option option;       /* the forest of this year; belts bare of stems where nothing stands */
     struct ceduo_grown_stand *grown;  /* what its belts hold: owned */
     struct ceduo_stand_result *stands; /* one for each belt */

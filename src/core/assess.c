@@ -43,7 +43,9 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
 
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)
 {
-    return assess_per_length(scene, &belt->stand, belt->to - belt->from);
+    struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, belt->to - belt->from);
+    r.felled = belt->felled;
+    return r;
 }
 
 /* Adds the part of a belt between a and b to an index. */

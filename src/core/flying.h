@@ -4,6 +4,8 @@
 #ifndef CEDUO_FLYING_H
 #define CEDUO_FLYING_H
 
+#include <gsl/gsl_interp.h>
+
 #include "law_crsp.h"
 #include "law_lumped.h"
 #include "walker.h"
@@ -17,7 +19,7 @@
 
 static inline void set_next_x(struct walker *w)
 {
-    w->next_x = w->next_mark < w->marks->n ? w->marks->x[w->next_mark] : INFINITY;
+    w->next_x = w->next_mark < w->marks->n ? w->marks->at[w->next_mark].x : INFINITY;
 }
 
 static inline void end_at_last_mark(struct walker *w)
@@ -64,7 +66,7 @@ SELDOM void pass_in_flight(struct walker *w, struct flight at, double x, double 
         double t = (w->next_x - at.x) / at.vx;
         t = t < t_end ? t : t_end;
         double z = at.z + (at.vz - w->g->half_g * t) * t;
-        pass_mark(w, at.vx, at.vz - w->g->gravity * t, w->spin, z - w->marks->z[w->next_mark]);
+        pass_mark(w, at.vx, at.vz - w->g->gravity * t, w->spin, z - w->marks->at[w->next_mark].z);
     }
 }
 
@@ -147,15 +149,7 @@ static double hit_stem(struct walker *w, const struct stem *stem, double x, doub
 /* The segment under x, which lies between segments a and b. */
 static size_t segment_between(const struct ground *g, size_t a, size_t b, double x)
 {
-    size_t lo = a < b ? a : b, hi = (a < b ? b : a) + 1;
-    while (hi - lo > 1) {
-        size_t mid = lo + (hi - lo) / 2;
-        if (g->x[mid] <= x)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    return lo;
+    return gsl_interp_bsearch(g->x, x, a < b ? a : b, (a < b ? b : a) + 1);
 }
 
 /* Flies past the stems between the rock and its landing `l`, which moves as stems are hit. True where one stops the rock

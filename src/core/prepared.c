@@ -1,6 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "prepared.h"
 
+#include <stdlib.h>
+
+static int by_x(const void *a, const void *b)
+{
+    const struct mark *p = a, *q = b;
+    if (p->x != q->x)
+        return p->x < q->x ? -1 : 1;
+    return (p->what > q->what) - (p->what < q->what);
+}
+
+static bool make_marks(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
+{
+    size_t controls = scene->controls_count, n = controls + cells;
+    struct mark *at = malloc((n + 1) * sizeof *at);
+    if (!at)
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        double x = i < controls ? scene->controls[i].x : cell_x[i - controls];
+        at[i] = (struct mark){x, ceduo_slope_height(&scene->slope, x), i};
+    }
+    qsort(at, n, sizeof *at, by_x);
+    *marks = (struct marks){n, at};
+    return true;
+}
+
 enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene,
                                       const struct ceduo_option *option, size_t cells, const double *cell_x)
 {
@@ -9,7 +34,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     if (status != CEDUO_OK)
         return status;
     bool good = ceduo_wood_init(&to->wood, &scene->simulation, option, to->mean.mean_diameter) &&
-                ceduo_marks_init(&to->marks, scene, cells, cell_x) &&
+                make_marks(&to->marks, scene, cells, cell_x) &&
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_rock_varies(&scene->rock));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -18,6 +43,6 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
 void ceduo_prepared_release(struct prepared *p)
 {
     ceduo_wood_release(&p->wood);
-    ceduo_marks_release(&p->marks);
+    free(p->marks.at);
     ceduo_ground_release(&p->ground);
 }

@@ -4,10 +4,20 @@
 
 #include "ceduo/scene.h"
 #include "ground.h"
-#include "marks.h"
 #include "wood.h"
 
-/* A scene made ready to fly rocks through one forest: what a walker reads. */
+/* A place where something is noted of a rock's first passage going +x: a control, or a cell of the envelopes. */
+struct mark {
+    double x, z; /* m; z: the ground */
+    size_t what; /* a control's index, or the number of controls plus a cell's */
+};
+
+struct marks {
+    size_t n;
+    struct mark *at; /* rising along x */
+};
+
+/* A scene made ready to simulate rocks through one forest: what a walker reads. */
 struct prepared {
     struct ceduo_scene scene;
     struct ceduo_rock mean;
@@ -16,8 +26,8 @@ struct prepared {
     struct wood wood;
 };
 
-/* `option` NULL: without forest. `cell_x`: places of envelopes, see marks.h. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it
- * in any case. */
+/* `option` NULL: without forest. `cell_x`: places of envelopes. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it in any
+ * case. */
 enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene,
                                       const struct ceduo_option *option, size_t cells, const double *cell_x);
 void ceduo_prepared_release(struct prepared *p);

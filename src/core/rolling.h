@@ -71,7 +71,7 @@ SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, doub
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double rate = ds > 0 ? (u2_end - r->u2) / ds : 0;
     while (w->next_x <= x) {
-        double z = w->marks->z[w->next_mark];
+        double z = w->marks->at[w->next_mark].z;
         double u2 = r->u2 + rate * ground_length(s, w->at.x, w->at.z, w->next_x, z);
         double u = u2 > 0 ? sqrt(u2) : 0;
         pass_mark(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);

@@ -99,7 +99,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
-    run->alike = run->ready.wood.bare && ceduo_walk_alike(&run->ready.scene, &run->ready.ground);
+    run->alike = run->ready.wood.bare && ceduo_walk_alike(&run->ready);
     *out = run;
     return status;
 }

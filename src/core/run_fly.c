@@ -55,7 +55,7 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     struct worker *w = context;
     struct ceduo_run *run = w->run;
     const struct ceduo_rock *rock = &walker->rock;
-    size_t what = run->ready.marks.what[mark];
+    size_t what = run->ready.marks.at[mark].what;
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
@@ -71,9 +71,10 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
 /* An unfinished rock counts at each control that it did not reach. */
 static void note_unfinished(struct worker *w, const struct walker *walker)
 {
-    for (size_t m = walker->next_mark; m < w->run->ready.marks.n; m++)
-        if (w->run->ready.marks.what[m] < w->run->controls)
-            w->block->controls[w->run->ready.marks.what[m]].unfinished++;
+    const struct marks *marks = &w->run->ready.marks;
+    for (size_t m = walker->next_mark; m < marks->n; m++)
+        if (marks->at[m].what < w->run->controls)
+            w->block->controls[marks->at[m].what].unfinished++;
 }
 
 static void clear_samples(struct ceduo_run *run, uint64_t rock)
@@ -140,8 +141,7 @@ static enum ceduo_status release(struct worker *w, struct walker *walker, uint64
         ceduo_walk_release_again(walker, &w->first, number);
         return CEDUO_OK;
     }
-    enum ceduo_status status =
-        ceduo_walk_release(walker, &run->ready.scene, &run->ready.ground, &run->ready.marks, &run->ready.mean, number);
+    enum ceduo_status status = ceduo_walk_release(walker, &run->ready, number);
     if (run->alike)
         w->first = *walker;
     return status;

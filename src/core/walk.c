@@ -26,15 +26,15 @@ static double draw_release(const struct walker *w, struct ceduo_number n, uint64
     return ceduo_number_draw(n, random_open(w->seed, w->number, event, RANDOM_RELEASE), -INFINITY, INFINITY);
 }
 
-enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene *scene, const struct ground *g,
-                                     const struct marks *marks, const struct ceduo_rock *mean, uint64_t number)
+enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *ready, uint64_t number)
 {
-    w->g = g;
-    w->marks = marks;
+    const struct ceduo_scene *scene = &ready->scene;
+    const struct ground *g = w->g = &ready->ground;
+    const struct marks *marks = w->marks = &ready->marks;
     w->seed = scene->simulation.seed;
     w->number = number;
     w->scale_rn = scene->simulation.scale_rn;
-    enum ceduo_status status = draw_rock(w, scene, mean);
+    enum ceduo_status status = draw_rock(w, scene, &ready->mean);
     if (status != CEDUO_OK)
         return status;
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
@@ -56,7 +56,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     w->cancelled = w->gives_up = false;
     w->facets_of = UINT64_MAX;
     w->next_mark = 0;
-    while (w->next_mark < marks->n && marks->x[w->next_mark] <= x)
+    while (w->next_mark < marks->n && marks->at[w->next_mark].x <= x)
         w->next_mark++;
     set_next_x(w);
     end_at_last_mark(w);
@@ -70,10 +70,11 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene 
     return CEDUO_OK;
 }
 
-bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g)
+bool ceduo_walk_alike(const struct prepared *ready)
 {
-    const struct ceduo_release *r = &scene->release;
-    return !ceduo_rock_varies(&scene->rock) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
+    const struct ground *g = &ready->ground;
+    const struct ceduo_release *r = &ready->scene.release;
+    return !ceduo_rock_varies(&ready->scene.rock) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
            !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
 }
 

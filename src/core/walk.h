@@ -6,12 +6,11 @@
 
 /* Draws rock number `number` of the scene and puts it at its release. walker.stems and those who look on are the
  * caller's to set before. */
-enum ceduo_status ceduo_walk_release(struct walker *w, const struct ceduo_scene *scene, const struct ground *g,
-                                     const struct marks *marks, const struct ceduo_rock *mean, uint64_t number);
+enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *ready, uint64_t number);
 
 /* Whether all rocks of a scene without forest start alike; another such rock, from one at its release and a walker that
  * was released before. */
-bool ceduo_walk_alike(const struct ceduo_scene *scene, const struct ground *g);
+bool ceduo_walk_alike(const struct prepared *ready);
 void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint64_t number);
 
 /* Follows it to its end. */

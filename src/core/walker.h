@@ -7,7 +7,7 @@
 
 #include "ceduo/way.h"
 #include "landing.h"
-#include "marks.h"
+#include "prepared.h"
 #include "random.h"
 #include "sincos.h"
 #include "stems.h"

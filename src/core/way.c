@@ -18,7 +18,7 @@ static void note_crossing(void *context, const struct walker *w, size_t mark, co
     (void)w;
     struct noter *noter = context;
     if (noter->crossings)
-        noter->crossings[noter->marks->what[mark]] = *crossing;
+        noter->crossings[noter->marks->at[mark].what] = *crossing;
 }
 
 struct ceduo_follower {
@@ -47,7 +47,7 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
         .watch = watch, .cross = note_crossing, .context = &noter, .stems = f->ready.wood.bare ? NULL : &f->stems};
     if (crossings)
         memset(crossings, 0, scene->controls_count * sizeof *crossings);
-    enum ceduo_status status = ceduo_walk_release(&w, scene, &f->ready.ground, &f->ready.marks, &f->ready.mean, rock);
+    enum ceduo_status status = ceduo_walk_release(&w, &f->ready, rock);
     if (status != CEDUO_OK)
         return status;
     *way = (struct ceduo_way){.rock = w.rock,

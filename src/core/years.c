@@ -25,7 +25,6 @@ static void free_year(struct ceduo_year *y)
     for (size_t i = 0; y->grown && i < y->option.belts_count; i++)
         ceduo_grown_stand_release(&y->grown[i]);
     free(y->grown);
-    free(y->felled);
     free(y->option.belts);
     free(y->stands);
     free(y->controls);
@@ -38,10 +37,9 @@ static enum ceduo_status grow(const struct ceduo_option *option, size_t controls
     y->option.name = option->name;
     y->option.belts = calloc(n + 1, sizeof *y->option.belts);
     y->grown = calloc(n + 1, sizeof *y->grown);
-    y->felled = calloc(n + 1, sizeof *y->felled);
     y->stands = calloc(n + 1, sizeof *y->stands);
     y->controls = calloc(controls + 1, sizeof *y->controls);
-    if (!y->option.belts || !y->grown || !y->felled || !y->stands || !y->controls)
+    if (!y->option.belts || !y->grown || !y->stands || !y->controls)
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
@@ -51,8 +49,8 @@ static enum ceduo_status grow(const struct ceduo_option *option, size_t controls
         y->option.belts_count = i + 1;
         y->option.belts[i] = *belt;
         y->option.belts[i].stand = y->grown[i].stand;
-        y->felled[i] = ceduo_is_cut_year(&belt->stand, belt->cut_year, y->year);
-        y->cut |= y->felled[i];
+        y->option.belts[i].felled = ceduo_is_cut_year(&belt->stand, belt->cut_year, y->year);
+        y->cut |= y->option.belts[i].felled;
     }
     return CEDUO_OK;
 }
@@ -92,18 +90,13 @@ void ceduo_years_free(struct ceduo_years *years)
 
 /* ---- flying ---- */
 
-static void assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare, struct ceduo_year *y)
-{
-    ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
-    for (size_t i = 0; i < y->option.belts_count; i++)
-        y->stands[i].felled = y->felled[i];
-}
-
 void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare)
 {
     years->scene = *scene;
-    for (size_t i = 0; i < years->count; i++)
-        assess(scene, bare, &years->years[i]);
+    for (size_t i = 0; i < years->count; i++) {
+        struct ceduo_year *y = &years->years[i];
+        ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
+    }
 }
 
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
@@ -123,7 +116,7 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
         }
         if (status != CEDUO_OK)
             return status;
-        assess(scene, bare, y);
+        ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
         ceduo_pool_trim(pool);
     }
     return CEDUO_OK;
@@ -190,7 +183,7 @@ double ceduo_years_felled(const struct ceduo_years *years)
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
         for (size_t k = 0; k < y->option.belts_count; k++)
-            if (y->felled[k])
+            if (y->option.belts[k].felled)
                 metres += y->option.belts[k].to - y->option.belts[k].from;
     }
     return metres;

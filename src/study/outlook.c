@@ -3,8 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
+#include "base/grow.h"
 #include "ceduo/key.h"
 
 /* ---- ways ---- */
@@ -30,16 +29,15 @@ static bool is_cancelled(void *context)
 static bool make_room(struct tracer *t)
 {
     struct ceduo_trail *trail = t->trail;
-    if (trail->n < t->room)
-        return true;
-    size_t room = t->room > 0 ? 2 * t->room : 64;
-    double *x = realloc(trail->x, room * sizeof *x);
-    trail->x = x ? x : trail->x;
-    double *z = x ? realloc(trail->z, room * sizeof *z) : NULL;
-    trail->z = z ? z : trail->z;
-    t->failed |= !x || !z;
-    t->room = t->failed ? t->room : room;
-    return !t->failed;
+    size_t room = t->room;
+    double *x = ceduo_grow(trail->x, trail->n, &room, sizeof *x), *z = NULL;
+    if (x) {
+        trail->x = x;
+        z = ceduo_grow(trail->z, trail->n, &t->room, sizeof *z);
+        trail->z = z ? z : trail->z;
+    }
+    t->failed = !z;
+    return z;
 }
 
 /* Leaves out what no picture could tell from the point before. */

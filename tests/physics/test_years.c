@@ -246,7 +246,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *
         belts[i] = wood.belts[i];
         belts[i].stand = stands[i].stand;
         bool felled = ceduo_is_cut_year(&wood.belts[i].stand, wood.belts[i].cut_year, y->year);
-        EXPECT(y->felled[i], ==, felled);
+        EXPECT(y->option.belts[i].felled, ==, felled);
         cut |= felled;
     }
     EXPECT(y->cut, ==, cut);
