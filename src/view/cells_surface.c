@@ -93,15 +93,16 @@ static size_t passed_dots(const struct ceduo_cells *cells, uint32_t limit)
     return passed;
 }
 
-/* Halves the range of counts rather than sorting them: no memory, and at most 32 passes. */
+/* Halves the range of counts rather than sorting them: no memory, and few passes. */
 static uint32_t density_level(const struct ceduo_cells *cells, double quantile)
 {
-    size_t all = passed_dots(cells, UINT32_MAX);
-    if (all == 0)
+    size_t all = passed_dots(cells, UINT32_MAX), n = ceduo_cells_dots(cells);
+    uint32_t lo = 1, hi = 0;
+    for (size_t i = 0; i < n; ++i)
+        hi = cells->density[i] > hi ? cells->density[i] : hi;
+    if (hi == 0)
         return 0;
     double wanted = quantile > 0.0 ? fmax(fmin(quantile, 1.0) * (double)all, 1.0) : 1.0;
-    uint32_t lo = 1;
-    uint32_t hi = UINT32_MAX;
     while (lo < hi) {
         uint32_t middle = lo + (hi - lo) / 2;
         if ((double)passed_dots(cells, middle) >= wanted)

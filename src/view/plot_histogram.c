@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -244,17 +245,17 @@ static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)
 static bool count(struct histogram *h, const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
 {
     size_t n = e->n + (bare ? bare->n : 0);
-    double *sorted = malloc((n + 1) * sizeof *sorted);
-    if (!sorted)
+    double *all = malloc((n + 1) * sizeof *all), least, most;
+    if (!all)
         return false;
     if (e->n > 0)
-        memcpy(sorted, e->values, e->n * sizeof *sorted);
+        memcpy(all, e->values, e->n * sizeof *all);
     if (bare && bare->n > 0)
-        memcpy(sorted + e->n, bare->values, bare->n * sizeof *sorted);
-    ceduo_plot_sort(sorted, n);
-    double p99 = sorted[ceduo_quantile_rank(n, 0.99) - 1];
-    h->bins = bins_for(sorted[0] * KILO, p99 * KILO, sorted[n - 1] * KILO, rows);
-    free(sorted);
+        memcpy(all + e->n, bare->values, bare->n * sizeof *all);
+    gsl_stats_minmax(&least, &most, all, 1, n);
+    double p99 = gsl_stats_select(all, 1, n, ceduo_quantile_rank(n, 0.99) - 1);
+    h->bins = bins_for(least * KILO, p99 * KILO, most * KILO, rows);
+    free(all);
     h->n = e->n;
     h->counts = count_in(&h->bins, e);
     if (bare) {

@@ -178,17 +178,6 @@ double ceduo_plot_round(double value, bool up)
     return 10 * power;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void ceduo_plot_sort(double *values, size_t n)
-{
-    qsort(values, n, sizeof *values, by_value);
-}
-
 enum ceduo_role ceduo_plot_light_role(enum ceduo_light light)
 {
     return light == CEDUO_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_DIM;

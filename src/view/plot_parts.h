@@ -61,9 +61,6 @@ void ceduo_plot_axes(struct ceduo_canvas *canvas, const struct ceduo_frame *fram
 /* The largest 1, 2 or 5 times a power of ten that is not above a value, or the least that is not below. */
 double ceduo_plot_round(double value, bool up);
 
-/* Sorts numbers, the least first. */
-void ceduo_plot_sort(double *values, size_t n);
-
 /* The height of the tallest stem; 0 in a bare stand. */
 double ceduo_plot_tallest(const struct ceduo_stand *stand);
 

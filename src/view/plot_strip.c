@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <gsl/gsl_statistics_double.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -6,21 +7,21 @@
 #include "base/intl.h"
 #include "plot_parts.h"
 
-/* Strips along the slope. */
+/* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
 
 struct curve {
     const char *name;
     enum ceduo_role role;
     int on, of_dots; /* a stroke of `on` columns of dots in each `of_dots`; 1, 1: a line */
     bool bare;       /* of the rocks without forest */
-    double (*of)(const struct ceduo_envelope *cell);
+    size_t offset;   /* of its value in a cell */
 };
 
 #define CURVES_MOST 4
 
 /* What a strip shows. */
 struct content {
-    const char *caption, *unit;
+    const char *caption;
     int count;
     struct curve curves[CURVES_MOST];
 };
@@ -29,105 +30,55 @@ struct strip {
     struct ceduo_canvas *canvas;
     const struct ceduo_area *area;
     const struct ceduo_picture *picture;
+    const struct ceduo_sight *sight, *bare;
     const struct content *content;
     bool energy, legend; /* legend: of bare and wooded curves */
     struct ceduo_frame frame;
     double from, to; /* the stretch */
 };
 
-static double height_p50(const struct ceduo_envelope *e)
-{
-    return e->height.p50;
-}
+#define OF(member) offsetof(struct ceduo_envelope, member)
 
-static double height_p95(const struct ceduo_envelope *e)
-{
-    return e->height.p95;
-}
-
-static double height_max(const struct ceduo_envelope *e)
-{
-    return e->height.max;
-}
-
-static double energy_mean(const struct ceduo_envelope *e)
-{
-    return e->mean_energy * KILO;
-}
-
-static double energy_p5(const struct ceduo_envelope *e)
-{
-    return e->energy.p5 * KILO;
-}
-
-static double energy_p50(const struct ceduo_envelope *e)
-{
-    return e->energy.p50 * KILO;
-}
-
-static double energy_p95(const struct ceduo_envelope *e)
-{
-    return e->energy.p95 * KILO;
-}
-
-static const struct content heights = {
-    N_("height above the ground, m"),
-    N_("m"),
-    3,
-    {{N_("max"), CEDUO_ROLE_BARE, 1, 4, false, height_max},
-     {N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, height_p95},
-     {N_("p50"), CEDUO_ROLE_MEAN, 1, 1, false, height_p50}},
+/* Of heights and of energies: without forest alone; both; both where there is no room to tell four curves apart. Curves
+ * through the forest are strokes, those without it dots, so that the two differ without colour. */
+static const struct content contents[2][3] = {
+    {{N_("height above the ground, m"),
+      3,
+      {{N_("max"), CEDUO_ROLE_BARE, 1, 4, false, OF(height.max)},
+       {N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(height.p95)},
+       {N_("p50"), CEDUO_ROLE_MEAN, 1, 1, false, OF(height.p50)}}},
+     {N_("height above ground, m"),
+      4,
+      {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, OF(height.p95)},
+       {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, OF(height.p95)},
+       {N_("bare p50"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p50)},
+       {N_("wood p50"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p50)}}},
+     {N_("p95 of the height, m"),
+      2,
+      {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p95)},
+       {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p95)}}}},
+    {{N_("energy, kJ"),
+      4,
+      {{N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(energy.p95)},
+       {N_("mean"), CEDUO_ROLE_MEAN, 1, 1, false, OF(mean_energy)},
+       {N_("p50"), CEDUO_ROLE_BARE, 1, 4, false, OF(energy.p50)},
+       {N_("p5"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(energy.p5)}}},
+     {N_("energy, kJ"),
+      4,
+      {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, OF(energy.p95)},
+       {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, OF(energy.p95)},
+       {N_("bare mean"), CEDUO_ROLE_BARE, 1, 2, true, OF(mean_energy)},
+       {N_("wood mean"), CEDUO_ROLE_WOOD, 1, 1, false, OF(mean_energy)}}},
+     {N_("mean energy, kJ"),
+      2,
+      {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(mean_energy)},
+       {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(mean_energy)}}}},
 };
 
-static const struct content energies = {
-    N_("energy, kJ"),
-    N_("kJ"),
-    4,
-    {{N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, energy_p95},
-     {N_("mean"), CEDUO_ROLE_MEAN, 1, 1, false, energy_mean},
-     {N_("p50"), CEDUO_ROLE_BARE, 1, 4, false, energy_p50},
-     {N_("p5"), CEDUO_ROLE_ENVELOPE, 1, 2, false, energy_p5}},
-};
-
-/* Through the forest in strokes, without it in dots, so that the two differ without colour. */
-static const struct content wooded_heights = {
-    N_("height above ground, m"),
-    N_("m"),
-    4,
-    {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, height_p95},
-     {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, height_p95},
-     {N_("bare p50"), CEDUO_ROLE_BARE, 1, 2, true, height_p50},
-     {N_("wood p50"), CEDUO_ROLE_WOOD, 1, 1, false, height_p50}},
-};
-
-static const struct content wooded_energies = {
-    N_("energy, kJ"),
-    N_("kJ"),
-    4,
-    {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, energy_p95},
-     {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, energy_p95},
-     {N_("bare mean"), CEDUO_ROLE_BARE, 1, 2, true, energy_mean},
-     {N_("wood mean"), CEDUO_ROLE_WOOD, 1, 1, false, energy_mean}},
-};
-
-/* The same where there is no room to tell four curves apart. */
-static const struct content small_wooded_heights = {
-    N_("p95 of the height, m"),
-    N_("m"),
-    2,
-    {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, height_p95}, {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, height_p95}},
-};
-
-static const struct content small_wooded_energies = {
-    N_("mean energy, kJ"),
-    N_("kJ"),
-    2,
-    {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, energy_mean}, {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, energy_mean}},
-};
-
-static const struct ceduo_envelope *cells_of(const struct strip *s, const struct curve *curve)
+static double value_at(const struct strip *s, const struct curve *curve, size_t cell)
 {
-    return (curve->bare ? ceduo_plot_bare(s->picture) : ceduo_plot_sight(s->picture))->envelopes;
+    const struct ceduo_envelope *e = &(curve->bare ? s->bare : s->sight)->envelopes[cell];
+    return *(const double *)((const char *)e + curve->offset) * (s->energy ? KILO : 1);
 }
 
 /* Columns for the names of the curves and a blank on either side. */
@@ -159,21 +110,19 @@ struct peak {
 static size_t add_peak(const struct strip *s, const struct curve *curve, struct peak *peak)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
-    const struct ceduo_envelope *cells = cells_of(s, curve);
+    const struct ceduo_envelope *cells = (curve->bare ? s->bare : s->sight)->envelopes;
     double *values = malloc((o->cells + 1) * sizeof *values);
     size_t n = 0;
     for (size_t i = 0; values && i < o->cells; i++) {
-        double v = curve->of(&cells[i]);
+        double v = value_at(s, curve, i);
         if (!shown(s, i) || cells[i].passed == 0 || isnan(v))
             continue;
         if (v > peak->largest)
             *peak = (struct peak){v, o->cell_x[i], peak->usual, curve->name};
         values[n++] = v;
     }
-    if (n > 0) {
-        ceduo_plot_sort(values, n);
-        peak->usual = fmax(peak->usual, values[(n - 1) * 85 / 100]);
-    }
+    if (n > 0)
+        peak->usual = fmax(peak->usual, gsl_stats_select(values, 1, n, (n - 1) * 85 / 100));
     free(values);
     return n;
 }
@@ -226,10 +175,9 @@ static void draw_strokes(struct strip *s, const struct curve *curve, double ax, 
 static void draw_curve(struct strip *s, const struct curve *curve)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
-    const struct ceduo_envelope *cells = cells_of(s, curve);
     for (size_t i = 1; i < o->cells; i++) {
         double ax = o->cell_x[i - 1], bx = o->cell_x[i];
-        double ay = curve->of(&cells[i - 1]), by = curve->of(&cells[i]);
+        double ay = value_at(s, curve, i - 1), by = value_at(s, curve, i);
         if (isnan(ay) || isnan(by))
             continue;
         if (curve->of_dots == 1)
@@ -244,7 +192,7 @@ static double end_of(const struct strip *s, const struct curve *curve)
 {
     const struct ceduo_outlook *o = s->picture->outlook;
     for (size_t i = o->cells; i-- > 0;) {
-        double y = curve->of(&cells_of(s, curve)[i]);
+        double y = value_at(s, curve, i);
         int column, row;
         if (!shown(s, i) || isnan(y))
             continue;
@@ -362,7 +310,7 @@ static int put_legend(const struct strip *s, int column, int room)
 static void put_cut(const struct strip *s, const struct peak *peak, int column, int room)
 {
     char value[PLOT_NUMBER_ROOM], at[PLOT_NUMBER_ROOM];
-    const char *name = _(peak->curve), *unit = _(s->content->unit);
+    const char *name = _(peak->curve), *unit = s->energy ? _("kJ") : _("m");
     struct text words[3] = {{0}};
     ceduo_plot_number(peak->largest, 3, value);
     ceduo_plot_number(peak->at + s->picture->scene->slope.origin_x, 3, at);
@@ -384,13 +332,28 @@ static void put_caption(const struct strip *s, const struct peak *peak)
         put_cut(s, peak, left + used, room - used);
 }
 
+#define FULL_ROWS  8  /* four curves need so many rows, */
+#define FULL_WIDTH 56 /* so many columns, and names beside them */
+
+static bool is_small(const struct strip *s, const struct content *full, const struct ceduo_span *span, bool axis)
+{
+    int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
+    return s->area->height - 1 - 2 * axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
+           names < name_columns(s->canvas, full) - 1;
+}
+
 static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis)
 {
     struct peak peak;
+    s->legend = ceduo_plot_wooded(s->picture);
+    const struct content *fitting = contents[s->energy];
+    s->content = &fitting[!s->legend ? 0 : is_small(s, &fitting[1], span, axis) ? 2 : 1];
+    s->sight = ceduo_plot_sight(s->picture);
+    s->bare = ceduo_plot_bare(s->picture);
     ceduo_plot_stretch(s->picture, &s->from, &s->to);
     s->from = span ? span->x0 : s->from;
     s->to = span ? span->x1 : s->to;
-    if (!ceduo_plot_sight(s->picture) || !ceduo_plot_bare(s->picture)) {
+    if (!s->sight || !s->bare) {
         ceduo_plot_words(s->canvas, s->area, _("not computed yet"));
         return;
     }
@@ -411,37 +374,14 @@ static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis
     ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, axis ? _("m") : NULL);
 }
 
-#define FULL_ROWS  8  /* four curves need so many rows, */
-#define FULL_WIDTH 56 /* so many columns, and names beside them */
-
-static bool is_small(const struct strip *s, const struct content *full, const struct ceduo_span *span, bool axis)
-{
-    int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
-    return s->area->height - 1 - 2 * axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
-           names < name_columns(s->canvas, full) - 1;
-}
-
-/* `contents`: without forest alone; both; both where there is little room. */
-static void draw_fitting(struct strip *s, const struct content *const contents[3], const struct ceduo_span *span,
-                         bool axis)
-{
-    s->legend = ceduo_plot_wooded(s->picture);
-    s->content = contents[!s->legend ? 0 : is_small(s, contents[1], span, axis) ? 2 : 1];
-    draw_strip(s, span, axis);
-}
-
 void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis)
 {
-    static const struct content *const contents[] = {&heights, &wooded_heights, &small_wooded_heights};
-    struct strip s = {.canvas = canvas, .area = area, .picture = picture};
-    draw_fitting(&s, contents, span, axis);
+    draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture}, span, axis);
 }
 
 void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
                        const struct ceduo_span *span, bool axis)
 {
-    static const struct content *const contents[] = {&energies, &wooded_energies, &small_wooded_energies};
-    struct strip s = {.canvas = canvas, .area = area, .picture = picture, .energy = true};
-    draw_fitting(&s, contents, span, axis);
+    draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture, .energy = true}, span, axis);
 }
