@@ -65,7 +65,7 @@ SCENES = sorted(path.stem for path in (PROFILES / "scenes").glob("*.yaml"))
 SEEDS = ROOT / "tests/fuzz/seeds"
 FEW = ["-j", 1, "-n", 200]
 FORMATS = {"table": ["-f", "table"], "csv": ["-f", "csv"], "stands": ["-f", "csv", "--rows", "stands"], "json": ["-f", "json"]}
-PLOTS = re.findall(r'^ +X\(\w+, "(\w+)", ', (ROOT / "src/view/plots.h").read_text(), re.M)
+PLOTS = re.findall(r'^ +X\([A-Z]+, (\w+), ', (ROOT / "src/view/plot.h").read_text(), re.M)
 SMALL = (SEEDS / "scene/small.yaml").read_text()
 CSV_SLOPE = SMALL[:SMALL.index("slope:")] + "slope: {csv: line.csv}\n" + SMALL[SMALL.index("controls:"):]
 

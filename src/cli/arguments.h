@@ -7,7 +7,7 @@
 
 #include "study/goal.h"
 #include "view/cells.h"
-#include "view/plots.h"
+#include "view/plot.h"
 #include "view/report.h"
 
 /* Exit statuses, as the manual has them. */

@@ -87,7 +87,7 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
     ceduo_plot_title(&title, a->plot, picture);
     char *rows = NULL;
     if (cells) {
-        ceduo_plot_kinds[a->plot].draw(&cells->canvas, &area, picture);
+        ceduo_plot_draw(a->plot, &cells->canvas, &area, picture);
         ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TITLE, ceduo_text_string(&title));
         rows = ceduo_cells_dump(cells);
     }

@@ -31,11 +31,11 @@ static void draw(struct app *app, struct ceduo_area area)
         histogram.height = pictures / 3;
         struct ceduo_area energy = {area.left, histogram.top + histogram.height + 1, half,
                                     area.height - adc.height - histogram.height - 1};
-        ceduo_plot_energy(&app->cells->canvas, &energy, &picture, NULL, true);
+        ceduo_plot_draw(CEDUO_PLOT_ENERGY, &app->cells->canvas, &energy, &picture);
     }
     if (adc.height > 4)
-        ceduo_plot_adc(&app->cells->canvas, &adc, &picture);
-    ceduo_plot_histogram(&app->cells->canvas, &histogram, &picture);
+        ceduo_plot_draw(CEDUO_PLOT_ADC, &app->cells->canvas, &adc, &picture);
+    ceduo_plot_draw(CEDUO_PLOT_HISTOGRAM, &app->cells->canvas, &histogram, &picture);
     page.width -= 2; /* the mark of more below stands beside the text */
     struct text text = {0};
     fill_page(app, &text, page.width);

@@ -119,7 +119,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_area text_area = {area.left, area.top + height, area.width, words};
     if (alone && !app->message[0])
         ceduo_app_say(app, "%s", _("left, right: another year; Tab: back to the form"));
-    ceduo_plot_rotation(&app->cells->canvas, &top, &picture);
+    ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
     if (picture.years && app->figures.result && picture.years->count > 0) {
         struct text text = {0};
         say_all(app, picture.years, &text);

@@ -63,8 +63,9 @@ static void build(struct app *app, struct form *form)
 static void draw(struct app *app, struct ceduo_area area)
 {
     ceduo_app_follow_rock(app);
-    struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_span span;
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    picture.span = &span;
     bool alone = ceduo_app_state(app)->pane == 1;
     int form_height = alone ? 0 : area.height / 3;
     int room = area.height - form_height;
@@ -73,14 +74,16 @@ static void draw(struct app *app, struct ceduo_area area)
     if (alone && !app->message[0])
         ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: back to the form"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
-    ceduo_plot_profile(&app->cells->canvas, &profile, &picture, &span);
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &profile, &picture);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
     if (strips > 1) {
-        ceduo_plot_height(&app->cells->canvas, &next, &picture, &span, false);
+        picture.no_x_axis = true;
+        ceduo_plot_draw(CEDUO_PLOT_HEIGHT, &app->cells->canvas, &next, &picture);
         next.top += strip;
     }
+    picture.no_x_axis = strips < 2;
     if (strips > 0)
-        ceduo_plot_energy(&app->cells->canvas, &next, &picture, &span, strips > 1);
+        ceduo_plot_draw(CEDUO_PLOT_ENERGY, &app->cells->canvas, &next, &picture);
     struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
     ceduo_app_draw_form(app, below, true);
 }

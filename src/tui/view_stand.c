@@ -72,12 +72,12 @@ static void draw(struct app *app, struct ceduo_area area)
         form.height = area.height * 3 / 5;
         struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
         if (app->belt < o->belts_count)
-            ceduo_plot_stand(&app->cells->canvas, &below, &picture);
+            ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &below, &picture);
     }
     ceduo_app_draw_form(app, form, true);
     struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
     if (wide && app->belt < o->belts_count)
-        ceduo_plot_stand(&app->cells->canvas, &beside, &picture);
+        ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &beside, &picture);
     draw_figures(app, figures);
 }
 

@@ -8,20 +8,7 @@
 #include "study/outlook.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
- * out, never squeezed. None has a title of its own; ceduo_plot_title() (plots.h) says what stands above it. */
-
-/* What a picture shows. */
-struct ceduo_picture {
-    const struct ceduo_scene *scene;       /* checked */
-    const struct ceduo_outlook *outlook;   /* NULL: nothing is computed yet */
-    size_t option, belt, control;          /* indices; where there is none, the picture says so */
-    const struct ceduo_trail *selected;    /* one rock's way, shown before all others; NULL: none */
-    double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
-    const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
-    size_t stems_count;
-    const struct ceduo_years *years; /* of the option; NULL: not computed */
-    size_t year;                     /* index of the one under the cursor; beyond them all: none */
-};
+ * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
 
 /* The columns that show the slope and the metres at their edges (relative), so that pictures can stand above each other
  * on one axis. */
@@ -30,45 +17,77 @@ struct ceduo_span {
     double x0, x1;
 };
 
-/* The slope with rocks' ways as density, the option's belts, release and controls. In the belts stand rows of stems at
- * their mean distance, or where it is known those that the selected rock came to. True to scale; where that would leave
- * most of the area empty, heights are stretched or pressed, and the factor is written. `span` (may be NULL) tells where
- * the slope stands. */
-void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                        struct ceduo_span *span);
+/* What a picture shows. */
+struct ceduo_picture {
+    const struct ceduo_scene *scene;       /* checked */
+    const struct ceduo_outlook *outlook;   /* NULL: nothing is computed yet */
+    size_t option, belt, control;          /* indices; where there is none, the picture says so */
+    const struct ceduo_trail *selected;    /* one rock's trajectory, shown before all others; NULL: none */
+    double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
+    const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
+    size_t stems_count;
+    const struct ceduo_years *years; /* of the option; NULL: not computed */
+    size_t year;                     /* index of the one under the cursor; beyond them all: none */
+    struct ceduo_span *span; /* where the slope stands: a profile writes it, strips stand in it; NULL: the area's own */
+    bool no_x_axis;          /* of a strip that another one stands below */
+};
 
-/* Strips: along the slope, of the rocks that pass, the height above the ground (p50, p95) and the energy (mean, p95),
- * through the forest and without; where there is little room p95 of the height, the mean of the energy. With the
- * contact model index without forest: p50, p95 and max; mean, p5, p50 and p95. `span`: the columns to stand in; NULL:
- * the area's own. The names of the curves stand to the right of the span, where the area has room. `axis`: an x axis in
- * the two lowest rows. */
-void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                       const struct ceduo_span *span, bool axis);
-void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                       const struct ceduo_span *span, bool axis);
+/* The pictures: name, word, whether one needs a run, and envelopes of it, and whether there is one for each option.
+ *
+ * profile: the slope with rocks' trajectories as density, the option's belts, release and controls. In the belts stand
+ *   rows of stems at their mean distance, or where it is known those that the selected rock came to. True to scale; where
+ *   that would leave most of the area empty, heights are stretched or pressed, and the factor is written.
+ * energy, height: strips along the slope, of the rocks that pass, the height above the ground (p50, p95) and the energy
+ *   (mean, p95), through the forest and without; where there is little room p95 of the height, the mean of the energy.
+ *   With the contact model index without forest: p50, p95 and max; mean, p5, p50 and p95. The names of the curves stand
+ *   to the right, where the area has room.
+ * histogram: how the energies of the rocks that reach the control are spread, through the forest (bars) and without
+ *   (marks); with the contact model index without forest alone.
+ * adc: the four rules of the ADC for each of the option's belts, beside the threshold.
+ * rotation: the option over the years: ADC, how many come through with too much energy, the lights, the cuts, on one axis.
+ * stand: a stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same
+ *   stand. Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along the
+ *   trajectory, stretched across it by the factor that is written.
+ * compare: the options side by side, up to the control: ADC of the worst belt, how many of 1000 arrive with too much
+ *   energy (or at all, where no accepted energy is given), the mean energy of those that arrive; with the contact model
+ *   index ADC, kJ taken per 100 m, kJ left. */
+#define CEDUO_PLOT_LIST(X)                                                                                             \
+    X(PROFILE, profile, true, false, true)                                                                             \
+    X(ENERGY, energy, true, true, true)                                                                                \
+    X(HEIGHT, height, true, true, true)                                                                                \
+    X(HISTOGRAM, histogram, true, false, true)                                                                         \
+    X(ADC, adc, false, false, true)                                                                                    \
+    X(ROTATION, rotation, true, false, true)                                                                           \
+    X(STAND, stand, false, false, true)                                                                                \
+    X(COMPARE, compare, true, false, false)
 
-/* How the energies of the rocks that reach the control are spread, through the forest (bars) and without (marks); with
- * the contact model index without forest alone. */
-void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                          const struct ceduo_picture *picture);
+enum ceduo_plot {
+    CEDUO_PLOT_NONE,
+#define X(NAME, name, needs_run, needs_cells, by_option) CEDUO_PLOT_##NAME,
+    CEDUO_PLOT_LIST(X)
+#undef X
+        CEDUO_PLOTS
+};
 
-/* The four rules of the ADC for each of the option's belts, beside the threshold. */
-void ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
+struct ceduo_plot_kind {
+    const char *name;
+    bool needs_run, needs_cells, by_option;
+};
 
-/* A stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same stand.
- * Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along the way,
- * stretched across it by the factor that is written. */
-void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture);
+extern const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS]; /* that of CEDUO_PLOT_NONE is empty */
 
-/* The options side by side, up to the control: ADC of the worst belt, how many of 1000 arrive with too much energy (or
- * at all, where no accepted energy is said), the mean energy of those that arrive; with the contact model index ADC, kJ
- * taken per 100 m, kJ left. */
-void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                        const struct ceduo_picture *picture);
+/* CEDUO_PLOT_NONE for a word that names none. */
+enum ceduo_plot ceduo_plot_find(const char *name);
 
-/* The option over the years: ADC, how many come through with too much energy, the lights, the cuts, on one axis. */
-void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                         const struct ceduo_picture *picture);
+/* "profile, energy, …": all names. */
+extern const char *const ceduo_plot_names;
+
+/* Draws a picture, or says in the middle of the area why there is none. */
+void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                     const struct ceduo_picture *picture);
+
+/* One line that says what the picture shows. */
+void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);
 
 /* The colour and the sign of a light. */
 enum ceduo_role ceduo_plot_light_role(enum ceduo_light light);

@@ -169,13 +169,12 @@ static void draw_belts(struct adc_picture *p, const struct ceduo_option *option)
     draw_scale(p, p->row);
 }
 
-void ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+const char *ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                           const struct ceduo_picture *picture)
 {
     const struct ceduo_option *option = ceduo_plot_option(picture);
-    if (!option || option->belts_count == 0) {
-        ceduo_plot_words(canvas, area, _("no forest: nothing to meet"));
-        return;
-    }
+    if (!option || option->belts_count == 0)
+        return _("no forest: nothing to meet");
     struct adc_picture p = {.canvas = canvas,
                             .area = area,
                             .picture = picture,
@@ -185,10 +184,9 @@ void ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, 
                             .row = area->top,
                             .end = area->top + area->height};
     p.bar = area->width - p.name - 1 - VALUE - 1 - p.word;
-    if (p.bar < 6 || area->height < 2) {
-        ceduo_plot_words(canvas, area, _("too narrow"));
-        return;
-    }
+    if (p.bar < 6 || area->height < 2)
+        return _("too narrow");
     find_scale(&p, option);
     draw_belts(&p, option);
+    return NULL;
 }

@@ -283,7 +283,8 @@ static void place_columns(struct comparison *c)
     }
 }
 
-void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+const char *ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                               const struct ceduo_picture *picture)
 {
     const struct ceduo_scene *scene = picture->scene;
     const struct ceduo_arrivals *arrivals = ceduo_plot_bare_arrivals(picture, picture->control);
@@ -294,15 +295,11 @@ void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *ar
                            .wooded = ceduo_plot_wooded(picture),
                            .arrivals = arrivals,
                            .bare = arrivals && arrivals->reached > 0 ? arrivals->energy.mean : NAN};
-    if (!c.control) {
-        ceduo_plot_words(canvas, area, _("no control"));
-        return;
-    }
+    if (!c.control)
+        return _("no control");
     place_columns(&c);
-    if (c.columns == 0 || area->height < 3 + c.two_rows) {
-        ceduo_plot_words(canvas, area, _("too narrow"));
-        return;
-    }
+    if (c.columns == 0 || area->height < 3 + c.two_rows)
+        return _("too narrow");
     find_scales(&c);
     int count = (int)scene->options_count, rows = 1 + c.two_rows, end = area->top + area->height - 1;
     int step = rows + (2 + (rows + 1) * count <= area->height), row = area->top + step - rows + 1;
@@ -315,4 +312,5 @@ void ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *ar
         draw_option(&c, (size_t)i, row);
     }
     put_foot(&c, row);
+    return NULL;
 }

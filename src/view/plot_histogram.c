@@ -158,7 +158,8 @@ static void put_number_head(const struct histogram *h)
         ceduo_plot_say_right(h->canvas, end - 1, h->top - 1, end - h->area->left, CEDUO_ROLE_AXIS, "%s", _("wood (bare)"));
 }
 
-static void draw_rows(struct histogram *h)
+/* Returns NULL, or why there is no bar. */
+static const char *draw_rows(struct histogram *h)
 {
     double most = 0, most_bare = 0;
     for (int i = 0; i < h->bins.count; i++) {
@@ -182,10 +183,11 @@ static void draw_rows(struct histogram *h)
         h->numbers = 0;
     }
     if (h->bar < 1)
-        ceduo_plot_words(h->canvas, h->area, _("too narrow"));
+        return _("too narrow");
     put_number_head(h);
-    for (int i = 0; i < h->bins.count && h->bar >= 1; i++)
+    for (int i = 0; i < h->bins.count; i++)
         draw_row(h, i, most);
+    return NULL;
 }
 
 /* ---- the picture ---- */
@@ -265,8 +267,8 @@ static bool count(struct histogram *h, const struct ceduo_energies *e, const str
     return h->counts && (!bare || h->bare_counts);
 }
 
-void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                          const struct ceduo_picture *picture)
+const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                                 const struct ceduo_picture *picture)
 {
     size_t c = picture->control;
     const struct ceduo_sight *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
@@ -279,18 +281,20 @@ void ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *
     bool head = area->height >= 4;
     h.heads = area->height >= 10;
     int rows = area->height - head - h.heads;
-    if (!h.control) {
-        ceduo_plot_words(canvas, area, _("no control"));
-    } else if (!h.arrivals || (wooded && !h.bare)) {
-        ceduo_plot_words(canvas, area, _("not computed yet"));
-    } else if (sight->energies[c].n == 0 && bare->energies[c].n == 0) {
-        ceduo_plot_words(canvas, area, _("no rock arrives"));
-    } else if (rows >= 1 && count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows)) {
+    const char *why = NULL;
+    if (!h.control)
+        return _("no control");
+    if (!h.arrivals || (wooded && !h.bare))
+        return _("not computed yet");
+    if (sight->energies[c].n == 0 && bare->energies[c].n == 0)
+        return _("no rock arrives");
+    if (rows >= 1 && count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows)) {
         h.top = area->top + head + h.heads;
         if (head)
             put_head(&h);
-        draw_rows(&h);
+        why = draw_rows(&h);
     }
     free(h.counts);
     free(h.bare_counts);
+    return why;
 }

@@ -53,14 +53,6 @@ void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int 
     ceduo_plot_put_right(canvas, column, row, most, role, &text);
 }
 
-void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence)
-{
-    int width = ceduo_canvas_label_width(canvas, sentence);
-    int column = width < area->width ? (area->width - width) / 2 : 0;
-    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
-                   sentence);
-}
-
 const char *ceduo_plot_number(double value, int digits, char room[PLOT_NUMBER_ROOM])
 {
     struct text text = {0};

@@ -8,6 +8,13 @@
 
 #define KILO 1e-3
 
+/* The pictures. Each returns NULL, or why there is nothing to draw. */
+typedef const char *ceduo_plot_function(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                                        const struct ceduo_picture *picture);
+#define X(NAME, name, needs_run, needs_cells, by_option) ceduo_plot_function ceduo_plot_##name;
+CEDUO_PLOT_LIST(X)
+#undef X
+
 /* As ceduo_canvas_put(), formatted. */
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                    ...) __attribute__((format(printf, 6, 7)));
@@ -21,9 +28,6 @@ void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int 
 /* The first of `count` texts that has room, the last one cut where none has. Frees them all. */
 int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
                            size_t count, struct text *texts);
-
-/* A sentence in the middle of the area, where there is nothing to draw. */
-void ceduo_plot_words(struct ceduo_canvas *canvas, const struct ceduo_area *area, const char *sentence);
 
 /* A number as words_number writes it. */
 #define PLOT_NUMBER_ROOM 48

@@ -343,19 +343,17 @@ static void place_frame(struct profile *p)
     }
 }
 
-void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                        struct ceduo_span *span)
+const char *ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                               const struct ceduo_picture *picture)
 {
     struct profile p = {
         .canvas = canvas, .area = area, .picture = picture, .names = area->height >= 8, .belts = area->height >= 6};
     const struct ceduo_slope *slope = &picture->scene->slope;
     place_frame(&p);
-    if (span)
-        *span = (struct ceduo_span){p.frame.left, p.frame.width, p.frame.x0, p.frame.x1};
-    if (isnan(p.factor)) {
-        ceduo_plot_words(canvas, area, _("too narrow"));
-        return;
-    }
+    if (picture->span)
+        *picture->span = (struct ceduo_span){p.frame.left, p.frame.width, p.frame.x0, p.frame.x1};
+    if (isnan(p.factor))
+        return _("too narrow");
     if (picture->stems_count > 0)
         draw_passed(&p);
     else
@@ -370,4 +368,5 @@ void ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *ar
     ceduo_plot_axes(canvas, &p.frame, slope->origin_x, slope->origin_z, _("m"));
     if (p.belts)
         draw_belts(&p);
+    return NULL;
 }

@@ -140,8 +140,8 @@ static void draw(struct rotation *r)
     ceduo_text_free(&share);
 }
 
-void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                         const struct ceduo_picture *picture)
+const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                                const struct ceduo_picture *picture)
 {
     const struct ceduo_years *years = picture->years;
     struct rotation r = {.canvas = canvas,
@@ -151,14 +151,10 @@ void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *a
                          .control = ceduo_plot_control(picture),
                          .c = picture->control,
                          .flown = ceduo_plot_wooded(picture)};
-    if (!years || !r.control) {
-        ceduo_plot_words(canvas, area, !r.control ? _("no control") : _("not computed yet"));
-        return;
-    }
-    if (area->height < 1 + STRIP_LEAST + 2 + LIGHTS || area->width < 24) {
-        ceduo_plot_words(canvas, area, _("too narrow"));
-        return;
-    }
+    if (!years || !r.control)
+        return !r.control ? _("no control") : _("not computed yet");
+    if (area->height < 1 + STRIP_LEAST + 2 + LIGHTS || area->width < 24)
+        return _("too narrow");
     r.x = malloc((years->count + 1) * sizeof *r.x);
     r.y = malloc((years->count + 1) * sizeof *r.y);
     if (r.x && r.y) {
@@ -177,4 +173,5 @@ void ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *a
     }
     free(r.x);
     free(r.y);
+    return NULL;
 }

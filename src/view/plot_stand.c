@@ -271,13 +271,12 @@ static void draw_way(struct plan *p, const struct ceduo_area *area, const struct
 
 /* ---- the picture ---- */
 
-void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+const char *ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                             const struct ceduo_picture *picture)
 {
     const struct ceduo_belt *belt = ceduo_plot_belt(picture);
-    if (!belt || area->width < 4 || area->height < 4) {
-        ceduo_plot_words(canvas, area, _("no forest"));
-        return;
-    }
+    if (!belt || area->width < 4 || area->height < 4)
+        return _("no forest");
     bool words = area->height >= 7;
     double from;
     struct plan p = {
@@ -286,7 +285,7 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
         .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
         .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
     if (!ceduo_frame_true_scale(&p.frame, canvas, 0, PATCH_M, 0, 0))
-        return;
+        return NULL;
     p.width = PATCH_M;
     p.height = p.frame.y1 - p.frame.y0;
     p.frame.y1 = p.height;
@@ -296,4 +295,5 @@ void ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area
         draw_way(&p, area, picture, from, words);
     else
         draw_pattern(&p, area, words);
+    return NULL;
 }

@@ -271,9 +271,11 @@ static void draw_controls(const struct strip *s)
 
 /* ---- the strip ---- */
 
-static void place_frame(struct strip *s, const struct ceduo_span *span, bool axis)
+static void place_frame(struct strip *s)
 {
     const struct ceduo_area *a = s->area;
+    const struct ceduo_span *span = s->picture->span;
+    bool axis = !s->picture->no_x_axis;
     int caption = a->height - 2 * axis >= 4;
     s->frame.top = a->top + caption;
     s->frame.height = a->height - caption - 2 * axis;
@@ -335,53 +337,51 @@ static void put_caption(const struct strip *s, const struct peak *peak)
 #define FULL_ROWS  8  /* four curves need so many rows, */
 #define FULL_WIDTH 56 /* so many columns, and names beside them */
 
-static bool is_small(const struct strip *s, const struct content *full, const struct ceduo_span *span, bool axis)
+static bool is_small(const struct strip *s, const struct content *full)
 {
+    const struct ceduo_span *span = s->picture->span;
+    bool axis = !s->picture->no_x_axis;
     int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
     return s->area->height - 1 - 2 * axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
            names < name_columns(s->canvas, full) - 1;
 }
 
-static void draw_strip(struct strip *s, const struct ceduo_span *span, bool axis)
+static const char *draw_strip(struct strip *s)
 {
+    const struct ceduo_span *span = s->picture->span;
+    const struct content *fitting = contents[s->energy];
     struct peak peak;
     s->legend = ceduo_plot_wooded(s->picture);
-    const struct content *fitting = contents[s->energy];
-    s->content = &fitting[!s->legend ? 0 : is_small(s, &fitting[1], span, axis) ? 2 : 1];
+    s->content = &fitting[!s->legend ? 0 : is_small(s, &fitting[1]) ? 2 : 1];
     s->sight = ceduo_plot_sight(s->picture);
     s->bare = ceduo_plot_bare(s->picture);
     ceduo_plot_stretch(s->picture, &s->from, &s->to);
     s->from = span ? span->x0 : s->from;
     s->to = span ? span->x1 : s->to;
-    if (!s->sight || !s->bare) {
-        ceduo_plot_words(s->canvas, s->area, _("not computed yet"));
-        return;
-    }
-    if (!scale(s, &peak)) {
-        ceduo_plot_words(s->canvas, s->area, _("no rock passes here"));
-        return;
-    }
-    place_frame(s, span, axis);
-    if (s->frame.width < 2 || s->frame.height < 1 || !(s->frame.x1 > s->frame.x0)) {
-        ceduo_plot_words(s->canvas, s->area, _("too narrow"));
-        return;
-    }
+    if (!s->sight || !s->bare)
+        return _("not computed yet");
+    if (!scale(s, &peak))
+        return _("no rock passes here");
+    place_frame(s);
+    if (s->frame.width < 2 || s->frame.height < 1 || !(s->frame.x1 > s->frame.x0))
+        return _("too narrow");
     put_caption(s, &peak);
     for (int i = 0; i < s->content->count; i++)
         draw_curve(s, &s->content->curves[i]);
     draw_controls(s);
     name_curves(s);
-    ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, axis ? _("m") : NULL);
+    ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, s->picture->no_x_axis ? NULL : _("m"));
+    return NULL;
 }
 
-void ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                       const struct ceduo_span *span, bool axis)
+const char *ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                              const struct ceduo_picture *picture)
 {
-    draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture}, span, axis);
+    return draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture});
 }
 
-void ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                       const struct ceduo_span *span, bool axis)
+const char *ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                              const struct ceduo_picture *picture)
 {
-    draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture, .energy = true}, span, axis);
+    return draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture, .energy = true});
 }

@@ -1,35 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plots.h"
+#include "plot_parts.h"
 
 #include <string.h>
 
 #include "base/intl.h"
-#include "plot_parts.h"
-
-static void draw_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                         const struct ceduo_picture *picture)
-{
-    ceduo_plot_profile(canvas, area, picture, NULL);
-}
-
-static void draw_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
-{
-    ceduo_plot_height(canvas, area, picture, NULL, true);
-}
-
-static void draw_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
-{
-    ceduo_plot_energy(canvas, area, picture, NULL, true);
-}
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
-#define X(NAME, name, draw, needs_run, needs_cells, by_option)                                                         \
-    [CEDUO_PLOT_##NAME] = {name, draw, needs_run, needs_cells, by_option},
+#define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},
     CEDUO_PLOT_LIST(X)
 #undef X
 };
 
-#define X(NAME, name, draw, needs_run, needs_cells, by_option) ", " name
+#define X(NAME, name, needs_run, needs_cells, by_option) ", " #name
 const char *const ceduo_plot_names = &(CEDUO_PLOT_LIST(X))[2];
 #undef X
 
@@ -39,6 +21,22 @@ enum ceduo_plot ceduo_plot_find(const char *name)
         if (strcmp(ceduo_plot_kinds[i].name, name) == 0)
             return (enum ceduo_plot)i;
     return CEDUO_PLOT_NONE;
+}
+
+void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                     const struct ceduo_picture *picture)
+{
+    static ceduo_plot_function *const functions[CEDUO_PLOTS] = {
+#define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = ceduo_plot_##name,
+        CEDUO_PLOT_LIST(X)
+#undef X
+    };
+    const char *why = functions[plot](canvas, area, picture);
+    if (!why)
+        return;
+    int width = ceduo_canvas_label_width(canvas, why);
+    int column = width < area->width ? (area->width - width) / 2 : 0;
+    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
 
 /* ---- titles ---- */

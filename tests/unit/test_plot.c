@@ -8,7 +8,7 @@
 #include "cli/command_line.h"
 #include "cli/options.h"
 #include "view/cells.h"
-#include "view/plots.h"
+#include "view/plot.h"
 
 #define BRAILLE CEDUO_CHARSET_BRAILLE
 #define BLOCK   CEDUO_CHARSET_BLOCK
@@ -34,7 +34,7 @@ static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture
     struct ceduo_cells *cells = ceduo_cells_create(width, height, charset);
     assert_non_null(cells);
     struct ceduo_area area = {0, 0, width, height};
-    ceduo_plot_kinds[plot].draw(&cells->canvas, &area, p);
+    ceduo_plot_draw(plot, &cells->canvas, &area, p);
     return cells;
 }
 
@@ -129,14 +129,15 @@ static void span_tells_where_the_slope_stands(void **state)
     struct ceduo_cells *cells = ceduo_cells_create(80, 24, BRAILLE);
     struct ceduo_area area = {0, 0, 80, 24};
     struct ceduo_span span;
-    ceduo_plot_profile(&cells->canvas, &area, &p, &span);
+    p.span = &span;
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
     assert_true(span.x0 == 0);
     assert_true(span.x1 >= 100 && span.x1 < 104);
     assert_true(span.left >= 3 && span.left + span.width <= 80);
     p.from = 40;
     p.to = 60;
     ceduo_cells_clear(cells);
-    ceduo_plot_profile(&cells->canvas, &area, &p, &span);
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
     assert_true(span.x0 == 40);
     assert_true(span.x1 >= 60 && span.x1 < 62);
     ceduo_cells_free(cells);
@@ -302,7 +303,8 @@ static void stems_that_the_rock_came_to_stand_where_they_are(void **state)
     struct ceduo_cells *cells = ceduo_cells_create(84, 40, BRAILLE);
     struct ceduo_area area = {0, 0, 84, 40};
     struct ceduo_span span;
-    ceduo_plot_profile(&cells->canvas, &area, &p, &span);
+    p.span = &span;
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
     double metres = (span.x1 - span.x0) / (2 * span.width - 1); /* of a dot, either way */
     assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
     for (int i = 0; i < 4; i++) {
@@ -484,9 +486,10 @@ static void small_strips_show_one_pair_of_curves(void **state)
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "mean energy, kJ  -- wood  .. bare"));
     assert_false(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "p95"));
     struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
+    p.span = &span;
     struct ceduo_area area = {0, 0, 70, 20};
     struct ceduo_cells *cells = ceduo_cells_create(70, 20, ASCII);
-    ceduo_plot_energy(&cells->canvas, &area, &p, &span, true);
+    ceduo_plot_draw(CEDUO_PLOT_ENERGY, &cells->canvas, &area, &p);
     char *text = ceduo_cells_dump(cells);
     assert_non_null(strstr(text, "mean energy, kJ"));
     free(text);
@@ -586,8 +589,9 @@ static void strips_share_the_profiles_columns(void **state)
     struct ceduo_cells *cells = ceduo_cells_create(70, 24, ASCII);
     struct ceduo_area above = {0, 0, 70, 16}, below = {0, 16, 70, 8};
     struct ceduo_span span;
-    ceduo_plot_profile(&cells->canvas, &above, &p, &span);
-    ceduo_plot_height(&cells->canvas, &below, &p, &span, true);
+    p.span = &span;
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &above, &p);
+    ceduo_plot_draw(CEDUO_PLOT_HEIGHT, &cells->canvas, &below, &p);
     int rules[2] = {0, 0};
     for (int column = 0; column < 70; column++) {
         rules[0] += ceduo_cells_role(cells, column, 5) == CEDUO_ROLE_CONTROL;
@@ -1054,7 +1058,7 @@ static void nothing_is_drawn_beside_the_area(void **state)
             p.stems = i % 11 < 3 ? passed : NULL;
             p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);
-            ceduo_plot_kinds[plot].draw(&cells->canvas, &area, &p);
+            ceduo_plot_draw(plot, &cells->canvas, &area, &p);
             for (int row = 0; row < cells->height; row++)
                 for (int column = 0; column < cells->width; column++) {
                     bool in = column >= area.left && column < area.left + area.width && row >= area.top &&
@@ -1140,7 +1144,7 @@ static void pictures_draw_on_another_surface(void **state)
         struct page page = {0};
         struct ceduo_canvas canvas = {&surface, &page, 8, 16};
         bool bars = plot == CEDUO_PLOT_HISTOGRAM || plot == CEDUO_PLOT_ADC || plot == CEDUO_PLOT_COMPARE;
-        ceduo_plot_kinds[plot].draw(&canvas, &area, &p);
+        ceduo_plot_draw(plot, &canvas, &area, &p);
         if (page.labels == 0 || page.strayed)
             fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
         if (plot != CEDUO_PLOT_ROTATION && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
