@@ -26,7 +26,7 @@ __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ced
     va_end(args);
     ceduo_text_safe(&safe, ceduo_text_string(&text));
     if (pen->y < pen->area.top + pen->area.height && safe.bytes) {
-        ceduo_cells_put(pen->app->cells, pen->area.left, pen->y, pen->area.width, role, safe.bytes);
+        ceduo_canvas_put(&pen->app->cells->canvas, pen->area.left, pen->y, pen->area.width, role, safe.bytes);
     }
     pen->y++;
     ceduo_text_free(&text);

@@ -298,7 +298,7 @@ static void draw_cell(const struct form_row *row, struct ceduo_cells *cells, int
         return;
     }
     enum ceduo_role role = cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM;
-    ceduo_cells_put(cells, left + from, y, span, role, shown);
+    ceduo_canvas_put(&cells->canvas, left + from, y, span, role, shown);
 }
 
 static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width,
@@ -306,19 +306,19 @@ static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cell
 {
     const struct form_row *row = &form->rows[i];
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
-        ceduo_cells_put(cells, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_put(&cells->canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
         return;
     }
     bool here = i == form->row && focused;
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : LABEL - 1;
-        ceduo_cells_put(cells, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         if (row->kind == FORM_COLUMNS_ROW) {
             int from, span;
             cell_place(row, width, k, &from, &span);
-            ceduo_cells_put(cells, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
+            ceduo_canvas_put(&cells->canvas, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
         } else {
             draw_cell(row, cells, left, y, width, k, here && k == form->column, edit);
         }

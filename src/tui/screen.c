@@ -44,7 +44,7 @@ static void draw_title(struct app *app)
     int room = app->width - x - 1;
     if (title.bytes && room > 4) {
         int columns = ceduo_cells_label_width(app->charset, title.bytes);
-        ceduo_cells_put(app->cells, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
+        ceduo_canvas_put(&app->cells->canvas, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
                        title.bytes);
     }
     ceduo_text_free(&title);
@@ -67,7 +67,7 @@ static void draw_explanation(struct app *app)
     if (two_lines)
         ceduo_app_text(app, lines, role, safe.bytes, NULL);
     else if (safe.bytes)
-        ceduo_cells_put(app->cells, 0, app->height - 2, app->width, role, safe.bytes);
+        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, safe.bytes);
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
 }

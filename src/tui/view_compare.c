@@ -112,7 +112,7 @@ static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
     ceduo_text_safe(&safe, app->figures.result->scene->options[i].name);
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
         ceduo_cells_label(app->cells, area.left + x, y, role, " ");
-    ceduo_cells_put(app->cells, area.left, y, width, role, ceduo_text_string(&safe));
+    ceduo_canvas_put(&app->cells->canvas, area.left, y, width, role, ceduo_text_string(&safe));
     ceduo_text_free(&safe);
 }
 
@@ -136,7 +136,7 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
     else
         ceduo_words_number(&text, value, 3);
     if (text.bytes)
-        ceduo_cells_label_right(app->cells, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
+        ceduo_canvas_label_right(&app->cells->canvas, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
     char mark[2] = {mark_of(app, i, column), '\0'};
     ceduo_cells_label(app->cells, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
     ceduo_text_free(&text);
@@ -169,10 +169,10 @@ static void draw_head(struct app *app, struct ceduo_area area)
                                                                                       : simulated;
     int x = area.left + name_columns(area);
     if (lines_of(area) == 1 || area.width >= FIGURES + 8)
-        ceduo_cells_put(app->cells, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
+        ceduo_canvas_put(&app->cells->canvas, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
     for (int c = 0; c < COLUMNS; c++)
         if (has_room(area, c)) {
-            ceduo_cells_label_right(app->cells, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
+            ceduo_canvas_label_right(&app->cells->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
             x += 9;
         }
     ceduo_cells_label(app->cells, x + 1, area.top, CEDUO_ROLE_TITLE, "CFE");

@@ -182,16 +182,6 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
     return count;
 }
 
-int ceduo_cells_label_right(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text)
-{
-    return ceduo_canvas_label_right(&cells->canvas, column, row, role, text);
-}
-
-int ceduo_cells_put(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
-{
-    return ceduo_canvas_put(&cells->canvas, column, row, most, role, text);
-}
-
 int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
 {
     while (*text && ceduo_cells_label_width(cells->charset, text) > most)

@@ -59,12 +59,6 @@ void ceduo_cells_clear(struct ceduo_cells *cells);
  */
 int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
 
-/* The same, with the last character in cell `column`. */
-int ceduo_cells_label_right(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
-
-/* A text of at most `most` cells, cut with a mark where it is longer; returns the cells it took. */
-int ceduo_cells_put(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
-
 /* Write the end of a text that fits into `most` cells; returns the cells it took. */
 int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
 

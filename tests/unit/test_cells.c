@@ -150,7 +150,7 @@ static void labels_are_cut_at_the_canvas(void **state)
     expect_text(cells, "² st\n");
     expect_roles(cells, "t TT\n");
     ceduo_cells_clear(cells);
-    assert_int_equal(ceduo_cells_label_right(cells, 2, 0, CEDUO_ROLE_TEXT, "±1"), 2);
+    assert_int_equal(ceduo_canvas_label_right(&cells->canvas, 2, 0, CEDUO_ROLE_TEXT, "±1"), 2);
     expect_and_clear(cells, " ±1\n");
     ceduo_cells_label(cells, 0, 1, CEDUO_ROLE_TEXT, "below");
     ceduo_cells_label(cells, 0, -1, CEDUO_ROLE_TEXT, "above");
@@ -224,7 +224,7 @@ static void ascii_has_near_equivalents(void **state)
         ceduo_cells_clear(ascii);
         ceduo_cells_clear(block);
     }
-    ceduo_cells_label_right(ascii, 11, 0, CEDUO_ROLE_TEXT, "±0.3…");
+    ceduo_canvas_label_right(&ascii->canvas, 11, 0, CEDUO_ROLE_TEXT, "±0.3…");
     expect_text(ascii, "    +-0.3...\n");
     assert_int_equal(ceduo_cells_label_width(ASCII, "±0.3…"), 8);
     assert_int_equal(ceduo_cells_label_width(BRAILLE, "±0.3…"), 5);
@@ -237,11 +237,11 @@ static void texts_are_cut_at_either_end(void **state)
 {
     (void)state;
     struct ceduo_cells *cells = cells_in(8, 1, BRAILLE);
-    assert_int_equal(ceduo_cells_put(cells, 0, 0, 5, CEDUO_ROLE_TEXT, "coppice"), 5);
+    assert_int_equal(ceduo_canvas_put(&cells->canvas, 0, 0, 5, CEDUO_ROLE_TEXT, "coppice"), 5);
     expect_and_clear(cells, "copp…\n");
-    assert_int_equal(ceduo_cells_put(cells, 0, 0, 7, CEDUO_ROLE_TEXT, "coppice"), 7);
+    assert_int_equal(ceduo_canvas_put(&cells->canvas, 0, 0, 7, CEDUO_ROLE_TEXT, "coppice"), 7);
     expect_and_clear(cells, "coppice\n");
-    assert_int_equal(ceduo_cells_put(cells, 0, 0, 0, CEDUO_ROLE_TEXT, "coppice"), 0);
+    assert_int_equal(ceduo_canvas_put(&cells->canvas, 0, 0, 0, CEDUO_ROLE_TEXT, "coppice"), 0);
     expect_and_clear(cells, "\n");
     /* cells count, not columns: a mark and a wide character are a '?' each */
     assert_int_equal(ceduo_cells_put_end(cells, 0, 0, 4, CEDUO_ROLE_TEXT, "ae\u0301ber"), 4);
@@ -251,7 +251,7 @@ static void texts_are_cut_at_either_end(void **state)
     assert_int_equal(ceduo_cells_put_end(cells, 0, 0, 0, CEDUO_ROLE_TEXT, "x"), 0);
     ceduo_cells_free(cells);
     cells = cells_in(8, 1, ASCII);
-    assert_int_equal(ceduo_cells_put(cells, 0, 0, 4, CEDUO_ROLE_TEXT, "35 … 40"), 4);
+    assert_int_equal(ceduo_canvas_put(&cells->canvas, 0, 0, 4, CEDUO_ROLE_TEXT, "35 … 40"), 4);
     expect_text(cells, "35 ~\n");
     ceduo_cells_free(cells);
 }
