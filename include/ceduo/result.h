@@ -15,7 +15,6 @@ struct ceduo_flown {
 
 /* CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
 enum ceduo_status ceduo_flown_read(const struct ceduo_run *run, size_t controls, struct ceduo_flown *flown);
-enum ceduo_status ceduo_flown_copy(const struct ceduo_flown *from, struct ceduo_flown *to);
 /* Through a forest without stems nothing is hit: that is known. Sets contacts that are not to 0. */
 void ceduo_flown_meets_nothing(struct ceduo_flown *flown);
 void ceduo_flown_free(struct ceduo_flown *flown);

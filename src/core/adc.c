@@ -6,8 +6,6 @@
 #include "energy.h"
 #include "strata.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* Mean dbh over some kinds of stem, of which there are some. */
 static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struct ceduo_stems *more, size_t m)
 {
@@ -32,7 +30,7 @@ static double mean_dbh(const struct ceduo_stand *stand)
 
 double ceduo_stool_radius(unsigned n, double s)
 {
-    return n < 2 ? 0 : s / (2 * sin(PI / n));
+    return n < 2 ? 0 : s / (2 * sin(M_PI / n));
 }
 
 static double perimeter_of(double n, double s)
@@ -59,7 +57,7 @@ static double stool_width(const struct ceduo_stand *stand, enum ceduo_rule rule)
         return mean_shoot_dbh(stand) + stand->spacing;
     default:
         return mean_shoot_dbh(stand) +
-               ceduo_stool_perimeter(ceduo_stand_shoots(stand) / stand->stools_per_ha, stand->spacing) / PI;
+               ceduo_stool_perimeter(ceduo_stand_shoots(stand) / stand->stools_per_ha, stand->spacing) / M_PI;
     }
 }
 

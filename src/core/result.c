@@ -38,7 +38,7 @@ static enum ceduo_status read_if_there(const struct ceduo_run *run, size_t contr
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_flown_copy(const struct ceduo_flown *from, struct ceduo_flown *to)
+static enum ceduo_status copy(const struct ceduo_flown *from, struct ceduo_flown *to)
 {
     if (!allocate_flown(to, from->controls))
         return CEDUO_NO_MEMORY;
@@ -127,7 +127,7 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
         if (r->wooded)
             ceduo_flown_meets_nothing(&o->wooded);
         else
-            status = ceduo_flown_copy(&r->bare, &o->wooded);
+            status = copy(&r->bare, &o->wooded);
         for (size_t c = 0; c < scene->controls_count && !r->wooded; c++)
             o->differences[c] = no_difference(scene->controls[c].accepted);
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
@@ -148,11 +148,11 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = ceduo_flown_copy(bare, &r->bare);
+    enum ceduo_status status = copy(bare, &r->bare);
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
         if (wooded[i])
-            status = ceduo_flown_copy(wooded[i], &r->options[i].wooded);
+            status = copy(wooded[i], &r->options[i].wooded);
     }
     return finish(r, status, result);
 }

@@ -9,8 +9,6 @@
 #define GROWS_MOST  1e9 /* times as wide or as high: beyond that an age is as good as 0 */
 #define AGE_GRAIN   1e-6 /* years: an age that comes from a curve is no better known */
 
-static const double PI = 3.14159265358979323846;
-
 /* ---- curves ---- */
 
 static bool known(const struct ceduo_curve *c)
@@ -47,7 +45,7 @@ static double sdi(double per_ha, double basal_area)
 {
     if (!(per_ha > 0))
         return 0;
-    double dq_cm = 100 * sqrt(basal_area / per_ha * 4 / PI);
+    double dq_cm = 100 * sqrt(basal_area / per_ha * 4 / M_PI);
     return per_ha * pow(dq_cm / 25.4, 1.605);
 }
 

@@ -20,7 +20,7 @@ static struct ceduo_distribution distribution(const struct ceduo_run *run, size_
                                               const struct ceduo_moments *m, double *scratch)
 {
     if (!run->exact)
-        return ceduo_distribution_binned(&run->bins[control * (size_t)run->kept + (size_t)q], m);
+        return ceduo_distribution_binned(bins_of(run->bins, run, control, q), m);
     size_t n = run->room > 0 ? gather(run, samples_of(run, control, q), scratch) : 0;
     return ceduo_distribution_exact(scratch, n, m);
 }
@@ -37,6 +37,15 @@ static struct ceduo_distribution energy_from_speed(const struct ceduo_distributi
     d.mean = m->n > 0 ? m->mean : NAN;
     d.max = m->n > 0 ? m->max : NAN;
     return d;
+}
+
+/* A share of n rocks with its 95 % interval, whose upper end counts the unfinished in. */
+static double share(uint64_t hits, uint64_t unfinished, uint64_t n, double *lo, double *hi)
+{
+    double unused;
+    ceduo_wilson(hits, n, lo, &unused);
+    ceduo_wilson(hits + unfinished, n, &unused, hi);
+    return (double)hits / (double)n;
 }
 
 /* Mean and standard error over all released, of whom those that do not arrive bring nothing. */
@@ -56,19 +65,10 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .exceeded = s.exceeded,
                                  .unfinished = s.unfinished,
                                  .exact = run->exact};
-    double unused;
-    double released = (double)run->rocks;
-    a->reach_probability = (double)a->reached / released;
-    ceduo_wilson(a->reached, run->rocks, &a->reach_lo, &a->reach_hi);
-    if (s.unfinished > 0)
-        ceduo_wilson(a->reached + s.unfinished, run->rocks, &unused, &a->reach_hi);
+    a->reach_probability = share(a->reached, s.unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
     a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
-    if (!isnan(run->ready.scene.controls[control].accepted)) {
-        a->exceed_probability = (double)a->exceeded / released;
-        ceduo_wilson(a->exceeded, run->rocks, &a->exceed_lo, &a->exceed_hi);
-        if (s.unfinished > 0)
-            ceduo_wilson(a->exceeded + s.unfinished, run->rocks, &unused, &a->exceed_hi);
-    }
+    if (!isnan(run->ready.scene.controls[control].accepted))
+        a->exceed_probability = share(a->exceeded, s.unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
     per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
     a->contacts = !run->ready.wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
     a->contacts_se = run->ready.wood.bare ? NAN : ceduo_moments_se(&s.contacts);
@@ -181,12 +181,10 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
 {
     size_t n = 0;
-    if (run->room == 0)
-        return 0;
-    bool from_speed = run->kept != QUANTITIES;
-    const double *column = samples_of(run, control, from_speed ? SPEED : ENERGY);
-    for (uint64_t r = 0; r < run->rocks && n < most; r++)
-        if (!isnan(column[r]))
-            to[n++] = from_speed ? 0.5 * run->ready.mean.mass * (column[r] * column[r]) : column[r];
+    for (uint64_t r = 0; run->room > 0 && r < run->rocks && n < most; r++) {
+        double energy = ceduo_run_sample_energy(run, control, r);
+        if (!isnan(energy))
+            to[n++] = energy;
+    }
     return n;
 }

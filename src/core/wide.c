@@ -58,10 +58,9 @@ void ceduo_wide_ground_free(struct wide_ground *wide)
     free(wide);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
-
 wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)
 {
+#if defined(__x86_64__) && defined(__GNUC__)
     bool avx2 = __builtin_cpu_supports("avx2");
     bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
     if (avx512 && (kernel == CEDUO_KERNEL_BEST || kernel == CEDUO_KERNEL_AVX512)) {
@@ -72,17 +71,9 @@ wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)
         *lanes = 16;
         return ceduo_wide_walk_avx2;
     }
-    *lanes = 1;
-    return NULL;
-}
-
 #else
-
-wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)
-{
     (void)kernel;
+#endif
     *lanes = 1;
     return NULL;
 }
-
-#endif

@@ -8,8 +8,6 @@
 #include "ceduo/way.h"
 #include "strata.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* ---- kinds ---- */
 
 /* A diameter that a gamma law of this shape and scale goes beyond with a chance of less than exp(-37) = 1e-16, which no
@@ -80,8 +78,8 @@ static double *ring_of(unsigned n)
 {
     double *ring = malloc((2 * (size_t)n + 1) * sizeof *ring);
     for (unsigned i = 0; ring && i < n; i++) {
-        ring[2 * i] = cos(2 * PI * i / n);
-        ring[2 * i + 1] = sin(2 * PI * i / n);
+        ring[2 * i] = cos(2 * M_PI * i / n);
+        ring[2 * i + 1] = sin(2 * M_PI * i / n);
     }
     return ring;
 }
@@ -101,7 +99,7 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
             return false;
         s->ring[i] = ring;
         s->radius[i] = ceduo_stool_radius(s->n + i, stand->spacing);
-        s->turn[i] = s->n + i > 1 ? 2 * PI / (s->n + i) : 0;
+        s->turn[i] = s->n + i > 1 ? 2 * M_PI / (s->n + i) : 0;
     }
     s->reach = fmax(s->radius[0], s->radius[1]);
     for (size_t i = 0; i < s->cohorts; i++)
@@ -187,8 +185,8 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
     if (!allocate(wood, option))
         goto fail;
     for (int i = 0; i <= WOOD_DIRECTIONS; i++) {
-        wood->directions[i][0] = cos((i - WOOD_DIRECTIONS / 2) * (PI / WOOD_DIRECTIONS));
-        wood->directions[i][1] = sin((i - WOOD_DIRECTIONS / 2) * (PI / WOOD_DIRECTIONS));
+        wood->directions[i][0] = cos((i - WOOD_DIRECTIONS / 2) * (M_PI / WOOD_DIRECTIONS));
+        wood->directions[i][1] = sin((i - WOOD_DIRECTIONS / 2) * (M_PI / WOOD_DIRECTIONS));
     }
     size_t used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {

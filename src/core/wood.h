@@ -70,7 +70,7 @@ struct wood {
  * terms of their series do. */
 static inline void wood_direction(const struct wood *wood, double angle, double *cosine, double *sine)
 {
-    const double step = 3.14159265358979323846 / WOOD_DIRECTIONS;
+    const double step = M_PI / WOOD_DIRECTIONS;
     int i = (int)(angle * (1 / step) + (WOOD_DIRECTIONS / 2 + 0.5));
     double d = angle - (i - WOOD_DIRECTIONS / 2) * step, d2 = d * d;
     double c = 1 - d2 * (0.5 - d2 * (1.0 / 24)), s = d - d * d2 * (1.0 / 6 - d2 * (1.0 / 120));

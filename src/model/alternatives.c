@@ -75,11 +75,10 @@ static void sides_of(const struct ceduo_rock_def *def, const struct ceduo_rock *
 static void fill_sizes(struct changes *c, enum ceduo_shape shape, const struct ceduo_rock *rock)
 {
     static const double full[] = {[CEDUO_SPHERE] = 6, [CEDUO_CYLINDER] = 4, [CEDUO_ELLIPSOID] = 6};
-    const double pi = 3.14159265358979323846;
     double s[3];
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM], third[CEDUO_NUMBER_ROOM], all[3 * CEDUO_NUMBER_ROOM + 8];
     sides_of(&c->d->file.scene.rock, rock, s);
-    double box = shape == CEDUO_BLOCK ? rock->volume : rock->volume * full[shape] / pi;
+    double box = shape == CEDUO_BLOCK ? rock->volume : rock->volume * full[shape] / M_PI;
     double scale = cbrt(box / (s[0] * s[1] * s[2]));
     if (shape == CEDUO_SPHERE) {
         fill_in(c, "diameter_m", rounded(cbrt(box), 3, a));

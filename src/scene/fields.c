@@ -6,7 +6,6 @@
 #include "base/intl.h"
 #include "schema.h"
 
-#define HALF_PI 1.5707963267948966
 #define FAR 1e9 /* m: survey coordinates and more */
 
 /* ---- shorthand for rows ---- */
@@ -87,7 +86,7 @@ static const struct object release_object = OBJECT(ceduo_release, release_fields
 static const struct field segment_fields[] = {
     SPREAD("rn", AT(ceduo_segment, rn), "", 0, 1, REQUIRED, NULL, N_("normal restitution Rn")),
     SPREAD("rt", AT(ceduo_segment, rt), "", 0, 1, REQUIRED, NULL, N_("tangential restitution Rt")),
-    NUMBER("roughness_rad", AT(ceduo_segment, roughness_rad), "rad", 0, HALF_PI, FIELD_UNDER | FIELD_ONE_OF, "0",
+    NUMBER("roughness_rad", AT(ceduo_segment, roughness_rad), "rad", 0, M_PI_2, FIELD_UNDER | FIELD_ONE_OF, "0",
            N_("largest angle by which the ground's small facets are turned")),
     NUMBER("roughness_m", AT(ceduo_segment, roughness_m), "m", 0, 1000, 0, NULL,
            N_("the same as a height S over the rock's radius, atan(S/R), as in CRSP")),

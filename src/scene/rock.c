@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stddef.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* The sizes of one rock, all drawn: the numbers of a def, in its order. */
 union sizes {
     struct {
@@ -25,9 +23,9 @@ static void complete_sphere(union sizes *s, struct ceduo_rock *rock)
 {
     if (isnan(s->diameter)) {
         double volume = isnan(s->volume) ? s->mass / s->density : s->volume;
-        s->diameter = cbrt(6 * volume / PI);
+        s->diameter = cbrt(6 * volume / M_PI);
     }
-    rock->volume = PI / 6 * s->diameter * s->diameter * s->diameter;
+    rock->volume = M_PI / 6 * s->diameter * s->diameter * s->diameter;
     rock->mean_diameter = s->diameter;
     rock->k = 2.0 / 5;
 }
@@ -65,12 +63,12 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, union sizes *s,
         complete_sphere(s, rock);
         break;
     case CEDUO_CYLINDER:
-        rock->volume = PI / 4 * s->diameter * s->diameter * s->height;
+        rock->volume = M_PI / 4 * s->diameter * s->diameter * s->height;
         rock->mean_diameter = (s->diameter + s->height) / 2;
         rock->k = 1.0 / 2;
         break;
     case CEDUO_ELLIPSOID:
-        rock->volume = PI / 6 * s->axes[0] * s->axes[1] * s->axes[2];
+        rock->volume = M_PI / 6 * s->axes[0] * s->axes[1] * s->axes[2];
         rock->mean_diameter = (s->axes[0] + s->axes[1] + s->axes[2]) / 3;
         rock->k = 2.0 / 5;
         break;

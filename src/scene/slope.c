@@ -25,7 +25,7 @@ static bool unit_interval(struct ceduo_number n)
 
 static bool good_segment(const struct ceduo_segment *s)
 {
-    bool rough = isnan(s->roughness_m) ? s->roughness_rad >= 0 && s->roughness_rad < 1.5707963267948966
+    bool rough = isnan(s->roughness_m) ? s->roughness_rad >= 0 && s->roughness_rad < M_PI_2
                                        : s->roughness_m >= 0 && isnan(s->roughness_rad);
     return rough && unit_interval(s->rn) && unit_interval(s->rt) && s->friction >= 0 && isfinite(s->friction);
 }

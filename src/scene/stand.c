@@ -5,8 +5,6 @@
 
 #include "volume.h"
 
-static const double PI = 3.14159265358979323846;
-
 static double sum_per_ha(const struct ceduo_stems *stems, size_t n)
 {
     double sum = 0;
@@ -29,7 +27,7 @@ static double basal_area(const struct ceduo_stems *stems, size_t n)
 {
     double sum = 0;
     for (size_t i = 0; i < n; i++) /* the mean of d2 is d2 + sd2 */
-        sum += stems[i].per_ha * PI / 4 * (stems[i].dbh * stems[i].dbh + stems[i].dbh_sd * stems[i].dbh_sd);
+        sum += stems[i].per_ha * M_PI / 4 * (stems[i].dbh * stems[i].dbh + stems[i].dbh_sd * stems[i].dbh_sd);
     return sum;
 }
 

@@ -39,12 +39,11 @@ static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand,
 /* m3 of a stem of diameter dbh whose volume is not given. `from` may be NULL. */
 static inline double stem_volume_computed(const struct stem_volume *v, double dbh, enum ceduo_volume_from *from)
 {
-    const double pi = 3.14159265358979323846;
     double d = dbh * 100;
     double equation = d >= v->d_lo && d <= v->d_hi ? (v->b0 + v->b1 * d * d * v->height + v->b2 * d) / 1000 : 0;
     if (from)
         *from = equation > 0 ? CEDUO_VOLUME_EQUATION : CEDUO_VOLUME_FORM_FACTOR;
-    return equation > 0 ? equation : CEDUO_FORM_FACTOR * pi / 4 * dbh * dbh * v->height;
+    return equation > 0 ? equation : CEDUO_FORM_FACTOR * M_PI / 4 * dbh * dbh * v->height;
 }
 
 /* m3 of the mean stem. `from` may be NULL. */

@@ -43,14 +43,10 @@ static double by_energy(const struct ceduo_result *result, size_t option, double
 static size_t best_by_energy(const struct ceduo_result *result)
 {
     size_t best = 0;
-    double least = INFINITY, se;
-    for (size_t i = 0; i < result->options_count; i++) {
-        double value = by_energy(result, i, &se);
-        if (value < least) {
-            least = value;
+    double se;
+    for (size_t i = 1; i < result->options_count; i++)
+        if (by_energy(result, i, &se) < by_energy(result, best, &se))
             best = i;
-        }
-    }
     return best;
 }
 

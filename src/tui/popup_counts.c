@@ -39,7 +39,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     bool on_slope;
     if (!counts_of(app, p, v, &on_slope))
         return false;
-    double area = on_slope ? v[COUNT_AREA] * cos(v[COUNT_ANGLE] * 3.14159265358979323846 / 180) : v[COUNT_AREA];
+    double area = on_slope ? v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180) : v[COUNT_AREA];
     double per = 10000 / area;
     const struct ceduo_stand *stand = &ceduo_app_option(app)->belts[app->belt].stand;
     char sets[3][FORM_PATH + 64];

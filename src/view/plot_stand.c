@@ -100,7 +100,7 @@ static double thickest(const struct ceduo_stand *stand)
 /* Where shoot i of n stands on a ring. */
 static struct foot on_ring(const struct foot *stool, double ring, double turn, int i, int n)
 {
-    double angle = 2 * 3.14159265358979323846 * (turn + (double)i / n);
+    double angle = 2 * M_PI * (turn + (double)i / n);
     return (struct foot){stool->x + ring * cos(angle), stool->y + ring * sin(angle), 0};
 }
 
