@@ -2,9 +2,11 @@
 /* --batch, --plot, --shard and --check: scene by scene. */
 #include "batch.h"
 
-#include "base/intl.h"
+#include <stdlib.h>
+
+#include "base/clock.h"
 #include "interrupt.h"
-#include "io/file.h"
+#include "io/part_file.h"
 #include "output.h"
 #include "print.h"
 
@@ -21,17 +23,50 @@ static enum exit_status print_scene(const struct arguments *a, const struct scen
     return ceduo_print_report(a, file, &question, NULL, -1, out);
 }
 
+/* The shard of a scene, the `place`-th given, that was read by way of a shelf. */
+static enum exit_status put_shard(const struct arguments *a, const char *path, const struct shelf *shelf,
+                                  const struct scene_file *file, size_t place, struct text *out)
+{
+    struct progress progress = ceduo_progress_begin(a);
+    const struct ceduo_question q = ceduo_batch_question(a, file, &progress);
+    struct part part = {.scene = (char *)(uintptr_t)path, /* only read */
+                        .shard = a->shard,
+                        .shards = a->shards,
+                        .place = place,
+                        .rocks = q.rocks,
+                        .key = ceduo_part_key(file, q.rocks)};
+    const struct part_inputs inputs = {.path = path,
+                                       .sets = a->sets,
+                                       .options = a->options,
+                                       .sets_count = a->sets_count,
+                                       .options_count = a->options_count,
+                                       .shelf = *shelf};
+    unsigned char *runs, *texts = NULL;
+    enum ceduo_status status = ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
+    ceduo_progress_end(&progress);
+    part.seconds = ceduo_clock() - progress.start;
+    if (status == CEDUO_OK && part.key == 0)
+        status = CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK && part.shard == 1 && !(texts = ceduo_part_inputs(&inputs, &part.inputs_length)))
+        status = CEDUO_NO_MEMORY;
+    part.runs = runs;
+    part.inputs = texts;
+    if (status == CEDUO_OK)
+        ceduo_part_write(out, &part);
+    free(runs);
+    free(texts);
+    return status == CEDUO_OK ? EXIT_DONE : ceduo_batch_failed(file, status);
+}
+
 static enum exit_status batch_scene(const struct arguments *a, size_t i, struct text *out)
 {
     struct scene_file file;
     struct shelf shelf = {0};
     enum exit_status status = ceduo_batch_read(a, a->scenes[i], a->shards > 0 ? &shelf : NULL, &file);
-    if (status == EXIT_DONE)
-        status = ceduo_batch_choose(a, &file);
     if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
         status =
-            a->shards > 0 ? ceduo_batch_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
+            a->shards > 0 ? put_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
     }
     ceduo_scene_release(&file);
     return status;
@@ -80,8 +115,6 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
         enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
-        if (one == EXIT_DONE)
-            one = ceduo_batch_choose(a, &file);
         ceduo_scene_release(&file);
         status = worse(status, one);
     }

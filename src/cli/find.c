@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --find: the value of one parameter for which a goal is reached. */
-#include <string.h>
-
 #include "base/intl.h"
 #include "batch.h"
 #include "interrupt.h"
@@ -29,15 +27,12 @@ static void put(struct text *out, const struct arguments *a, const struct ceduo_
 /* The one option to look at. */
 static enum exit_status choose(const struct arguments *a, const struct scene_file *file, size_t *option)
 {
-    const struct ceduo_scene *scene = &file->scene;
-    bool several = a->options_count == 0 && scene->options_count > 1;
+    bool several = a->options_count == 0 && file->scene.options_count > 1;
     *option = 0;
     for (size_t i = 0; i < a->options_count; i++) {
-        size_t k = 0;
-        while (k < scene->options_count && strcmp(scene->options[k].name, a->options[i]) != 0)
-            k++;
-        if (k == scene->options_count)
-            return ceduo_batch_no_option(file, a->options[i]);
+        size_t k;
+        if (ceduo_batch_option(file, a->options[i], &k) != EXIT_DONE)
+            return EXIT_USAGE;
         several |= i > 0 && k != *option;
         *option = k;
     }

@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "interactive.h"
-
-#include <stdio.h>
-#include <string.h>
+#include "batch.h"
 
 #include "base/intl.h"
-#include "batch.h"
 #include "options.h"
 #include "say.h"
 #include "tui/program.h"

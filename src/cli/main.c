@@ -9,7 +9,6 @@
 #include "batch.h"
 #include "ceduo/version.h"
 #include "command_line.h"
-#include "interactive.h"
 #include "output.h"
 
 #ifndef CEDUO_LOCALEDIR

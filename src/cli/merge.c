@@ -264,8 +264,6 @@ static enum exit_status join(struct parts *all, size_t from, size_t end, const s
     own.options_count = inputs.options_count;
     struct scene_file file;
     enum exit_status status = ceduo_batch_read(&own, inputs.path, &inputs.shelf, &file);
-    if (status == EXIT_DONE)
-        status = ceduo_batch_choose(&own, &file);
     uint64_t key = status == EXIT_DONE ? ceduo_part_key(&file, first->rocks) : UINT64_MAX;
     if (key == 0)
         status = out_of_memory(first);

@@ -10,20 +10,6 @@
 #include "io/file.h"
 #include "say.h"
 
-static bool write_stdout(const char *bytes, size_t n)
-{
-    while (n > 0) {
-        ssize_t done = write(STDOUT_FILENO, bytes, n);
-        if (done < 0 && errno == EINTR && !atomic_load(ceduo_interrupt_flag()))
-            continue;
-        if (done < 0)
-            return false;
-        bytes += done;
-        n -= (size_t)done;
-    }
-    return true;
-}
-
 /* First what the open file `before` holds (-1: nothing). */
 static enum exit_status write_after(int before, const struct arguments *a, const struct text *text)
 {
@@ -32,8 +18,8 @@ static enum exit_status write_after(int before, const struct arguments *a, const
         return EXIT_RUN;
     }
     const char *bytes = ceduo_text_string(text);
-    bool good =
-        a->output ? ceduo_file_write_after(before, a->output, bytes, text->length) : write_stdout(bytes, text->length);
+    bool good = a->output ? ceduo_file_write_after(before, a->output, bytes, text->length)
+                          : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag());
     if (good)
         return EXIT_DONE;
     ceduo_say_why(a->output ? a->output : _("standard output"), strerror(errno));

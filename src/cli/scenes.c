@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "scenes.h"
 
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/clock.h"
 #include "base/intl.h"
 #include "interrupt.h"
 #include "io/file.h"
@@ -19,27 +22,27 @@ static bool is_wanted(const struct arguments *a, const char *name)
     return false;
 }
 
-enum exit_status ceduo_batch_no_option(const struct scene_file *file, const char *name)
+enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index)
 {
+    const struct ceduo_scene *scene = &file->scene;
+    for (*index = 0; *index < scene->options_count; ++*index)
+        if (strcmp(scene->options[*index].name, name) == 0)
+            return EXIT_DONE;
     struct text message = {0};
     ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: "), name, file->path);
-    for (size_t i = 0; i < file->scene.options_count; i++)
-        ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", file->scene.options[i].name);
+    for (size_t i = 0; i < scene->options_count; i++)
+        ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name);
     ceduo_say_why("ceduo", ceduo_text_string(&message));
     ceduo_text_free(&message);
     return EXIT_USAGE;
 }
 
 /* Keeps only the options that were asked for, in the scene's order. */
-enum exit_status ceduo_batch_choose(const struct arguments *a, struct scene_file *file)
+static enum exit_status choose(const struct arguments *a, struct scene_file *file)
 {
-    for (size_t i = 0; i < a->options_count; i++) {
-        bool found = false;
-        for (size_t k = 0; k < file->scene.options_count; k++)
-            found |= strcmp(file->scene.options[k].name, a->options[i]) == 0;
-        if (!found)
-            return ceduo_batch_no_option(file, a->options[i]);
-    }
+    for (size_t i = 0, index; i < a->options_count; i++)
+        if (ceduo_batch_option(file, a->options[i], &index) != EXIT_DONE)
+            return EXIT_USAGE;
     const struct node *list = ceduo_node_get(file->root, "options");
     if (a->options_count == 0 || !list)
         return EXIT_DONE;
@@ -70,10 +73,32 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
             status = EXIT_OUTPUT;
     if (!shelf)
         file->arena.shelf = NULL;
-    return status;
+    return status == EXIT_DONE && a->mode != MODE_FIND ? choose(a, file) : status;
 }
 
 /* ---- asking ---- */
+
+struct progress ceduo_progress_begin(const struct arguments *a)
+{
+    return (struct progress){.start = ceduo_clock(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
+}
+
+void ceduo_progress_show(void *context, uint64_t rocks)
+{
+    struct progress *p = context;
+    double t = ceduo_clock();
+    if (!p->wanted || t - p->start < 1 || t - p->shown < 0.2)
+        return;
+    fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)rocks, t - p->start);
+    p->shown = t;
+    p->open = true;
+}
+
+void ceduo_progress_end(const struct progress *p)
+{
+    if (p->open)
+        fputs("\r                              \r", stderr);
+}
 
 /* -n, or with a tolerance alone as many as may be, or the scene's. */
 static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file *file)

@@ -484,11 +484,11 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
 
 /* ---- writing ---- */
 
-static bool write_all(int fd, const char *bytes, size_t n)
+bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel)
 {
     while (n > 0) {
         ssize_t done = write(fd, bytes, n);
-        if (done < 0 && errno == EINTR)
+        if (done < 0 && errno == EINTR && !(cancel && atomic_load(cancel)))
             continue;
         if (done < 0)
             return false;
@@ -511,11 +511,11 @@ static bool write_content(int fd, const struct content *content)
     ssize_t n = 0;
     off_t at = 0;
     while (content->before >= 0 && (n = pread(content->before, part, sizeof part, at)) > 0) {
-        if (!write_all(fd, part, (size_t)n))
+        if (!ceduo_file_fill(fd, part, (size_t)n, NULL))
             return false;
         at += n;
     }
-    return n == 0 && write_all(fd, content->bytes, content->n);
+    return n == 0 && ceduo_file_fill(fd, content->bytes, content->n, NULL);
 }
 
 static bool write_straight(const char *path, const struct content *content)

@@ -2,6 +2,8 @@
 #ifndef CEDUO_FILE_H
 #define CEDUO_FILE_H
 
+#include <stdatomic.h>
+
 #include "base/arena.h"
 #include "problem.h"
 
@@ -54,6 +56,9 @@ const char *ceduo_file_why(int why);
 
 /* Reads a file ("-": standard input) of at most `most` bytes into a text. False with errno set. */
 bool ceduo_file_take(const char *path, struct text *text, size_t most);
+
+/* Writes all bytes to an open file; `cancel` (may be NULL) ends it at the next signal. False with errno set. */
+bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel);
 
 /* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else straight.
  * False with errno set. */

@@ -148,7 +148,7 @@ static bool read_scene(void)
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
         struct part_inputs in = {.path = scene_path, .sets = sets, .sets_count = 4, .shelf = shelf};
-        good = good && !text.failed && add_inputs(&in) && !ceduo_text_lost();
+        good = key != 0 && !text.failed && add_inputs(&in) && !ceduo_text_lost();
         if (good)
             add_text(&text);
     } else {
