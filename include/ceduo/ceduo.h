@@ -24,7 +24,7 @@
 #include "statistics.h"
 #include "status.h"
 #include "version.h"
-#include "way.h"
+#include "trajectory.h"
 #include "years.h"
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "scene.h"
 #include "statistics.h"
-#include "way.h"
+#include "trajectory.h"
 
 /* A run: many rocks of one scene over its slope, without forest or through that of one option. It can be made longer,
  * and read at any time between. */

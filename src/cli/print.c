@@ -132,7 +132,7 @@ static enum ceduo_status add_flown_plots(const struct arguments *a, const struct
                                           .pictures = *pool,
                                           .cells = q->run.cells,
                                           .cell_x = q->run.cell_x,
-                                          .trails = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAILS : 0,
+                                          .trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAJECTORIES : 0,
                                           .cancel = q->run.cancel};
     if (status == CEDUO_OK)
         status = ceduo_outlook_create(&def, &outlook);

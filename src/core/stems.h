@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "ceduo/rock.h"
-#include "ceduo/way.h"
+#include "ceduo/trajectory.h"
 #include "wood.h"
 
 /* The stems in one rock's way, drawn as it comes to them. Stools and trees are Poisson processes in the plane, of which

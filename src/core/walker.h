@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-#include "ceduo/way.h"
+#include "ceduo/trajectory.h"
 #include "landing.h"
 #include "prepared.h"
 #include "random.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/way.h"
+#include "ceduo/trajectory.h"
 #include "strata.h"
 
 /* ---- kinds ---- */

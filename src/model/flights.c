@@ -87,7 +87,7 @@ static enum ceduo_status hand_over(struct flights *f, const struct ceduo_scene *
                                     .pictures = f->pictures,
                                     .cells = f->cells_count,
                                     .cell_x = f->cells,
-                                    .trails = CEDUO_OUTLOOK_TRAILS,
+                                    .trajectories = CEDUO_OUTLOOK_TRAJECTORIES,
                                     .cancel = f->cancel,
                                     .last = f->last};
     enum ceduo_status status = ceduo_outlook_create(&def, &mine);

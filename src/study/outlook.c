@@ -8,13 +8,13 @@
 
 /* ---- ways ---- */
 
-#define TRAIL_POINTS_MOST  20000 /* of a rock that hops on and on: what comes later is left out */
+#define LINE_POINTS_MOST  20000 /* of a rock that hops on and on: what comes later is left out */
 #define FLIGHT_POINTS_MOST 64
 #define RESOLUTION         2000 /* parts of the slope's length that a picture may show */
 
 struct tracer {
     const atomic_bool *cancel;
-    struct ceduo_trail *trail;
+    struct ceduo_polyline *line;
     size_t room;
     double gravity, step;
     bool failed;
@@ -28,13 +28,13 @@ static bool is_cancelled(void *context)
 
 static bool make_room(struct tracer *t)
 {
-    struct ceduo_trail *trail = t->trail;
+    struct ceduo_polyline *line = t->line;
     size_t room = t->room;
-    double *x = ceduo_grow(trail->x, trail->n, &room, sizeof *x), *z = NULL;
+    double *x = ceduo_grow(line->x, line->n, &room, sizeof *x), *z = NULL;
     if (x) {
-        trail->x = x;
-        z = ceduo_grow(trail->z, trail->n, &t->room, sizeof *z);
-        trail->z = z ? z : trail->z;
+        line->x = x;
+        z = ceduo_grow(line->z, line->n, &t->room, sizeof *z);
+        line->z = z ? z : line->z;
     }
     t->failed = !z;
     return z;
@@ -43,22 +43,22 @@ static bool make_room(struct tracer *t)
 /* Leaves out what no picture could tell from the point before. */
 static void add_point(struct tracer *t, double x, double z, bool always)
 {
-    struct ceduo_trail *trail = t->trail;
+    struct ceduo_polyline *line = t->line;
     bool near =
-        trail->n > 0 && fabs(x - trail->x[trail->n - 1]) < t->step && fabs(z - trail->z[trail->n - 1]) < t->step;
-    if ((near || trail->n >= TRAIL_POINTS_MOST) && !always)
+        line->n > 0 && fabs(x - line->x[line->n - 1]) < t->step && fabs(z - line->z[line->n - 1]) < t->step;
+    if ((near || line->n >= LINE_POINTS_MOST) && !always)
         return;
     if (t->failed || !make_room(t))
         return;
-    trail->x[trail->n] = x;
-    trail->z[trail->n++] = z;
+    line->x[line->n] = x;
+    line->z[line->n++] = z;
 }
 
 /* A flight in chords from which the parabola departs by less than a step: it departs by g t2/8 from one over t. */
 static void trace_piece(void *context, const struct ceduo_piece *p)
 {
     struct tracer *t = context;
-    if (t->trail->n == 0)
+    if (t->line->n == 0)
         add_point(t, p->x, p->z, true);
     double sag = t->gravity * p->seconds * p->seconds / 8;
     int n = p->rolls ? 1 : (int)fmin(ceil(sqrt(sag / t->step)), FLIGHT_POINTS_MOST);
@@ -70,15 +70,15 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
 }
 
 static enum ceduo_status trace(struct ceduo_follower *follower, const struct ceduo_scene *scene, uint64_t rock,
-                               const atomic_bool *cancel, struct ceduo_trail *trail)
+                               const atomic_bool *cancel, struct ceduo_polyline *line)
 {
     const struct ceduo_slope *slope = &scene->slope;
-    *trail = (struct ceduo_trail){0};
+    *line = (struct ceduo_polyline){0};
     struct tracer tracer = {.cancel = cancel,
-                            .trail = trail,
+                            .line = line,
                             .gravity = scene->simulation.gravity,
                             .step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION};
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     const struct ceduo_watch watch = {.enough = is_cancelled, .piece = trace_piece, .context = &tracer};
     enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way, NULL);
     if (status == CEDUO_OK)
@@ -86,21 +86,21 @@ static enum ceduo_status trace(struct ceduo_follower *follower, const struct ced
     return tracer.failed ? CEDUO_NO_MEMORY : status;
 }
 
-void ceduo_trail_free(struct ceduo_trail *trail)
+void ceduo_polyline_free(struct ceduo_polyline *line)
 {
-    free(trail->x);
-    free(trail->z);
-    *trail = (struct ceduo_trail){0};
+    free(line->x);
+    free(line->z);
+    *line = (struct ceduo_polyline){0};
 }
 
-static enum ceduo_status follow_trails(struct ceduo_follower *follower, const struct ceduo_outlook_def *def,
+static enum ceduo_status follow_trajectories(struct ceduo_follower *follower, const struct ceduo_outlook_def *def,
                                        struct ceduo_sight *s)
 {
-    size_t trails = def->trails < s->flown.rocks ? def->trails : (size_t)s->flown.rocks;
-    s->trails = calloc(trails + 1, sizeof *s->trails);
-    enum ceduo_status status = s->trails ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < trails && status == CEDUO_OK; i++)
-        status = trace(follower, def->scene, i, def->cancel, &s->trails[s->trails_count++]);
+    size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
+    s->trajectories = calloc(trajectories + 1, sizeof *s->trajectories);
+    enum ceduo_status status = s->trajectories ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
+        status = trace(follower, def->scene, i, def->cancel, &s->trajectories[s->trajectories_count++]);
     return status;
 }
 
@@ -130,7 +130,7 @@ static enum ceduo_status fly_energies(struct ceduo_follower *follower, const ato
     struct ceduo_crossing *crossings = calloc(controls + 1, sizeof *crossings);
     enum ceduo_status status = crossings ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (uint64_t rock = 0; rock < rocks && status == CEDUO_OK; rock++) {
-        struct ceduo_way way;
+        struct ceduo_trajectory way;
         status = ceduo_follower_follow(follower, rock, &watch, &way, crossings);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
             const struct ceduo_crossing *at = &crossings[c];
@@ -171,9 +171,9 @@ static void let_go(struct ceduo_sight *s)
     for (size_t c = 0; s->energies && c < s->flown.controls; c++)
         free(s->energies[c].values);
     free(s->energies);
-    for (size_t i = 0; i < s->trails_count; i++)
-        ceduo_trail_free(&s->trails[i]);
-    free(s->trails);
+    for (size_t i = 0; i < s->trajectories_count; i++)
+        ceduo_polyline_free(&s->trajectories[i]);
+    free(s->trajectories);
     ceduo_flown_free(&s->flown);
     free(s);
 }
@@ -194,7 +194,7 @@ static enum ceduo_status read_sight(const struct ceduo_outlook_def *def, const s
     if (status == CEDUO_OK)
         status = read_energies(follower, run, def->cancel, s);
     if (status == CEDUO_OK)
-        status = follow_trails(follower, def, s);
+        status = follow_trajectories(follower, def, s);
     ceduo_follower_free(follower);
     return status;
 }

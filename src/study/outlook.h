@@ -12,11 +12,11 @@
  * another draw them. All x and z are relative to the slope's first vertex. */
 
 /* A rock's way as a polyline, its flights sampled finely enough for any picture. */
-struct ceduo_trail {
+struct ceduo_polyline {
     size_t n;
     double *x, *z; /* m */
 };
-void ceduo_trail_free(struct ceduo_trail *trail);
+void ceduo_polyline_free(struct ceduo_polyline *line);
 
 /* Energies of rocks that reached a control, in the order of the rocks. */
 struct ceduo_energies {
@@ -32,8 +32,8 @@ struct ceduo_sight {
     uint64_t picture_rocks; /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
     struct ceduo_energies *energies;  /* one for each control: the first CEDUO_OUTLOOK_SAMPLE at most */
-    size_t trails_count;
-    struct ceduo_trail *trails;       /* of the first rocks */
+    size_t trajectories_count;
+    struct ceduo_polyline *trajectories;       /* of the first rocks */
 };
 
 /* All runs of a scene. */
@@ -46,7 +46,7 @@ struct ceduo_outlook {
 };
 
 #define CEDUO_OUTLOOK_CELLS  200    /* places along the slope where a run should keep envelopes */
-#define CEDUO_OUTLOOK_TRAILS 200    /* ways that make a dense picture */
+#define CEDUO_OUTLOOK_TRAJECTORIES 200    /* ways that make a dense picture */
 #define CEDUO_OUTLOOK_SAMPLE 100000 /* energies kept for a histogram */
 
 /* Writes CEDUO_OUTLOOK_CELLS places, evenly from the release to the end of the slope, for a run's cells; returns how
@@ -62,7 +62,7 @@ struct ceduo_outlook_def {
                                         * where one is as long or longer, figures are read from it too */
     size_t cells;
     const double *cell_x;
-    size_t trails;                     /* ways that are followed for each */
+    size_t trajectories;                     /* ways that are followed for each */
     const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
     const struct ceduo_outlook *last;  /* whose sights are taken over where nothing has changed; NULL: none. It must be
                                         * of the same scene but for its forests */

@@ -113,7 +113,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_plot_last_control(scene),
-                                  .selected = app->way.trail.n > 0 ? &app->way.trail : NULL,
+                                  .selected = app->way.line.n > 0 ? &app->way.line : NULL,
                                   .stems = stems > 0 ? app->way.stems : NULL,
                                   .stems_count = stems,
                                   .years = ceduo_figures_years(&app->figures, scene, app->option),

@@ -44,13 +44,13 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
     s->stems[s->stems_count++] = *stem;
 }
 
-static void add_point(struct ceduo_trail *t, double x, double z)
+static void add_point(struct ceduo_polyline *t, double x, double z)
 {
     t->x[t->n] = x;
     t->z[t->n++] = z;
 }
 
-static void add_to_trail(struct ceduo_trail *t, const struct ceduo_piece *p, double half_g)
+static void add_to_line(struct ceduo_polyline *t, const struct ceduo_piece *p, double half_g)
 {
     for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
         double time = p->seconds * i / FLIGHT_POINTS;
@@ -63,15 +63,15 @@ static void add_to_trail(struct ceduo_trail *t, const struct ceduo_piece *p, dou
 static bool draw_trail(struct rock_way *s, double gravity)
 {
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
-    ceduo_trail_free(&s->trail);
-    s->trail.x = malloc(room * sizeof(double));
-    s->trail.z = malloc(room * sizeof(double));
-    s->trail.n = 0;
-    if (!s->trail.x || !s->trail.z)
+    ceduo_polyline_free(&s->line);
+    s->line.x = malloc(room * sizeof(double));
+    s->line.z = malloc(room * sizeof(double));
+    s->line.n = 0;
+    if (!s->line.x || !s->line.z)
         return false;
-    add_point(&s->trail, s->way.x0, s->way.z0);
+    add_point(&s->line, s->way.x0, s->way.z0);
     for (size_t i = 0; i < shown; i++)
-        add_to_trail(&s->trail, &s->pieces[i], gravity / 2);
+        add_to_line(&s->line, &s->pieces[i], gravity / 2);
     return true;
 }
 
@@ -85,7 +85,7 @@ bool ceduo_rock_way_follow(struct rock_way *s, const struct ceduo_scene *scene, 
         s->rock = rock;
         s->begun = ceduo_clock();
         const struct ceduo_watch watch = {.enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
-        enum ceduo_status status = ceduo_way_follow(scene, option, rock, &watch, &s->way, NULL);
+        enum ceduo_status status = ceduo_trajectory_follow(scene, option, rock, &watch, &s->way, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
         if (status != CEDUO_OK && !s->cut_short)
             return false;
@@ -165,6 +165,6 @@ void ceduo_rock_way_free(struct rock_way *s)
     free(s->pieces);
     free(s->stems);
     free(s->stem_piece);
-    ceduo_trail_free(&s->trail);
+    ceduo_polyline_free(&s->line);
     *s = (struct rock_way){0};
 }

@@ -15,8 +15,8 @@ struct rock_way {
     size_t stems_count, stems_room;
     double begun;             /* s: when the following began */
     bool cut_short;           /* it took too long to be followed to its end */
-    struct ceduo_way way;
-    struct ceduo_trail trail; /* what is shown of it */
+    struct ceduo_trajectory way;
+    struct ceduo_polyline line; /* what is shown of it */
 };
 
 /* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that way

@@ -42,8 +42,8 @@ static void note_ways(struct notes *n)
     bool wooded = ceduo_plot_wooded(p) && option && ceduo_plot_has_stems(option);
     if (!s)
         note(n, CEDUO_ROLE_DIM, _("ways not computed yet"));
-    if (s && s->trails_count > 0) {
-        note(n, CEDUO_ROLE_CLOUD, wooded ? _("%zu ways of %llu through") : _("%zu ways of %llu"), s->trails_count,
+    if (s && s->trajectories_count > 0) {
+        note(n, CEDUO_ROLE_CLOUD, wooded ? _("%zu ways of %llu through") : _("%zu ways of %llu"), s->trajectories_count,
              (unsigned long long)s->flown.rocks);
         note(n, CEDUO_ROLE_CLOUD, wooded ? " %s" : "%s",
              !wooded        ? _("without forest")

@@ -19,7 +19,7 @@ static void widen(struct range *r, double z)
     r->y_hi = fmax(r->y_hi, z);
 }
 
-static void widen_by_trail(struct range *r, const struct ceduo_trail *t)
+static void widen_by_line(struct range *r, const struct ceduo_polyline *t)
 {
     for (size_t i = 0; i < t->n; i++)
         if (t->x[i] >= r->x_lo && t->x[i] <= r->x_hi)
@@ -53,10 +53,10 @@ static struct range range_of(const struct ceduo_picture *p)
     if (x >= r.x_lo && x <= r.x_hi)
         widen(&r, ceduo_slope_height(slope, x) + p->scene->release.height.mean);
     const struct ceduo_sight *sight = ceduo_plot_sight(p);
-    for (size_t i = 0; sight && i < sight->trails_count; i++)
-        widen_by_trail(&r, &sight->trails[i]);
+    for (size_t i = 0; sight && i < sight->trajectories_count; i++)
+        widen_by_line(&r, &sight->trajectories[i]);
     if (p->selected)
-        widen_by_trail(&r, p->selected);
+        widen_by_line(&r, p->selected);
     const struct ceduo_option *option = ceduo_plot_option(p);
     for (size_t i = 0; option && i < option->belts_count; i++)
         widen_by_belt(&r, slope, &option->belts[i]);
@@ -183,11 +183,11 @@ static void draw_ways(const struct profile *p)
 {
     const struct ceduo_sight *s = ceduo_plot_sight(p->picture);
     if (s && ceduo_canvas_cloud_start(p->canvas)) {
-        for (size_t i = 0; i < s->trails_count; i++)
-            ceduo_canvas_cloud_add(p->canvas, &p->frame, s->trails[i].n, s->trails[i].x, s->trails[i].z);
+        for (size_t i = 0; i < s->trajectories_count; i++)
+            ceduo_canvas_cloud_add(p->canvas, &p->frame, s->trajectories[i].n, s->trajectories[i].x, s->trajectories[i].z);
         ceduo_canvas_cloud_show(p->canvas, RARE);
     }
-    const struct ceduo_trail *t = p->picture->selected;
+    const struct ceduo_polyline *t = p->picture->selected;
     if (t)
         ceduo_canvas_polyline(p->canvas, &p->frame, CEDUO_ROLE_WAY, t->n, t->x, t->z);
 }

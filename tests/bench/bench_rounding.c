@@ -30,7 +30,7 @@ static const uint64_t marks[] = {1, 5, 10, 20, 40};
 struct track {
     double x[CONTACTS + 1], z[CONTACTS + 1];
     uint64_t contacts;
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     struct ceduo_crossing crossing;
 };
 

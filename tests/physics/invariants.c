@@ -193,13 +193,13 @@ static void expect_crossing(uint64_t number, const struct ceduo_crossing *c)
 
 void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_tally *tally)
 {
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     struct ceduo_crossing crossing = {0};
     struct watch w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
     w.k = s->scene.simulation.law == CEDUO_LAW_CRSP ? w.rock.k : 0;
-    assert_int_equal(ceduo_way_follow(&s->scene, NULL, number % 11,
+    assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11,
                                       &(struct ceduo_watch){.piece = look_at_piece, .context = &w}, &way, &crossing),
                      CEDUO_OK);
     if (w.bad || !isfinite(way.x + way.z) || (w.pieces > 0 && (way.x != w.last.x1 || way.z != w.last.z1)))

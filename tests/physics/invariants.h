@@ -9,7 +9,7 @@
 /* What was seen over many scenes. */
 struct invariants_tally {
     uint64_t ends[CEDUO_ENDS], contacts, pieces, flights, impacts, lasting, crossed, cracks;
-    struct ceduo_way last; /* the last way */
+    struct ceduo_trajectory last; /* the last way */
 };
 
 /* Follows one rock of a scene and fails the test where something does not hold that holds on any ground: never below it,

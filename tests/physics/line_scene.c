@@ -199,6 +199,6 @@ static void keep_piece(void *context, const struct ceduo_piece *piece)
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to)
 {
     to->count = 0;
-    return ceduo_way_follow(&s->scene, NULL, 0, &(struct ceduo_watch){.piece = keep_piece, .context = to}, &to->way,
+    return ceduo_trajectory_follow(&s->scene, NULL, 0, &(struct ceduo_watch){.piece = keep_piece, .context = to}, &to->way,
                             &to->crossing);
 }

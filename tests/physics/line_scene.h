@@ -48,7 +48,7 @@ bool line_scene_lasts(const struct line_scene *s);
 
 /* The pieces of rock 0's way, at most LINE_PIECES_MOST kept. */
 struct line_way {
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     struct ceduo_crossing crossing;
     size_t count;
     struct ceduo_piece pieces[LINE_PIECES_MOST];

@@ -42,7 +42,7 @@ double per_metre(double per_ha, double width);
 #define STEMS_MOST 4096
 struct sweep {
     struct ceduo_follower *follower;
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     size_t count;
     struct ceduo_stem_passed stems[STEMS_MOST];
 };

@@ -192,7 +192,7 @@ static void two_contacts_on_the_slope_of_table_3(void **state)
     site.scene.release.vx = ceduo_number(1);
     site.scene.release.vz = ceduo_number(0);
     walked.count = 0;
-    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, &(struct ceduo_watch){.piece = keep, .context = &walked},
+    assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, &(struct ceduo_watch){.piece = keep, .context = &walked},
                                       &walked.way, NULL),
                      CEDUO_OK);
     EXPECT(walked.count, >=, 3);

@@ -36,7 +36,7 @@ static void plant(double metres, double radius, bool shoots)
 static struct passed {
     size_t count;
     struct ceduo_stem_passed stems[STEMS_MOST];
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
 } passed;
 
 static void note_stem(void *context, const struct ceduo_stem_passed *stem)
@@ -50,7 +50,7 @@ static void follow(uint64_t rock)
 {
     const struct ceduo_watch watch = {.stem = note_stem, .context = &passed};
     passed.count = 0;
-    assert_int_equal(ceduo_way_follow(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_follow(&scene.scene, &scene.option, rock, &watch, &passed.way, NULL), CEDUO_OK);
 }
 
 /* ---- diameters ---- */

@@ -88,7 +88,7 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
     assert_true(f);
     assert_true(g);
     for (uint64_t rock = 0; rock < ROCKS; rock++) {
-        struct ceduo_way v = {0}, w = {0};
+        struct ceduo_trajectory v = {0}, w = {0};
         struct ceduo_crossing c = {0}, d = {0};
         assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
         assert_int_equal(ceduo_follower_follow(g, rock, NULL, &w, &d), CEDUO_OK);
@@ -357,7 +357,7 @@ static void rolls_are_the_same_whoever_looks_on(void **state)
             struct ceduo_follower *f = ceduo_follower_create(&scene, NULL);
             assert_non_null(f);
             for (uint64_t rock = 0; rock < 100; rock++) {
-                struct ceduo_way v, w;
+                struct ceduo_trajectory v, w;
                 struct ceduo_crossing c, d;
                 struct ceduo_watch watch = {.piece = nobody_minds};
                 assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);

@@ -53,11 +53,11 @@ static void note_piece(void *context, const struct ceduo_piece *p)
 
 static void trace_fast(const struct ceduo_scene *scene, uint64_t rock, struct trace *t)
 {
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     struct ceduo_crossing c;
     memset(t, 0, sizeof *t);
     assert_int_equal(
-        ceduo_way_follow(scene, NULL, rock, &(struct ceduo_watch){.piece = note_piece, .context = t}, &way, &c),
+        ceduo_trajectory_follow(scene, NULL, rock, &(struct ceduo_watch){.piece = note_piece, .context = t}, &way, &c),
         CEDUO_OK);
     t->contacts = way.contacts;
     t->end = way.contacts > CONTACTS ? -1 : (int)way.end;

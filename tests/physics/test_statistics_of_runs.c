@@ -171,9 +171,9 @@ static void a_run_flies_the_rocks_that_can_be_followed(void **state)
     struct ceduo_moments energy = {0}, speed = {0}, height = {0};
     uint64_t contacts = 0;
     for (uint64_t rock = 0; rock < 1500; rock++) {
-        struct ceduo_way way;
+        struct ceduo_trajectory way;
         struct ceduo_crossing c;
-        assert_int_equal(ceduo_way_follow(&site.scene, NULL, rock, NULL, &way, &c), CEDUO_OK);
+        assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, rock, NULL, &way, &c), CEDUO_OK);
         contacts += way.contacts;
         if (!c.reached)
             continue;
@@ -394,9 +394,9 @@ static void cutting_segments_into_collinear_pieces_moves_no_statistic(void **sta
             expect_mean("share that passes", b.reach_probability, share / 20, a.reach_probability, 0, 0);
             uint64_t same = 0;
             for (uint64_t rock = 0; rock < looked_at; rock++) {
-                struct ceduo_way v, w;
-                assert_int_equal(ceduo_way_follow(&site.scene, NULL, rock, NULL, &v, NULL), CEDUO_OK);
-                assert_int_equal(ceduo_way_follow(&cut, NULL, rock, NULL, &w, NULL), CEDUO_OK);
+                struct ceduo_trajectory v, w;
+                assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, rock, NULL, &v, NULL), CEDUO_OK);
+                assert_int_equal(ceduo_trajectory_follow(&cut, NULL, rock, NULL, &w, NULL), CEDUO_OK);
                 same += v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6;
             }
             if (same < looked_at * 98 / 100)
@@ -509,8 +509,8 @@ static struct drawn draw_releases(const struct ceduo_scene *scene, uint64_t rock
 {
     struct drawn d = {0};
     for (uint64_t rock = 0; rock < rocks; rock++) {
-        struct ceduo_way w;
-        assert_int_equal(ceduo_way_follow(scene, NULL, rock, NULL, &w, NULL), CEDUO_OK);
+        struct ceduo_trajectory w;
+        assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock, NULL, &w, NULL), CEDUO_OK);
         ceduo_moments_add(&d.x, w.x0);
         ceduo_moments_add(&d.height, w.z0 - ceduo_slope_height(&scene->slope, w.x0));
         ceduo_moments_add(&d.vx, w.vx0);
@@ -607,9 +607,9 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
     line_scene_release(&flat, 500, 10, 4, 0, 0);
     struct first_contact f = {0};
     for (uint64_t rock = 0; rock < 20000; rock++) {
-        struct ceduo_way w;
+        struct ceduo_trajectory w;
         f.seen = false;
-        assert_int_equal(ceduo_way_follow(&flat.scene, NULL, rock,
+        assert_int_equal(ceduo_trajectory_follow(&flat.scene, NULL, rock,
                                           &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
                                           NULL),
                          CEDUO_OK);
@@ -620,9 +620,9 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
     f = (struct first_contact){0};
     flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* cut at 1 as well */
     for (uint64_t rock = 0; rock < 20000; rock++) {
-        struct ceduo_way w;
+        struct ceduo_trajectory w;
         f.seen = false;
-        assert_int_equal(ceduo_way_follow(&flat.scene, NULL, rock,
+        assert_int_equal(ceduo_trajectory_follow(&flat.scene, NULL, rock,
                                           &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
                                           NULL),
                          CEDUO_OK);

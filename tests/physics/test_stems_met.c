@@ -49,13 +49,13 @@ static void stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crof
 static void a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none(void **state)
 {
     (void)state;
-    struct ceduo_way bare;
+    struct ceduo_trajectory bare;
     clear_plane(520);
     plane.line.scene.simulation.seed = 3;
     plant_plot(1, 10, 510);
     line_scene_release(&plane.line, 0, 0, 5000, 0, 0);
     expect_plot(&plot_rates[0], 1000, "rolling");
-    assert_int_equal(ceduo_way_follow(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_follow(&plane.line.scene, NULL, 0, NULL, &bare, NULL), CEDUO_OK);
     /* a hit leaves the rest of a roll's length R to go */
     assert_int_equal(sweep.way.contacts, bare.contacts);
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
@@ -328,7 +328,7 @@ static void diameters_without_spread_change_nothing(void **state)
         plant_plot(1, 10, 510);
         sweep_one(rock);
         size_t n = sweep.count;
-        struct ceduo_way way = sweep.way;
+        struct ceduo_trajectory way = sweep.way;
         memcpy(plain, sweep.stems, n * sizeof *plain);
         plane.trees[0][0].dbh_sd = plane.shoots[0][0].dbh_sd = 0;
         sweep_one(rock);

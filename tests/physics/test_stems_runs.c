@@ -76,7 +76,7 @@ static void open_sides(void)
 /* Energy of each rock at the control, 0 where it does not arrive, whose `reached` is false. */
 static double energy_of_rock(struct ceduo_follower *f, uint64_t rock, bool *reached)
 {
-    struct ceduo_way w;
+    struct ceduo_trajectory w;
     struct ceduo_crossing c;
     assert_int_equal(ceduo_follower_follow(f, rock, NULL, &w, &c), CEDUO_OK);
     *reached = c.reached;
@@ -252,7 +252,7 @@ static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
     struct ceduo_moments energy = {0}, hits = {0};
     struct ceduo_stem_counts sum = {0}, counts = ceduo_run_stems(run);
     for (uint64_t rock = 0; rock < rocks; rock++) {
-        struct ceduo_way w;
+        struct ceduo_trajectory w;
         struct ceduo_crossing c;
         struct before before = {0};
         assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_before, .context = &before}, &w, &c),
@@ -299,7 +299,7 @@ static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
     assert_true(f);
     assert_true(bare);
     for (uint64_t rock = 0; rock < rocks; rock++) {
-        struct ceduo_way v, w;
+        struct ceduo_trajectory v, w;
         struct ceduo_crossing c, d;
         assert_int_equal(ceduo_follower_follow(bare, rock, NULL, &v, &c), CEDUO_OK);
         sweep.count = 0;

@@ -30,7 +30,7 @@ static int by_design; /* floating-point exceptions that may be raised */
 /* ---- one scene ---- */
 
 struct result {
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     struct ceduo_crossing crossing;
 };
 
@@ -51,7 +51,7 @@ static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
 }
 
 /* Returns where the way ends. */
-static struct ceduo_way expect_the_same_again(const struct line_scene *s, uint64_t rock)
+static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s, uint64_t rock)
 {
     struct result a, b;
     follow(s, rock, &a);
@@ -70,7 +70,7 @@ static struct ceduo_way expect_the_same_again(const struct line_scene *s, uint64
 }
 
 /* Whether two ways are the same but for rounding. */
-static bool are_alike(const struct ceduo_way *a, const struct ceduo_way *b)
+static bool are_alike(const struct ceduo_trajectory *a, const struct ceduo_trajectory *b)
 {
     return a->end == b->end && a->contacts == b->contacts && fabs(a->x - b->x) <= 1e-6 * (1 + fabs(b->x));
 }
@@ -142,7 +142,7 @@ static void random_scenes(void **state)
         invariants_expect(&scene, number, &t);
         if (line_scene_lasts(&scene))
             continue;
-        struct ceduo_way unseen = expect_the_same_again(&scene, number % 11);
+        struct ceduo_trajectory unseen = expect_the_same_again(&scene, number % 11);
         parted += !are_alike(&unseen, &t.last); /* nobody looks on: rolls pass whole segments */
         if (number % RUN_EVERY == 0)
             expect_counts(&scene);

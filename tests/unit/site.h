@@ -33,7 +33,7 @@ struct site {
     struct ceduo_sight *wooded[2];
     struct ceduo_arrivals arrivals[2], wood_arrivals[2];
     struct ceduo_energies energies[2], wood_energies[2];
-    struct ceduo_trail trail, wood_trail;
+    struct ceduo_polyline line, wood_trail;
     double cell_x[CELLS], values[ENERGIES], wood_values[WOOD_ENERGIES];
     double trail_x[5], trail_z[5], wood_trail_x[3], wood_trail_z[3];
     struct ceduo_envelope envelopes[CELLS], wood_envelopes[CELLS];
@@ -99,7 +99,7 @@ static void set_bare(struct site *s)
         s->values[i] = 1e3 * kj[i];
     memcpy(s->trail_x, x, sizeof x);
     memcpy(s->trail_z, z, sizeof z);
-    s->trail = (struct ceduo_trail){5, s->trail_x, s->trail_z};
+    s->line = (struct ceduo_polyline){5, s->trail_x, s->trail_z};
     s->arrivals[0] = (struct ceduo_arrivals){
         .released = 10, .reached = 8, .exceeded = 2, .reach_probability = 0.8, .exceed_probability = 0.2};
     s->arrivals[0].energy = (struct ceduo_distribution){.mean = 33125, .p50 = 33e3, .p95 = 55e3, .max = 55e3};
@@ -112,8 +112,8 @@ static void set_bare(struct site *s)
                                    .picture_rocks = 10,
                                    .envelopes = s->envelopes,
                                    .energies = s->energies,
-                                   .trails_count = 1,
-                                   .trails = &s->trail};
+                                   .trajectories_count = 1,
+                                   .trajectories = &s->line};
 }
 
 /* Lower and slower, and no further than 70 m; five rocks of ten at the path. */
@@ -132,7 +132,7 @@ static void set_wood(struct site *s)
         s->wood_values[i] = 1e3 * kj[i];
     memcpy(s->wood_trail_x, x, sizeof x);
     memcpy(s->wood_trail_z, z, sizeof z);
-    s->wood_trail = (struct ceduo_trail){3, s->wood_trail_x, s->wood_trail_z};
+    s->wood_trail = (struct ceduo_polyline){3, s->wood_trail_x, s->wood_trail_z};
     s->wood_arrivals[0] = (struct ceduo_arrivals){
         .released = 10, .reached = 5, .exceeded = 1, .reach_probability = 0.5, .exceed_probability = 0.1};
     s->wood_arrivals[0].energy = (struct ceduo_distribution){.mean = 22e3, .p50 = 21e3, .p95 = 41e3, .max = 41e3};
@@ -145,8 +145,8 @@ static void set_wood(struct site *s)
                                    .picture_rocks = 10,
                                    .envelopes = s->wood_envelopes,
                                    .energies = s->wood_energies,
-                                   .trails_count = 1,
-                                   .trails = &s->wood_trail};
+                                   .trajectories_count = 1,
+                                   .trajectories = &s->wood_trail};
 }
 
 static void site_init(struct site *s)

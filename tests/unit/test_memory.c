@@ -283,8 +283,8 @@ static bool follow_roll(void)
         stand->trees_count = 0;
         stand->u = 1e-3; /* they hardly take anything */
     }
-    struct ceduo_way way;
-    enum ceduo_status status = ceduo_way_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
+    struct ceduo_trajectory way;
+    enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     if (status == CEDUO_OK) {
         assert_true(way.end == CEDUO_LEFT_SLOPE && way.stems_hit > 100);
@@ -296,8 +296,8 @@ static bool follow_roll(void)
 static bool follow_one(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_way way;
-    enum ceduo_status status = ceduo_way_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
+    struct ceduo_trajectory way;
+    enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     if (status == CEDUO_OK)
         add(&way.x, sizeof way.x);
@@ -312,7 +312,7 @@ static bool follow(void)
         return false;
     bool good = true;
     for (uint64_t rock = 0; rock < 3 && good; rock++) {
-        struct ceduo_way way;
+        struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
         enum ceduo_status status = ceduo_follower_follow(f, rock, NULL, &way, &crossing);
         good = status == CEDUO_OK;
@@ -332,7 +332,7 @@ static bool see(void)
 {
     const double x[] = {125, 130};
     const struct ceduo_outlook_def def = {
-        .scene = &site.scene, .figures = seen, .pictures = seen, .cells = 2, .cell_x = x, .trails = 3};
+        .scene = &site.scene, .figures = seen, .pictures = seen, .cells = 2, .cell_x = x, .trajectories = 3};
     struct ceduo_outlook *o;
     enum ceduo_status status = ceduo_outlook_create(&def, &o);
     if (status != CEDUO_OK) {
@@ -342,8 +342,8 @@ static bool see(void)
     }
     const struct ceduo_sight *sight = ceduo_outlook_sight(o, &site.scene, 0);
     add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
-    for (size_t i = 0; i < sight->trails_count; i++)
-        add(sight->trails[i].x, sight->trails[i].n * sizeof(double));
+    for (size_t i = 0; i < sight->trajectories_count; i++)
+        add(sight->trajectories[i].x, sight->trajectories[i].n * sizeof(double));
     ceduo_outlook_free(o);
     return true;
 }

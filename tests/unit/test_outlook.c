@@ -76,7 +76,7 @@ static void outlook_is_what_the_runs_say(void **state)
     size_t cells = ceduo_outlook_places(&s.scene, x);
     struct ceduo_pool *pool = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
     struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){
-        .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trails = 20});
+        .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trajectories = 20});
     assert_int_equal(o->cells, cells);
     assert_int_equal(o->controls, 2);
     assert_int_equal(o->options, 2);
@@ -85,8 +85,8 @@ static void outlook_is_what_the_runs_say(void **state)
     expect_sight(o->bare, ceduo_pool_find(pool, NULL), cells);
     expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]), cells);
     EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
-    assert_int_equal(o->bare->trails_count, 20);
-    assert_int_equal(o->wooded[0]->trails_count, 20);
+    assert_int_equal(o->bare->trajectories_count, 20);
+    assert_int_equal(o->wooded[0]->trajectories_count, 20);
     assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->wooded[0]);
     assert_null(ceduo_outlook_sight(o, &s.scene, 2));
     assert_null(ceduo_outlook_sight(NULL, &s.scene, 0));
@@ -197,7 +197,7 @@ static void sights_are_taken_over(void **state)
         b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
         b.belts[1].stand.shoots_count = 0;
         struct ceduo_pool *pool = pool_of(&a, 300, 0, NULL, CEDUO_EXACT_BYTES);
-        struct ceduo_outlook_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trails = 5};
+        struct ceduo_outlook_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trajectories = 5};
         struct ceduo_outlook *first = outlook_of(&def);
         ceduo_pool_turn(pool, &b.scene);
         def.scene = &b.scene;
@@ -216,9 +216,9 @@ static void sights_are_taken_over(void **state)
         ceduo_outlook_free(order ? first : second);
         ceduo_outlook_free(early);
         struct ceduo_outlook *left = order ? second : first;
-        assert_int_equal(left->wooded[0]->trails_count, 5);
+        assert_int_equal(left->wooded[0]->trajectories_count, 5);
         assert_int_equal(atomic_load(&left->wooded[0]->references), 1);
-        EXPECT(left->wooded[0]->trails[4].n, >=, 2);
+        EXPECT(left->wooded[0]->trajectories[4].n, >=, 2);
         ceduo_outlook_free(left);
         ceduo_pool_free(pool);
     }
@@ -274,20 +274,20 @@ static void energies_are_flown_where_they_were_not_kept(void **state)
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
-static void trails_follow_the_rocks(void **state)
+static void trajectories_follow_the_rocks(void **state)
 {
     (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
     struct ceduo_outlook *o = outlook_of(
-        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trails = 20});
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
-        const struct ceduo_trail t = (option ? o->wooded[0] : o->bare)->trails[i / 2];
-        struct ceduo_way way;
-        assert_int_equal(ceduo_way_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
+        const struct ceduo_polyline t = (option ? o->wooded[0] : o->bare)->trajectories[i / 2];
+        struct ceduo_trajectory way;
+        assert_int_equal(ceduo_trajectory_follow(&s.scene, option, i / 2, NULL, &way, NULL), CEDUO_OK);
         hit += way.stems_hit;
         EXPECT(t.n, >=, 2);
         EXPECT(t.x[0], ==, way.x0);
@@ -303,7 +303,7 @@ static void trails_follow_the_rocks(void **state)
     ceduo_pool_free(pool);
 }
 
-/* A rock thrown far: every point of its trail and the middle of every chord lies on the parabola. */
+/* A rock thrown far: every point of its line and the middle of every chord lies on the parabola. */
 static void flights_are_sampled_finely(void **state)
 {
     (void)state;
@@ -313,8 +313,8 @@ static void flights_are_sampled_finely(void **state)
     s.scene.release.vz = ceduo_number(10);
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
     struct ceduo_outlook *o = outlook_of(
-        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trails = 1});
-    const struct ceduo_trail t = o->bare->trails[0];
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
         double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
@@ -337,7 +337,7 @@ int main(void)
         cmocka_unit_test(sights_are_taken_over),
         cmocka_unit_test(longer_runs_are_read_again),
         cmocka_unit_test(energies_are_flown_where_they_were_not_kept),
-        cmocka_unit_test(trails_follow_the_rocks),
+        cmocka_unit_test(trajectories_follow_the_rocks),
         cmocka_unit_test(flights_are_sampled_finely),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

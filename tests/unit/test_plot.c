@@ -185,7 +185,7 @@ static void the_selected_way_is_drawn_over_all(void **state)
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
     assert_true(cells_of(cells, CEDUO_ROLE_CLOUD) > 0);
     ceduo_cells_free(cells);
-    p.selected = &s.trail;
+    p.selected = &s.line;
     cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
     ceduo_cells_free(cells);

@@ -98,9 +98,9 @@ static void no_rock_no_figures(void **state)
     (void)state;
     paper_site_init(&site);
     struct ceduo_block blocks[CEDUO_BLOCKS];
-    struct ceduo_way way;
+    struct ceduo_trajectory way;
     site.control.measured_speed = 10;
-    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
     site.scene.rock.diameter.mean = 0;
     struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
     assert_true(isnan(stand.adc_m));
@@ -110,7 +110,7 @@ static void no_rock_no_figures(void **state)
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
-    assert_int_equal(ceduo_way_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);

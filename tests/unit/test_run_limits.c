@@ -136,7 +136,7 @@ static void rocks_that_cannot_be_drawn(void **state)
     struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
     uint64_t bad = 0, reached = 0;
     for (uint64_t rock = 0; rock < 300; rock++) {
-        struct ceduo_way way;
+        struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
         enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &way, &crossing);
         assert_true(status == CEDUO_OK || status == CEDUO_BAD_ROCK);
@@ -174,7 +174,7 @@ static void each_spread_is_drawn(void **state)
         double energies[ROCKS];
         size_t n = ceduo_run_energies(run, 0, energies, ROCKS), reached = 0;
         for (uint64_t rock = 0; rock < ROCKS; rock++) {
-            struct ceduo_way way;
+            struct ceduo_trajectory way;
             struct ceduo_crossing c;
             assert_int_equal(ceduo_follower_follow(follower, rock, NULL, &way, &c), CEDUO_OK);
             if (!c.reached)
@@ -216,11 +216,11 @@ static void looking_on_changes_nothing(void **state)
     site.plots[0].shoots.height = site.plots[1].trees.height = .3; /* some are flown over */
     for (uint64_t rock = 0; rock < 60; rock++) {
         const struct ceduo_option *option = rock % 2 == 0 ? &site.option : NULL;
-        struct ceduo_way alone, way;
-        assert_int_equal(ceduo_way_follow(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
+        struct ceduo_trajectory alone, way;
+        assert_int_equal(ceduo_trajectory_follow(&site.scene, option, rock, NULL, &alone, NULL), CEDUO_OK);
         for (int i = 0; i < 4; i++) {
             seen = 0;
-            assert_int_equal(ceduo_way_follow(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
+            assert_int_equal(ceduo_trajectory_follow(&site.scene, option, rock, &watches[i], &way, NULL), CEDUO_OK);
             EXPECT(way.x, ==, alone.x);
             EXPECT(way.z, ==, alone.z);
             EXPECT(way.end, ==, alone.end);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_WAY_H
-#define CEDUO_WAY_H
+#ifndef CEDUO_TRAJECTORY_H
+#define CEDUO_TRAJECTORY_H
 
 #include <stdint.h>
 
@@ -51,7 +51,7 @@ struct ceduo_crossing {
     uint64_t stems_hit;  /* before it */
 };
 
-struct ceduo_way {
+struct ceduo_trajectory {
     struct ceduo_rock rock;
     double x0, z0, vx0, vz0, spin0; /* as released */
     enum ceduo_end end;
@@ -66,8 +66,8 @@ struct ceduo_way {
  * flies. `watch` may be NULL. `crossings` (may be NULL) holds one entry for each control, in their order. The scene must
  * have passed ceduo_scene_check(). CEDUO_NO_MEMORY, CEDUO_CANCELLED (`way` is what is known up to there), otherwise
  * CEDUO_OK. */
-enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                   const struct ceduo_watch *watch, struct ceduo_way *way,
+enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                   const struct ceduo_watch *watch, struct ceduo_trajectory *way,
                                    struct ceduo_crossing *crossings);
 
 /* The same for many rocks, one at a time: what they share of the scene is prepared once. NULL without memory, or where
@@ -75,7 +75,7 @@ enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct
 struct ceduo_follower;
 struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
 enum ceduo_status ceduo_follower_follow(struct ceduo_follower *follower, uint64_t rock,
-                                        const struct ceduo_watch *watch, struct ceduo_way *way,
+                                        const struct ceduo_watch *watch, struct ceduo_trajectory *way,
                                         struct ceduo_crossing *crossings);
 void ceduo_follower_free(struct ceduo_follower *follower);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "ceduo/way.h"
+#include "ceduo/trajectory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -39,7 +39,7 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
 }
 
 enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock, const struct ceduo_watch *watch,
-                                        struct ceduo_way *way, struct ceduo_crossing *crossings)
+                                        struct ceduo_trajectory *way, struct ceduo_crossing *crossings)
 {
     const struct ceduo_scene *scene = &f->ready.scene;
     struct noter noter = {&f->ready.marks, crossings};
@@ -50,7 +50,7 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
     enum ceduo_status status = ceduo_walk_release(&w, &f->ready, rock);
     if (status != CEDUO_OK)
         return status;
-    *way = (struct ceduo_way){.rock = w.rock,
+    *way = (struct ceduo_trajectory){.rock = w.rock,
                               .x0 = w.at.x,
                               .z0 = w.at.z,
                               .vx0 = w.at.vx,
@@ -77,8 +77,8 @@ void ceduo_follower_free(struct ceduo_follower *f)
     free(f);
 }
 
-enum ceduo_status ceduo_way_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                   const struct ceduo_watch *watch, struct ceduo_way *way,
+enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                   const struct ceduo_watch *watch, struct ceduo_trajectory *way,
                                    struct ceduo_crossing *crossings)
 {
     if (isnan(ceduo_rock_mean(&scene->rock).mass))
