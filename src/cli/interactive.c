@@ -35,8 +35,8 @@ static enum exit_status run(const struct arguments *a, struct app *app)
 
 enum exit_status ceduo_interactive_run(const struct arguments *a)
 {
-    const char *why;
-    if (!a->script && !ceduo_terminal_there(&why))
+    const char *why = a->script ? NULL : ceduo_terminal_missing();
+    if (why)
         return no_terminal(why);
     struct app app;
     struct problems problems = {0};

@@ -107,7 +107,7 @@ void ceduo_app_stand(const struct app *app, char *path, size_t size)
 struct ceduo_picture ceduo_app_picture(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    size_t stems = ceduo_rock_way_stems(&app->way);
+    size_t stems = ceduo_rock_trajectory_stems(&app->way);
     return (struct ceduo_picture){.scene = scene,
                                   .outlook = ceduo_figures_outlook(&app->figures, scene),
                                   .option = app->option,
@@ -118,6 +118,14 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .stems_count = stems,
                                   .years = ceduo_figures_years(&app->figures, scene, app->option),
                                   .year = app->year};
+}
+
+struct ceduo_report ceduo_app_report(const struct app *app)
+{
+    return (struct ceduo_report){.file = &app->document.file,
+                                 .result = app->figures.result,
+                                 .remarks = {.ground_assumed = app->document.file.ground_assumed},
+                                 .seconds = app->figures.seconds};
 }
 
 void ceduo_app_refresh(struct app *app)
@@ -179,7 +187,7 @@ bool ceduo_app_news(struct app *app)
 static void say_way(struct app *app)
 {
     struct text text = {0};
-    ceduo_rock_way_say(&app->way, &app->document.file.scene, &text);
+    ceduo_rock_trajectory_say(&app->way, &app->document.file.scene, &text);
     if (text.bytes)
         ceduo_app_say(app, "%s", text.bytes);
     ceduo_text_free(&text);
@@ -189,9 +197,9 @@ bool ceduo_app_follow_rock(struct app *app)
 {
     uint64_t key = app->figures.asked;
     hash_count(&key, app->option);
-    bool good = ceduo_rock_way_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
+    bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
     if (!good)
-        ceduo_rock_way_free(&app->way);
+        ceduo_rock_trajectory_free(&app->way);
     return good;
 }
 
@@ -204,7 +212,7 @@ void ceduo_app_next_rock(struct app *app, int by)
 
 void ceduo_app_step_rock(struct app *app, int by)
 {
-    ceduo_rock_way_move(&app->way, by);
+    ceduo_rock_trajectory_move(&app->way, by);
     say_way(app);
 }
 
@@ -277,7 +285,7 @@ void ceduo_app_free(struct app *app)
     ceduo_figures_free(&app->figures);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_free(&app->views[v].form);
-    ceduo_rock_way_free(&app->way);
+    ceduo_rock_trajectory_free(&app->way);
     ceduo_cells_free(app->cells);
     ceduo_document_close(&app->document);
     *app = (struct app){0};

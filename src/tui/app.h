@@ -7,9 +7,10 @@
 #include "keys.h"
 #include "line.h"
 #include "model/document.h"
-#include "rock_way.h"
+#include "rock_trajectory.h"
 #include "view/cells.h"
 #include "view/plot.h"
+#include "view/report.h"
 
 /* The terminal program without a terminal: its state, and the calls that all its parts share. The parts stand on it in
  * layers: popups; editing of fields and lists; views; the screen, which draws them all; and the program, which handles
@@ -30,6 +31,7 @@ struct view {
     const char *title; /* marked for translation */
     int panes;         /* that Tab goes through; the first is the form */
     bool years;        /* compute the years to come while it is open */
+    bool result;       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form);        /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
     bool (*act)(struct app *app, enum action action); /* true: done; NULL: no keys of its own */
@@ -62,7 +64,7 @@ struct app {
     size_t option, belt;   /* that the views show */
     size_t year;           /* index of the one under the cursor */
     uint64_t rock;         /* whose way is shown */
-    struct rock_way way;   /* that way */
+    struct rock_trajectory way;   /* that way */
     bool editing;
     struct line line;      /* what is typed into the field */
     char message[512];     /* of the last action; shown until the next key */
@@ -115,6 +117,9 @@ void ceduo_app_show_option(struct app *app, size_t option);
 
 /* What a picture shows of the scene as it is now. */
 struct ceduo_picture ceduo_app_picture(const struct app *app);
+
+/* The result as it is now, which may be missing. */
+struct ceduo_report ceduo_app_report(const struct app *app);
 
 /* Writes the path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. */
 void ceduo_app_forest(const struct app *app, char *path, size_t size);

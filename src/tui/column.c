@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The column that stands still in every view: what passes, whether it protects, how sure that is. */
-#include "column.h"
+#include "screen.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/intl.h"
-#include "view/words.h"
-
-#define KILO 1e-3
 
 struct pen {
     struct app *app;
@@ -25,9 +22,8 @@ __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ced
     ceduo_text_vformat(&text, format, args);
     va_end(args);
     ceduo_text_safe(&safe, ceduo_text_string(&text));
-    if (pen->y < pen->area.top + pen->area.height && safe.bytes) {
+    if (pen->y < pen->area.top + pen->area.height && safe.bytes)
         ceduo_canvas_put(&pen->app->cells->canvas, pen->area.left, pen->y, pen->area.width, role, safe.bytes);
-    }
     pen->y++;
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
@@ -60,10 +56,7 @@ static void share(char *to, size_t size, double p, double lo, double hi, bool wi
 
 static void figure(char *to, size_t size, double value)
 {
-    if (isnan(value))
-        snprintf(to, size, "-");
-    else
-        snprintf(to, size, "%.3g", value);
+    snprintf(to, size, isnan(value) ? "-" : "%.3g", value);
 }
 
 /* A line of the figures, wood first: the column of the bare slope stands beside it. */
@@ -110,8 +103,8 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
 {
-    const char *word = light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
-    line(pen, ceduo_plot_light_role(light), "%s %-8s %s %s", ceduo_plot_light_mark(light), name, word, what);
+    line(pen, ceduo_plot_light_role(light), "%s %-8s %s %s", ceduo_plot_light_mark(light), name,
+         ceduo_words_verdict(light), what);
 }
 
 static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood,

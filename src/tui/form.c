@@ -135,6 +135,17 @@ void ceduo_form_rest(struct form *form, const struct document *d, const struct o
     }
 }
 
+/* A line for item i of a list. */
+static struct form_row *add_item(struct form *form, const char *list, size_t i)
+{
+    char label[32];
+    snprintf(label, sizeof label, "%zu", i + 1);
+    struct form_row *row = add_row(form, FORM_FIELDS, label);
+    snprintf(row->list, sizeof row->list, "%s", list);
+    row->index = i;
+    return row;
+}
+
 void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
                       const char *const *keys, const char *title)
 {
@@ -148,11 +159,7 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
     }
     snprintf(head->list, sizeof head->list, "%s", list);
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        char label[32];
-        snprintf(label, sizeof label, "%zu", i + 1);
-        struct form_row *row = add_row(form, FORM_FIELDS, label);
-        snprintf(row->list, sizeof row->list, "%s", list);
-        row->index = i;
+        struct form_row *row = add_item(form, list, i);
         for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
             snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", keys[k]);
             fill_cell(&row->cells[k], d, find_field(object, keys[k]), path);
@@ -162,7 +169,6 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
     if (!node || node->n == 0) {
         struct form_row *row = add_row(form, FORM_FIELDS, _("none; a adds one"));
         snprintf(row->list, sizeof row->list, "%s", list);
-        row->n = 0;
     }
 }
 
@@ -171,11 +177,7 @@ void ceduo_form_points(struct form *form, const struct document *d, const struct
     char path[FORM_PATH];
     const struct node *node = ceduo_document_node(d, list);
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        char label[32];
-        snprintf(label, sizeof label, "%zu", i + 1);
-        struct form_row *row = add_row(form, FORM_FIELDS, label);
-        snprintf(row->list, sizeof row->list, "%s", list);
-        row->index = i;
+        struct form_row *row = add_item(form, list, i);
         snprintf(path, sizeof path, "%.100s[%zu]", list, i);
         fill_cell(&row->cells[0], d, field, path);
         row->n = 1;
@@ -390,13 +392,12 @@ static double step_of(double value, const struct field *f)
     return f->type == FIELD_COUNT && step < 1 ? 1 : step;
 }
 
-static bool step_word(const struct form_cell *cell, int direction, struct text *value)
+static void step_word(const struct form_cell *cell, int direction, struct text *value)
 {
     const struct choices *c = cell->field->choices;
     int now = ceduo_choice_find(c, cell->text);
     size_t at = now < 0 ? 0 : ((size_t)now + (direction > 0 ? 1 : c->n - 1)) % c->n;
     ceduo_text_put(value, c->names[at]);
-    return true;
 }
 
 bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int direction, struct text *value)
@@ -406,11 +407,11 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     if (!f)
         return false;
     if (f->type == FIELD_CHOICE)
-        return step_word(cell, direction, value);
-    if (f->type == FIELD_FLAG) {
+        step_word(cell, direction, value);
+    else if (f->type == FIELD_FLAG)
         ceduo_text_put(value, strcmp(cell->text, "true") == 0 ? "false" : "true");
+    if (f->type == FIELD_CHOICE || f->type == FIELD_FLAG)
         return true;
-    }
     const struct node *node = ceduo_document_node(d, cell->path);
     bool scalar = !node || node->kind == NODE_SCALAR;
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
@@ -422,8 +423,6 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     double next = (round(now / step) + direction) * step;
     next = next < f->lo ? f->lo : next > f->hi ? f->hi : next;
     int decimals = step < 1 ? (int)ceil(-log10(step) - 1e-9) : 0;
-    char room[64];
-    snprintf(room, sizeof room, "%.*f", decimals, next == 0 ? 0.0 : next);
-    ceduo_text_put(value, room);
+    ceduo_text_format(value, "%.*f", decimals, next == 0 ? 0.0 : next);
     return true;
 }

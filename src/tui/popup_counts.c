@@ -43,8 +43,6 @@ static bool filled_counts(struct app *app, struct popup *p)
     double per = 10000 / area;
     const struct ceduo_stand *stand = &ceduo_app_option(app)->belts[app->belt].stand;
     char sets[3][FORM_PATH + 64];
-    const char *list[3];
-    size_t n = 0;
     if (stand->shoots_count != 1 || stand->trees_count != 1) {
         ceduo_app_warn(app, _("the stand must have one cohort of shoots and one class of trees, not %zu and %zu"),
                        stand->shoots_count, stand->trees_count);
@@ -53,8 +51,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     snprintf(sets[0], sizeof sets[0], "%.160s.stools.per_ha=%.6g", p->path, v[COUNT_STOOLS] * per);
     snprintf(sets[1], sizeof sets[1], "%.160s.shoots[0].per_ha=%.6g", p->path, v[COUNT_SHOOTS] * per);
     snprintf(sets[2], sizeof sets[2], "%.160s.trees[0].per_ha=%.6g", p->path, v[COUNT_TREES] * per);
-    for (; n < 3; n++)
-        list[n] = sets[n];
+    const char *const list[] = {sets[0], sets[1], sets[2]};
     bool good = ceduo_document_set_all(&app->document, list, 3, _("counts of a plot"), &app->problems);
     if (ceduo_app_edited(app, good))
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);

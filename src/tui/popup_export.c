@@ -9,7 +9,6 @@
 #include "popup.h"
 #include "popups.h"
 #include "screen.h"
-#include "view/report.h"
 
 /* The batch command that gives the same figures. */
 static void put_command(struct app *app, struct text *text)
@@ -39,35 +38,23 @@ static void show_command(struct app *app, struct popup *p, const char *value)
         ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
-static struct ceduo_report report_of(const struct app *app)
-{
-    return (struct ceduo_report){.file = &app->document.file,
-                                 .result = app->figures.result,
-                                 .remarks = {.ground_assumed = app->document.file.ground_assumed},
-                                 .seconds = app->figures.seconds};
-}
-
 static void put_table(struct app *app, struct text *text)
 {
-    struct ceduo_report report = report_of(app);
-    if (report.result)
-        ceduo_report_table(text, &report, app->charset == CEDUO_CHARSET_ASCII);
+    struct ceduo_report report = ceduo_app_report(app);
+    ceduo_report_table(text, &report, app->charset == CEDUO_CHARSET_ASCII);
 }
 
 static void put_csv(struct app *app, struct text *text)
 {
-    struct ceduo_report report = report_of(app);
-    if (!report.result)
-        return;
+    struct ceduo_report report = ceduo_app_report(app);
     ceduo_report_csv_header(text, false, false);
     ceduo_report_csv(text, &report, false);
 }
 
 static void put_json(struct app *app, struct text *text)
 {
-    struct ceduo_report report = report_of(app);
-    if (report.result)
-        ceduo_report_json(text, &report);
+    struct ceduo_report report = ceduo_app_report(app);
+    ceduo_report_json(text, &report);
 }
 
 static void put_screen(struct app *app, struct text *text)
@@ -103,7 +90,9 @@ static bool filled_export(struct app *app, struct popup *p)
     bool good = false;
     if (!ceduo_popup_may_write(app, p))
         return false;
-    exports[export_of(p->path)].put(app, &text);
+    size_t i = export_of(p->path);
+    if (app->figures.result || exports[i].put == put_screen)
+        exports[i].put(app, &text);
     if (!text.bytes) {
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));
     } else if (!ceduo_file_write(path, text.bytes, text.length)) {

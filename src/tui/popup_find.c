@@ -7,7 +7,6 @@
 #include "model/seek.h"
 #include "popup.h"
 #include "popups.h"
-#include "view/report.h"
 
 enum { FIND_GOAL, FIND_LO, FIND_HI };
 

@@ -8,7 +8,6 @@
 #include "ceduo/material.h"
 #include "popup.h"
 #include "popups.h"
-#include "view/words.h"
 #include "scene/words.h"
 
 /* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
@@ -69,7 +68,7 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
             ceduo_text_put(&p->text, _("no stems\n"));
         else
             ceduo_text_format(&p->text, _("with this rock: ADC %.3g m by %s, free run %.1f %%, %.3g kJ/100 m (%s)\n"),
-                              r.adc_m, ceduo_rule_words.names[r.rule], r.free_run_probability * 100, r.dissipated * 1e-3,
+                              r.adc_m, ceduo_rule_words.names[r.rule], r.free_run_probability * 100, r.dissipated * KILO,
                               ceduo_rule_words.names[r.rule]);
     }
     ceduo_text_free(&yaml);

@@ -13,7 +13,6 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);
 void ceduo_popup_new(struct app *app);
 void ceduo_popup_export(struct app *app);
-void ceduo_popup_search(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 

@@ -48,6 +48,20 @@ static void move_cursor(struct app *app, int lines, int columns)
         state->scroll = state->scroll + lines > 0 ? state->scroll + lines : 0;
 }
 
+static bool filled_search(struct app *app, struct popup *p)
+{
+    snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].text);
+    ceduo_app_search(app);
+    return true;
+}
+
+static void ask_for_word(struct app *app)
+{
+    struct popup *p = ceduo_popup_fields(app, _("Search in this view"), filled_search);
+    if (p)
+        ceduo_popup_field(p, _("word"), app->search);
+}
+
 static void next_charset(struct app *app)
 {
     app->charset = (enum ceduo_charset)((app->charset + 1) % 3);
@@ -88,7 +102,7 @@ static void act(struct app *app, enum action action)
     case ACTION_LAST_OPTION: next_option(app, -1); break;
     case ACTION_NEXT_ROCK: ceduo_app_next_rock(app, 1); break;
     case ACTION_LAST_ROCK: ceduo_app_next_rock(app, -1); break;
-    case ACTION_SEARCH: ceduo_popup_search(app); break;
+    case ACTION_SEARCH: ask_for_word(app); break;
     case ACTION_AGAIN: ceduo_app_search(app); break;
     case ACTION_NEW: ceduo_popup_new(app); break;
     case ACTION_OPEN: ceduo_popup_open(app); break;

@@ -5,7 +5,6 @@
 
 #include "base/intl.h"
 #include "base/utf8.h"
-#include "column.h"
 #include "popup.h"
 
 const struct view *const ceduo_views[VIEW_COUNT] = {
@@ -122,7 +121,10 @@ void ceduo_screen_draw(struct app *app)
     for (int y = now.top; y < now.top + now.height; y++)
         ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
     ceduo_column_draw(app, now);
-    ceduo_views[app->view]->draw(app, body);
+    if (ceduo_views[app->view]->result && !app->figures.result)
+        ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
+    else
+        ceduo_views[app->view]->draw(app, body);
     draw_explanation(app);
     draw_bar(app);
     if (app->popup)

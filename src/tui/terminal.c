@@ -252,29 +252,19 @@ static void loop(struct app *app, bool colours)
     }
 }
 
-bool ceduo_terminal_there(const char **why)
+const char *ceduo_terminal_missing(void)
 {
-    const char *unused;
-    why = why ? why : &unused;
     int error;
     bool in = isatty(STDIN_FILENO), out = isatty(STDOUT_FILENO);
-    if (!in || !out) {
-        *why = in    ? _("standard output is no terminal")
+    if (!in || !out)
+        return in    ? _("standard output is no terminal")
                : out ? _("standard input is no terminal")
                      : _("standard input and output are no terminal");
-        return false;
-    }
     const char *name = getenv("TERM");
-    if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK) {
-        *why = _("TERM names no terminal that is known");
-        return false;
-    }
+    if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK)
+        return _("TERM names no terminal that is known");
     const char *move = tigetstr("cup");
-    if (!move || move == (char *)-1) {
-        *why = _("this terminal cannot place the cursor");
-        return false;
-    }
-    return true;
+    return move && move != (char *)-1 ? NULL : _("this terminal cannot place the cursor");
 }
 
 /* The terminal's keys by a way in of our own, on which a read never waits; NULL where it cannot be opened. Curses reads on

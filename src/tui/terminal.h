@@ -10,9 +10,9 @@ enum terminal_end {
     TERMINAL_FAILED /* out of memory */
 };
 
-/* Whether the environment has a terminal to draw on: standard input and output are one, and TERM can address its cells.
- * `*why` (may be NULL) is set where not. */
-bool ceduo_terminal_there(const char **why);
+/* Returns NULL if there is a terminal to draw on: standard input and output are one, and TERM can address its cells.
+ * Otherwise says why there is none. */
+const char *ceduo_terminal_missing(void);
 
 /* Shows the program on the terminal until it ends; restores the terminal. A signal that ends it is raised again. */
 enum terminal_end ceduo_terminal_run(struct app *app);

@@ -8,7 +8,6 @@
 #include "popup.h"
 #include "popups.h"
 #include "study/compare.h"
-#include "view/words.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -56,9 +55,9 @@ static double figure(const struct app *app, size_t i, enum column column)
     case FREE_RUN:
         return s->worst_free_run;
     case TAKEN:
-        return wooded(app) ? share_of(app, i) : s->per_100m * 1e-3;
+        return wooded(app) ? share_of(app, i) : s->per_100m * KILO;
     default:
-        return wooded(app) ? difference_of(app, i, &half) : s->residual * 1e-3;
+        return wooded(app) ? difference_of(app, i, &half) : s->residual * KILO;
     }
 }
 
@@ -190,7 +189,7 @@ static void put_foot(const struct app *app, size_t options, struct text *words)
     ceduo_words_best(words, r);
     if (words->length > before)
         ceduo_text_char(words, ' ');
-    double accepted = r->scene->controls_count > 0 ? r->scene->controls[r->last_control].accepted * 1e-3 : NAN;
+    double accepted = r->scene->controls_count > 0 ? r->scene->controls[r->last_control].accepted * KILO : NAN;
     if (r->wooded && !isnan(accepted))
         ceduo_text_format(words, _("Too much: of 1000 released, through the wood, with more than %g kJ; \xc2\xb1 95 %%. "),
                           accepted);
@@ -203,10 +202,6 @@ static void put_foot(const struct app *app, size_t options, struct text *words)
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    if (!app->figures.result) {
-        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
-        return;
-    }
     size_t n = app->figures.result->options_count;
     draw_head(app, area);
     int lines = lines_of(area), foot_lines = area.height >= 26 ? 6 : area.height - 1 - lines * (int)n;
@@ -295,4 +290,4 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct view ceduo_view_compare = {.title = N_("compare"), .panes = 1, .build = build, .draw = draw, .act = act};
+const struct view ceduo_view_compare = {.title = N_("compare"), .panes = 1, .result = true, .build = build, .draw = draw, .act = act};

@@ -2,23 +2,9 @@
 /* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
 #include "app.h"
 #include "base/intl.h"
-#include "view/report.h"
-
-/* The batch page of the option shown, as narrow as the pane. */
-static void fill_page(struct app *app, struct text *text, int width)
-{
-    struct ceduo_report report = {.file = &app->document.file,
-                                  .result = app->figures.result,
-                                  .remarks = {.ground_assumed = app->document.file.ground_assumed}};
-    ceduo_report_option(text, &report, app->option, width);
-}
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    if (!app->figures.result) {
-        ceduo_app_text(app, area, CEDUO_ROLE_DIM, _("the first rocks are falling …"), NULL);
-        return;
-    }
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool wide = area.width >= 110;
     int pictures = wide ? area.height : area.height / 2;
@@ -38,10 +24,11 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_plot_draw(CEDUO_PLOT_HISTOGRAM, &app->cells->canvas, &histogram, &picture);
     page.width -= 2; /* the mark of more below stands beside the text */
     struct text text = {0};
-    fill_page(app, &text, page.width);
+    struct ceduo_report report = ceduo_app_report(app);
+    ceduo_report_option(&text, &report, app->option, page.width);
     if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, ceduo_text_string(&text), &ceduo_app_state(app)->scroll))
         ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
     ceduo_text_free(&text);
 }
 
-const struct view ceduo_view_results = {.title = N_("results"), .panes = 1, .draw = draw};
+const struct view ceduo_view_results = {.title = N_("results"), .panes = 1, .result = true, .draw = draw};

@@ -5,7 +5,6 @@
 
 #include "app.h"
 #include "base/intl.h"
-#include "view/words.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -85,7 +84,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
                                      : _("; of 1000 %.0f \xc2\xb1%.0f arrive"),
                           share * 1000,
                           ceil(1000 * ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released)),
-                          control->accepted * 1e-3);
+                          control->accepted * KILO);
     }
     ceduo_text_put(text, ". ");
     for (size_t i = 0; i < y->option.belts_count; i++)

@@ -4,7 +4,6 @@
 
 #include "app.h"
 #include "base/intl.h"
-#include "view/words.h"
 #include "scene/words.h"
 
 static void build(struct app *app, struct form *form)
@@ -55,7 +54,7 @@ static void draw_figures(struct app *app, struct ceduo_area area)
         ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g); %.3g kJ per "
                                    "100 m (%s)"),
                           r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,
-                          r.adc.interception, r.adc.crofton, r.per_100m * 1e-3, ceduo_rule_words.names[r.rule]);
+                          r.adc.interception, r.adc.crofton, r.per_100m * KILO, ceduo_rule_words.names[r.rule]);
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
 }
 

@@ -6,8 +6,6 @@
 #include "ceduo/version.h"
 #include "scene/words.h"
 
-#define KILO 1e-3
-
 /* ---- values ---- */
 
 #define NOTHING     ((struct ceduo_value){.kind = CEDUO_NULL})

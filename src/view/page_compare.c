@@ -22,11 +22,11 @@ static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r,
 
 static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
 {
-    ceduo_page_number(page, s->per_100m * 1e-3, 3);
+    ceduo_page_number(page, s->per_100m * KILO, 3);
     if (s->exhausted)
         ceduo_text_put(ceduo_page_text(page), _("used up"));
     else
-        ceduo_page_number(page, s->residual * 1e-3, 3);
+        ceduo_page_number(page, s->residual * KILO, 3);
 }
 
 static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_t i)

@@ -7,8 +7,6 @@
 #include "page_parts.h"
 #include "scene/words.h"
 
-#define KILO 1e-3
-
 /* ---- belts ---- */
 
 static void add_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)

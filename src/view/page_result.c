@@ -7,8 +7,6 @@
 #include "page_parts.h"
 #include "scene/words.h"
 
-#define KILO 1e-3
-
 /* ---- head ---- */
 
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)

@@ -22,9 +22,9 @@ static void add_year(struct ceduo_page *page, const struct ceduo_year *y, size_t
     ceduo_page_verdict(page, s->contact);
     ceduo_page_percent(page, s->worst_free_run);
     ceduo_page_verdict(page, s->free_run);
-    ceduo_page_number(page, s->per_100m * 1e-3, 3);
+    ceduo_page_number(page, s->per_100m * KILO, 3);
     ceduo_page_share(page, a);
-    ceduo_page_number(page, a ? a->energy.mean * 1e-3 : NAN, 3);
+    ceduo_page_number(page, a ? a->energy.mean * KILO : NAN, 3);
     ceduo_page_verdict(page, s->energy);
 }
 

@@ -4,7 +4,6 @@
 #include "ceduo/assess.h"
 #include "base/intl.h"
 #include "plot_parts.h"
-#include "words.h"
 #include "scene/words.h"
 
 /* Draws the rules of the ADC as bars on a log scale. */

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/intl.h"
-#include "words.h"
 
 /* ---- text ---- */
 

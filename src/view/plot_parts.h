@@ -3,10 +3,9 @@
 #define CEDUO_PLOT_PARTS_H
 
 #include "plot.h"
+#include "words.h"
 
 /* What several pictures share. */
-
-#define KILO 1e-3
 
 /* The pictures. Each returns NULL, or why there is nothing to draw. */
 typedef const char *ceduo_plot_function(struct ceduo_canvas *canvas, const struct ceduo_area *area,

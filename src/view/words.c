@@ -186,8 +186,6 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
 
 /* ---- lights ---- */
 
-#define KILO 1e-3
-
 const char *ceduo_words_verdict(enum ceduo_light light)
 {
     return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");

@@ -5,6 +5,8 @@
 #include "ceduo/result.h"
 #include "base/text.h"
 
+#define KILO 1e-3 /* J in kJ */
+
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 
 /* Takes sentences one by one. */

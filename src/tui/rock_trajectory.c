@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "rock_way.h"
+#include "rock_trajectory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,13 +14,13 @@
 
 static bool is_enough(void *context)
 {
-    const struct rock_way *s = context;
+    const struct rock_trajectory *s = context;
     return ceduo_clock() - s->begun > SECONDS_MOST;
 }
 
 static void add_piece(void *context, const struct ceduo_piece *piece)
 {
-    struct rock_way *s = context;
+    struct rock_trajectory *s = context;
     struct ceduo_piece *pieces = s->n < PIECES_MOST ? ceduo_grow(s->pieces, s->n, &s->room, sizeof *pieces) : NULL;
     if (!pieces)
         return;
@@ -30,7 +30,7 @@ static void add_piece(void *context, const struct ceduo_piece *piece)
 
 static void add_stem(void *context, const struct ceduo_stem_passed *stem)
 {
-    struct rock_way *s = context;
+    struct rock_trajectory *s = context;
     if (s->n >= PIECES_MOST)
         return;
     size_t room = s->stems_room; /* of both arrays */
@@ -60,7 +60,7 @@ static void add_to_line(struct ceduo_polyline *t, const struct ceduo_piece *p, d
 }
 
 /* The line of the pieces that are shown. */
-static bool draw_trail(struct rock_way *s, double gravity)
+static bool draw_trail(struct rock_trajectory *s, double gravity)
 {
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     ceduo_polyline_free(&s->line);
@@ -75,7 +75,7 @@ static bool draw_trail(struct rock_way *s, double gravity)
     return true;
 }
 
-bool ceduo_rock_way_follow(struct rock_way *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
+bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
                         uint64_t key, uint64_t rock)
 {
     bool same = s->n > 0 && s->key == key && s->rock == rock;
@@ -93,7 +93,7 @@ bool ceduo_rock_way_follow(struct rock_way *s, const struct ceduo_scene *scene, 
     return draw_trail(s, scene->simulation.gravity);
 }
 
-void ceduo_rock_way_move(struct rock_way *s, int by)
+void ceduo_rock_trajectory_move(struct rock_trajectory *s, int by)
 {
     if (by > 0)
         s->at = s->at < s->n ? s->at + 1 : s->n;
@@ -101,7 +101,7 @@ void ceduo_rock_way_move(struct rock_way *s, int by)
         s->at = s->at > 1 ? s->at - 1 : s->at == 1 ? 0 : s->n;
 }
 
-size_t ceduo_rock_way_stems(const struct rock_way *s)
+size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
 {
     size_t n = 0;
     if (s->at == 0)
@@ -112,7 +112,7 @@ size_t ceduo_rock_way_stems(const struct rock_way *s)
 }
 
 /* The stem that is hit at the end of the piece shown. */
-static void say_stem(const struct rock_way *s, struct text *text)
+static void say_stem(const struct rock_trajectory *s, struct text *text)
 {
     for (size_t i = 0; i < s->stems_count; i++) {
         const struct ceduo_stem_passed *p = &s->stems[i];
@@ -127,7 +127,7 @@ static void say_stem(const struct rock_way *s, struct text *text)
     }
 }
 
-static void say_end(const struct rock_way *s, double origin, struct text *text)
+static void say_end(const struct rock_trajectory *s, double origin, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
@@ -138,7 +138,7 @@ static void say_end(const struct rock_way *s, double origin, struct text *text)
         ceduo_text_format(text, _(", %llu stems hit"), (unsigned long long)s->way.stems_hit);
 }
 
-void ceduo_rock_way_say(const struct rock_way *s, const struct ceduo_scene *scene, struct text *text)
+void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
 {
     double origin = scene->slope.origin_x;
     if (s->at == 0 || s->at > s->n) {
@@ -160,11 +160,11 @@ void ceduo_rock_way_say(const struct rock_way *s, const struct ceduo_scene *scen
     say_stem(s, text);
 }
 
-void ceduo_rock_way_free(struct rock_way *s)
+void ceduo_rock_trajectory_free(struct rock_trajectory *s)
 {
     free(s->pieces);
     free(s->stems);
     free(s->stem_piece);
     ceduo_polyline_free(&s->line);
-    *s = (struct rock_way){0};
+    *s = (struct rock_trajectory){0};
 }

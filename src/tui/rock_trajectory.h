@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_ROCK_WAY_H
-#define CEDUO_ROCK_WAY_H
+#ifndef CEDUO_ROCK_TRAJECTORY_H
+#define CEDUO_ROCK_TRAJECTORY_H
 
 #include "base/text.h"
 #include "study/outlook.h"
 
 /* The way of one rock, piece by piece: flights, and rolls along the ground. */
-struct rock_way {
+struct rock_trajectory {
     uint64_t key, rock; /* of the run and the rock that they were followed for */
     size_t n, room, at; /* pieces; how many of them are shown, 0: all */
     struct ceduo_piece *pieces;
@@ -21,18 +21,18 @@ struct rock_way {
 
 /* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that way
  * already. False without memory. */
-bool ceduo_rock_way_follow(struct rock_way *way, const struct ceduo_scene *scene, const struct ceduo_option *option,
+bool ceduo_rock_trajectory_follow(struct rock_trajectory *way, const struct ceduo_scene *scene, const struct ceduo_option *option,
                         uint64_t key, uint64_t rock);
 
 /* A piece further or back. */
-void ceduo_rock_way_move(struct rock_way *way, int by);
+void ceduo_rock_trajectory_move(struct rock_trajectory *way, int by);
 
 /* How many of the stems lie on what is shown. */
-size_t ceduo_rock_way_stems(const struct rock_way *way);
+size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *way);
 
 /* What happens where the way is shown to, or how it ends. */
-void ceduo_rock_way_say(const struct rock_way *way, const struct ceduo_scene *scene, struct text *text);
+void ceduo_rock_trajectory_say(const struct rock_trajectory *way, const struct ceduo_scene *scene, struct text *text);
 
-void ceduo_rock_way_free(struct rock_way *way);
+void ceduo_rock_trajectory_free(struct rock_trajectory *way);
 
 #endif
