@@ -15,7 +15,7 @@ struct ceduo_stand_result {
     double length; /* m */
     double stems_per_ha, stools_per_ha, trees_per_ha, basal_area;
     bool bare;
-    bool felled;            /* of a year: it is the wood that a cut of this year left */
+    bool felled;            /* of a year: it is what a cut of this year left */
     enum ceduo_rule rule;   /* the one that was applied; without meaning where bare */
     struct ceduo_adc adc;   /* infinite where bare */
     double adc_m;           /* of that rule */

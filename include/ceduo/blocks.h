@@ -4,12 +4,12 @@
 
 #include "run.h"
 
-/* The same scene with blocks of other sizes: what a wood does to small blocks it does not do to large ones. */
+/* The same scene with blocks of other sizes: what a forest does to small blocks it does not do to large ones. */
 struct ceduo_block {
     double volume;         /* m3 */
     double mass, diameter; /* kg, m: of the mean rock */
     double adc;            /* m, by the scene's rule: the worst belt before the control; infinite where there is none */
-    double contacts;       /* with stems on the way to the control, by that rule (Eq. 2 of Ciabocco et al. 2009) */
+    double contacts;       /* with stems up to the control, by that rule (Eq. 2 of Ciabocco et al. 2009) */
     struct ceduo_arrivals arrivals; /* through the forest; 0 released: not simulated */
     bool own;              /* the scene's own block */
 };

@@ -6,7 +6,7 @@
 
 #include "scene.h"
 
-/* Hashes of all that decides a run: where they are the same the same rocks go the same ways. */
+/* Hashes of all that decides a run: where they are equal, the same rocks have the same trajectories. */
 
 /* Of what lies outside the forest: rock, release, slope, controls, law, seed, gravity. */
 uint64_t ceduo_scene_key(const struct ceduo_scene *scene);

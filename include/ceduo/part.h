@@ -4,12 +4,12 @@
 
 #include "pool.h"
 
-/* A run in parts that are flown apart, maybe on several machines, and joined to the very same run. A part keeps the sums
+/* A run in parts that are simulated apart, maybe on several machines, and joined to the very same run. A part keeps the sums
  * of each of its blocks by itself: joining adds them in the order of the blocks, as one run does, and only then are the
  * figures the same to the last bit. With them go what arrived at each control, rock by rock, or beyond exact_bytes (of
  * the whole run) the histograms and the first rocks' energies.
  *
- * To fly one: a def with rocks_most of the whole run, `part` and `first`; then extend it to `end`. Such a run is to be
+ * To make one: a def with rocks_most of the whole run, `part` and `first`; then extend it to `end`. Such a run is to be
  * saved, not read; it counts its rocks from the first of the whole run. To join: a run or a pool of the same scene
  * without rocks, with rocks_most and exact_bytes as they were; then adopt every part in the order of the rocks. */
 

@@ -15,7 +15,7 @@ void ceduo_pool_free(struct ceduo_pool *pool);
 
 /* A pool for the scene of `def` from what was kept: *pool is turned to it, see ceduo_pool_turn(), or freed and made anew
  * where its rocks meet anything else than a forest that differs. *pool may be NULL; it is NULL unless CEDUO_OK. A pool
- * that is kept flies as it was made: threads, cancel and progress stay those. */
+ * that is kept simulates as it was made: threads, cancel and progress stay those. */
 enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_pool **pool);
 
 /* The run through the forest of `option` (NULL: without forest), as long as it is; the pool's. CEDUO_NO_MEMORY. */
@@ -53,7 +53,7 @@ void ceduo_pool_trim(struct ceduo_pool *pool);
 
 /* What was done so far. */
 struct ceduo_work {
-    uint64_t rocks, contacts; /* flown, with the ground: of all runs */
+    uint64_t rocks, contacts; /* simulated, with the ground: of all runs */
     struct ceduo_stem_counts stems;
     uint64_t runs, reused; /* made; asked for once more */
 };

@@ -5,7 +5,7 @@
 #include "blocks.h"
 #include "years.h"
 
-/* One way to ask for runs: fly this scene so far, and read it.
+/* The one way to ask for runs: simulate this scene so far, and read it.
  *
  *     struct ceduo_question question = ceduo_question_default(&scene);
  *     struct ceduo_answer answer;
@@ -14,11 +14,11 @@
  *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach_probability);
  *     ceduo_answer_release(&answer); */
 struct ceduo_question {
-    struct ceduo_run_def run; /* the scene, and how its rocks are flown; its option is not looked at */
+    struct ceduo_run_def run; /* the scene, and how its rocks are simulated; its option is not looked at */
     uint64_t rocks;           /* in each run; 0: none, for what stands and index say without */
     double tolerance;         /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
     size_t only;              /* the run of this option alone: through its forest, by the index without forest. Of what
-                               * was not flown nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
+                               * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
     bool years;               /* each option year by year, with as many rocks */
     unsigned year_first, year_last, year_step;
     uint64_t block_rocks; /* > 0: blocks of other sizes to the last control, at the most so many of each */

@@ -52,7 +52,7 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
                                       const struct ceduo_difference *differences, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
-/* Assesses an option by what was flown: each belt to `stands`, each control to `controls`. `wooded` without rocks: not
+/* Assesses an option by what was simulated: each belt to `stands`, each control to `controls`. `wooded` without rocks: not
  * known. */
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
                        const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
@@ -61,7 +61,7 @@ void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_optio
  * yet. */
 const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control);
 
-/* Rocks flown in each run, and the most that are unfinished in one of them. */
+/* Rocks simulated in each run, and the most that are unfinished in one of them. */
 uint64_t ceduo_result_rocks(const struct ceduo_result *result);
 uint64_t ceduo_result_unfinished(const struct ceduo_result *result);
 

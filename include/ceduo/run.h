@@ -16,8 +16,8 @@ struct ceduo_run;
 #define CEDUO_BLOCK_ROCKS 1024                       /* rocks summed as one */
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
-/* How the rocks are flown: one by one, or 16 or 32 at once in the lanes of wide registers. All give the same bits. What
- * a machine does not have is flown one by one, and at best also rocks among stems. */
+/* How rocks are simulated: one by one, or 16 or 32 at once in the lanes of wide registers. All give the same bits. Where
+ * the machine lacks such registers, rocks are simulated one by one; so are, with BEST, rocks among stems. */
 enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512 };
 
 struct ceduo_run_def {
@@ -28,7 +28,7 @@ struct ceduo_run_def {
     uint64_t rocks_most;             /* no longer than this will it be made */
     size_t cells;                    /* envelopes at this many places, 0: none */
     const double *cell_x;            /* rising, on the slope */
-    bool arrivals_only;              /* ways end behind the last control or cell: their ends are not known */
+    bool arrivals_only;              /* trajectories stop behind the last control or cell: their ends are not known */
     size_t exact_bytes;              /* beyond this percentiles come from a histogram */
     bool part;                       /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
     uint64_t first;                  /* a multiple of CEDUO_BLOCK_ROCKS */
@@ -44,7 +44,7 @@ struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene);
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **run);
 void ceduo_run_free(struct ceduo_run *run);
 
-/* Flies rocks until `rocks` are done. The result is the same for any number of threads and of steps.
+/* Simulates rocks until `rocks` are done. The result is the same for any number of threads and of steps.
  * CEDUO_CANCELLED, CEDUO_NO_MEMORY: the run holds the rocks that were finished before; it can be read and extended. */
 enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks);
 
@@ -52,9 +52,9 @@ uint64_t ceduo_run_rocks(const struct ceduo_run *run);
 size_t ceduo_run_sample_bytes(const struct ceduo_run *run); /* taken by what is kept of single rocks */
 uint64_t ceduo_run_contacts(const struct ceduo_run *run); /* ground contacts of all rocks */
 
-/* Stems on the ways of all rocks. */
+/* Stems along all trajectories. */
 struct ceduo_stem_counts {
-    uint64_t drawn; /* made up along the ways */
+    uint64_t drawn; /* along the trajectories */
     uint64_t hit;   /* stems, or contacts of the contact model poisson */
     uint64_t met;   /* stools and single trees of which a stem was hit */
 };
@@ -86,15 +86,15 @@ struct ceduo_difference {
     struct ceduo_paired energy_per_released; /* J */
 };
 
-/* `run` less `baseline`: two runs of one scene, with as many rocks (all NaN where one is longer or NULL). Both fly the same rocks,
- * so that the error of a difference is the smaller the more alike the two forests are. In runs too long to keep their
- * samples the standard error comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as
- * exact_bytes goes. */
+/* `run` less `baseline`: two runs of one scene, of equal length (all NaN where one is longer or NULL). Both simulate the same
+ * rocks, so the more alike the forests, the smaller the error of the difference. In runs too long to keep their samples
+ * the standard error comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes
+ * goes. */
 #define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control);
 
-/* How the ways ended, and where those ended that came to rest or were stopped by stems. */
+/* How the trajectories ended, and where the rocks lie that came to rest or were stopped by stems. */
 struct ceduo_ends {
     uint64_t count[CEDUO_ENDS];
     struct ceduo_moments stop_x;

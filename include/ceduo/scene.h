@@ -55,7 +55,7 @@ struct ceduo_option {
 #define CEDUO_CONTACT_MODELS(X)                                                                                            \
     X(INDEX, "index")     /* nothing: only Eq. 5 of Ciabocco et al. 2009 is computed */                                    \
     X(POISSON, "poisson") /* contacts at random, as many as the rule of the ADC says; each takes its stratum's mean energy */ \
-    X(STEMS, "stems")     /* stools and trees stand at random in the plane; each stem on the way is hit by itself */
+    X(STEMS, "stems")     /* stools and trees stand at random in the plane; each stem in a rock's path is hit by itself */
 
 enum ceduo_contact_model {
 #define X(NAME, word) CEDUO_##NAME,
@@ -86,7 +86,7 @@ struct ceduo_scene {
     struct ceduo_option *options;   /* the first is the baseline */
     struct ceduo_simulation simulation;
     double rocks_per_year;          /* that come down; NaN: not said */
-    double reserves_minimum;        /* single trees per ha that a wood must keep; NaN: not said */
+    double reserves_minimum;        /* single trees per ha that a forest must keep; NaN: not said */
 };
 
 /* Whatever has a default has it; there is no slope, control or option yet. */

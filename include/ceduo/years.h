@@ -5,7 +5,7 @@
 #include "result.h"
 #include "rotation.h"
 
-/* An option year by year: its stands grow and are cut as their files and belts say, and the same rocks fly through each
+/* An option year by year: its stands grow and are cut as their files and belts say, and the same rocks go through each
  * year's forest. */
 
 struct ceduo_year {
@@ -15,7 +15,7 @@ struct ceduo_year {
     struct ceduo_grown_stand *grown;  /* what its belts hold: owned */
     struct ceduo_stand_result *stands; /* one for each belt */
     struct ceduo_index *controls;     /* one for each control */
-    struct ceduo_flown wooded;        /* rocks 0: not flown; with the contact model index never */
+    struct ceduo_flown wooded;        /* rocks 0: not simulated; with the contact model index never */
 };
 
 struct ceduo_years {
@@ -30,23 +30,23 @@ unsigned ceduo_years_usual(const struct ceduo_scene *scene);
 
 #define CEDUO_YEARS_MOST 1000 /* computed at a time */
 
-/* Grows the stands of an option to the years first, first + step … last (step >= 1); nothing is flown and nothing assessed
+/* Grows the stands of an option to the years first, first + step … last (step >= 1); nothing is simulated and nothing assessed
  * yet. What the option points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option, unsigned first,
                                      unsigned last, unsigned step, struct ceduo_years **years);
 void ceduo_years_free(struct ceduo_years *years);
 
 /* Has the pool make the runs of all years, as long as `rocks`, those of years with the same forest once; then assesses
- * every year, `bare` being what arrives without forest. With the contact model index no rock is flown. CEDUO_CANCELLED,
+ * every year, `bare` being what arrives without forest. With the contact model index no rock is simulated. CEDUO_CANCELLED,
  * CEDUO_NO_MEMORY: the years before are assessed. */
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks);
 
-/* Assesses years that were flown once more, for a scene that differs in what no rock sees: the threshold, the rule of the
+/* Assesses simulated years once more, for a scene that differs in what no rock sees: the threshold, the rule of the
  * ADC, how many rocks come down a year. It has as many controls, at the same places, and `bare` is of them. */
 void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare);
 
-/* The years together, at one control. Every figure is a plain mean over the years computed. Because all years fly the same
+/* The years together, at one control. Every figure is a plain mean over the years computed. Because all years simulate the same
  * rocks, their errors go together: the standard error of a mean is at most the mean of the standard errors, and that is
  * given. NaN where a figure does not exist. */
 struct ceduo_years_summary {

@@ -25,7 +25,7 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
     return to;
 }
 
-/* A size of rock that costs more than this, in contacts and stems made up, is flown with fewer rocks: a splinter as large
+/* A size of rock that costs more than this, in contacts and stems drawn, is simulated with fewer rocks: a splinter as large
  * as a house is more work than all the rest of a page. */
 #define EFFORT_MOST 5e6
 #define FIRST_ROCKS 4

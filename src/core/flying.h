@@ -119,7 +119,7 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
     w->watch->stem(w->watch->context, &p);
 }
 
-/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the way is given
+/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the trajectory is given
  * up. */
 static bool take_stem(struct walker *w, int side, struct stem *stem)
 {
@@ -153,7 +153,7 @@ static size_t segment_between(const struct ground *g, size_t a, size_t b, double
 }
 
 /* Flies past the stems between the rock and its landing `l`, which moves as stems are hit. True where one stops the rock
- * (or the way is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
+ * (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
  * segment and the rock is still above the ground there: the parabola is concave, so there was no contact before. */
 static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l)
 {
@@ -209,7 +209,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
     return false;
 }
 
-/* Whether a stem lies on the way to x, or perhaps does. */
+/* Whether a stem stands before x, or perhaps does. */
 HOT bool stem_on_way(const struct walker *w, double x)
 {
     return x >= w->stem_ahead || x <= w->stem_behind;

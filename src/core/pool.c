@@ -209,7 +209,7 @@ static bool precise(const struct ceduo_run *run, size_t controls, double toleran
     return true;
 }
 
-/* The counts are fixed, and near to each other: few rocks are flown in vain. */
+/* The counts are fixed, and near to each other: few rocks are simulated in vain. */
 enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met)
 {
     *met = false;

@@ -147,7 +147,7 @@ static enum ceduo_status release(struct worker *w, struct walker *walker, uint64
     return status;
 }
 
-/* A rock that cannot be drawn has no way: it is unfinished before every control. */
+/* A rock that cannot be drawn has no trajectory: it is unfinished before every control. */
 static void note_undrawn(struct worker *w)
 {
     w->block->ends[CEDUO_UNFINISHED]++;
@@ -206,7 +206,7 @@ static void sum_block(struct worker *w)
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);
 }
 
-/* Flies the rocks of a block from w->from to before w->to; false where it was stopped. */
+/* Simulates the rocks of a block from w->from to before w->to; false where it was stopped. */
 static bool fly_block(struct worker *w)
 {
     struct ceduo_run *run = w->run;

@@ -11,7 +11,7 @@
 /* A run from inside; only the run*.c include this.
  *
  *     run.c          makes, extends and frees a run, chunk by chunk
- *     run_fly.c      flies the rocks of one chunk on several threads
+ *     run_fly.c      simulates the rocks of one chunk on several threads
  *     run_sums.c     sums of a block, merged in the order of the blocks
  *     run_samples.c  what is kept of single rocks: every value, or histograms where there are too many
  *     run_read.c     arrivals, differences and ends, read from sums and samples
@@ -41,8 +41,8 @@ struct ceduo_run {
     struct ceduo_run_def def;
     struct prepared ready;
     struct wide_ground *wide;
-    wide_walk_fn *wide_walk; /* NULL: rocks are flown one by one */
-    size_t lanes;            /* rocks that a thread flies at once */
+    wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
+    size_t lanes;            /* rocks that a thread simulates at once */
     size_t controls;
     int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
     size_t columns;        /* of samples: controls times kept, and the stops */
@@ -100,7 +100,7 @@ double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint
 
 /* ---- flying ---- */
 
-/* Flies one chunk, from where the run stands to rock `end`. On failure the run is as it was before. */
+/* Simulates one chunk, from where the run stands to rock `end`. On failure the run is as it was before. */
 enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end);
 
 #endif

@@ -61,9 +61,9 @@ static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_
     return fmin(gsl_ran_gamma(&rng, k->shape + extra, k->scale), k->most);
 }
 
-/* ---- one stratum along the way ---- */
+/* ---- one stratum along the strip ---- */
 
-/* Moves a stream to its next place: gaps are exponential in the rate summed along the way, across belts. */
+/* Moves a stream to its next place: gaps are exponential in the rate summed along the strip, across belts. */
 static void advance(struct stems *s, int side, size_t stratum)
 {
     struct stream *stream = &s->side[side].streams[stratum];
@@ -142,7 +142,7 @@ static const struct wood_kind *draw_cohort(const struct stems *s, const struct w
     return k;
 }
 
-/* A shoot that stands behind the start of the way ahead is one of the way behind; that way's own stools begin beyond
+/* A shoot that stands behind the start of the strip ahead belongs to the strip behind, whose own stools begin beyond
  * those that reach over the start. */
 static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem stem)
 {
@@ -161,7 +161,7 @@ static __attribute__((noinline)) const struct wood_kind *draw_shoot(const struct
     return k;
 }
 
-/* The shoots of the stool that the stream of side `side` has come to, as far as they stand in the rock's way. */
+/* The shoots of the stool that the stream of side `side` has come to, as far as the rock can hit them. */
 static void draw_stool(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
@@ -286,7 +286,7 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->side[1].next = any ? -x : INFINITY;
 }
 
-/* The way behind the release is drawn only when a rock goes there. The stools around the release are those of the way
+/* The strip behind the release is drawn only when a rock goes there. The stools around the release are those of the strip
  * ahead. */
 static void prepare_behind(struct stems *s)
 {

@@ -39,7 +39,7 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
 }
 
 enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock, const struct ceduo_watch *watch,
-                                        struct ceduo_trajectory *way, struct ceduo_crossing *crossings)
+                                        struct ceduo_trajectory *to, struct ceduo_crossing *crossings)
 {
     const struct ceduo_scene *scene = &f->ready.scene;
     struct noter noter = {&f->ready.marks, crossings};
@@ -50,19 +50,15 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
     enum ceduo_status status = ceduo_walk_release(&w, &f->ready, rock);
     if (status != CEDUO_OK)
         return status;
-    *way = (struct ceduo_trajectory){.rock = w.rock,
-                              .x0 = w.at.x,
-                              .z0 = w.at.z,
-                              .vx0 = w.at.vx,
-                              .vz0 = w.at.vz,
-                              .spin0 = w.spin};
-    way->end = ceduo_walk(&w, scene->simulation.law);
-    way->x = w.at.x;
-    way->z = w.at.z;
-    way->contacts = w.contacts;
-    way->stems_hit = w.stems_hit;
-    way->stools_met = w.stools_met;
-    way->stems_drawn = w.stems ? w.stems->drawn : 0;
+    *to = (struct ceduo_trajectory){
+        .rock = w.rock, .x0 = w.at.x, .z0 = w.at.z, .vx0 = w.at.vx, .vz0 = w.at.vz, .spin0 = w.spin};
+    to->end = ceduo_walk(&w, scene->simulation.law);
+    to->x = w.at.x;
+    to->z = w.at.z;
+    to->contacts = w.contacts;
+    to->stems_hit = w.stems_hit;
+    to->stools_met = w.stools_met;
+    to->stems_drawn = w.stems ? w.stems->drawn : 0;
     if (f->stems.no_memory) /* be it for stems that the rock does not come to */
         return CEDUO_NO_MEMORY;
     return w.cancelled ? CEDUO_CANCELLED : CEDUO_OK;
@@ -77,16 +73,16 @@ void ceduo_follower_free(struct ceduo_follower *f)
     free(f);
 }
 
-enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                   const struct ceduo_watch *watch, struct ceduo_trajectory *way,
-                                   struct ceduo_crossing *crossings)
+enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                          uint64_t rock, const struct ceduo_watch *watch, struct ceduo_trajectory *to,
+                                          struct ceduo_crossing *crossings)
 {
     if (isnan(ceduo_rock_mean(&scene->rock).mass))
         return CEDUO_BAD_ROCK;
     struct ceduo_follower *f = ceduo_follower_create(scene, option);
     if (!f)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = ceduo_follower_follow(f, rock, watch, way, crossings);
+    enum ceduo_status status = ceduo_follower_follow(f, rock, watch, to, crossings);
     ceduo_follower_free(f);
     return status;
 }

@@ -91,9 +91,9 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->next_x = first->next_x;
 }
 
-/* ---- the whole way ---- */
+/* ---- the whole trajectory ---- */
 
-/* Whether a long way is to end here: too many contacts, or nobody waits for it any more. */
+/* Whether a long trajectory is to end here: too many contacts, or nobody waits for it any more. */
 SELDOM bool has_enough(struct walker *w)
 {
     if (w->arrivals_only && w->next_mark == w->marks->n)
@@ -125,7 +125,7 @@ SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct lan
     return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
-/* Comes down at `l`, past what stands in the way; false where that ends it. */
+/* Lands at `l`, past the stems before it; false where that ends it. */
 HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, enum ceduo_end *end)
 {
     if (stem_on_way(w, l->x) && fly_past_stems(w, at, l)) {
@@ -223,7 +223,7 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
     return ceduo_walk_on(w, &c, law);
 }
 
-/* ---- the way in pieces ---- */
+/* ---- the trajectory in pieces ---- */
 
 void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t)
 {

@@ -12,7 +12,7 @@
 #include "sincos.h"
 #include "stems.h"
 
-/* One rock under way. */
+/* One rock on its trajectory. */
 struct walker {
     const struct ground *g;
     const struct marks *marks;
@@ -30,16 +30,16 @@ struct walker {
     size_t next_mark;
     double next_x;    /* of that mark, infinite behind the last */
     struct stems *stems;       /* NULL: no forest */
-    double stem_ahead, stem_behind; /* x of the next stem either way; infinite: none */
+    double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_watch *watch; /* NULL: nobody looks */
     void *context;                   /* of cross */
-    bool arrivals_only;        /* behind the last mark nobody asks on: the way ends soon after it, CEDUO_UNFINISHED */
-    const atomic_bool *cancel; /* looked at now and then on long ways; may be NULL */
-    bool cancelled;            /* it was raised, or memory ran out: the way is not at its end */
+    bool arrivals_only;        /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
+    const atomic_bool *cancel; /* looked at now and then on long trajectories; may be NULL */
+    bool cancelled;            /* it was raised, or memory ran out: the trajectory is not at its end */
     bool gives_up;             /* among stems: cancelled, or there were too many */
 };
 

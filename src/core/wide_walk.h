@@ -19,7 +19,7 @@ struct form {
     bool wraps; /* and what is looked up beyond them does no harm */
 };
 
-/* All rocks under way, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
+/* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
  * wide_ground do; 0 and n + 1 lie off the slope. */
 struct wide {
     const struct wide_job *job;
@@ -381,7 +381,7 @@ LANE struct impact_lanes law_lanes(const struct wide *k, enum ceduo_law law, str
 
 /* ---- one contact in every lane ---- */
 
-/* A rock in each lane, on its way. */
+/* A rock in each lane, on its trajectory. */
 struct rocks {
     reals x, z, vx, vz;
     ints segment;

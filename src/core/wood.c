@@ -62,7 +62,7 @@ static struct wood_stratum tree_stratum(const struct ceduo_stand *stand, size_t 
     return (struct wood_stratum){per_m2 * kind->dbh, per_m2, kind};
 }
 
-/* Contacts with stratum i of a rule as a Poisson process along the way (Eq. 2 of Ciabocco et al. 2009). */
+/* Contacts with stratum i of a rule as a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). */
 static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i,
                                            struct wood_kind *kind)
 {
@@ -232,7 +232,7 @@ void ceduo_wood_release(struct wood *wood)
 
 /* ---- hashing ---- */
 
-/* Made of the same kinds and strata as the wood itself, but without its memory: it cannot fail. */
+/* Made of the same kinds and strata as the prepared forest, but without its memory: it cannot fail. */
 
 static void hash_kind(uint64_t *hash, const struct wood_kind *k)
 {

@@ -5,7 +5,7 @@
 #include "ceduo/scene.h"
 #include "energy.h"
 
-/* An option's forest made ready for many rocks: what the drawing of stems needs, belt by belt. */
+/* An option's forest, prepared for many rocks: what drawing stems needs, belt by belt. */
 
 /* Stems of one kind as rocks meet them: a cohort of shoots, a class of trees, or all that one stratum of a form of the
  * ADC stands for. */
@@ -21,7 +21,7 @@ struct wood_kind {
     struct stem_energy by_hit;
 };
 
-/* What is met at random places along the way: so many per metre for a rock of diameter b: still + per_b·b. */
+/* What is met at random places along x: so many per metre for a rock of diameter b: still + per_b·b. */
 struct wood_stratum {
     double still, per_b; /* hashed as they stand */
     const struct wood_kind *kind; /* NULL: stools */
@@ -42,7 +42,7 @@ struct wood_stools {
 };
 
 struct wood_belt {
-    double from, to; /* m along the way: x going +x, -x going the other way */
+    double from, to; /* m: x for a rock going +x, -x for one going back */
     const struct wood_stratum *strata;
     size_t strata_count;
     const struct wood_stools *stools; /* NULL: none */
@@ -55,7 +55,7 @@ struct wood_belt {
 struct wood {
     bool bare; /* nothing to be met */
     size_t belts;
-    struct wood_belt *along[2]; /* the same belts for a way along +x and along -x, in the order they are come to */
+    struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     size_t strata;              /* the most of any belt */
     double reach;               /* m: the largest radius of any ring */
     size_t places;              /* 2^k - 1: far more stools than a rock can be among at a time */
@@ -85,7 +85,7 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
                      double b);
 void ceduo_wood_release(struct wood *wood);
 
-/* Mixes in what such a wood would be made of; false where there is nothing to be met. */
+/* Mixes in what such a forest would be made of; false where there is nothing to be met. */
 bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option, double b);
 
 #endif

@@ -40,7 +40,7 @@ enum field_flag {
     FIELD_PLACE = 1 << 7,    /* an x in the slope's coordinates; relative to its first vertex beside, or itself */
     FIELD_NOWHERE = 1 << 8,  /* no member holds it: what reads the files takes it from them */
     FIELD_DRAFT = 1 << 9,    /* as the files have it: the scene holds what follows from it */
-    FIELD_WOOD = 1 << 10,    /* it decides about stems, not about the ways of rocks without them */
+    FIELD_WOOD = 1 << 10,    /* it decides about stems, not about trajectories without them */
     FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
     FIELD_UNFLOWN = 1 << 12  /* it decides about no rock: a name, a limit that figures are held against */
 };
@@ -73,7 +73,7 @@ struct material_belt {
     int material;
 };
 
-/* A scene as its files give it: what they may say in another way than struct ceduo_scene stands behind it. */
+/* A scene as its files give it. Behind struct ceduo_scene stands what the files may say in another form. */
 struct scene_draft {
     struct ceduo_scene scene;
     size_t materials_count, controls_m_count, belts_count;

@@ -7,7 +7,7 @@
 /* Which option of a result is best at the last control. */
 
 /* What is compared: the share of the released with too much energy, or where that is not said that arrives, and its
- * difference to the first option's; with half the width of their 95 % intervals. NaN where it was not flown. */
+ * difference to the first option's; with half the width of their 95 % intervals. NaN where it was not simulated. */
 double ceduo_compare_share(const struct ceduo_result *result, size_t option, double *half);
 double ceduo_compare_difference(const struct ceduo_result *result, size_t option, double *half);
 
@@ -16,7 +16,7 @@ double ceduo_compare_difference(const struct ceduo_result *result, size_t option
 bool ceduo_compare_worse(const struct ceduo_result *result, size_t option, size_t than);
 
 struct ceduo_best {
-    bool known;                   /* otherwise too few options were flown */
+    bool known;                   /* otherwise too few options were simulated */
     size_t contact, energy;       /* the best by each */
     bool apart;                   /* contact tells the options apart */
     bool before_some, before_all; /* options that are worse than the best by energy */

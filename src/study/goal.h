@@ -13,7 +13,7 @@ struct ceduo_goal_row {
     const char *name;    /* in sentences */
     const char *unit;    /* of its value; "%": a share, 0…1 */
     bool below;          /* reached below the value; otherwise at most at it */
-    bool flies;          /* rocks answer it; otherwise the index of a forest alone */
+    bool flies;          /* rocks answer it; otherwise the index of a forest alone answers */
     const char *meaning; /* for the manual */
     const char *usual;   /* what the value is where none is given; NULL: it must be given */
 };

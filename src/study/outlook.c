@@ -6,7 +6,7 @@
 #include "base/grow.h"
 #include "ceduo/key.h"
 
-/* ---- ways ---- */
+/* ---- trajectories ---- */
 
 #define LINE_POINTS_MOST  20000 /* of a rock that hops on and on: what comes later is left out */
 #define FLIGHT_POINTS_MOST 64
@@ -118,7 +118,7 @@ size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x)
 
 /* ---- one run ---- */
 
-#define FLOWN_MOST 4000 /* rocks flown once more where a run is too long to keep its samples */
+#define FLOWN_MOST 4000 /* rocks simulated once more where a run is too long to keep its samples */
 
 static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel,
                                       struct ceduo_sight *s)
@@ -226,7 +226,7 @@ static struct ceduo_sight *find_sight(const struct ceduo_outlook *o, uint64_t ke
     return NULL;
 }
 
-/* A new reference to what is to be seen of a forest, NULL where it was not flown yet. */
+/* A new reference to what is to be seen of a forest, NULL where it was not simulated yet. */
 static enum ceduo_status get_sight(const struct ceduo_outlook_def *def, const struct ceduo_outlook *o,
                                    const struct ceduo_option *option, struct ceduo_sight **sight)
 {

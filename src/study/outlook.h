@@ -11,7 +11,7 @@
 /* What runs give for pictures: plain columns, never changed once they are made, so that one thread may make them and
  * another draw them. All x and z are relative to the slope's first vertex. */
 
-/* A rock's way as a polyline, its flights sampled finely enough for any picture. */
+/* A trajectory as a polyline, its flights sampled finely enough for any picture. */
 struct ceduo_polyline {
     size_t n;
     double *x, *z; /* m */
@@ -46,7 +46,7 @@ struct ceduo_outlook {
 };
 
 #define CEDUO_OUTLOOK_CELLS  200    /* places along the slope where a run should keep envelopes */
-#define CEDUO_OUTLOOK_TRAJECTORIES 200    /* ways that make a dense picture */
+#define CEDUO_OUTLOOK_TRAJECTORIES 200    /* trajectories that make a dense picture */
 #define CEDUO_OUTLOOK_SAMPLE 100000 /* energies kept for a histogram */
 
 /* Writes CEDUO_OUTLOOK_CELLS places, evenly from the release to the end of the slope, for a run's cells; returns how
@@ -56,13 +56,13 @@ size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x);
 /* What an outlook is made from. */
 struct ceduo_outlook_def {
     const struct ceduo_scene *scene;
-    const struct ceduo_pool *figures;  /* the runs; those of options may be missing, or not be flown yet */
+    const struct ceduo_pool *figures;  /* the runs; those of options may be missing, or have no rocks yet */
     const struct ceduo_pool *pictures; /* runs of the same rocks with envelopes, which may be shorter: envelopes make a
                                         * run five times as slow, and a picture needs no more than some thousand rocks;
                                         * where one is as long or longer, figures are read from it too */
     size_t cells;
     const double *cell_x;
-    size_t trajectories;                     /* ways that are followed for each */
+    size_t trajectories;                     /* trajectories that are followed for each */
     const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
     const struct ceduo_outlook *last;  /* whose sights are taken over where nothing has changed; NULL: none. It must be
                                         * of the same scene but for its forests */
