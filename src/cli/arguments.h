@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "io/part_file.h"
 #include "study/goal.h"
 #include "view/cells.h"
 #include "view/plot.h"
@@ -29,10 +30,8 @@ struct arguments {
     uint64_t rocks;     /* 0: the scene's */
     double tolerance;   /* 0: none */
     unsigned threads;
-    const char **sets;  /* PATH=VALUE, in their order, --seed among them */
-    size_t sets_count;
-    const char **options;
-    size_t options_count;
+    struct part_words sets; /* PATH=VALUE, in their order, --seed among them */
+    struct part_words options;
     char **scenes;
     size_t scenes_count;
     char seed[64];

@@ -23,9 +23,8 @@ static enum exit_status print_scene(const struct arguments *a, const struct scen
     return ceduo_print_report(a, file, &question, NULL, -1, out);
 }
 
-/* The shard of a scene, the `place`-th given, that was read by way of a shelf. */
-static enum exit_status put_shard(const struct arguments *a, const char *path, const struct shelf *shelf,
-                                  const struct scene_file *file, size_t place, struct text *out)
+enum exit_status ceduo_batch_shard(const struct arguments *a, const char *path, const struct shelf *shelf,
+                                   const struct scene_file *file, size_t place, struct text *out)
 {
     struct progress progress = ceduo_progress_begin(a);
     const struct ceduo_question q = ceduo_batch_question(a, file, &progress);
@@ -38,8 +37,6 @@ static enum exit_status put_shard(const struct arguments *a, const char *path, c
     const struct part_inputs inputs = {.path = path,
                                        .sets = a->sets,
                                        .options = a->options,
-                                       .sets_count = a->sets_count,
-                                       .options_count = a->options_count,
                                        .shelf = *shelf};
     unsigned char *runs, *texts = NULL;
     enum ceduo_status status = ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
@@ -66,7 +63,7 @@ static enum exit_status batch_scene(const struct arguments *a, size_t i, struct 
     if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
         status =
-            a->shards > 0 ? put_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
+            a->shards > 0 ? ceduo_batch_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
     }
     ceduo_scene_release(&file);
     return status;

@@ -12,6 +12,10 @@ enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
 
+/* Adds the shard of a scene, the `place`-th given, that was read through a shelf. */
+enum exit_status ceduo_batch_shard(const struct arguments *arguments, const char *path, const struct shelf *shelf,
+                                   const struct scene_file *file, size_t place, struct text *out);
+
 /* Opens the terminal program, or feeds it the script that was given. */
 enum exit_status ceduo_interactive_run(const struct arguments *arguments);
 

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Help, checks and reading of the command line, all from the table in options.c. The lists of changes and options are
+ * the arguments' own; their strings are those of main(). */
 #include "command_line.h"
 
 #include <getopt.h>
@@ -127,7 +129,7 @@ static enum exit_status check_arguments(struct arguments *a)
         return ceduo_usage(NULL, _("--size goes with --plot"));
     if (a->mode < MODE_HELP && check_unused(a) != EXIT_DONE)
         return EXIT_USAGE;
-    bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets_count > 0 || a->options_count > 0 || a->output ||
+    bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets.n > 0 || a->options.n > 0 || a->output ||
                       a->format != CEDUO_TABLE || a->stands;
     if (a->mode == MODE_TERMINAL && batch_only)
         return ceduo_usage(NULL, _("options such as -s, -n, -f and -o belong to --batch"));
@@ -176,9 +178,9 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     size_t most = (size_t)argc + 1;
     *a = (struct arguments){.threads = cores(),
                             .goal_value = NAN,
-                            .sets = calloc(most, sizeof *a->sets),
-                            .options = calloc(most, sizeof *a->options)};
-    if (!a->sets || !a->options)
+                            .sets.items = calloc(most, sizeof *a->sets.items),
+                            .options.items = calloc(most, sizeof *a->options.items)};
+    if (!a->sets.items || !a->options.items)
         return ceduo_usage_no_memory();
     opterr = 0;
     for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
@@ -205,6 +207,6 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
 
 void ceduo_arguments_free(struct arguments *a)
 {
-    free(a->sets);
-    free(a->options);
+    free(a->sets.items);
+    free(a->options.items);
 }

@@ -27,11 +27,11 @@ static void put(struct text *out, const struct arguments *a, const struct ceduo_
 /* The one option to look at. */
 static enum exit_status choose(const struct arguments *a, const struct scene_file *file, size_t *option)
 {
-    bool several = a->options_count == 0 && file->scene.options_count > 1;
+    bool several = a->options.n == 0 && file->scene.options_count > 1;
     *option = 0;
-    for (size_t i = 0; i < a->options_count; i++) {
+    for (size_t i = 0; i < a->options.n; i++) {
         size_t k;
-        if (ceduo_batch_option(file, a->options[i], &k) != EXIT_DONE)
+        if (ceduo_batch_option(file, a->options.items[i], &k) != EXIT_DONE)
             return EXIT_USAGE;
         several |= i > 0 && k != *option;
         *option = k;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --merge: the parts that --shard wrote, joined. */
+/* --merge: joins the parts that --shard wrote. Reads all files, sorts the parts into groups of one scene, checks that
+ * each group is whole, and prints each scene from its runs. The parts point into the texts of the files. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -259,9 +260,7 @@ static enum exit_status join(struct parts *all, size_t from, size_t end, const s
         return all->arena.failed ? out_of_memory(first) : unusable(all, first);
     struct arguments own = *a;
     own.sets = inputs.sets;
-    own.sets_count = inputs.sets_count;
     own.options = inputs.options;
-    own.options_count = inputs.options_count;
     struct scene_file file;
     enum exit_status status = ceduo_batch_read(&own, inputs.path, &inputs.shelf, &file);
     uint64_t key = status == EXIT_DONE ? ceduo_part_key(&file, first->rocks) : UINT64_MAX;

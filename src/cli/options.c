@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of the options, and a setter for each kind of value. What is set points into the arguments of main(). */
 #include "options.h"
 
 #include <math.h>
@@ -45,26 +46,19 @@ static enum exit_status set_word(struct arguments *a, const struct option_row *r
     return status;
 }
 
+static enum exit_status add_word(struct arguments *a, const struct option_row *row, char *value)
+{
+    struct part_words *words = (void *)((char *)a + row->at);
+    words->items[words->n++] = value;
+    return EXIT_DONE;
+}
+
 /* ---- setters of one option ---- */
 
 static enum exit_status set_quiet(struct arguments *a, const struct option_row *row, char *value)
 {
     (void)row, (void)value;
     a->quiet = true;
-    return EXIT_DONE;
-}
-
-static enum exit_status set_set(struct arguments *a, const struct option_row *row, char *value)
-{
-    (void)row;
-    a->sets[a->sets_count++] = value;
-    return EXIT_DONE;
-}
-
-static enum exit_status set_only(struct arguments *a, const struct option_row *row, char *value)
-{
-    (void)row;
-    a->options[a->options_count++] = value;
     return EXIT_DONE;
 }
 
@@ -145,7 +139,7 @@ static enum exit_status set_seed(struct arguments *a, const struct option_row *r
     if (status != EXIT_DONE)
         return status;
     snprintf(a->seed, sizeof a->seed, "simulation.seed=%llu", (unsigned long long)seed);
-    a->sets[a->sets_count++] = a->seed;
+    a->sets.items[a->sets.n++] = a->seed;
     return EXIT_DONE;
 }
 
@@ -238,7 +232,7 @@ static const struct option_row rows[] = {
      N_("how to print it (table)")},
     {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, NOT_CHECK,
      N_("where to; a regular file is written whole or not at all")},
-    {"set", 's', "PATH=VALUE", set_set, 0, MODE_TERMINAL, NOT_MERGE,
+    {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, NOT_MERGE,
      N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, NOT_MERGE | NOT_CHECK,
      N_("rocks simulated; with --tolerance the most")},
@@ -249,7 +243,7 @@ static const struct option_row rows[] = {
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},
     {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0,
      N_("threads; the result does not depend on them (all cores)")},
-    {"option", 0, "NAME", set_only, 0, MODE_TERMINAL, NOT_MERGE, N_("only this option of the scene; may be repeated")},
+    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE, N_("only this option of the scene; may be repeated")},
     {"years", 0, "A:B[:STEP]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
      N_("every option year by year, from the stands as filed (year 0)")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, NOT_PART | NOT_CHECK,

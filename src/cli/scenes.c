@@ -16,8 +16,8 @@
 
 static bool is_wanted(const struct arguments *a, const char *name)
 {
-    for (size_t i = 0; name && i < a->options_count; i++)
-        if (strcmp(a->options[i], name) == 0)
+    for (size_t i = 0; name && i < a->options.n; i++)
+        if (strcmp(a->options.items[i], name) == 0)
             return true;
     return false;
 }
@@ -40,11 +40,11 @@ enum exit_status ceduo_batch_option(const struct scene_file *file, const char *n
 /* Keeps only the options that were asked for, in the scene's order. */
 static enum exit_status choose(const struct arguments *a, struct scene_file *file)
 {
-    for (size_t i = 0, index; i < a->options_count; i++)
-        if (ceduo_batch_option(file, a->options[i], &index) != EXIT_DONE)
+    for (size_t i = 0, index; i < a->options.n; i++)
+        if (ceduo_batch_option(file, a->options.items[i], &index) != EXIT_DONE)
             return EXIT_USAGE;
     const struct node *list = ceduo_node_get(file->root, "options");
-    if (a->options_count == 0 || !list)
+    if (a->options.n == 0 || !list)
         return EXIT_DONE;
     for (size_t k = list->n; list && k-- > 0;)
         if (!is_wanted(a, ceduo_node_text(list->items[k], "name")))
@@ -62,7 +62,7 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
 {
     struct problems problems = {0};
     struct shelf own = {0}; /* what is read from the disk, for -o */
-    bool good = ceduo_scene_read_by(file, shelf ? shelf : &own, path, a->sets, a->sets_count, &problems);
+    bool good = ceduo_scene_read_by(file, shelf ? shelf : &own, path, a->sets.items, a->sets.n, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Walks the nodes of a document along the table of the scene. Each row says how its value is read and where it goes.
+ * The binder keeps the path to the present value for messages; a value that is wrong is noted by its path, and
+ * reading goes on. Lists and texts lie in the arena of the caller. */
 #include "bind.h"
 
 #include <math.h>
@@ -325,11 +328,11 @@ static bool want_list(struct binder *b, const struct node *node)
     return false;
 }
 
-static void *take(struct binder *b, size_t n, size_t size)
+void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems)
 {
-    void *p = ceduo_arena_take(b->arena, (n + 1) * size);
+    void *p = ceduo_arena_take(arena, (n + 1) * size);
     if (!p)
-        ceduo_problem_memory(b->problems);
+        ceduo_problem_memory(problems);
     return p;
 }
 
@@ -343,7 +346,7 @@ static void put_list(const struct field *f, void *item, void *items, size_t n)
 static void bind_numbers(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     double *values;
-    if (!want_list(b, node) || !(values = take(b, node->n, sizeof *values)))
+    if (!want_list(b, node) || !(values = ceduo_bind_take(b->arena, node->n, sizeof *values, b->problems)))
         return;
     put_list(f, item, values, node->n);
     for (size_t i = 0; i < node->n; i++) {
@@ -359,8 +362,8 @@ static void bind_points(struct binder *b, const struct field *f, const struct no
     double *xz[2];
     if (!want_list(b, node))
         return;
-    xz[0] = take(b, node->n, sizeof *xz[0]);
-    xz[1] = take(b, node->n, sizeof *xz[1]);
+    xz[0] = ceduo_bind_take(b->arena, node->n, sizeof *xz[0], b->problems);
+    xz[1] = ceduo_bind_take(b->arena, node->n, sizeof *xz[1], b->problems);
     if (!xz[0] || !xz[1])
         return;
     put_list(f, item, xz[0], node->n);
@@ -382,7 +385,7 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     char *items;
-    if (!want_list(b, node) || !(items = take(b, node->n, f->object->size)))
+    if (!want_list(b, node) || !(items = ceduo_bind_take(b->arena, node->n, f->object->size, b->problems)))
         return;
     put_list(f, item, items, node->n);
     for (size_t i = 0; i < node->n; i++) {

@@ -22,6 +22,9 @@ struct bad_values {
 void ceduo_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
                 struct problems *problems, const struct source_note **notes, struct bad_values *bad);
 
+/* Room for n + 1 items in the arena. NULL without memory, which is told. */
+void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems);
+
 /* Reports a problem at a node, with the path of the value within its file. */
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

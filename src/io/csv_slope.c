@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A profile from a CSV file: the header names the columns, each row is checked against the one before. */
 #include "derive.h"
 
 #include <stdlib.h>

@@ -38,14 +38,6 @@ void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within
     ceduo_text_free(&message);
 }
 
-void *ceduo_derive_take(struct deriver *d, size_t n, size_t size)
-{
-    void *p = ceduo_arena_take(d->arena, (n + 1) * size);
-    if (!p)
-        ceduo_problem_memory(d->problems);
-    return p;
-}
-
 const char *ceduo_derive_text(struct deriver *d, const char *format, ...)
 {
     va_list args;

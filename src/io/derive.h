@@ -57,9 +57,6 @@ void ceduo_derive_complain(struct deriver *d, const char *path, const char *form
 /* The same at a path and what it goes on with. In the format %s stands for x, a second one for y. */
 void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x, double y);
 
-/* Room for n + 1 in the file's arena. */
-void *ceduo_derive_take(struct deriver *d, size_t n, size_t size);
-
 /* A text in the arena, such as the path of an item. */
 const char *ceduo_derive_text(struct deriver *d, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The places of a scene: release, controls, belts and their stands, relative to the first vertex of the slope, and
+ * whether they fit together. Lists that are made here lie in the arena of the deriver. */
 #include "derive.h"
 
 #include <math.h>
@@ -53,7 +55,7 @@ static bool list_controls(struct deriver *d, size_t n)
 {
     struct ceduo_scene *scene = &d->draft.scene;
     const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "controls")->object;
-    if (!(scene->controls = ceduo_derive_take(d, n, sizeof *scene->controls)))
+    if (!(scene->controls = ceduo_bind_take(d->arena, n, sizeof *scene->controls, d->problems)))
         return false;
     for (size_t i = 0; i < n; i++) {
         ceduo_schema_init(object, &scene->controls[i]);
@@ -189,7 +191,7 @@ static void derive_belts(struct deriver *d, const char *path, struct ceduo_optio
 static void derive_forest(struct deriver *d)
 {
     struct ceduo_scene *scene = &d->draft.scene;
-    if (!(scene->options = ceduo_derive_take(d, 1, sizeof *scene->options)))
+    if (!(scene->options = ceduo_bind_take(d->arena, 1, sizeof *scene->options, d->problems)))
         return;
     scene->options[0] = (struct ceduo_option){
         .name = (char *)(uintptr_t) "current", .belts_count = d->draft.belts_count, .belts = d->draft.belts};

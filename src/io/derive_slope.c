@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The slope: vertices from the scene or a CSV file, made relative to the first; then the ground of each segment, given
+ * directly, by materials, or talus. A slope whose nodes are those of the last time is taken over whole. */
 #include "derive.h"
 
 #include <math.h>
@@ -55,8 +57,8 @@ static bool check_vertices(struct deriver *d, const struct points *p)
 static bool make_vertices(struct deriver *d, const struct points *p, size_t extra)
 {
     struct ceduo_slope *s = &d->draft.scene.slope;
-    s->x = ceduo_derive_take(d, p->n + extra, sizeof(double));
-    s->z = ceduo_derive_take(d, p->n + extra, sizeof(double));
+    s->x = ceduo_bind_take(d->arena, p->n + extra, sizeof(double), d->problems);
+    s->z = ceduo_bind_take(d->arena, p->n + extra, sizeof(double), d->problems);
     if (!s->x || !s->z)
         return false;
     s->vertices = p->n;
@@ -105,7 +107,7 @@ static void make_segments(struct deriver *d)
     if (s->segments_given != 1)
         return;
     const struct ceduo_segment all = s->segments[0];
-    s->segments = ceduo_derive_take(d, s->vertices - 1, sizeof *s->segments);
+    s->segments = ceduo_bind_take(d->arena, s->vertices - 1, sizeof *s->segments, d->problems);
     for (size_t i = 0; s->segments && i + 1 < s->vertices; i++)
         s->segments[i] = all;
 }
@@ -164,7 +166,7 @@ static void make_materials(struct deriver *d)
     const struct ceduo_material *library = ceduo_materials(&count);
     for (size_t i = 1; i < n; i++)
         split_at(s, rows[i].from - d->origin);
-    s->segments = ceduo_derive_take(d, s->vertices - 1, sizeof *s->segments);
+    s->segments = ceduo_bind_take(d->arena, s->vertices - 1, sizeof *s->segments, d->problems);
     if (!s->segments)
         return;
     ceduo_derive_assume(d, "slope.materials",
@@ -181,7 +183,7 @@ static void make_talus(struct deriver *d)
     struct ceduo_slope *s = &d->draft.scene.slope;
     d->ground_assumed = true;
     ceduo_derive_assume(d, "slope", _("talus everywhere, its roughness and friction too"));
-    s->segments = ceduo_derive_take(d, s->vertices - 1, sizeof *s->segments);
+    s->segments = ceduo_bind_take(d->arena, s->vertices - 1, sizeof *s->segments, d->problems);
     for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
         s->segments[j] = segment_of(ceduo_material_talus());
 }

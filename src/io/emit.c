@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes a tree as YAML: in brackets where that fits on a line, otherwise in blocks. A changed document is patched:
+ * only the bytes of values that differ are replaced, and the result must read back as the tree; otherwise it is laid
+ * out anew. */
 #include "emit.h"
-#include "base/utf8.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+#include "base/utf8.h"
 
 #define FLOW_MOST 100 /* columns of a mapping or list on one line */
 

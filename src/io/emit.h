@@ -17,7 +17,7 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
 bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old,
                         const struct node *root);
 
-/* The same on one line. */
+/* Adds any tree on one line. */
 void ceduo_emit_flow(struct text *text, const struct node *node);
 
 /* One scalar as it is written in YAML. */

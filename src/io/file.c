@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads and writes whole files, and finds them. A file is written beside its target and then takes its place
+ * (temporary.c); what is no regular file is written straight. Reading never waits for ever. What is read lies in the
+ * arena of the caller; where this has a shelf, each file is read once and kept there. */
 #include "file.h"
 
 #include <dirent.h>

@@ -9,7 +9,7 @@
 
 enum node_kind { NODE_SCALAR, NODE_MAP, NODE_LIST };
 
-/* A value of a YAML file. Nodes never change once made: an edit makes new ones on the way from the root to it and shares
+/* A value of a YAML file. Nodes never change once made: an edit makes new ones from the root down to it and shares
  * the rest, so that every earlier state of a document stays whole. */
 struct node {
     enum node_kind kind;

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A part as a line of JSON with its data in base64 and a sum at the end. A line is decoded in place: a part points
+ * into the text that its file was read into. The inputs are packed by base/bytes.h, and so is what the key is the
+ * hash of. */
 #include "part_file.h"
 
 #include <inttypes.h>
@@ -296,8 +299,8 @@ unsigned char *ceduo_part_inputs(const struct part_inputs *in, size_t *n)
     struct bytes b = {0};
     uint64_t finds = 0, files = 0;
     pack_word(&b, in->path);
-    pack_words(&b, in->sets, in->sets_count);
-    pack_words(&b, in->options, in->options_count);
+    pack_words(&b, in->sets.items, in->sets.n);
+    pack_words(&b, in->options.items, in->options.n);
     for (const struct shelf_find *f = in->shelf.finds; f; f = f->before)
         finds++;
     pack_count(&b, finds);
@@ -332,20 +335,18 @@ static const char *unpack_word(struct arena *arena, struct bytes *b)
 }
 
 /* Words that must all be there. */
-static const char **unpack_words(struct arena *arena, struct bytes *b, size_t *n)
+static struct part_words unpack_words(struct arena *arena, struct bytes *b)
 {
     uint64_t count;
     ceduo_bytes_count(b, &count);
-    *n = 0;
     b->bad |= count > ceduo_bytes_left(b) / 8;
     const char **words = b->bad ? NULL : ceduo_arena_take(arena, ((size_t)count + 1) * sizeof *words);
     b->bad |= !words;
     for (uint64_t i = 0; i < count && !b->bad; i++) {
         words[i] = unpack_word(arena, b);
         b->bad |= !words[i];
-        *n = (size_t)i + 1;
     }
-    return words;
+    return (struct part_words){words, b->bad ? 0 : (size_t)count};
 }
 
 static void unpack_find(struct arena *arena, struct bytes *b, struct shelf *shelf)
@@ -376,8 +377,8 @@ bool ceduo_part_inputs_read(struct arena *arena, struct part_inputs *in, const u
     struct bytes b = {.reads = true, .from = bytes, .length = n};
     uint64_t count;
     *in = (struct part_inputs){.path = unpack_word(arena, &b)};
-    in->sets = unpack_words(arena, &b, &in->sets_count);
-    in->options = unpack_words(arena, &b, &in->options_count);
+    in->sets = unpack_words(arena, &b);
+    in->options = unpack_words(arena, &b);
     ceduo_bytes_count(&b, &count);
     for (uint64_t i = 0; i < count && !b.bad; i++)
         unpack_find(arena, &b, &in->shelf);

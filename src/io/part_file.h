@@ -41,10 +41,13 @@ enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *li
 uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks);
 
 /* How a scene was read. */
+struct part_words {
+    const char **items;
+    size_t n;
+};
 struct part_inputs {
     const char *path; /* as it was given */
-    const char **sets, **options; /* PATH=VALUE; names */
-    size_t sets_count, options_count;
+    struct part_words sets, options; /* PATH=VALUE; names */
     struct shelf shelf;
 };
 

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Follows references: a reference is replaced by the tree of its file, which remembers what was written in its place;
+ * a stand is merged over its base. Then paths: walking along one, and setting a value, which copies the nodes from
+ * the root to it. All nodes lie in the arena of the caller; none is changed once it was handed out. */
 #include "resolve.h"
 
 #include <stdint.h>

@@ -20,7 +20,7 @@ const char *ceduo_resolve_path(struct arena *arena, const struct node *node, con
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
                                      size_t path_length, const struct node *value, struct problems *problems);
 
-/* The deepest node on the way along `path` that there is; `*within` is the part of the path from its file's root on,
+/* The deepest node along `path` that exists; `*within` is the part of the path from its file's root on,
  * `*used` how many bytes of the path led to it. */
 const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used);
 

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a path to a scene: the file is found and read, changes are applied from left to right, references are
+ * followed, and the tree is bound. The arena of the scene file owns all that comes of it. */
 #include "scene_file.h"
 
 #include <errno.h>

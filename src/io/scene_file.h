@@ -21,7 +21,7 @@ struct scene_file {
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems);
-/* The same by way of a shelf (see file.h), which must outlive the scene; NULL: as above. What stands on it already must
+/* The same through a shelf (see file.h), which must outlive the scene; NULL: as above. What stands on it already must
  * live elsewhere. */
 bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const char *path, const char *const *sets,
                          size_t sets_count, struct problems *problems);
@@ -38,7 +38,7 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
 /* True where some value below `path` is marked as an assumption, but for growth and cutting. */
 bool ceduo_scene_assumes(const struct scene_file *file, const char *path);
 
-/* The note of the innermost mapping on the way to a value; NULL where nothing is said. */
+/* The note of the innermost mapping around a value; NULL where nothing is said. */
 const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path);
 
 /* True where that note calls it an assumption. */

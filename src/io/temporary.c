@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "temporary.h"
-#include "base/utf8.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -12,6 +11,8 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "base/utf8.h"
 
 #define MARK      ".ceduo-tmp-"
 #define TAIL      24 /* bytes of the longest number of a process, a hyphen and a count */

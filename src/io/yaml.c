@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the events of libyaml into nodes, by recursion, and refuses what a scene does not need: aliases, tags, deep
+ * nesting. Entries are collected on the heap and copied into the arena once their number is known. The first problem
+ * stops. */
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>

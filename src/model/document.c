@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene, every state that it was in, opening and closing. Edits are in document_edit.c, the file in document_save.c.
- *
- * A state is a tree; trees share what they have in common, and all lie in the arena of the scene's file, which is freed
- * when the document closes. What is shown is the scene bound from one of them. */
+/* The scene, every state that it was in, opening and closing. Edits are in document_edit.c, the file in
+ * document_save.c.  A state is a tree; trees share what they have in common, and all lie in the arena of the scene's
+ * file, which is freed when the document closes. What is shown is the scene bound from one of them. */
 #include "document.h"
 
 #include <stdlib.h>
@@ -10,7 +9,6 @@
 
 #include "base/grow.h"
 #include "base/intl.h"
-#include "document_parts.h"
 #include "io/file.h"
 #include "io/resolve.h"
 #include "recovery.h"

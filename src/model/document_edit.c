@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements edits: each makes a changed copy of the tree and commits it. */
+/* Edits. Each makes a changed tree, which shares all but the nodes on the path to the change, and commits it as a new
+ * state. All nodes lie in the arena of the document's file. */
 #include "document.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "document_parts.h"
 #include "io/file.h"
 #include "io/resolve.h"
 

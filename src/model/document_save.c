@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements saving, and the copy of unsaved work that survives a crash. */
+/* Saving, and the copy of unsaved work that survives a crash. References are written as they were given, the rest as
+ * a patch of the old text where that is possible. */
 #include "document.h"
 
 #include <errno.h>
@@ -9,7 +10,6 @@
 #include <unistd.h>
 
 #include "base/intl.h"
-#include "document_parts.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"

@@ -5,11 +5,11 @@
 #include "ceduo/years.h"
 #include "study/outlook.h"
 
-/* The runs that the live program keeps from request to request, flown in steps from coarse to fine. Short runs carry the
+/* The runs that the live program keeps from request to request, simulated in steps from coarse to fine. Short runs carry the
  * envelopes of the pictures, long ones the figures, and those of years only what arrives. */
 struct flights;
 
-#define FLIGHTS_FIRST     1024   /* rocks of the first step; each further one flies ten times as many */
+#define FLIGHTS_FIRST     1024   /* rocks of the first step; each further one simulates ten times as many */
 #define FLIGHTS_PICTURE   10240  /* enough for envelopes */
 #define FLIGHTS_YEAR      10240  /* of each year */
 #define FLIGHTS_MOST      102400 /* of each forest */

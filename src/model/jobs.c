@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One thread takes the coarsest step of all jobs, works on a copy of the job without the lock, and hands the result
+ * over if the job was not replaced meanwhile. A new job cancels the step under way. The queue owns results until they
+ * are fetched. */
 #include "jobs.h"
 
 #include <fcntl.h>

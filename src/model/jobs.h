@@ -5,7 +5,7 @@
 #include "flights.h"
 #include "seek.h"
 
-/* The queue of jobs of the live program: one thread in the background flies rocks over a snapshot of the scene. A job goes
+/* The queue of jobs of the live program: one thread in the background simulates rocks on a snapshot of the scene. A job goes
  * in steps from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one cancels
  * the one before, and any new one interrupts the step under way, which is continued later. */
 struct jobs;

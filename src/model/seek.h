@@ -7,8 +7,8 @@
 #include "study/goal.h"
 
 /* The value of one parameter of a scene for which one option reaches a goal at its worst control: reserves per ha, a
- * rotation, the length of a belt … The same rocks fly for every value, so that the answer is one number and not another
- * the next time. */
+ * rotation, the length of a belt … Every value is tried with the same rocks, so that the answer is the same each
+ * time. */
 
 struct seek {
     struct scene_file *file; /* as it was read; the search leaves it at its last value */

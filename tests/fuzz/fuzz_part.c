@@ -285,14 +285,12 @@ static bool take_inputs(const uint8_t *data, size_t n)
     if (good) {
         check_inputs(&in, data, n);
         const struct arguments a = {.sets = in.sets,
-                                    .sets_count = in.sets_count,
                                     .options = in.options,
-                                    .options_count = in.options_count,
                                     .threads = 1};
         struct scene_file file;
         enum exit_status status = ceduo_batch_read(&a, in.path, &in.shelf, &file);
         expect(status != EXIT_DONE || in.shelf.files, "a scene that the inputs do not hold");
-        good = status == EXIT_DONE && ceduo_batch_choose(&a, &file) == EXIT_DONE;
+        good = status == EXIT_DONE;
         if (good) {
             struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
             struct ceduo_pool *pool;
@@ -456,7 +454,7 @@ static void try_lines(const char *scene, const char *folder)
     try_own(PARTS, all.bytes, all.length, folder);
     size_t n;
     static const char *sets[] = {"rock.diameter_m=1"};
-    const struct part_inputs in = {.path = SCENE, .sets = sets, .sets_count = 1, .shelf = m.shelf};
+    const struct part_inputs in = {.path = SCENE, .sets = {sets, 1}, .shelf = m.shelf};
     unsigned char *bytes = ceduo_part_inputs(&in, &n);
     try_own(INPUTS, bytes, n, folder);
     free(bytes);

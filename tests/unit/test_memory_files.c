@@ -124,7 +124,7 @@ static bool add_inputs(const struct part_inputs *in)
     bool good = ceduo_part_inputs_read(&arena, &again, bytes, n);
     if (good) {
         assert_string_equal(again.path, in->path);
-        assert_int_equal(again.sets_count, in->sets_count);
+        assert_int_equal(again.sets.n, in->sets.n);
         assert_true(again.shelf.closed);
         add(bytes, n);
     }
@@ -147,7 +147,7 @@ static bool read_scene(void)
         uint64_t key = ceduo_part_key(&file, 10);
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
-        struct part_inputs in = {.path = scene_path, .sets = sets, .sets_count = 4, .shelf = shelf};
+        struct part_inputs in = {.path = scene_path, .sets = {sets, 4}, .shelf = shelf};
         good = key != 0 && !text.failed && add_inputs(&in) && !ceduo_text_lost();
         if (good)
             add_text(&text);

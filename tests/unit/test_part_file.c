@@ -144,14 +144,14 @@ static void inputs_are_refused(void **state)
     (void)state;
     const char *sets[] = {"a=1"}, *options[] = {"one", "two", ""};
     struct arena arena = {0};
-    struct part_inputs in = {.path = "scene.yaml", .sets = sets, .options = options, .sets_count = 1, .options_count = 3}, back;
+    struct part_inputs in = {.path = "scene.yaml", .sets = {sets, 1}, .options = {options, 3}}, back;
     assert_true(ceduo_shelf_find(&arena, &in.shelf, "s", NULL, "stands", "/s.yaml"));
     assert_true(ceduo_shelf_file(&arena, &in.shelf, "/s.yaml", "text", 4));
     size_t n;
     unsigned char *bytes = ceduo_part_inputs(&in, &n);
     assert_true(ceduo_part_inputs_read(&arena, &back, bytes, n));
-    assert_string_equal(back.options[1], "two");
-    assert_string_equal(back.options[2], "");
+    assert_string_equal(back.options.items[1], "two");
+    assert_string_equal(back.options.items[2], "");
     assert_null(back.shelf.finds->beside);
     assert_string_equal(back.shelf.finds->folder, "stands");
     assert_memory_equal(back.shelf.files->bytes, "text", 5);
