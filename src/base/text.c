@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Growing strings, and numbers as text and back. A text owns its bytes; ceduo_text_free() gives them back. The shortest
+ * decimal of a number is found by printing more and more digits until it reads back as the same. */
 #include "text.h"
 
 #include <float.h>

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The slope, prepared. Vertices on one line with the same ground are merged; then blocks of 2^GROUND_BITS segments, and
+ * blocks of those, each get a bound of how far the ground rises above their chord, so that a long flight passes a whole block
+ * at once. The ground owns its columns but points to the slope's segments. */
 #include "ground.h"
 
 #include <float.h>

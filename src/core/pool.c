@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One run for each different forest of a scene. Runs are found by the key of their forest (key.c); the pool owns them, and
+ * drops those that its scene no longer needs, the one asked for longest ago first. */
 #include "ceduo/pool.h"
 
 #include <stdlib.h>

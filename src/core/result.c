@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Results: what is read from the runs of a pool, or from what was read before, and every option assessed by it. A result owns
+ * all its columns and points to the scene. */
 #include "ceduo/result.h"
 
 #include <math.h>

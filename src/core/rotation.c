@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A stand in the years to come, as rotation.h describes: before the first cut the inventory grows along its curves, after
+ * it the stand follows from the years since the last cut alone. A grown stand owns one array, its shoots and then its
+ * trees. */
 #include "ceduo/rotation.h"
 
 #include <float.h>

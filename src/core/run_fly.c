@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One chunk of a run, on several threads. Workers take blocks of CEDUO_BLOCK_ROCKS from a common counter. Each owns its
+ * walkers, stems and histograms, and writes samples of its rocks into the columns of the run, where no two rocks share a place.
+ * A block is summed in the order of its rocks, blocks are merged in their order: the result does not depend on threads. */
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of a run as bytes, and back. One function packs each thing in both directions. A part is read twice: first all of
+ * it is checked, then its blocks are merged into the run. */
 #include "run_pack.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The stems that a rock can hit, drawn as it reaches them. In each direction every stratum is a stream of exponential gaps.
+ * The next stem is the nearest of all streams. A stool is drawn whole and its shoots wait, sorted, because they stand around
+ * its centre. Work is counted as effort, and drawing pauses now and then, so that a caller can cancel. */
 #include "stems.h"
 
 #include <gsl/gsl_randist.h>

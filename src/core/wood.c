@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An option's forest, prepared for drawing stems. Every belt becomes strata, each with a rate of encounters per metre; by
+ * `stems` these are stools and classes of trees, by `poisson` the terms of the chosen ADC. The forest owns all kinds, strata
+ * and rings; belts only point to them. The key of a forest is hashed from the same kinds and strata. */
 #include "wood.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers of a scene by their paths. A finder follows the path step by step through the table of keys and at the same
+ * time through the scene's memory, until it holds one number. A value only points into the scene, which owns everything. */
 #include "value.h"
 
 #include <math.h>

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The search for the value at which a goal crosses its target. Both ends are looked at; where they agree, so are some
+ * values between them. Then the bracket around one crossing is narrowed by Brent's method, and by bisection where that does not
+ * help. All values that were looked at are kept, sorted: none is asked for twice, and they tell whether the goal turns. */
 #include "ceduo/find.h"
 
 #include <float.h>

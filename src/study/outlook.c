@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What runs give for pictures. For each forest a sight holds what arrived, the envelopes, some energies and some
+ * trajectories. Sights are shared by counted references, so an outlook takes over from the last one what has not changed. */
 #include "outlook.h"
 
 #include <math.h>
