@@ -12,8 +12,8 @@
  *
  *     run.c          makes, extends and frees a run, chunk by chunk
  *     run_fly.c      simulates the rocks of one chunk on several threads
- *     run_sums.c     sums of a block, merged in the order of the blocks
- *     run_samples.c  what is kept of single rocks: every value, or histograms where there are too many
+ *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
+ *                    histograms where there are too many
  *     run_read.c     arrivals, differences and ends, read from sums and samples
  *     run_pack.c     parts as bytes, and back */
 
