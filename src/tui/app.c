@@ -182,7 +182,7 @@ bool ceduo_app_news(struct app *app)
     return changed;
 }
 
-/* ---- the way of a rock ---- */
+/* ---- the trajectory of a rock ---- */
 
 static void say_way(struct app *app)
 {

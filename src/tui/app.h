@@ -63,8 +63,8 @@ struct app {
     struct view_state views[VIEW_COUNT];
     size_t option, belt;   /* that the views show */
     size_t year;           /* index of the one under the cursor */
-    uint64_t rock;         /* whose way is shown */
-    struct rock_trajectory way;   /* that way */
+    uint64_t rock;         /* whose trajectory is shown */
+    struct rock_trajectory way; /* that trajectory */
     bool editing;
     struct line line;      /* what is typed into the field */
     char message[512];     /* of the last action; shown until the next key */
@@ -127,17 +127,17 @@ void ceduo_app_stand(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
-/* What arrives at the last control in the column on the right: through the wood of the option shown, by the index on the
+/* What arrives at the last control in the column on the right: through the forest of the option shown, by the index on the
  * bare slope; NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
 
 /* Shows the belt that the cursor of the form is on. */
 void ceduo_app_follow_belt(struct app *app);
 
-/* Follows the way of the rock that is shown through the forest of the option shown, unless it is that way already. */
+/* Follows the rock that is shown through the forest of the option shown, unless that trajectory is there already. */
 bool ceduo_app_follow_rock(struct app *app);
 
-/* Shows the way of the rock `by` further, or so many pieces more of it, and says what happens there. */
+/* Shows the trajectory of the rock `by` further, or so many pieces more of it, and says what happens there. */
 void ceduo_app_next_rock(struct app *app, int by);
 void ceduo_app_step_rock(struct app *app, int by);
 

@@ -59,7 +59,7 @@ static void figure(char *to, size_t size, double value)
     snprintf(to, size, isnan(value) ? "-" : "%.3g", value);
 }
 
-/* A line of the figures, wood first: the column of the bare slope stands beside it. */
+/* A line of the figures, those of the forest first: the column of the bare slope stands beside it. */
 static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, const char *wood, const char *bare)
 {
     int column = pen->area.width >= 34 ? 15 : 8;
@@ -75,7 +75,7 @@ static void put_figures(struct pen *pen, const char *name, double wood, double b
     put_pair(pen, CEDUO_ROLE_TEXT, name, a, b);
 }
 
-/* What arrives through the wood beside what arrives without it; `wood` NULL: not known yet, or never (index). */
+/* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). */
 static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
                          const struct ceduo_arrivals *bare)
 {
@@ -127,7 +127,7 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
     put_light(pen, _("Energy"), what, index->energy);
 }
 
-/* How the ways through the wood end. */
+/* How the rocks end in the forest. */
 static void put_ends(struct pen *pen, const struct ceduo_flown *f)
 {
     double n = (double)f->rocks;

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "study/outlook.h"
 
-/* The way of one rock, piece by piece: flights, and rolls along the ground. */
+/* The trajectory of one rock, piece by piece: flights, and rolls along the ground. */
 struct rock_trajectory {
     uint64_t key, rock; /* of the run and the rock that they were followed for */
     size_t n, room, at; /* pieces; how many of them are shown, 0: all */
@@ -19,8 +19,8 @@ struct rock_trajectory {
     struct ceduo_polyline line; /* what is shown of it */
 };
 
-/* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that way
- * already. False without memory. */
+/* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that
+ * trajectory already. False without memory. */
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *way, const struct ceduo_scene *scene, const struct ceduo_option *option,
                         uint64_t key, uint64_t rock);
 
@@ -30,7 +30,7 @@ void ceduo_rock_trajectory_move(struct rock_trajectory *way, int by);
 /* How many of the stems lie on what is shown. */
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *way);
 
-/* What happens where the way is shown to, or how it ends. */
+/* Says what happens on the last piece shown, or how the trajectory ends. */
 void ceduo_rock_trajectory_say(const struct rock_trajectory *way, const struct ceduo_scene *scene, struct text *text);
 
 void ceduo_rock_trajectory_free(struct rock_trajectory *way);

@@ -21,37 +21,32 @@
 
 /* ---- colours ---- */
 
-struct look {
-    short colour; /* of curses, -1: the terminal's own */
+/* By role. Meaning is never in colour alone: words and signs stand beside it. */
+static const struct look {
+    short dark, light; /* colours of curses by theme, -1: the terminal's own */
     attr_t attributes;
+} looks[CEDUO_ROLE_COUNT] = {
+    [CEDUO_ROLE_BLANK] = {-1, -1, A_NORMAL},
+    [CEDUO_ROLE_TEXT] = {-1, -1, A_NORMAL},
+    [CEDUO_ROLE_DIM] = {-1, -1, A_DIM},
+    [CEDUO_ROLE_TITLE] = {-1, -1, A_BOLD},
+    [CEDUO_ROLE_AXIS] = {-1, -1, A_DIM},
+    [CEDUO_ROLE_GROUND] = {COLOR_YELLOW, COLOR_BLACK, A_NORMAL},
+    [CEDUO_ROLE_CLOUD] = {COLOR_CYAN, COLOR_BLUE, A_NORMAL},
+    [CEDUO_ROLE_ENVELOPE] = {COLOR_BLUE, COLOR_BLUE, A_NORMAL},
+    [CEDUO_ROLE_MEAN] = {-1, -1, A_BOLD},
+    [CEDUO_ROLE_WAY] = {COLOR_MAGENTA, COLOR_MAGENTA, A_BOLD},
+    [CEDUO_ROLE_STEM] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
+    [CEDUO_ROLE_STOOL] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
+    [CEDUO_ROLE_BELT] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
+    [CEDUO_ROLE_CONTROL] = {COLOR_RED, COLOR_RED, A_NORMAL},
+    [CEDUO_ROLE_GOOD] = {COLOR_GREEN, COLOR_GREEN, A_BOLD},
+    [CEDUO_ROLE_BAD] = {COLOR_RED, COLOR_RED, A_BOLD},
+    [CEDUO_ROLE_WARN] = {COLOR_YELLOW, COLOR_RED, A_NORMAL},
+    [CEDUO_ROLE_BARE] = {COLOR_CYAN, COLOR_BLUE, A_NORMAL},
+    [CEDUO_ROLE_WOOD] = {COLOR_GREEN, COLOR_GREEN, A_NORMAL},
+    [CEDUO_ROLE_CURSOR] = {-1, -1, A_REVERSE},
 };
-
-/* By theme: dark, light, none. Meaning is never in colour alone: words and signs stand beside it. */
-static struct look look_of(enum ceduo_role role, int theme)
-{
-    bool light = theme == 1;
-    switch (role) {
-    case CEDUO_ROLE_DIM: return (struct look){-1, A_DIM};
-    case CEDUO_ROLE_TITLE: return (struct look){-1, A_BOLD};
-    case CEDUO_ROLE_AXIS: return (struct look){-1, A_DIM};
-    case CEDUO_ROLE_GROUND: return (struct look){light ? COLOR_BLACK : COLOR_YELLOW, A_NORMAL};
-    case CEDUO_ROLE_CLOUD: return (struct look){light ? COLOR_BLUE : COLOR_CYAN, A_NORMAL};
-    case CEDUO_ROLE_ENVELOPE: return (struct look){COLOR_BLUE, A_NORMAL};
-    case CEDUO_ROLE_MEAN: return (struct look){-1, A_BOLD};
-    case CEDUO_ROLE_WAY: return (struct look){COLOR_MAGENTA, A_BOLD};
-    case CEDUO_ROLE_STEM:
-    case CEDUO_ROLE_STOOL:
-    case CEDUO_ROLE_BELT: return (struct look){COLOR_GREEN, A_NORMAL};
-    case CEDUO_ROLE_CONTROL: return (struct look){COLOR_RED, A_NORMAL};
-    case CEDUO_ROLE_GOOD: return (struct look){COLOR_GREEN, A_BOLD};
-    case CEDUO_ROLE_BAD: return (struct look){COLOR_RED, A_BOLD};
-    case CEDUO_ROLE_WARN: return (struct look){light ? COLOR_RED : COLOR_YELLOW, A_NORMAL};
-    case CEDUO_ROLE_BARE: return (struct look){light ? COLOR_BLUE : COLOR_CYAN, A_NORMAL};
-    case CEDUO_ROLE_WOOD: return (struct look){COLOR_GREEN, A_NORMAL};
-    case CEDUO_ROLE_CURSOR: return (struct look){-1, A_REVERSE};
-    default: return (struct look){-1, A_NORMAL};
-    }
-}
 
 static bool colours_wanted(void)
 {
@@ -132,11 +127,12 @@ static void set_handlers(void)
 static void put_cell(const struct ceduo_cells *cells, int x, int y, int theme, bool colours)
 {
     uint32_t code = ceduo_cells_glyph(cells, x, y);
-    struct look look = look_of(ceduo_cells_role(cells, x, y), theme);
+    const struct look *look = &looks[ceduo_cells_role(cells, x, y)];
+    short colour = theme == 0 ? look->dark : theme == 1 ? look->light : -1;
     wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
     cchar_t cell;
-    short pair = colours && theme < 2 && look.colour >= 0 ? (short)(look.colour + 1) : 0;
-    if (setcchar(&cell, text, look.attributes, pair, NULL) == OK)
+    short pair = colours && colour >= 0 ? (short)(colour + 1) : 0;
+    if (setcchar(&cell, text, look->attributes, pair, NULL) == OK)
         mvadd_wch(y, x, &cell);
 }
 
@@ -267,9 +263,9 @@ const char *ceduo_terminal_missing(void)
     return move && move != (char *)-1 ? NULL : _("this terminal cannot place the cursor");
 }
 
-/* The terminal's keys by a way in of our own, on which a read never waits; NULL where it cannot be opened. Curses reads on
- * behind an event of the mouse that nobody wants, a button's release, and nodelay() does not hold there: all would stand
- * still until the next key. Standard input itself stays as it is, it is the shell's too. */
+/* Opens the terminal once more for its keys, so that a read never waits; NULL if that fails. After an unwanted mouse
+ * event, such as the release of a button, curses reads on and ignores nodelay(): the program would hang until the next
+ * key. Standard input itself stays as it is, because the shell uses it too. */
 static FILE *open_keys(void)
 {
     const char *name = ttyname(STDIN_FILENO);

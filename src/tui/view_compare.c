@@ -22,7 +22,7 @@ static void build(struct app *app, struct form *form)
 
 #define FIGURES 43 /* columns of the figures and the lights */
 
-/* What is compared; by the index what the stems take and what is left, otherwise what comes through the wood. */
+/* What is compared; by the index what the stems take and what is left, otherwise what comes through the forest. */
 enum column { ADC, FREE_RUN, TAKEN, LEFT, INDEX_COLUMNS, SHARE = TAKEN, DIFFERENCE = LEFT };
 #define COLUMNS INDEX_COLUMNS
 

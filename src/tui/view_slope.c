@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 1: the slope, the rocks' ways over it, height and energy along it; its ground, belts and controls to edit. */
+/* View 1: the slope, the rocks' trajectories over it, height and energy along it; its ground, belts and controls to edit. */
 
 #include "app.h"
 #include "base/intl.h"
@@ -88,7 +88,7 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, below, true);
 }
 
-/* In the picture left and right go from rock to rock, up and down along its way. */
+/* In the picture left and right go from rock to rock, up and down along its trajectory. */
 static bool act(struct app *app, enum action action)
 {
     if (ceduo_app_state(app)->pane != 1)

@@ -34,7 +34,7 @@ struct ceduo_cells {
     enum ceduo_charset charset;
     struct ceduo_canvas canvas; /* to draw pictures on it */
     struct ceduo_cell *cell;    /* width * height, row after row */
-    uint32_t *density;          /* of ways, one count a dot, row after row; NULL before a cloud is started */
+    uint32_t *density;          /* of trajectories, one count a dot, row after row; NULL before a cloud is started */
 };
 
 /*

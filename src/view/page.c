@@ -3,13 +3,19 @@
 
 #include <stdlib.h>
 
+#include "base/grow.h"
 #include "base/intl.h"
+
+static void fail(struct ceduo_page *page)
+{
+    page->failed = page->lost.text.failed = page->lost.shorter.failed = true;
+}
 
 static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_page_kind kind)
 {
     struct ceduo_page_block *block = calloc(1, sizeof *block);
     if (!block) {
-        page->failed = page->lost.text.failed = page->lost.shorter.failed = true;
+        fail(page);
         return NULL;
     }
     block->kind = kind;
@@ -59,17 +65,15 @@ struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page)
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page)
 {
     struct ceduo_page_block *table = page->last;
-    size_t n = page->failed ? 0 : table->cells_count;
-    if (!page->failed && (n & (n - 1)) == 0) { /* full: 0, 1, 2, 4, 8 … */
-        struct ceduo_page_cell *cells = realloc(table->cells, (n > 0 ? 2 * n : 1) * sizeof *cells);
-        table->cells = cells ? cells : table->cells;
-        page->failed = page->lost.text.failed = page->lost.shorter.failed = !cells;
-    }
-    if (page->failed)
+    struct ceduo_page_cell *cells =
+        page->failed ? NULL : ceduo_grow(table->cells, table->cells_count, &table->cells_room, sizeof *cells);
+    if (!cells) {
+        fail(page);
         return &page->lost;
-    table->cells[n] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
-    table->cells_count++;
-    return &table->cells[n];
+    }
+    table->cells = cells;
+    cells[table->cells_count] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
+    return &cells[table->cells_count++];
 }
 
 struct text *ceduo_page_text(struct ceduo_page *page)

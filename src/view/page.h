@@ -49,7 +49,7 @@ struct ceduo_page_block {
     struct text text;  /* UTF-8 with the signs – − ± as they should be; a sink makes it safe to print */
     const struct ceduo_page_column *columns;
     size_t columns_count;
-    size_t cells_count; /* row by row, the heads first */
+    size_t cells_count, cells_room; /* row by row, the heads first */
     struct ceduo_page_cell *cells;
     struct ceduo_page_block *next;
 };

@@ -132,7 +132,7 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
     ceduo_text_char(line, '.');
 }
 
-/* What became of the rocks on their way through the wood. */
+/* How the rocks end in the forest. */
 static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, const struct ceduo_arrivals *a)
 {
     const struct ceduo_ends *e = &f->ends;

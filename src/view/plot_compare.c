@@ -7,12 +7,12 @@
 
 /* The options side by side. */
 
-/* What is shown of an option: by the index what the stems take and what is left, through the wood how many of 1000
+/* What is shown of an option: by the index what the stems take and what is left, through the forest how many of 1000
  * arrive with too much energy (or at all, where that is not said) and the mean energy of those that arrive. */
 struct measures {
     double adc, middle, last; /* m; kJ per 100 m or of 1000; kJ. NaN: there is none */
     bool passes, exhausted;
-    bool awaited; /* what comes through the wood is not known yet */
+    bool awaited; /* what comes through the forest is not known yet */
     enum ceduo_light energy;
 };
 

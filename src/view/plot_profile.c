@@ -6,7 +6,7 @@
 
 /* ---- the scale ---- */
 
-#define RARE       0.2  /* share of the dots with ways that so few pass that they are left out */
+#define RARE       0.2  /* share of the passed dots that so few trajectories pass that they are left out */
 #define LEAST_USED 0.45 /* share of the area that the slope should take at true scale */
 
 struct range {
@@ -38,7 +38,7 @@ static void widen_by_belt(struct range *r, const struct ceduo_slope *slope, cons
             widen(r, slope->z[i] + tallest);
 }
 
-/* All that is to be seen: ground, release, ways, stems. */
+/* All that is to be seen: ground, release, trajectories, stems. */
 static struct range range_of(const struct ceduo_picture *p)
 {
     const struct ceduo_slope *slope = &p->scene->slope;
@@ -263,7 +263,7 @@ static int room_in(const struct profile *p, int row)
     return area_end(p->area) - column - 1;
 }
 
-/* Through whose forest the ways go, at the right end of the highest row that has most room. */
+/* Writes whose forest the trajectories go through at the right end of the highest row that has most room. */
 static void name_forest(const struct profile *p)
 {
     const struct ceduo_option *option = ceduo_plot_option(p->picture);

@@ -6,7 +6,7 @@
 #include "base/intl.h"
 #include "plot_parts.h"
 
-/* A stand from above, or the way of the selected rock through it. Places of a stand are drawn from a generator of its
+/* A stand from above, or the trajectory of the selected rock through it. Places of a stand are drawn from a generator of its
  * own with a fixed seed, one stream for each kind of stem: when a number changes, the stems that stay do not move. */
 
 #define PATCH_M     20.0 /* along the fall */
@@ -182,7 +182,7 @@ static void draw_pattern(struct plan *p, const struct ceduo_area *area, bool wor
         put_words(p, area);
 }
 
-/* ---- the way of the selected rock ---- */
+/* ---- the trajectory of the selected rock ---- */
 
 /* A stem of the belt whose place in the plane is known. */
 static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed *stem)
@@ -190,7 +190,7 @@ static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed 
     return stem->x >= belt->from && stem->x <= belt->to && isfinite(stem->y);
 }
 
-/* Where the patch starts that shows the rock's way: around the last stem if that stands in the belt, otherwise at the
+/* Where the patch starts that shows the rock's trajectory: around the last stem if that stands in the belt, otherwise at the
  * first one in it. False where there is none. */
 static bool find_patch(const struct ceduo_picture *picture, const struct ceduo_belt *belt, double *from)
 {
@@ -225,7 +225,7 @@ static double stretch_across(struct plan *p, const struct ceduo_picture *picture
     return true_height / p->height;
 }
 
-/* Of a way. */
+/* Of a trajectory. */
 struct tally {
     size_t hit, flown_over;
     double metres, factor; /* along; by which offsets are stretched */
@@ -247,7 +247,7 @@ static void put_words_of_way(const struct plan *p, const struct ceduo_area *area
     ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
 }
 
-/* The stems that the rock came to from `from` on, at their places along and beside its way. */
+/* The stems that the rock came to from `from` on, at their places along and beside its trajectory. */
 static void draw_way(struct plan *p, const struct ceduo_area *area, const struct ceduo_picture *picture, double from,
                      bool words)
 {
