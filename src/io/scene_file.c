@@ -210,18 +210,8 @@ void ceduo_scene_release(struct scene_file *file)
     *file = (struct scene_file){0};
 }
 
-bool ceduo_scene_assumes(const struct scene_file *file, const char *path)
-{
-    return ceduo_notes_assume(file->notes, path);
-}
-
-const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path)
-{
-    return ceduo_notes_find(file->notes, path);
-}
-
 bool ceduo_scene_assumes_value(const struct scene_file *file, const char *path)
 {
-    const struct source_note *note = ceduo_scene_note(file, path);
+    const struct source_note *note = ceduo_notes_find(file->notes, path);
     return note && strcmp(note->kind, "assumed") == 0;
 }

@@ -35,13 +35,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);
 /* Changes one value. `set` is PATH=VALUE; problems are told as those of the option of the command line. */
 bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems);
 
-/* True where some value below `path` is marked as an assumption, but for growth and cutting. */
-bool ceduo_scene_assumes(const struct scene_file *file, const char *path);
-
-/* The note of the innermost mapping around a value; NULL where nothing is said. */
-const struct source_note *ceduo_scene_note(const struct scene_file *file, const char *path);
-
-/* True where that note calls it an assumption. */
+/* True where the note of a value (ceduo_notes_find()) calls it an assumption. */
 bool ceduo_scene_assumes_value(const struct scene_file *file, const char *path);
 
 #endif

@@ -36,7 +36,7 @@ static void put_scene(struct pen *pen)
     struct ceduo_rock rock = ceduo_rock_mean(&s->rock);
     if (!isnan(rock.mass))
         line(pen, CEDUO_ROLE_TEXT, _("Rock  %.3g m  %.4g kg%s"), rock.mean_diameter, rock.mass,
-             ceduo_scene_assumes(&pen->app->document.file, "rock") ? "*" : "");
+             ceduo_notes_assume(pen->app->document.file.notes, "rock") ? "*" : "");
     line(pen, CEDUO_ROLE_TEXT, _("Wood  %s%s"), s->options_count > 1 ? o->name : o->belts_count ? o->belts[0].name : _("none"),
          o->belts_count > 1 && s->options_count < 2 ? " \xc2\xb7 \xe2\x80\xa6" : "");
 }

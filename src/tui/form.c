@@ -378,7 +378,7 @@ void ceduo_form_explain(const struct document *d, const struct form_cell *cell, 
     ceduo_text_free(&range);
     if (f->value)
         ceduo_text_format(text, _(" (default %s)"), f->value);
-    const struct source_note *note = ceduo_scene_note(&d->file, cell->path);
+    const struct source_note *note = ceduo_notes_find(d->file.notes, cell->path);
     if (note && cell->given)
         ceduo_text_format(text, " [%s: %s]", note->kind, note->text);
 }

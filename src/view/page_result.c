@@ -11,7 +11,7 @@
 
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)
 {
-    return ceduo_scene_assumes(report->file, path) ? "*" : "";
+    return ceduo_notes_assume(report->file->notes, path) ? "*" : "";
 }
 
 static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)

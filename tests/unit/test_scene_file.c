@@ -474,15 +474,15 @@ static void notes_are_found(void **state)
                 {"forest[2].stand.energy.model", "own", true},
                 {"release", NULL, false}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        const struct source_note *note = ceduo_scene_note(&file, rows[i].path);
+        const struct source_note *note = ceduo_notes_find(file.notes, rows[i].path);
         assert_int_equal(note != NULL, rows[i].note != NULL);
         if (note)
             assert_string_equal(note->text, rows[i].note);
         assert_int_equal(ceduo_scene_assumes_value(&file, rows[i].path), rows[i].assumed);
     }
-    assert_true(ceduo_scene_assumes(&file, "forest[0].stand"));
-    assert_true(ceduo_scene_assumes(&file, "forest"));
-    assert_false(ceduo_scene_assumes(&file, "forest[0].stand.shoots") || ceduo_scene_assumes(&file, "forest[0].sta"));
+    assert_true(ceduo_notes_assume(file.notes, "forest[0].stand"));
+    assert_true(ceduo_notes_assume(file.notes, "forest"));
+    assert_false(ceduo_notes_assume(file.notes, "forest[0].stand.shoots") || ceduo_notes_assume(file.notes, "forest[0].sta"));
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
     free(text);
