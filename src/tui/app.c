@@ -197,7 +197,8 @@ bool ceduo_app_follow_rock(struct app *app)
 {
     uint64_t key = app->figures.asked;
     hash_count(&key, app->option);
-    bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
+    bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key,
+                                             app->rock);
     if (!good)
         ceduo_rock_trajectory_free(&app->way);
     return good;

@@ -127,8 +127,8 @@ void ceduo_app_stand(const struct app *app, char *path, size_t size);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
-/* What arrives at the last control in the column on the right: through the forest of the option shown, by the index on the
- * bare slope; NULL before the first rocks. */
+/* What arrives at the last control in the column on the right: through the forest of the option shown, by the index on
+ * the bare slope; NULL before the first rocks. */
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app);
 
 /* Shows the belt that the cursor of the form is on. */

@@ -308,13 +308,15 @@ static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cell
 {
     const struct form_row *row = &form->rows[i];
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
-        ceduo_canvas_put(&cells->canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_put(&cells->canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM,
+                         row->label);
         return;
     }
     bool here = i == form->row && focused;
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : LABEL - 1;
-        ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+                         row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         if (row->kind == FORM_COLUMNS_ROW) {

@@ -225,8 +225,8 @@ static void draw_list(struct app *app, struct popup *p)
     int at = (int)p->at, n = (int)p->items_count;
     p->top = at < p->top ? at : at >= p->top + in.height ? at + 1 - in.height : p->top;
     for (int i = p->top; i < p->top + in.height && i < n; i++)
-        ceduo_canvas_put(&app->cells->canvas, in.left, in.top + i - p->top, in.width, i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT,
-                        p->items[i].text);
+        ceduo_canvas_put(&app->cells->canvas, in.left, in.top + i - p->top, in.width,
+                         i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[i].text);
     draw_more(app, p, p->top > 0, p->top + in.height < n);
 }
 

@@ -75,8 +75,8 @@ static bool draw_trail(struct rock_trajectory *s, double gravity)
     return true;
 }
 
-bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
-                        uint64_t key, uint64_t rock)
+bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene,
+                                  const struct ceduo_option *option, uint64_t key, uint64_t rock)
 {
     bool same = s->n > 0 && s->key == key && s->rock == rock;
     if (!same) {

@@ -21,8 +21,8 @@ struct rock_trajectory {
 
 /* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that
  * trajectory already. False without memory. */
-bool ceduo_rock_trajectory_follow(struct rock_trajectory *way, const struct ceduo_scene *scene, const struct ceduo_option *option,
-                        uint64_t key, uint64_t rock);
+bool ceduo_rock_trajectory_follow(struct rock_trajectory *way, const struct ceduo_scene *scene,
+                                  const struct ceduo_option *option, uint64_t key, uint64_t rock);
 
 /* A piece further or back. */
 void ceduo_rock_trajectory_move(struct rock_trajectory *way, int by);

@@ -290,4 +290,5 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct view ceduo_view_compare = {.title = N_("compare"), .panes = 1, .result = true, .build = build, .draw = draw, .act = act};
+const struct view ceduo_view_compare = {
+    .title = N_("compare"), .panes = 1, .result = true, .build = build, .draw = draw, .act = act};

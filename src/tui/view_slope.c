@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 1: the slope, the rocks' trajectories over it, height and energy along it; its ground, belts and controls to edit. */
+/* View 1: the slope, trajectories over it, height and energy along it; its ground, belts and controls to edit. */
 
 #include "app.h"
 #include "base/intl.h"

@@ -23,13 +23,13 @@
     X(TITLE, 'T', 18)                                                                                                  \
     X(AXIS, 'a', 2)                                                                                                    \
     X(GROUND, 'g', 4)                                                                                                  \
-    X(CLOUD, 'c', 3)    /* all trajectories together */                                                                   \
-    X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                               \
+    X(CLOUD, 'c', 3)    /* all trajectories together */                                                                \
+    X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                            \
     X(MEAN, 'm', 11)                                                                                                   \
-    X(WAY, 'w', 16) /* the trajectory of the selected rock */                                                                 \
+    X(WAY, 'w', 16) /* the trajectory of the selected rock */                                                          \
     X(STEM, 's', 7)                                                                                                    \
     X(STOOL, 'S', 6)                                                                                                   \
-    X(BELT, 'b', 5) /* a stretch of forest along the slope */                                                            \
+    X(BELT, 'b', 5) /* a stretch of forest along the slope */                                                          \
     X(CONTROL, 'C', 15)                                                                                                \
     X(GOOD, 'G', 12)                                                                                                   \
     X(BAD, 'B', 14)                                                                                                    \
@@ -165,8 +165,8 @@ void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int widt
 
 /*
  * A cloud of many trajectories. Start it (false if there is no memory; then adding and showing do nothing), add
- * trajectories, which draws nothing, and show it: the dots that were passed at least as often as the given quantile (0..1)
- * of all dots that were passed. 0 shows every one, 0.9 the most travelled tenth, 1 those passed most.
+ * trajectories, which draws nothing, and show it: the dots that were passed at least as often as the given quantile
+ * (0..1) of all dots that were passed. 0 shows every one, 0.9 the most travelled tenth, 1 those passed most.
  */
 bool ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
 void ceduo_canvas_cloud_add(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, size_t n, const double *x,

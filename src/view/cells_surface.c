@@ -11,7 +11,7 @@ static int nearest(double position, int n)
     return (int)lround(fmin(fmax(position, 0.0), n - 1));
 }
 
-/* Counts how many trajectories pass a dot; a dot where one part of a trajectory ends and the next begins counts once. */
+/* Counts how many trajectories pass a dot; one where a part of a trajectory ends and the next begins counts once. */
 static void count_dot(struct ceduo_cells *cells, struct ceduo_pen *pen, int x, int y)
 {
     int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;

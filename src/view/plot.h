@@ -35,7 +35,7 @@ struct ceduo_picture {
 /* The pictures: name, word, whether one needs a run, and envelopes of it, and whether there is one for each option.
  *
  * profile: the slope with rocks' trajectories as density, the option's belts, release and controls. In the belts stand
- *   rows of stems at their mean distance, or where it is known those that the selected rock came to. True to scale; where
+ *   rows of stems at their mean distance, or if known those that the selected rock came to. True to scale; where
  *   that would leave most of the area empty, heights are stretched or pressed, and the factor is written.
  * energy, height: strips along the slope, of the rocks that pass, the height above the ground (p50, p95) and the energy
  *   (mean, p95), through the forest and without; where there is little room p95 of the height, the mean of the energy.
@@ -44,10 +44,10 @@ struct ceduo_picture {
  * histogram: how the energies of the rocks that reach the control are spread, through the forest (bars) and without
  *   (marks); with the contact model index without forest alone.
  * adc: the four rules of the ADC for each of the option's belts, beside the threshold.
- * rotation: the option over the years: ADC, how many come through with too much energy, the lights, the cuts, on one axis.
+ * rotation: the option over the years: ADC, how many bring too much energy, the lights, the cuts, on one axis.
  * stand: a stand from above, to scale, with the strip that the rock clears. One pattern of many: the same for the same
- *   stand. Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along the
- *   trajectory, stretched across it by the factor that is written.
+ *   stand. Where the selected rock came to stems of this belt, those instead, around the last of them: to scale along
+ *   the trajectory, stretched across it by the factor that is written.
  * compare: the options side by side, up to the control: ADC of the worst belt, how many of 1000 arrive with too much
  *   energy (or at all, where no accepted energy is given), the mean energy of those that arrive; with the contact model
  *   index ADC, kJ taken per 100 m, kJ left. */

@@ -6,7 +6,7 @@
 #include "base/intl.h"
 #include "plot_parts.h"
 
-/* A stand from above, or the trajectory of the selected rock through it. Places of a stand are drawn from a generator of its
+/* A stand from above, or a rock's trajectory through it. Places of a stand are drawn from a generator of its
  * own with a fixed seed, one stream for each kind of stem: when a number changes, the stems that stay do not move. */
 
 #define PATCH_M     20.0 /* along the fall */
@@ -190,7 +190,7 @@ static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed 
     return stem->x >= belt->from && stem->x <= belt->to && isfinite(stem->y);
 }
 
-/* Where the patch starts that shows the rock's trajectory: around the last stem if that stands in the belt, otherwise at the
+/* Where the patch starts that shows the trajectory: around the last stem if that stands in the belt, otherwise at the
  * first one in it. False where there is none. */
 static bool find_patch(const struct ceduo_picture *picture, const struct ceduo_belt *belt, double *from)
 {

@@ -6,7 +6,8 @@
 #include "base/intl.h"
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
-#define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},
+#define X(NAME, name, needs_run, needs_cells, by_option)                                                               \
+    [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},
     CEDUO_PLOT_LIST(X)
 #undef X
 };
@@ -36,7 +37,8 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
         return;
     int width = ceduo_canvas_label_width(canvas, why);
     int column = width < area->width ? (area->width - width) / 2 : 0;
-    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
+    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
+                     why);
 }
 
 /* ---- titles ---- */
