@@ -247,8 +247,9 @@ do-check-all: do-check
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
 
 # These tests use threads: workers of a run and of a pool, of the terminal program, of years and parts.
-do-check-threads: $(addprefix $(T)/physics/test_,statistics_of_runs part years) $(PROGRAM)
-	set -e; for t in $(filter %test_statistics_of_runs %test_part %test_years,$^); do $$t; done
+THREADED := $(addprefix $(T)/,unit/test_jobs $(addprefix physics/test_,statistics_of_runs part years))
+do-check-threads: $(THREADED) $(PROGRAM)
+	set -e; for t in $(THREADED); do $$t; done
 	set -e; for t in tests/tui/test_screens.py tests/tui/test_editing.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py; do \
 	    CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) $$t; done
 
