@@ -33,6 +33,20 @@ static inline int folder_remove(void)
     return nftw(folder, folder_remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
+/* For tests that need nothing else in it. */
+static inline int folder_set_up(void **state)
+{
+    (void)state;
+    folder_make();
+    return 0;
+}
+
+static inline int folder_tear_down(void **state)
+{
+    (void)state;
+    return folder_remove();
+}
+
 static inline void in_folder(char path[256], const char *name)
 {
     snprintf(path, 256, "%s/%s", folder, name);
@@ -44,6 +58,17 @@ static inline void make_folder(const char *name)
     char path[256];
     in_folder(path, name);
     assert_int_equal(mkdir(path, 0700), 0);
+}
+
+/* With the folder in which a user's own profiles are looked for; one of them is a folder. */
+static inline int folder_set_up_profiles(void **state)
+{
+    folder_set_up(state);
+    make_folder("ceduo");
+    make_folder("ceduo/stands");
+    make_folder("ceduo/stands/folder.yaml");
+    setenv("XDG_DATA_HOME", folder, 1);
+    return 0;
 }
 
 /* A file in it; nothing waits for the disk. */

@@ -37,6 +37,9 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 
 #define CEDUO_FEW_ROCKS 100 /* arrivals below which a mean is not waited for */
 
+/* Whether the 95 % half-width of a mean of so many arrivals is at most `tolerance` of it, or they are too few to wait for. */
+bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tolerance);
+
 /* Makes them longer, from one block on by an eighth each time, until the 95 % half-width of the mean energy of every run at every
  * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `most` rocks are done. `*met`:
  * whether it is. */

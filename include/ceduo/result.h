@@ -65,4 +65,7 @@ const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *resu
 uint64_t ceduo_result_rocks(const struct ceduo_result *result);
 uint64_t ceduo_result_unfinished(const struct ceduo_result *result);
 
+/* The index of an option at the last control. */
+const struct ceduo_index *ceduo_result_last_index(const struct ceduo_result *result, size_t option);
+
 #endif

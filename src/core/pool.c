@@ -199,13 +199,18 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks)
     return status;
 }
 
+bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tolerance)
+{
+    return reached < CEDUO_FEW_ROCKS || CEDUO_Z95 * se <= tolerance * mean;
+}
+
 static bool precise(const struct ceduo_run *run, size_t controls, double tolerance)
 {
     for (size_t i = 0; i < controls; i++) {
         uint64_t reached;
         double mean, se;
         ceduo_run_energy(run, i, &reached, &mean, &se);
-        if (reached >= CEDUO_FEW_ROCKS && !(CEDUO_Z95 * se <= tolerance * mean))
+        if (!ceduo_mean_is_precise(reached, mean, se, tolerance))
             return false;
     }
     return true;

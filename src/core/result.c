@@ -214,3 +214,8 @@ uint64_t ceduo_result_unfinished(const struct ceduo_result *result)
     }
     return most;
 }
+
+const struct ceduo_index *ceduo_result_last_index(const struct ceduo_result *result, size_t option)
+{
+    return &result->options[option].controls[result->last_control];
+}

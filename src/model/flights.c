@@ -63,7 +63,7 @@ static bool is_precise(const struct ceduo_sight *s)
 {
     for (size_t i = 0; s && i < s->flown.controls; i++) {
         const struct ceduo_arrivals *a = &s->flown.arrivals[i];
-        if (a->reached >= CEDUO_FEW_ROCKS && !(CEDUO_Z95 * a->energy.se <= FLIGHTS_TOLERANCE * a->energy.mean))
+        if (!ceduo_mean_is_precise(a->reached, a->energy.mean, a->energy.se, FLIGHTS_TOLERANCE))
             return false;
     }
     return true;

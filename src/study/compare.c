@@ -3,13 +3,18 @@
 
 #include <math.h>
 
+double ceduo_compare_share_of(const struct ceduo_arrivals *arrivals)
+{
+    return isnan(arrivals->exceed_probability) ? arrivals->reach_probability : arrivals->exceed_probability;
+}
+
 double ceduo_compare_share(const struct ceduo_result *result, size_t option, double *half)
 {
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, result->last_control);
     *half = NAN;
     if (!a)
         return NAN;
-    double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
+    double share = ceduo_compare_share_of(a);
     *half = ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released);
     return share;
 }
@@ -57,16 +62,11 @@ bool ceduo_compare_worse(const struct ceduo_result *result, size_t option, size_
     return value - other > 2 * hypot(se, than_se);
 }
 
-static const struct ceduo_index *last_index(const struct ceduo_result *result, size_t option)
-{
-    return &result->options[option].controls[result->last_control];
-}
-
 /* Positive where option i is better by contact than option k, 0 where contact does not tell them apart. */
 static int better_by_contact(const struct ceduo_result *result, size_t i, size_t k)
 {
-    const struct ceduo_index *here = last_index(result, i);
-    const struct ceduo_index *there = last_index(result, k);
+    const struct ceduo_index *here = ceduo_result_last_index(result, i);
+    const struct ceduo_index *there = ceduo_result_last_index(result, k);
     int passes = here->contact == CEDUO_PASS, passed = there->contact == CEDUO_PASS;
     return passes != passed ? passes - passed : (here->worst_adc < there->worst_adc) - (here->worst_adc > there->worst_adc);
 }
@@ -100,7 +100,7 @@ struct ceduo_best ceduo_compare_best(const struct ceduo_result *result)
         worse += ceduo_compare_worse(result, i, best.energy);
         behind += better_by_contact(result, best.contact, i) > 0;
     }
-    best.apart = behind > 0 && !isinf(last_index(result, best.contact)->worst_adc);
+    best.apart = behind > 0 && !isinf(ceduo_result_last_index(result, best.contact)->worst_adc);
     best.before_some = worse > 0;
     best.before_all = worse == n - 1;
     return best;

@@ -6,6 +6,9 @@
 
 /* Which option of a result is best at the last control. */
 
+/* Of the rocks released the share that arrives with too much energy, or that arrives where no accepted energy is said. */
+double ceduo_compare_share_of(const struct ceduo_arrivals *arrivals);
+
 /* What is compared: the share of the released with too much energy, or where that is not said that arrives, and its
  * difference to the first option's; with half the width of their 95 % intervals. NaN where it was not simulated. */
 double ceduo_compare_share(const struct ceduo_result *result, size_t option, double *half);

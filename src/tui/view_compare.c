@@ -47,7 +47,7 @@ static double difference_of(const struct app *app, size_t i, double *half)
 static double figure(const struct app *app, size_t i, enum column column)
 {
     const struct ceduo_result *r = app->figures.result;
-    const struct ceduo_index *s = &r->options[i].controls[r->last_control];
+    const struct ceduo_index *s = ceduo_result_last_index(r, i);
     double half;
     switch (column) {
     case ADC:
@@ -130,7 +130,7 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
         ceduo_text_format(&text, "%+.0f\xc2\xb1%.0f", value, ceil(half));
     else if (wooded(app) && column == DIFFERENCE)
         ceduo_text_put(&text, "\xe2\x80\xa6");
-    else if (column == LEFT && r->options[i].controls[r->last_control].exhausted)
+    else if (column == LEFT && ceduo_result_last_index(r, i)->exhausted)
         ceduo_text_put(&text, _("used up"));
     else
         ceduo_words_number(&text, value, 3);
@@ -143,7 +143,7 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
 
 static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
 {
-    const struct ceduo_index *s = &app->figures.result->options[i].controls[app->figures.result->last_control];
+    const struct ceduo_index *s = ceduo_result_last_index(app->figures.result, i);
     draw_name(app, area, y, i);
     y += lines_of(area) - 1;
     int x = area.left + name_columns(area);

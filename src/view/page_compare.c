@@ -6,18 +6,13 @@
 #include "page_parts.h"
 #include "study/compare.h"
 
-static const struct ceduo_index *last_index(const struct ceduo_result *r, size_t option)
-{
-    return &r->options[option].controls[r->last_control];
-}
-
 static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
     double half, half_of_difference, difference = ceduo_compare_difference(r, i, &half_of_difference);
     double share = ceduo_compare_share(r, i, &half);
     ceduo_page_per_1000(page, share, half, false);
     ceduo_page_per_1000(page, i == 0 ? NAN : difference, half_of_difference, true);
-    ceduo_page_verdict(page, last_index(r, i)->energy);
+    ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
 }
 
 static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
@@ -31,7 +26,7 @@ static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
 
 static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
-    const struct ceduo_index *s = last_index(r, i);
+    const struct ceduo_index *s = ceduo_result_last_index(r, i);
     ceduo_text_put(ceduo_page_text(page), r->scene->options[i].name);
     ceduo_page_number(page, s->worst_adc, 3);
     ceduo_page_verdict(page, s->contact);
@@ -67,7 +62,7 @@ static void say_separation(struct ceduo_page *page, const struct ceduo_result *r
 {
     size_t n = r->scene->options_count, pass = 0;
     for (size_t i = 0; i < n; i++) {
-        const struct ceduo_index *s = last_index(r, i);
+        const struct ceduo_index *s = ceduo_result_last_index(r, i);
         const enum ceduo_light lights[] = {s->contact, s->free_run, s->energy};
         pass += lights[light] == CEDUO_PASS;
     }

@@ -5,6 +5,7 @@
 #include "base/intl.h"
 #include "base/utf8.h"
 #include "plot_parts.h"
+#include "study/compare.h"
 
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on
  * one axis. */
@@ -38,8 +39,7 @@ static double share_of(const struct rotation *r, const struct ceduo_year *year)
         return index->per_100m * KILO;
     if (year->wooded.rocks == 0)
         return NAN;
-    const struct ceduo_arrivals *a = &year->wooded.arrivals[r->c];
-    return 1000 * (isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability);
+    return 1000 * ceduo_compare_share_of(&year->wooded.arrivals[r->c]);
 }
 
 static void draw_strip(struct rotation *r, int top, int height, double most, double limit, const char *caption,

@@ -55,7 +55,7 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
 {
     site->scene.simulation.seed = seed;
     site->scene.simulation.rocks = rocks;
-    double start = now();
+    double start = ceduo_clock();
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = stems ? &site->option : NULL;
     struct ceduo_run *run;
@@ -63,7 +63,7 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK ||
         ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
         fail("the run failed");
-    double seconds = now() - start, n = (double)rocks;
+    double seconds = ceduo_clock() - start, n = (double)rocks;
     ceduo_run_free(run);
     value[MEAN] = a.energy.mean * 1e-3;
     value[P95] = a.energy.p95 * 1e-3;
@@ -222,9 +222,9 @@ static double run_plain(struct plain_def *def, struct source *s, uint64_t rocks,
         s->shift[i] = uniform(&state);
     if (s->kind == SOBOL)
         gsl_qrng_init(s->sobol);
-    double start = now();
+    double start = ceduo_clock();
     plain_loop(def, rocks, &sums);
-    double seconds = now() - start;
+    double seconds = ceduo_clock() - start;
     size_t exceeded = 0;
     for (size_t i = 0; i < s->n; i++)
         exceeded += s->energies[i] > ACCEPTED;

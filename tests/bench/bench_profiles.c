@@ -119,13 +119,13 @@ static void measure(const struct ceduo_scene *site, const struct profile *p, uin
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
     def.rocks_most = rocks;
     struct ceduo_run *run;
-    double start = now();
+    double start = ceduo_clock();
     if (ceduo_run_create(&def, &run) != CEDUO_OK)
         fail("the run cannot be made");
-    double made = now();
+    double made = ceduo_clock();
     if (ceduo_run_extend(run, rocks) != CEDUO_OK)
         fail("the run failed");
-    m->fly[repeat] = now() - made;
+    m->fly[repeat] = ceduo_clock() - made;
     m->make[repeat] = made - start;
     m->contacts = ceduo_run_contacts(run);
     ceduo_run_free(run);

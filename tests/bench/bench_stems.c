@@ -26,10 +26,10 @@ static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t
     def.option = k->model == CEDUO_INDEX ? NULL : &scene.options[0];
     def.rocks_most = rocks;
     struct ceduo_run *run;
-    double start = now();
+    double start = ceduo_clock();
     if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
         exit(1);
-    k->seconds[repeat] = now() - start;
+    k->seconds[repeat] = ceduo_clock() - start;
     k->contacts = ceduo_run_contacts(run);
     k->stems = ceduo_run_stems(run);
     ceduo_run_free(run);

@@ -147,9 +147,9 @@ static void init_site(struct site *site, enum ceduo_law law, bool height)
 static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 {
     site->plain.seed = repeat + 1;
-    double start = now();
+    double start = ceduo_clock();
     plain_loop(&site->plain, rocks, &site->plain_sums);
-    return now() - start;
+    return ceduo_clock() - start;
 }
 
 static double time_core(const struct site *site, struct measure *m)
@@ -157,7 +157,7 @@ static double time_core(const struct site *site, struct measure *m)
     double cell_x[CELLS];
     for (size_t i = 0; i < m->cells; i++)
         cell_x[i] = vertex_x[SEGMENTS] * (double)(i + 1) / (double)m->cells;
-    double start = now();
+    double start = ceduo_clock();
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.threads = m->threads;
     def.kernel = m->kernel;
@@ -166,7 +166,7 @@ static double time_core(const struct site *site, struct measure *m)
     struct ceduo_run *run;
     if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, m->rocks) != CEDUO_OK)
         fail("the run failed");
-    double seconds = now() - start;
+    double seconds = ceduo_clock() - start;
     m->contacts = ceduo_run_contacts(run);
     if (ceduo_run_arrivals(run, 0, &m->arrivals) != CEDUO_OK)
         fail("no memory");

@@ -3,15 +3,8 @@
 #define MEASURE_H
 
 #include <stdlib.h>
-#include <time.h>
 
-/* Seconds of a clock that no one sets. */
-static inline double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "base/clock.h"
 
 /* For qsort(): numbers, the smallest first. */
 static inline int by_value(const void *a, const void *b)

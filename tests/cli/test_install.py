@@ -178,7 +178,7 @@ class Shells(Installed):
         for name in ("my wood.yaml", "my wood.txt", "it's a wood.yaml", 'quo"ted".yaml', "back\\slash.yaml", "dollar$HOME`x`.yaml",
                      "star* [a]?.yaml", "starling.txt", "\u00fcber & <weg>;.yaml", "old woods/deep one.yaml", "play list.txt",
                      "home/at home.yaml"):
-            self.write(f"work/{name}", "")
+            self.write(f"here/{name}", "")
         for name in ("forest of oaks", "ash's own", "evil$(touch pwned)"):
             self.write(f"data/ceduo/scenes/{name}.yaml", "title: /scenes/see b.yaml  scene by scene\n")
         self.write("a path/ceduo", f"#!/bin/sh\ncase $1 in --list-*) exec '{self.prefix}/bin/ceduo' \"$@\";; esac\n"
@@ -187,12 +187,12 @@ class Shells(Installed):
 
     def given(self, shell, start, typed):
         """The last word that the program is given where this is typed, then Tab and Enter."""
-        calls, work = self.path / "calls", self.path / "work"
-        env = environment(HOME=str(work / "home"), XDG_DATA_HOME=str(self.path / "data"), TERM="dumb", CALLS=str(calls),
+        calls, here = self.path / "calls", self.path / "here"
+        env = environment(HOME=str(here / "home"), XDG_DATA_HOME=str(self.path / "data"), TERM="dumb", CALLS=str(calls),
                           PATH=f"{self.path / 'a path'}:{os.environ['PATH']}", PS1="> ", ZDOTDIR=str(self.path))
         calls.unlink(missing_ok=True)
         master, slave = pty.openpty()
-        with subprocess.Popen(shell, stdin=slave, stdout=slave, stderr=slave, cwd=work, env=env, start_new_session=True) as process:
+        with subprocess.Popen(shell, stdin=slave, stdout=slave, stderr=slave, cwd=here, env=env, start_new_session=True) as process:
             os.close(slave)
             seen, end, asked = b"", time.monotonic() + 60 * SLOWER, False
             os.write(master, start.encode() + b"; echo READY$((1 + 1))\n")
@@ -209,7 +209,7 @@ class Shells(Installed):
 
     def check(self, shell, start, folder):
         for typed, wanted in COMPLETIONS:
-            found = self.given(shell, start, f"ceduo {typed}").removeprefix(f"{self.path}/work/")
+            found = self.given(shell, start, f"ceduo {typed}").removeprefix(f"{self.path}/here/")
             expect_equal(found, folder if wanted == "old woods/" else wanted, typed)
         for typed, wanted in (("forest", "forest of oaks"), ("--find rocks_per", "rocks_per_year=")):
             expect_equal(self.given(shell, start, f"{self.path}/a\\ path/ceduo {typed}"), wanted, f"in a folder with a blank: {typed}")

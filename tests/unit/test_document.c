@@ -65,12 +65,6 @@ static int set_up(void **state)
     return 0;
 }
 
-static int tear_down(void **state)
-{
-    (void)state;
-    return folder_remove();
-}
-
 static void open_scene(struct document *d)
 {
     struct problems problems = {0};
@@ -693,7 +687,7 @@ static void references_lead_to_the_same_files_from_elsewhere(void **state)
         struct document d;
         char there[256], text[4096], wanted[256];
         if (i > 0)
-            assert_true(tear_down(state) == 0 && set_up(state) == 0);
+            assert_true(folder_tear_down(state) == 0 && set_up(state) == 0);
         scatter(slopes[i]);
         open_scene(&d);
         in_folder(there, "b/scenes/t.yaml");
@@ -800,31 +794,31 @@ static void the_copy_leads_to_the_same_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(changed_values_keep_comments, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_stand_starts_from_its_file, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_stand_is_given_more, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_slope_is_written_out, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(undo_and_redo, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_value_of_another_file_has_no_source, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(what_a_killed_save_left_is_taken_away, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(undo_leads_back_to_what_is_saved, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_branch_leaves_what_is_saved_behind, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(history_is_cut, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_copy_follows_undo, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_file_of_the_same_length_is_noticed, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(references_lead_to_the_same_files_from_elsewhere, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(references_stay_where_they_lead_to_the_same, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_slope_keeps_its_profile, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_typed_profile_lies_beside_the_scene, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_copy_leads_to_the_same_files, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(changed_values_keep_comments, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_stand_starts_from_its_file, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_stand_is_given_more, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_slope_is_written_out, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(undo_and_redo, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_value_of_another_file_has_no_source, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(what_a_killed_save_left_is_taken_away, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(undo_leads_back_to_what_is_saved, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_branch_leaves_what_is_saved_behind, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(history_is_cut, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(the_copy_follows_undo, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_file_of_the_same_length_is_noticed, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(references_lead_to_the_same_files_from_elsewhere, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(references_stay_where_they_lead_to_the_same, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_changed_slope_keeps_its_profile, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_typed_profile_lies_beside_the_scene, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(the_copy_leads_to_the_same_files, set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,23 +18,6 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static int set_up(void **state)
-{
-    (void)state;
-    folder_make();
-    make_folder("ceduo");
-    make_folder("ceduo/stands");
-    make_folder("ceduo/stands/folder.yaml");
-    setenv("XDG_DATA_HOME", folder, 1);
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return folder_remove();
-}
-
 static void files_are_found(void **state)
 {
     (void)state;
@@ -410,17 +393,17 @@ static void a_closed_shelf_is_all_there_is(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(files_are_found, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(folders_of_the_environment, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(folders_are_listed, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(long_names_are_written, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(only_dead_temporaries_are_removed, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(files_are_taken, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(files_are_the_same, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(what_was_set_aside_goes_before, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(what_cannot_be_written, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_are_found, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(folders_of_the_environment, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(folders_are_listed, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(long_names_are_written, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(only_dead_temporaries_are_removed, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(files_are_taken, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(files_are_the_same, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_down),
+        cmocka_unit_test_setup_teardown(what_cannot_be_written, folder_set_up_profiles, folder_tear_down),
         cmocka_unit_test(an_interrupted_reader_goes_on),
-        cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, folder_set_up_profiles, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,12 +61,6 @@ static int set_up(void **state)
     return 0;
 }
 
-static int tear_down(void **state)
-{
-    (void)state;
-    return folder_remove();
-}
-
 static void add_text(const struct text *text)
 {
     add(text->bytes, text->length);
@@ -417,9 +411,9 @@ static void parts_and_folders(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(scenes_are_read, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(documents_are_edited, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(parts_and_folders, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(scenes_are_read, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(documents_are_edited, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(parts_and_folders, set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

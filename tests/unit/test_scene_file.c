@@ -12,23 +12,6 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static int set_up(void **state)
-{
-    (void)state;
-    folder_make();
-    make_folder("ceduo");
-    make_folder("ceduo/stands");
-    make_folder("ceduo/stands/folder.yaml");
-    setenv("XDG_DATA_HOME", folder, 1);
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return folder_remove();
-}
-
 /* A scene that is good, and one line of it in the place of another. */
 static char *scene_with(const char *line)
 {
@@ -515,7 +498,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_scenes_are_told),
         cmocka_unit_test(one_fault_is_told_once),
-        cmocka_unit_test_setup_teardown(files_that_are_followed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(files_that_are_followed, folder_set_up_profiles, folder_tear_down),
         cmocka_unit_test(long_words_are_told),
         cmocka_unit_test(paths_are_told),
         cmocka_unit_test(sources_of_changes),

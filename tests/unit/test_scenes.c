@@ -12,19 +12,6 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static int set_up(void **state)
-{
-    (void)state;
-    folder_make();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return folder_remove();
-}
-
 __attribute__((format(printf, 2, 3))) static void write_file(const char *name, const char *format, ...)
 {
     struct text text = {0};
@@ -380,12 +367,12 @@ static void a_new_mapping_has_no_old_source(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(bases_go_eight_files_deep, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(bases_in_a_circle_are_refused, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(grounds_meet_anywhere, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(grounds_that_do_not_meet_are_told, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(changed_values_leave_their_source, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_new_mapping_has_no_old_source, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bases_go_eight_files_deep, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(bases_in_a_circle_are_refused, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(grounds_meet_anywhere, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(grounds_that_do_not_meet_are_told, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(changed_values_leave_their_source, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,19 +15,6 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static int set_up(void **state)
-{
-    (void)state;
-    folder_make();
-    return 0;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    return folder_remove();
-}
-
 /* ---- every byte ---- */
 
 /* Members that follow from others. */
@@ -502,10 +489,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_member_has_a_row),
         cmocka_unit_test(every_default_lies_in_its_range),
-        cmocka_unit_test_setup_teardown(every_row_decides_about_what_it_says, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(put_is_as_set, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(paths_of_numbers, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(puts_take_no_memory, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(every_row_decides_about_what_it_says, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(put_is_as_set, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(paths_of_numbers, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(puts_take_no_memory, folder_set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
