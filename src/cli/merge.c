@@ -65,15 +65,15 @@ static bool add_line(struct parts *all, const char *file, size_t line, char *byt
     struct part part = {.file = file, .line = line};
     enum part_fault fault = ceduo_part_read(&all->arena, &part, bytes, n);
     static const char *const faults[] = {
-        [PART_NONE] = N_("no part that --shard wrote"),
-        [PART_CUT] = N_("a part that is cut short; fly this shard again"),
-        [PART_CHANGED] = N_("a part that was changed after it was written; fly this shard again")};
+        [PART_NONE] = N_("not a part written by --shard"),
+        [PART_CUT] = N_("the part is incomplete; compute this shard again"),
+        [PART_CHANGED] = N_("the part was changed after it was written; compute this shard again")};
     if (fault == PART_GOOD)
         add_part(all, &part);
     else if (fault == PART_FORMAT)
-        complain(all, file, line, _("a part in a format that this version (%s) does not know"), CEDUO_VERSION);
+        complain(all, file, line, _("the part has a format that this version (%s) cannot read"), CEDUO_VERSION);
     else if (fault == PART_VERSION)
-        complain(all, file, line, _("a part by version %s, and this is %s; all shards are flown and joined by one"),
+        complain(all, file, line, _("the part is from version %s, but this is %s; compute and merge all shards with one version"),
                  part.scene, CEDUO_VERSION);
     else if (fault == PART_MEMORY)
         all->no_memory = true;
@@ -90,7 +90,7 @@ static void read_file(struct parts *all, const char *file)
         return;
     }
     if (text->length == 0)
-        complain(all, file, 0, _("holds no part"));
+        complain(all, file, 0, _("contains no part"));
     size_t line = 1;
     for (size_t at = 0; at < text->length; line++) {
         char *from = text->bytes + at, *end = memchr(from, '\n', text->length - at);
@@ -162,13 +162,13 @@ static void check_group(struct parts *all, size_t from, size_t end)
     for (size_t i = from + 1; i < end; i++) {
         const struct part *p = &all->items[i], *q = &all->items[i - 1];
         if (p->shard == q->shard)
-            complain(all, p->file, p->line, _("shard %llu of %llu of '%s' once more; it stands in %s:%zu already"),
+            complain(all, p->file, p->line, _("shard %llu of %llu of '%s' is given twice; it is also in %s:%zu"),
                      (unsigned long long)p->shard, (unsigned long long)p->shards, p->scene, q->file, q->line);
     }
     struct text missing = {0};
     list_missing(all, from, end, &missing);
     if (missing.length > 0)
-        complain(all, first->file, first->line, _("'%s' is in %llu shards, and these are missing: %s"), first->scene,
+        complain(all, first->file, first->line, _("'%s' has %llu shards; these are missing: %s"), first->scene,
                  (unsigned long long)first->shards, missing.bytes);
     ceduo_text_free(&missing);
 }
@@ -208,7 +208,7 @@ static void check(struct parts *all)
 
 static enum exit_status unusable(struct parts *all, const struct part *part)
 {
-    complain(all, part->file, part->line, _("shard %llu of %llu of '%s' does not fit the others; fly it again"),
+    complain(all, part->file, part->line, _("shard %llu of %llu of '%s' does not fit the others; compute it again"),
              (unsigned long long)part->shard, (unsigned long long)part->shards, part->scene);
     return EXIT_INPUT;
 }

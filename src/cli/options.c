@@ -68,9 +68,9 @@ static enum exit_status read_count(const char *name, const char *value, double l
     case CEDUO_NUMBER_GOOD:
         return EXIT_DONE;
     case CEDUO_NUMBER_TOO_LARGE:
-        return ceduo_usage(name, _("%s lies outside %.0f to %.0f"), value, lo, hi);
+        return ceduo_usage(name, _("%s is outside %.0f to %.0f"), value, lo, hi);
     default:
-        return ceduo_usage(name, _("'%s' is no whole number"), value);
+        return ceduo_usage(name, _("'%s' is not a whole number"), value);
     }
 }
 
@@ -83,7 +83,7 @@ static enum exit_status set_tolerance(struct arguments *a, const struct option_r
 {
     double number;
     if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
-        return ceduo_usage(row->name, _("'%s' is no number"), value);
+        return ceduo_usage(row->name, _("'%s' is not a number"), value);
     if (!(number > 0) || !(number < 1))
         return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
     a->tolerance = number;
@@ -123,9 +123,9 @@ static enum exit_status set_size(struct arguments *a, const struct option_row *r
 {
     double n[2];
     if (!read_numbers(value, "x", 2, 2, n) || !is_whole(n[0]) || !is_whole(n[1]))
-        return ceduo_usage(row->name, _("'%s' is no size; write columns x lines, as 80x24"), value);
+        return ceduo_usage(row->name, _("'%s' is not a size; write COLUMNSxLINES, such as 80x24"), value);
     if (n[0] < WIDTH_LEAST || n[0] > CEDUO_CANVAS_MAX_WIDTH || n[1] < HEIGHT_LEAST || n[1] > CEDUO_CANVAS_MAX_HEIGHT)
-        return ceduo_usage(row->name, _("%s lies outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
+        return ceduo_usage(row->name, _("%s is outside %dx%d to %dx%d"), value, WIDTH_LEAST, HEIGHT_LEAST,
                            CEDUO_CANVAS_MAX_WIDTH, CEDUO_CANVAS_MAX_HEIGHT);
     a->plot_width = (int)n[0];
     a->plot_height = (int)n[1];
@@ -149,13 +149,13 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     double parts[3] = {0, 0, 1};
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
-        return ceduo_usage(row->name, _("'%s' is no stretch of years; write A:B or A:B:STEP, as 0:25"), value);
+        return ceduo_usage(row->name, _("'%s' is not a range of years; write A:B or A:B:STEP, such as 0:25"), value);
     if (parts[0] < 0)
-        return ceduo_usage(row->name, _("%s begins before year 0, the stand as filed"), value);
+        return ceduo_usage(row->name, _("%s begins before year 0, which is the stand as filed"), value);
     if (parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1)
-        return ceduo_usage(row->name, _("%s goes backwards, or too far"), value);
+        return ceduo_usage(row->name, _("%s ends before it begins, or after year 100000"), value);
     if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
-        return ceduo_usage(row->name, _("%s are more than %d years at a time"), value, CEDUO_YEARS_MOST);
+        return ceduo_usage(row->name, _("%s is more than %d years"), value, CEDUO_YEARS_MOST);
     a->years = true;
     a->year_first = (unsigned)parts[0];
     a->year_last = (unsigned)parts[1];
@@ -170,14 +170,23 @@ static enum exit_status set_find(struct arguments *a, const struct option_row *r
     double range[2];
     bool good = equals && equals > value && read_numbers(equals + 1, ":", 2, 2, range);
     if (!good)
-        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, as 'forest[0].stand.trees[0].per_ha=1:1000'"), value);
+        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as 'forest[0].stand.trees[0].per_ha=1:1000'"), value);
     if (!(range[0] <= range[1]))
-        return ceduo_usage(row->name, _("the range %s goes backwards"), equals + 1);
+        return ceduo_usage(row->name, _("the range %s ends before it begins"), equals + 1);
     *equals = '\0';
     a->find = value;
     a->find_lo = range[0];
     a->find_hi = range[1];
     return EXIT_DONE;
+}
+
+static enum exit_status unknown_goal(const struct option_row *row, const char *value)
+{
+    struct text words = {0};
+    ceduo_goal_words(&words);
+    enum exit_status status = ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_text_string(&words));
+    ceduo_text_free(&words);
+    return status;
 }
 
 static enum exit_status set_goal(struct arguments *a, const struct option_row *row, char *value)
@@ -186,13 +195,13 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     const char *number = value + strlen(value) + 1;
     switch (reading) {
     case CEDUO_GOAL_UNKNOWN:
-        return ceduo_usage(row->name, _("'%s' is unknown; one of adc, free-run, energy, exceed"), value);
+        return unknown_goal(row, value);
     case CEDUO_GOAL_NO_NUMBER:
-        return ceduo_usage(row->name, _("'%s' is no number"), number);
+        return ceduo_usage(row->name, _("'%s' is not a number"), number);
     case CEDUO_GOAL_NEGATIVE:
         return ceduo_usage(row->name, _("%s is below 0"), number);
     case CEDUO_GOAL_NO_SHARE:
-        return ceduo_usage(row->name, _("%s is no share; write 0 to 1, as 0.05 for 5 %%"), number);
+        return ceduo_usage(row->name, _("%s is not a share; write 0 to 1, such as 0.05 for 5 %%"), number);
     default:
         return EXIT_DONE;
     }
@@ -205,7 +214,7 @@ static enum exit_status set_shard(struct arguments *a, const struct option_row *
     bool good = read_numbers(value, "/", 2, 2, n) && is_whole(n[0]) && is_whole(n[1]) && n[0] >= 1 && n[0] <= n[1] &&
                 n[1] <= SHARDS_MOST;
     if (!good)
-        return ceduo_usage(row->name, _("'%s' is no part of a whole; write I/N, I from 1 to N, as 3/8, N up to %d"),
+        return ceduo_usage(row->name, _("'%s' is not a part; write I/N with I from 1 to N, such as 3/8; N is at most %d"),
                            value, SHARDS_MOST);
     a->shard = (uint64_t)n[0];
     a->shards = (uint64_t)n[1];
@@ -227,47 +236,47 @@ static enum exit_status set_threads(struct arguments *a, const struct option_row
 #define NOT_PART   (NOT_SHARD | NOT_MERGE)
 
 static const struct option_row rows[] = {
-    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, 0, N_("compute the scenes and print the result; no terminal is touched")},
+    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, 0, N_("compute the scenes and print the result, without a terminal")},
     {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
-     N_("how to print it (table)")},
+     N_("format of the output (table)")},
     {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, NOT_CHECK,
-     N_("where to; a regular file is written whole or not at all")},
+     N_("write to FILE; a regular file is written completely or not at all")},
     {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, NOT_MERGE,
      N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, NOT_MERGE | NOT_CHECK,
-     N_("rocks simulated; with --tolerance the most")},
+     N_("number of rocks; with --tolerance the maximum")},
     {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, NOT_PART | NOT_CHECK,
-     N_("go on until mean energies are known to REL of themselves (95 %)")},
+     N_("simulate until the 95 % error of each mean energy is below REL of it")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
-     N_("what a row of CSV is (controls)")},
+     N_("what each row of CSV describes (controls)")},
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},
     {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0,
-     N_("threads; the result does not depend on them (all cores)")},
-    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE, N_("only this option of the scene; may be repeated")},
+     N_("number of threads; it does not change the result (all cores)")},
+    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE, N_("compute only this option of the scene; may be repeated")},
     {"years", 0, "A:B[:STEP]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
-     N_("every option year by year, from the stands as filed (year 0)")},
+     N_("compute every option year by year; the stands as filed are year 0")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, NOT_PART | NOT_CHECK,
-     N_("the value of a parameter that reaches --goal at the worst control")},
+     N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, NOT_CHECK,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
     {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE,
-     N_("compute part I of N of each scene, and write it as a line for --merge")},
-    {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("print what the parts in the files given come to, as one run would")},
+     N_("compute part I of N of each scene and write it for --merge")},
+    {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
      N_("print a picture: profile, energy, height, histogram, adc, rotation, stand or compare")},
-    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("of a picture in columns and lines (80x24)")},
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, NOT_CHECK,
-     N_("what pictures are made of (the locale's)")},
+     N_("characters that pictures are made of (from the locale)")},
     {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, NOT_PART | NOT_CHECK,
      N_("feed keys and commands to the terminal program; needs no terminal")},
-    {"check", 0, NULL, NULL, 0, MODE_CHECK, NOT_PART, N_("read the scenes and print every problem; compute nothing")},
+    {"check", 0, NULL, NULL, 0, MODE_CHECK, NOT_PART, N_("check the scenes and print every problem; compute nothing")},
     {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, NOT_PART,
-     N_("path, type, unit, range, default and meaning of each")},
+     N_("list path, type, unit, range, default and meaning of each parameter")},
     {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, NOT_PART,
-     N_("scenes, slopes and stands that are found by name")},
-    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("no progress")},
-    {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("this page")},
-    {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("the version")},
+     N_("list the scenes, slopes and stands that can be named")},
+    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("print no progress")},
+    {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
+    {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])

@@ -150,7 +150,7 @@ static bool want_scalar(struct binder *b, const struct node *node, const char *w
 {
     if (node->kind == NODE_SCALAR)
         return true;
-    report(b, node, _("%s is wanted here, not %s"), what, kind_name(node));
+    report(b, node, _("expected %s, not %s"), what, kind_name(node));
     return false;
 }
 
@@ -172,9 +172,9 @@ static bool read_number(struct binder *b, const struct node *node, double *value
         break;
     }
     if (strchr(node->text, ','))
-        report(b, node, _("'%s' is no number; write a dot for the decimals and nothing between thousands"), node->text);
+        report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), node->text);
     else
-        report(b, node, _("'%s' is no number"), node->text);
+        report(b, node, _("'%s' is not a number"), node->text);
     return false;
 }
 
@@ -212,7 +212,7 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
     if (!read_number(b, node, &value))
         return;
     if (value != floor(value))
-        report(b, node, _("'%s' is no whole number"), node->text);
+        report(b, node, _("'%s' is not a whole number"), node->text);
     else if (!check_range(b, f, node, value))
         return;
     else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
@@ -247,7 +247,7 @@ static void bind_flag(struct binder *b, const struct node *node, bool *to)
         return;
     bool yes = strcmp(node->text, "true") == 0;
     if (node->quoted || (!yes && strcmp(node->text, "false") != 0))
-        report(b, node, _("'%s': true or false is wanted"), node->text);
+        report(b, node, _("'%s': expected true or false"), node->text);
     else
         *to = yes;
 }
@@ -262,7 +262,7 @@ static void bind_text(struct binder *b, const struct node *node, void *to)
 static void bind_tag(struct binder *b, const struct field *f, const struct node *node)
 {
     if (want_scalar(b, node, f->value) && strcmp(node->text, f->value) != 0)
-        report(b, node, _("'%s': '%s' is wanted here"), node->text, f->value);
+        report(b, node, _("'%s': expected '%s'"), node->text, f->value);
 }
 
 static void bind_source(struct binder *b, const struct node *node);
@@ -310,7 +310,7 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
 static void bind_spreads(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
     if (node->kind != NODE_LIST || node->n != 3) {
-        report(b, node, _("a list of three numbers is wanted"));
+        report(b, node, _("expected a list of three numbers"));
         return;
     }
     for (size_t i = 0; i < 3; i++) {
@@ -324,7 +324,7 @@ static bool want_list(struct binder *b, const struct node *node)
 {
     if (node->kind == NODE_LIST)
         return true;
-    report(b, node, _("a list is wanted here, not %s"), kind_name(node));
+    report(b, node, _("expected a list, not %s"), kind_name(node));
     return false;
 }
 
@@ -373,7 +373,7 @@ static void bind_points(struct binder *b, const struct field *f, const struct no
         size_t before = enter_item(b, i);
         xz[0][i] = xz[1][i] = NAN;
         if (pair->kind != NODE_LIST || pair->n != 2)
-            report(b, pair, _("a pair [x, z] is wanted"));
+            report(b, pair, _("expected a pair [x, z]"));
         else if (bind_number(b, f, pair->items[0], &xz[0][i]))
             bind_number(b, f, pair->items[1], &xz[1][i]);
         leave(b, before);
@@ -470,7 +470,7 @@ static void except_values(struct binder *b, const struct node *list, struct text
 static bool check_except(struct binder *b, const struct node *list)
 {
     if (list->kind != NODE_LIST) {
-        report(b, list, _("a list of keys is wanted"));
+        report(b, list, _("expected a list of keys"));
         return false;
     }
     for (size_t i = 0; i < list->n; i++)
@@ -489,7 +489,7 @@ static void bind_source(struct binder *b, const struct node *node)
     const struct node *except = NULL;
     int kind = -1;
     if (node->kind != NODE_MAP)
-        report(b, node, _("a mapping {kind, text} is wanted"));
+        report(b, node, _("expected a mapping {kind, text}"));
     for (size_t i = 0; node->kind == NODE_MAP && i < node->n; i++) {
         const struct node *entry = node->items[i];
         size_t outer = enter(b, entry->key);
@@ -537,7 +537,7 @@ static void report_missing(struct binder *b, const struct object *object, const 
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
 {
     if (node->kind != NODE_MAP) {
-        report(b, node, _("a mapping is wanted here, not %s"), kind_name(node));
+        report(b, node, _("expected a mapping, not %s"), kind_name(node));
         return;
     }
     bool partial = b->partial;

@@ -125,13 +125,13 @@ static bool read_value(const struct source *s, struct span f, size_t line, const
     if (reading == CEDUO_NUMBER_GOOD && *value <= vertex->hi && *value >= vertex->lo)
         return true;
     if (f.n == 0)
-        ceduo_problem(problems, s, line, column, _("a value is missing; take the line out"));
+        ceduo_problem(problems, s, line, column, _("a value is missing; remove the line"));
     else if (reading != CEDUO_NUMBER_NONE)
         ceduo_problem(problems, s, line, column, _("beyond %g m"), vertex->hi);
     else if (fits && strchr(room, ','))
-        ceduo_problem(problems, s, line, column, _("'%s' is no number; write a dot for the decimals"), room);
+        ceduo_problem(problems, s, line, column, _("'%s' is not a number; write a dot for the decimals"), room);
     else
-        ceduo_problem(problems, s, line, column, _("'%s' is no number"), fits ? room : "…");
+        ceduo_problem(problems, s, line, column, _("'%s' is not a number"), fits ? room : "…");
     return false;
 }
 
@@ -189,7 +189,7 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *
     struct span line;
     struct columns columns;
     if (!next_line(s, &at, &line)) {
-        ceduo_problem(problems, s, 0, 0, _("holds nothing"));
+        ceduo_problem(problems, s, 0, 0, _("the file is empty"));
         return false;
     }
     if (!read_header(s, line, &columns, problems))

@@ -92,7 +92,7 @@ void ceduo_derive_assume(struct deriver *d, const char *path, const char *text)
 bool ceduo_derive_too_many(struct deriver *d, const char *path, size_t n)
 {
     if (n > CEDUO_ITEMS_MOST)
-        ceduo_derive_complain(d, path, _("%zu are more than the %d that can be computed at once"), n, CEDUO_ITEMS_MOST);
+        ceduo_derive_complain(d, path, _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MOST);
     return n > CEDUO_ITEMS_MOST;
 }
 
@@ -128,7 +128,7 @@ static void refuse_other_sizes(struct deriver *d, enum ceduo_shape shape)
                 d, path, _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name,
                 name, shapes[shape].example);
         else
-            ceduo_derive_complain(d, path, _("does not belong to the shape '%s'; take it out"), name);
+            ceduo_derive_complain(d, path, _("does not belong to the shape '%s'; remove it"), name);
     }
 }
 
@@ -148,7 +148,7 @@ static void check_sizes(struct deriver *d, enum ceduo_shape shape)
                               _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
     const struct node *rock = ceduo_node_get(d->root, "rock");
     if (shape != CEDUO_SPHERE && ceduo_node_get(rock, "mass_kg") && ceduo_node_get(rock, "density_kg_m3"))
-        ceduo_derive_complain(d, "rock.density_kg_m3", _("mass_kg says it already; keep one of the two"));
+        ceduo_derive_complain(d, "rock.density_kg_m3", _("mass_kg already says this; keep one of the two"));
 }
 
 static void derive_rock(struct deriver *d)
@@ -165,7 +165,7 @@ static void derive_rock(struct deriver *d)
             ceduo_derive_text(d, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
     struct ceduo_rock rock;
     if (before == d->problems->met && ceduo_derive_sound(d, "rock") && ceduo_rock_of_means(def, &rock) != CEDUO_OK)
-        ceduo_derive_complain(d, "rock", _("too small or too large a rock to compute with"));
+        ceduo_derive_complain(d, "rock", _("the rock is too small or too large to compute"));
 }
 
 bool ceduo_derive(struct deriver *d)

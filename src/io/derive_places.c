@@ -23,7 +23,7 @@ void ceduo_derive_release(struct deriver *d)
     double first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
         ceduo_derive_complain(d, "release.x_m",
-                              _("%s lies beyond the slope, which has room for a release from %s to before %s m"),
+                              _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
                               ceduo_number_shortest((first >= 0 ? last : first) + d->origin, a),
                               ceduo_number_shortest(d->origin, b), ceduo_number_shortest(end + d->origin, c));
 }
@@ -72,14 +72,14 @@ void ceduo_derive_controls(struct deriver *d)
     const char *path = listed ? "controls" : "controls_m";
     scene->controls_count = 0;
     if (ceduo_node_get(d->root, "controls") && ceduo_node_get(d->root, "controls_m")) {
-        ceduo_derive_complain(d, "controls_m", _("controls say it already; keep one of the two"));
+        ceduo_derive_complain(d, "controls_m", _("controls already say this; keep one of the two"));
         return;
     }
     if (!ceduo_derive_known(d, "controls") || !ceduo_derive_known(d, "controls_m"))
         return;
     if (n == 0) {
         ceduo_derive_complain(d, "",
-                              _("'controls' is missing: at least one place where the rocks that pass are counted"));
+                              _("'controls' is missing: name at least one place where passing rocks are counted"));
         return;
     }
     if (ceduo_derive_too_many(d, path, n) || (!listed && !list_controls(d, n)))
@@ -123,7 +123,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
         ceduo_derive_refuse(d, path, ".growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
                             s->growth.shoots_young, s->growth.shoots_old);
     if (s->system == CEDUO_BARE && (s->shoots_count > 0 || s->trees_count > 0))
-        ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or take them out"), 0,
+        ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or remove them"), 0,
                             0);
     check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(d, path, "trees", s->trees, s->trees_count);
@@ -136,7 +136,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
         ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0,
                             0);
     else if (s->shoots_count == 0 && s->stools_per_ha > 0)
-        ceduo_derive_refuse(d, path, ".stools", _("stools without shoots; add 'shoots', or take the stools out"), 0, 0);
+        ceduo_derive_refuse(d, path, ".stools", _("stools without shoots; add 'shoots', or remove the stools"), 0, 0);
     else if (s->shoots_count > 0 && ceduo_stand_shoots(s) < s->stools_per_ha)
         ceduo_derive_refuse(d, path, ".stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
                             ceduo_stand_shoots(s), s->stools_per_ha);
@@ -206,7 +206,7 @@ void ceduo_derive_options(struct deriver *d)
     size_t n = scene->options_count;
     scene->options_count = 0;
     if (many && ceduo_node_get(d->root, "forest")) {
-        ceduo_derive_complain(d, "forest", _("options say it already; keep one of the two"));
+        ceduo_derive_complain(d, "forest", _("options already say this; keep one of the two"));
         return;
     }
     if (!ceduo_derive_known(d, "options"))

@@ -87,7 +87,7 @@ static void check_segments(struct deriver *d, size_t n)
         struct ceduo_segment *g = &s->segments[i];
         if (!isnan(g->roughness_m) && !isnan(g->roughness_rad))
             ceduo_derive_complain(d, ceduo_derive_text(d, "slope.segments[%zu].roughness_m", i),
-                                  _("roughness_rad says it already; keep one"));
+                                  _("roughness_rad already says this; keep one"));
         if (isnan(g->roughness_m) && isnan(g->roughness_rad))
             g->roughness_rad = smooth;
     }
@@ -210,7 +210,7 @@ static bool check_ground(struct deriver *d, const struct points *p, bool segment
 {
     size_t before = d->problems->met;
     if (segments && materials)
-        ceduo_derive_complain(d, "slope.materials", _("segments say the ground already; keep one of the two"));
+        ceduo_derive_complain(d, "slope.materials", _("segments already give the ground; keep one of the two"));
     if (!segments && !materials && !ceduo_derive_given(d, "slope", "csv"))
         ceduo_derive_complain(d, "slope", _("'segments' or 'materials' is missing: the ground"));
     if (segments && ceduo_derive_known(d, "slope.segments"))

@@ -174,11 +174,11 @@ const char *ceduo_file_why(int why)
 {
     switch (why) {
     case NOBODY_WRITES:
-        return _("nobody writes to this FIFO");
+        return _("no program writes to this FIFO");
     case NO_FILE:
         return _("a device or a socket; name a file");
     case NO_END:
-        return _("it does not end; name a file that does");
+        return _("this file has no end; name a regular file");
     default:
         return strerror(why);
     }

@@ -30,7 +30,7 @@ bool ceduo_source_line(const struct source *s, size_t line, size_t *from, size_t
 }
 
 /* Bytes of one character, even of one that is no UTF-8. */
-static size_t step(const char *p, size_t n)
+static size_t character_length(const char *p, size_t n)
 {
     uint32_t code;
     size_t length = ceduo_utf8_decode(p, n, &code);
@@ -46,13 +46,13 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     size_t mark = from == 0 ? ceduo_source_mark(s) : 0;
     size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
-        at += step(s->bytes + at, to - at);
+        at += character_length(s->bytes + at, to - at);
     struct text caret = {0};
     ceduo_text_put(out, "  ");
     ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_put(&caret, "  ");
     for (; at < to && c < first + LINE_MOST; c++) {
-        size_t before = out->length, n = step(s->bytes + at, to - at);
+        size_t before = out->length, n = character_length(s->bytes + at, to - at);
         if (s->bytes[at] == '\t')
             ceduo_text_char(out, ' ');
         else

@@ -122,7 +122,7 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
     if (!base || object != ceduo_schema_stand())
         return node;
     if (base->kind != NODE_SCALAR) {
-        ceduo_node_problem(r->problems, base, "base", _("a path to a file is wanted"));
+        ceduo_node_problem(r->problems, base, "base", _("expected a path to a file"));
         return broken(r, node);
     }
     const struct node *below = follow(r, object, base, depth + 1);
@@ -170,7 +170,7 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
     if (depth > BASES_MOST) {
-        ceduo_node_problem(r->problems, node, node->key, _("more than %d files that start from one another: a loop?"),
+        ceduo_node_problem(r->problems, node, node->key, _("more than %d files in a chain of 'base'; do they form a loop?"),
                            BASES_MOST);
         return NULL;
     }
@@ -234,7 +234,7 @@ static const struct node *resolve_entry(struct resolver *r, const struct field *
     if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
         return entry;
     if (strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST) { /* before so many files are looked for */
-        ceduo_node_problem(r->problems, entry, f->key, _("%zu are more than the %d that can be computed at once"), entry->n,
+        ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n,
                            CEDUO_ITEMS_MOST);
         return broken(r, entry);
     }
@@ -405,7 +405,7 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child)
-        return fail_at(s, step, _("there is none to change"));
+        return fail_at(s, step, _("there is nothing to change here"));
     if (!last && !child)
         return NULL; /* no memory for it */
     s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
@@ -419,7 +419,7 @@ static bool is_ambiguous(struct setter *s, const struct node *list, const struct
 {
     struct text what = {0};
     size_t place, n = 0;
-    ceduo_text_put(&what, _("this name is given more than once; take a place: "));
+    ceduo_text_put(&what, _("several items have this name; use one of: "));
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (is_named(list->items[i], step))
             ceduo_text_format(&what, "%s[%zu]", n++ > 0 ? ", " : "", i);

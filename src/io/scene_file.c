@@ -62,7 +62,7 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
         return false;
     const char *equals = equals_of(source->bytes);
     if (!equals || equals == source->bytes) {
-        ceduo_problem(problems, source, 1, 1, _("PATH=VALUE is wanted"));
+        ceduo_problem(problems, source, 1, 1, _("expected PATH=VALUE"));
         return false;
     }
     size_t length = (size_t)(equals - source->bytes);
@@ -164,7 +164,7 @@ static void name_change(const struct source *source, const char *const *sets, si
         .name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
     struct problems head = {0};
     ceduo_problem(&head, &set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
-                  _("the scene is good without this change, but not with it:"));
+                  _("the scene is valid without this change, but not with it:"));
     ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
     ceduo_text_free(&problems->text);
     problems->text = head.text;

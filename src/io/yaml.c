@@ -101,7 +101,7 @@ static void syntax_problem(struct reader *r)
             from += n; /* libyaml may name a byte within the character */
         yaml_mark_t at = mark_of_byte(bytes, from);
         if (p->problem_value >= 0 && strstr(p->problem, "control"))
-            STOP(r, at, _("a control character (\\x%02x); take it out"), (unsigned)p->problem_value);
+            STOP(r, at, _("a control character (\\x%02x); remove it"), (unsigned)p->problem_value);
         else
             STOP(r, at, _("not UTF-8; save the file as UTF-8"));
         return;
@@ -155,7 +155,7 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
     const char *value = (const char *)event->data.scalar.value;
     size_t length = event->data.scalar.length;
     if (memchr(value, '\0', length)) {
-        STOP(r, event->start_mark, _("a NUL character in a text; take it out"));
+        STOP(r, event->start_mark, _("a NUL character in a text; remove it"));
         return NULL;
     }
     if (length > TEXT_MOST) {
@@ -296,9 +296,9 @@ static bool has_anchor_or_tag(struct reader *r, const yaml_event_t *event)
         tag = event->data.mapping_start.tag;
     }
     if (anchor)
-        STOP(r, event->start_mark, _("an anchor; take it out and write the value where it is needed"));
+        STOP(r, event->start_mark, _("an anchor; remove it and write the value where it is needed"));
     else if (tag)
-        STOP(r, event->start_mark, _("a tag; take it out"));
+        STOP(r, event->start_mark, _("a tag; remove it"));
     return anchor || tag;
 }
 
@@ -351,9 +351,9 @@ static struct node *read_document(struct reader *r)
                  type != YAML_DOCUMENT_END_EVENT && type != YAML_STREAM_END_EVENT)
             root = read_value(r, &event, 0);
         if (type == YAML_STREAM_END_EVENT && !root && r->skip > 0 && r->source->is_option)
-            ceduo_problem(r->problems, r->source, 1, r->skip_column + 1, _("holds no value, nothing follows the ="));
+            ceduo_problem(r->problems, r->source, 1, r->skip_column + 1, _("there is no value after the ="));
         else if (type == YAML_STREAM_END_EVENT && !root)
-            ceduo_problem(r->problems, r->source, 0, 0, _("holds no value"));
+            ceduo_problem(r->problems, r->source, 0, 0, _("there is no value"));
         yaml_event_delete(&event);
         if (type == YAML_STREAM_END_EVENT)
             break;

@@ -169,7 +169,7 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
     if (good && c.filled.length)
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
     if (good && c.taken.length)
-        ceduo_text_format(said, _("%staken out: %s"), said->length ? "; " : "", c.taken.bytes);
+        ceduo_text_format(said, _("%sremoved: %s"), said->length ? "; " : "", c.taken.bytes);
     ceduo_text_free(&c.taken);
     ceduo_text_free(&c.filled);
     return good;

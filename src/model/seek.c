@@ -77,19 +77,19 @@ static const struct source path_source = {.name = "--find", .is_option = true};
 static bool is_askable(const struct seek *s, struct problems *problems)
 {
     if (is_text(ceduo_schema_at(s->search.path))) {
-        ceduo_problem(problems, &path_source, 0, 0, _("%s is no number"), s->search.path);
+        ceduo_problem(problems, &path_source, 0, 0, _("%s is not a number"), s->search.path);
         return false;
     }
     bool needs_accepted = s->search.goal == CEDUO_GOAL_EXCEED;
     for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
         if (isnan(s->file->scene.controls[c].accepted)) {
             ceduo_problem(problems, &goal_source, 0, 0,
-                          _("exceed: controls[%zu] does not say what it bears; add accepted_kJ"), c);
+                          _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
             return false;
         }
     if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX) {
         ceduo_problem(problems, &goal_source, 0, 0,
-                      _("exceed: the contact model index flies no rock through the wood"));
+                      _("exceed: with contact_model index no rock is simulated in the forest"));
         return false;
     }
     return true;

@@ -60,7 +60,7 @@ static const struct field rock_fields[] = {
     SPREAD("volume_m3", AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
            N_("volume of a sphere, instead of its diameter")),
     SPREAD("mass_kg", AT(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
-           N_("mass; of a sphere instead of its diameter, of others instead of density")),
+           N_("mass: of a sphere instead of its diameter, of other shapes instead of the density")),
     SPREAD("density_kg_m3", AT(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE, "2600",
            N_("density of the rock; the default is limestone's, an assumption")),
 };
@@ -77,7 +77,7 @@ static const struct field release_fields[] = {
            N_("horizontal speed, positive downslope along x")),
     SPREAD("vz_m_s", AT(ceduo_release, vz), "m/s", -1000, 1000, 0, "0", N_("vertical speed, positive upward")),
     SPREAD("spin_rad_s", AT(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0",
-           N_("spin, positive where it rolls forward; the law lumped knows none")),
+           N_("spin, positive rolling forward; not used by the law lumped")),
 };
 static const struct object release_object = OBJECT(ceduo_release, release_fields, NULL);
 
@@ -141,9 +141,9 @@ static const struct field stools_fields[] = {
 static const struct object stools_object = OBJECT(ceduo_stand, stools_fields, NULL);
 
 static const struct field energy_fields[] = {
-    WORD("model", AT(ceduo_stand, energy), 0, "brauner", N_("what a contact with a stem takes"), &ceduo_energy_words),
+    WORD("model", AT(ceduo_stand, energy), 0, "brauner", N_("energy law: what a contact with a stem takes from the rock"), &ceduo_energy_words),
     NUMBER("u_J_m3", AT(ceduo_stand, u), "J/m3", 0, 1e7, ABOVE, NULL,
-           N_("brauner: work of breaking; without it the species', beech's where that is unknown")),
+           N_("brauner: work of breaking; without it that of the species, or of beech if unknown")),
     NUMBER("fracture_ratio", AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, "1.5",
            N_("dorren: energy of this species over that of silver fir; the default is an assumption")),
 };
@@ -151,11 +151,11 @@ static const struct object energy_object = OBJECT(ceduo_stand, energy_fields, NU
 
 static const struct field curve_fields[] = {
     NUMBER("dbh_most_m", AT(ceduo_curve, dbh_most), "m", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
-           N_("diameter that the oldest come near: d(t) = D(1 - exp(-kt))")),
+           N_("diameter that old stems approach: d(t) = D(1 - exp(-kt))")),
     NUMBER("dbh_rate_1_y", AT(ceduo_curve, dbh_rate), "1/y", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
            N_("k of the diameter")),
     NUMBER("height_most_m", AT(ceduo_curve, height_most), "m", 0, 150, REQUIRED | ABOVE | ZERO | YEARS, NULL,
-           N_("height that the oldest come near: h(t) = H(1 - exp(-mt))")),
+           N_("height that old stems approach: h(t) = H(1 - exp(-mt))")),
     NUMBER("height_rate_1_y", AT(ceduo_curve, height_rate), "1/y", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
            N_("m of the height")),
 };
@@ -167,9 +167,9 @@ static const struct field growth_fields[] = {
     NUMBER("shoots_young", AT(ceduo_growth, shoots_young), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots that come up on a stool after a cut")),
     NUMBER("shoots_old", AT(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
-           N_("shoots of a stool that are left in the end: n(t) = old + (young - old)exp(-t/5)")),
+           N_("shoots of an old stool: n(t) = old + (young - old)exp(-t/5)")),
     NUMBER("sdi_most", AT(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
-           N_("stand density index to which shoots thin themselves; without it or 0 they do not")),
+           N_("stand density index to which shoots thin themselves; 0 or absent: they do not")),
 };
 static const struct object growth_object = OBJECT(ceduo_growth, growth_fields, NULL);
 
@@ -177,7 +177,7 @@ static const struct field cutting_fields[] = {
     NUM(FIELD_COUNT, "rotation_years", AT(ceduo_stand, cutting.rotation), "y", 1, 1, 500, REQUIRED | YEARS, NULL,
           N_("years between two cuts")),
     NUM(FIELD_COUNT, "cohorts", AT(ceduo_stand, cutting.cohorts), "", 1, 1, 20, YEARS, "1",
-          N_("cohorts of shoots on a stool, of which each cut takes the oldest; 1: all shoots are cut")),
+          N_("cohorts of shoots on a stool; each cut takes the oldest; 1: all shoots are cut")),
     NUM(FIELD_NUMBERS, "stay_per_ha", LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, YEARS,
         NULL, N_("single trees that a cut leaves: those one rotation old, two rotations old, …")),
 };
@@ -188,7 +188,7 @@ static const struct field stand_fields[] = {
     TEXT("name", NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the stand")),
     OTHER(FIELD_FILE, "base", NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
-    WORD("system", AT(ceduo_stand, system), UNFLOWN, NULL, N_("silvicultural system; without it as the stems say"),
+    WORD("system", AT(ceduo_stand, system), UNFLOWN, NULL, N_("silvicultural system; without it derived from the stems"),
          &ceduo_system_words),
     WORD("species", AT(ceduo_stand, species), YEARS, NULL, N_("main species: volume of its stems and work of breaking"),
          &ceduo_species_words),
@@ -211,7 +211,7 @@ static const struct field belt_fields[] = {
     NUMBER("to_m", PLACE(ceduo_belt, to_given, to), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
            N_("where the belt ends")),
     NUMBER("cut_year", AT(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
-           N_("a year in which it is cut, from the stand as filed; without it when it is old enough")),
+           N_("a year in which it is cut, counted from the stand as filed; without it as soon as it is old enough")),
     GROUP("stand", AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS, N_("the stand: a file, or what such a file holds"),
           &stand_object),
 };
@@ -225,9 +225,9 @@ static const struct object option_object = OBJECT(ceduo_option, option_fields, N
 
 static const struct field control_fields[] = {
     NUMBER("x_m", PLACE(ceduo_control, x_given, x), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
-           N_("where the rocks that pass are counted")),
+           N_("where passing rocks are counted")),
     TEXT("name", AT(ceduo_control, name), UNFLOWN, N_("what stands there")),
-    NUM(FIELD_NUMBER, "accepted_kJ", AT(ceduo_control, accepted), "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that it bears")),
+    NUM(FIELD_NUMBER, "accepted_kJ", AT(ceduo_control, accepted), "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER("measured_speed_m_s", AT(ceduo_control, measured_speed), "m/s", 0, 1000, UNFLOWN, NULL,
            N_("speed of a real rock seen there, for comparison")),
 };
@@ -238,7 +238,7 @@ static const struct field simulation_fields[] = {
     NUM(FIELD_COUNT, "rocks", AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST, UNFLOWN, "1000", N_("rocks simulated")),
     NUM(FIELD_COUNT, "seed", AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, 0, "1", N_("seed of the random numbers")),
     WORD("contact_model", AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
-         N_("how rocks meet stems: each by itself, as a Poisson process at the rule's rate, or not (index)"),
+         N_("how rocks meet stems: stem by stem, as a Poisson process with the rate of the rule, or not at all (index)"),
          &ceduo_contact_model_words),
     WORD("rule", AT(ceduo_simulation, rule), FIELD_WOOD, "auto", N_("form of the ADC; auto is the paper's rule"),
          &ceduo_rule_words),
@@ -253,7 +253,7 @@ static const struct object simulation_object = OBJECT(ceduo_simulation, simulati
 
 static const struct field minimum_fields[] = {
     NUMBER("reserves_per_ha", AT(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5, REQUIRED | UNFLOWN, NULL,
-           N_("single trees that the law or the owner wants to be kept; a wood with fewer is noted")),
+           N_("single trees that must be kept by law or by wish of the owner; a forest with fewer is reported")),
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
 
@@ -265,17 +265,17 @@ static const struct field scene_fields[] = {
     GROUP("slope", AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
           N_("the slope: a file, or what such a file holds"), &slope_object),
     ITEMS("controls", LIST(scene_draft, scene.controls, scene.controls_count), 0,
-          N_("places where the rocks that pass are counted"), &control_object),
+          N_("places where passing rocks are counted"), &control_object),
     NUM(FIELD_NUMBERS, "controls_m", LIST(scene_draft, controls_m, controls_m_count), "m", 1, -FAR, FAR, FIELD_DRAFT, NULL,
         N_("the same by their x alone")),
     ITEMS("forest", LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD,
           N_("belts of forest, rising along x"), &belt_object),
     ITEMS("options", LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD,
           N_("silvicultural options to compare, instead of forest; the first is the baseline"), &option_object),
-    GROUP("simulation", AT(scene_draft, scene.simulation), 0, N_("how it is computed"), &simulation_object),
+    GROUP("simulation", AT(scene_draft, scene.simulation), 0, N_("how the scene is computed"), &simulation_object),
     NUMBER("rocks_per_year", AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, UNFLOWN, NULL,
-           N_("rocks that come down in a year, for what is to be expected of the years")),
-    GROUP("minimum", SAME, 0, N_("what a wood must keep"), &minimum_object),
+           N_("rocks that come down in a year, to print how many to expect")),
+    GROUP("minimum", SAME, 0, N_("what a forest must keep"), &minimum_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
 

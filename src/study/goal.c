@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/intl.h"
-#include "base/text.h"
 #include "ceduo/assess.h"
 
 const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
@@ -21,6 +20,12 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {
     return ceduo_goals[goal].unit[0] == '%';
+}
+
+void ceduo_goal_words(struct text *text)
+{
+    for (size_t i = 0; i < CEDUO_GOALS; i++)
+        ceduo_text_format(text, "%s%s", i > 0 ? ", " : "", ceduo_goals[i].word);
 }
 
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation)

@@ -2,6 +2,7 @@
 #ifndef CEDUO_GOAL_H
 #define CEDUO_GOAL_H
 
+#include "base/text.h"
 #include "ceduo/result.h"
 
 /* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
@@ -22,6 +23,9 @@ extern const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS];
 
 /* Whether the value is a share. */
 bool ceduo_goal_is_share(enum ceduo_goal goal);
+
+/* Adds the words of all goals, with commas between them. */
+void ceduo_goal_words(struct text *text);
 
 /* The limit of the light that the goal belongs to; NaN where there is none. */
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation);

@@ -16,7 +16,7 @@ static bool counts_of(struct app *app, struct popup *p, double values[6], bool *
             continue;
         bool good = ceduo_number_read(p->fields[i].text, &values[i]) == CEDUO_NUMBER_GOOD && values[i] >= 0;
         if (!good) {
-            ceduo_app_warn(app, _("%s: '%s' is no number"), p->labels[i], p->fields[i].text);
+            ceduo_app_warn(app, _("%s: '%s' is not a number"), p->labels[i], p->fields[i].text);
             return false;
         }
     }

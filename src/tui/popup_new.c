@@ -47,7 +47,7 @@ static bool numbers_typed(struct app *app, const struct popup *p)
         const char *text = p->fields[numbers[i]].text;
         bool may_be_empty = numbers[i] == NEW_ACCEPTED && text[0] == '\0';
         if (!may_be_empty && ceduo_number_read(text, &value) != CEDUO_NUMBER_GOOD) {
-            ceduo_app_warn(app, _("%s: '%s' is no number; write a dot for the decimals"), p->labels[numbers[i]], text);
+            ceduo_app_warn(app, _("%s: '%s' is not a number; write a dot for the decimals"), p->labels[numbers[i]], text);
             return false;
         }
     }

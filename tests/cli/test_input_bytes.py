@@ -29,10 +29,10 @@ def test_line_ends():
             good("--check", f.write("s.yaml", data))
     bad = text.replace(b"diameter_m: 0.5", b"diameter_m: x")
     for data in (bad, bad.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + bad):
-        done = bytes_refused(data, "'x' is no number", place=(3, 35))
+        done = bytes_refused(data, "'x' is not a number", place=(3, 35))
         expect_places(done.err, {"s.yaml": data.decode()})
     data = b"\xef\xbb\xbfrock: 5\n"
-    expect_places(bytes_refused(data, "a mapping is wanted", place=(1, 7)).err, {"s.yaml": data.decode()})
+    expect_places(bytes_refused(data, "expected a mapping", place=(1, 7)).err, {"s.yaml": data.decode()})
 
 
 def test_unclosed():

@@ -76,9 +76,9 @@ def test_all_with_values():
          "controls: [{x_m: 9}, {x_m: 9, accepted_kJ: -1}]\n"
          "forest: [{from_m: 10, to_m: x, stand: {stools: {per_ha: 9}, shoots: [{per_ha: 5, dbh_m: 1, height_m: 1}]}}, "
          "{from_m: 9, to_m: 8, stand: {shoots: [{per_ha: 5, dbh_m: 0, height_m: 1}]}}]\n",
-         "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: a pair",
+         "rock.shape: 'cube'", "release.x_m: 'b'", "release.height_m: -1", "slope.vertices_m[1]: expected a pair",
          "slope.vertices_m[3]: x 30 does not lie beyond 40", "2 segments for 3 stretches", "segments[0].rn: 2", "'rt' is missing",
-         "segments say the ground already", "controls[1].x_m: 9 is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
+         "segments already give the ground", "controls[1].x_m: 9 is given twice", "controls[1].accepted_kJ: -1", "to_m: 'x'",
          "'spacing_m' is missing", "5 shoots on 9 stools", "forest[1].to_m: 8 does not lie", "shoots without stools",
          "dbh_m: 0 is not above")
     told(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
@@ -89,7 +89,7 @@ def test_all_with_values():
     told("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
          "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",
          "one of diameter_m, volume_m3 and mass_kg", "'sand' is unknown", "materials[1].from_m: 5 leaves a gap",
-         "options[1]: 'name' is missing", "options[1].forest: a list is wanted", "options[2].name: 'a' is given twice",
+         "options[1]: 'name' is missing", "options[1].forest: expected a list", "options[2].name: 'a' is given twice",
          "'controls' is missing")
 
 
@@ -97,13 +97,13 @@ def test_all_but_what_follows():
     """What only follows from another problem is not told"""
     told("ceduo: scene/1\nrock: {diametre_m: 0.5}\nslope: {vertices_m: 5, materials: 6}\ncontrol: [{x_m: 900}]\n"
          "forest: [{from_m: 10, to_m: 400, stand: {stools: 7, shoots: [{per_ha: 9, dbh_m: 1, height_m: 1}]}}]\n",
-         "rock.diametre_m: unknown key", "slope.vertices_m: a list", "slope.materials: a list", "control: unknown key",
-         "stools: a mapping is wanted")
-    told(HEAD + "controls: 75\noptions: {}\n", "controls: a list", "options: a list")
-    told(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: a text",
+         "rock.diametre_m: unknown key", "slope.vertices_m: expected a list", "slope.materials: expected a list", "control: unknown key",
+         "stools: expected a mapping")
+    told(HEAD + "controls: 75\noptions: {}\n", "controls: expected a list", "options: expected a list")
+    told(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: expected a text",
          "vertices_m and csv together")
     told(HEAD.replace("diameter_m: 0.5", "shape: 5, height_m: 9") + "release: 7\ncontrols_m: [50]\nforest: [9, {from_m: 8}]\n",
-         "rock.shape: '5'", "release: a mapping", "forest[0]: a mapping", "'to_m' is missing", "'stand' is missing")
+         "rock.shape: '5'", "release: expected a mapping", "forest[0]: a mapping", "'to_m' is missing", "'stand' is missing")
 
 
 def stand_fault(body, *words, place=None, more=None):
@@ -172,7 +172,7 @@ def test_options_bad():
             ("options:\n  - {name: a}\n  - {name: a}\n", 11, "options[1].name: 'a' is given twice"),
             ("options:\n  - {name: a}\n  - {forest: []}\n", 11, "options[1]: 'name' is missing"),
             ("options: []\n", 9, "options: the list is empty"),
-            ("options: {name: a}\n", 9, "a list is wanted"),
+            ("options: {name: a}\n", 9, "expected a list"),
             (f"options:\n  - {{name: a}}\n  - {{name: b, forest: [{belt.replace('0.2', '-1')}]}}\n", 11,
              "options[1].forest[0].stand.trees[0].dbh_m: -1 is below 0 m"),
             (f"options:\n  - {{name: a}}\n  - {{name: b, forest: [{belt}, {belt}]}}\n", 11, "options[1].forest[1].from_m")):

@@ -104,7 +104,7 @@ def test_no_end():
     with Folder() as f:
         f.write("s.yaml", flat_scene())
         for words in (("--check", endless), ("--merge", endless), ("--script", endless, "s.yaml")):
-            expect_refused(ceduo(*words, cwd=f.path, timeout=20), endless, "it does not end; name a file that does\n")
+            expect_refused(ceduo(*words, cwd=f.path, timeout=20), endless, "this file has no end; name a regular file\n")
         for mode in ("--check", "--merge"):
             with open(endless, "rb", buffering=0) as stream:
                 done = subprocess.run([CEDUO, mode, "-"], stdin=stream, capture_output=True, text=True, env=environment(),
@@ -174,7 +174,7 @@ def waits_for_its_writer(fifo):
 def tells_of_no_writer(mode, fifo):
     os.mkfifo(fifo)
     done = ceduo(mode, fifo)
-    expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: nobody writes to this FIFO\n"))
+    expect_equal((done.status, done.err), (INPUT, f"{fifo}: cannot read it: no program writes to this FIFO\n"))
     expect(2 < done.seconds < 10 * SLOWER, done)
 
 

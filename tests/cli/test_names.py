@@ -8,7 +8,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (INPUT, USAGE, Folder, belt, ceduo, expect, expect_equal, expect_in, good, result, run_all,  # noqa: E402
                      scene, stand)
 
-TWICE = "this name is given more than once; take a place: "
+TWICE = "several items have this name; use one of: "
 
 
 def refused(path, change, *words):

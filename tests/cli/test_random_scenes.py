@@ -632,7 +632,7 @@ def expect_shown(cell, value, what):
     try:
         shown = Fraction(cell)
     except ValueError:
-        raise Failure(f"{what}: {cell!r} is no number, {value!r} was to be shown") from None
+        raise Failure(f"{what}: {cell!r} is not a number, {value!r} was to be shown") from None
     digits, _, power = cell.partition("e")
     unit = Fraction(10) ** (int(power or 0) - len(digits.partition(".")[2]))
     expect(abs(shown - Fraction(value)) <= unit * Fraction(51, 100), f"{what}: {cell!r} on the page, {value!r} in JSON")

@@ -56,7 +56,7 @@ def test_set_at_odds():
         done = ceduo("--check", *(word for s in sets for word in ("-s", s)), PAPER)
         culprit = next(s for s in sets if "=9" not in s)
         expect(done.status == USAGE and done.out == "", done)
-        expect(done.err.startswith(f"--set:1:{column}: the scene is good without this change, but not with it:\n  {culprit}\n" +
+        expect(done.err.startswith(f"--set:1:{column}: the scene is valid without this change, but not with it:\n  {culprit}\n" +
                                    " " * (column + 1) + "^\n"), done)
         expect_in(words, done.err)
         expect_equal(done.err.count("--set:"), 1, done.err)
@@ -75,8 +75,8 @@ def test_set_by_name_twice():
         path = f.write("s.yaml", scene(forest=belts))
         good("--check", "-s", "forest[b].stand.trees[0].per_ha=1", path)
         good("--check", "-s", "forest[0].stand.trees[0].per_ha=1", path)
-        bad_set_on(path, "forest[a].stand.trees[0].per_ha=1", "'a': this name is given more than once; take a place: [0], [2], [3]")
-        bad_set_on(path, "forest[a]={}", "take a place: [0], [2], [3]")
+        bad_set_on(path, "forest[a].stand.trees[0].per_ha=1", "'a': several items have this name; use one of: [0], [2], [3]")
+        bad_set_on(path, "forest[a]={}", "use one of: [0], [2], [3]")
         bad_set_on(path, "forest[c].to_m=1", "'c': no such item")
 
 
@@ -119,13 +119,13 @@ BAD_SETS = [
     ("forest[-1].to_m=1", "no such item"), ("forest[99999999999999999999].to_m=1", "no such item"),
     ("rock..x=1", "malformed path"), ("forest[0=1", "malformed path"), ("forest[].to_m=1", "malformed path"),
     (".rock=1", "malformed path"), ("rock[0]=1", "no list"), ("forest.to_m=1", "no mapping"),
-    ("rock.diameter_m=", "no value"), ("rock.diameter_m=abc", "'abc' is no number"), ("rock.diameter_m='1'", "in quotes"),
-    ("rock.diameter_m=1,5", "write a dot"), ("rock.diameter_m=nan", "'nan' is no number"),
+    ("rock.diameter_m=", "no value"), ("rock.diameter_m=abc", "'abc' is not a number"), ("rock.diameter_m='1'", "in quotes"),
+    ("rock.diameter_m=1,5", "write a dot"), ("rock.diameter_m=nan", "'nan' is not a number"),
     ("rock.diameter_m=1e999", "too large"), ("rock={", "malformed YAML"), ("rock.diameter_m=*x", "alias"),
     ("rock.diameter_m=&x 1", "anchor"), ("rock.diameter_m=!!int 1", "tag"), ("simulation.law=bounce", "unknown"),
     ("simulation.contact_model=pinball", "unknown"), ("simulation.rocks=1.5", "whole number"),
     ("controls[0].x_m=500", "beyond the slope"), ("release.x_m=-5", "beyond the slope"),
-    ("simulation.scale_rn=yes", "true or false"), ("title=[1]", "a text is wanted"), ("rock.diameter_m=\x1b[31m", "control"),
+    ("simulation.scale_rn=yes", "true or false"), ("title=[1]", "expected a text"), ("rock.diameter_m=\x1b[31m", "control"),
     ("rock.\x1b[31m=1", "unknown key"),
 ]
 

@@ -203,7 +203,7 @@ def test_missing():
     """Missing parts are named"""
     with Folder() as f:
         a, b, c, d = parts()
-        expect_refused(merge_of(f, a, b, d), r"1\.jsonl:1: 'paper-site' is in 4 shards, and these are missing: 3\n")
+        expect_refused(merge_of(f, a, b, d), r"1\.jsonl:1: 'paper-site' has 4 shards; these are missing: 3\n")
         expect_refused(merge_of(f, d), r"missing: 1-3\n")
         expect_refused(merge_of(f, b + d), r"missing: 1, 3\n")
         expect_refused(merge_of(f, a, b, c), r"missing: 4\n")
@@ -213,7 +213,7 @@ def test_doubled():
     """Doubled parts are named, with both places"""
     with Folder() as f:
         a, b, c, d = parts()
-        expect_refused(merge_of(f, a, b + c, d + c), r"[23]\.jsonl:2: shard 3 of 4 of 'paper-site' once more; .*/[23]\.jsonl:2")
+        expect_refused(merge_of(f, a, b + c, d + c), r"[23]\.jsonl:2: shard 3 of 4 of 'paper-site' is given twice; it is also in .*/[23]\.jsonl:2")
 
 
 def test_foreign():
@@ -231,16 +231,16 @@ def test_foreign():
 
 
 def test_no_parts():
-    """What is no part is named: a scene, a result, an empty line, nothing at all, no file"""
+    """What is not a part is named: a scene, a result, an empty line, nothing at all, no file"""
     with Folder() as f:
         a, b, c, d = parts()
         page = good("--batch", "-f", "json", "-n", 10, "paper-site").out_bytes
         for wrong in (page, b"ceduo: scene/1\n", b"\n", b"\xff\x00\x01\n" * 100, b"{}\n", b"[" * 100000):
-            expect_refused(merge_of(f, a + wrong, b, c, d), r"1\.jsonl:2: no part that --shard wrote\n")
-        expect_refused(merge_of(f, a, b, c, d, b""), r"5\.jsonl: holds no part\n")
+            expect_refused(merge_of(f, a + wrong, b, c, d), r"1\.jsonl:2: not a part written by --shard\n")
+        expect_refused(merge_of(f, a, b, c, d, b""), r"5\.jsonl: contains no part\n")
         expect_refused(ceduo("--merge", f.path / "none"), r"none: cannot read it: No such file")
         expect_refused(ceduo("--merge", f.path), r"cannot read it: Is a directory")
-        expect_refused(merge_of(f, a.replace(b"ceduo-part-1", b"ceduo-part-2"), b, c, d), r"1\.jsonl:1: a part in a format")
+        expect_refused(merge_of(f, a.replace(b"ceduo-part-1", b"ceduo-part-2"), b, c, d), r"1\.jsonl:1: the part has a format")
 
 
 def test_cut():
@@ -248,7 +248,7 @@ def test_cut():
     with Folder() as f:
         a, b, c, d = parts()
         for n in [1, 10, 25, 26, 40, len(c) // 2, len(c) - 30, len(c) - 3, len(c) - 2]:
-            expect_refused(merge_of(f, a, b, c[:n], d), r"3\.jsonl:1: a part that (is cut short|was changed)")
+            expect_refused(merge_of(f, a, b, c[:n], d), r"3\.jsonl:1: the part (is incomplete|was changed)")
         expect_equal(merge_of(f, a, b, c[:-1], d).status, DONE, "without the end of its line")
 
 
@@ -259,7 +259,7 @@ def test_edited():
         rng = random.Random(1)
         for at in [45, 60, 90, 150] + [rng.randrange(200, len(b) - 3) for _ in range(30)]:
             changed = b[:at] + (b"A" if b[at:at + 1] != b"A" else b"B") + b[at + 1:]
-            expect_refused(merge_of(f, a, changed, c, d), r"2\.jsonl:1: a part (that was changed|that is cut|by version)")
+            expect_refused(merge_of(f, a, changed, c, d), r"2\.jsonl:1: the part (was changed|is incomplete|is from version)")
         expect_refused(merge_of(f, a, json.dumps(json.loads(b)).encode()[:-1] + b" }\n", c, d), r"2\.jsonl:1")
 
 
@@ -309,7 +309,7 @@ def test_version():
     """Parts of another version are named"""
     with Folder() as f:
         a, b, c, d = parts()
-        expect_refused(merge_of(f, a, forged(b, version="9.9.9"), c, d), r"2\.jsonl:1: a part by version 9\.9\.9, and this is \d")
+        expect_refused(merge_of(f, a, forged(b, version="9.9.9"), c, d), r"2\.jsonl:1: the part is from version 9\.9\.9, but this is \d")
 
 
 def test_nothing_half_printed():
@@ -319,7 +319,7 @@ def test_nothing_half_printed():
         lines = paths[1].read_bytes().splitlines(keepends=True)
         paths[1].write_bytes(lines[0])
         result = ceduo("--merge", "-o", f.path / "out.csv", "-f", "csv", *paths)
-        expect_refused(result, r"'terrace' is in 2 shards, and these are missing: 2")
+        expect_refused(result, r"'terrace' has 2 shards; these are missing: 2")
         expect(not (f.path / "out.csv").exists(), f.names())
 
 
@@ -342,19 +342,19 @@ def test_usage():
     """Options that do not go together are refused with a sentence"""
     for wrong in ("0/3", "4/3", "1", "1/", "/2", "a/b", "1/2/3", "-1/2", "1/0", "1/100001", "1.5/2"):
         result = ceduo("--shard", wrong, "paper-site")
-        expect(result.status == USAGE and f"'{wrong}' is no part" in result.err, result)
+        expect(result.status == USAGE and f"'{wrong}' is not a part" in result.err, result)
     for others in (("-f", "json"), ("--format", "table"), ("-e", "0.1"), ("--years", "0:3"), ("--rows", "controls"),
                    ("--plot", "energy"), ("--check",), ("--script", "x"), ("--find", "a=1:2", "--goal", "adc"), ("--merge",)):
         for arguments in ((*others, "--shard", "1/2"), ("--shard", "1/2", *others)):
             result = ceduo(*arguments, "paper-site")
-            expect(result.status == USAGE and "does not go with" in result.err and result.out == "", result)
+            expect(result.status == USAGE and "cannot be used with" in result.err and result.out == "", result)
     for others in (("-n", 5), ("--seed", 5), ("-s", "rock.diameter_m=1"), ("--option", "x"), ("-e", "0.1"), ("--years", "0:3"),
                    ("--plot", "energy"), ("--check",), ("--script", "x"), ("--find", "a=1:2", "--goal", "adc")):
         for arguments in ((*others, "--merge"), ("--merge", *others)):
             result = ceduo(*arguments, "part.jsonl")
-            expect(result.status == USAGE and "does not go with" in result.err and result.out == "", result)
+            expect(result.status == USAGE and "cannot be used with" in result.err and result.out == "", result)
     result = ceduo("--merge")
-    expect(result.status == USAGE and "--merge wants files" in result.err, result)
+    expect(result.status == USAGE and "--merge needs files" in result.err, result)
     result = ceduo("--shard", "1/2")
     expect(result.status == USAGE and "no scene" in result.err, result)
     result = ceduo("--merge", "-", "-")

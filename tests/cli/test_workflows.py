@@ -354,7 +354,7 @@ def needs_parallel():
 def walked_shards():
     needs_parallel()
     # the parts come in the order in which they are done
-    missing = r"incomplete\.jsonl:[1-7]: 'paper-site' is in 8 shards, and these are missing: 3\n"
+    missing = r"incomplete\.jsonl:[1-7]: 'paper-site' has 8 shards; these are missing: 3\n"
     return Walk("shards", lambda err: re.fullmatch(missing, err) is not None)
 
 
@@ -423,7 +423,7 @@ esac
         expect_equal(sorted(os.listdir(work.path / "parts")), ["part-1.jsonl", "part-3.jsonl", "part-5.jsonl"], "files")
         merged = machine.run("ceduo --merge -f csv parts/part-*.jsonl", work.path)
         expect_equal((merged.returncode, merged.stdout), (harness.INPUT, ""), merged.stderr)
-        expect_in("is in 5 shards, and these are missing: 2, 4", merged.stderr, merged)
+        expect_in("has 5 shards; these are missing: 2, 4", merged.stderr, merged)
         work.write("well", "yes")
         done = machine.run(f"sbatch --array=2,4 {script}\nceduo --merge -f csv -o all.csv parts/part-*.jsonl", work.path)
         expect_equal((done.returncode, done.stderr), (0, ""), done.stdout)

@@ -499,7 +499,7 @@ BAD_YEARS = ["5", "5:1", "a:b", "0:5:0", "0:1000", "0:5000:5", "-1:5", "0.5:3", 
 
 
 def test_years_usage():
-    """--years that is no stretch of years, goes backwards or is too long: status 2 and a line that says it"""
+    """--years that is not a range of years, goes backwards or is too long: status 2 and a line that says it"""
     for years in BAD_YEARS:
         done = ceduo("--batch", "--years", years, "paper-site")
         expect(done.status == USAGE and done.out == "" and done.err.startswith("ceduo: --years: "), f"'{years}'", done)
@@ -889,7 +889,7 @@ def test_find_refused():
 
 
 def test_find_text():
-    """--find of a parameter that is no number is refused"""
+    """--find of a parameter that is not a number is refused"""
     for path in ("title", "forest[0].stand.name"):
         refused(reserves(), [f"{path}=1:5", "--goal", "adc"], path)
 

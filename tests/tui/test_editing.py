@@ -271,13 +271,13 @@ def wrong(view, word, value, *parts):
 def test_wrong_values():
     """A wrong value is explained in place and never accepted."""
     wrong(2, "shoots[0].dbh_m", "-0.07", "dbh_m", "-0.07 is below 0 m")
-    wrong(2, "stools.per_ha", "3000,5", "'3000,5' is no number", "dot")
-    wrong(2, "stools.per_ha", "many", "'many' is no number")
-    wrong(2, "stools.per_ha", "nan", "no number")
+    wrong(2, "stools.per_ha", "3000,5", "'3000,5' is not a number", "dot")
+    wrong(2, "stools.per_ha", "many", "'many' is not a number")
+    wrong(2, "stools.per_ha", "nan", "not a number")
     wrong(2, "stools.per_ha", "1e400", "")
     wrong(2, "stools.per_ha", "0", "")
     wrong(3, "rock.diameter_m", "0", "")
-    wrong(3, "rock.diameter_m", "0x10", "no number")
+    wrong(3, "rock.diameter_m", "0x10", "not a number")
     wrong(3, "release.x_m", "-7", "")
     wrong(1, "forest[1].from_m", "20", "")
     wrong(1, "forest[1].from_m", "1000", "")

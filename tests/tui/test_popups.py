@@ -282,8 +282,8 @@ def test_counts_refused():
     """c: what cannot be is refused with a reason, nothing changes."""
     good = ["400", "slope", "40", "7", "7", "7"]
     for at, value, part in ((0, "0", "above 0"), (0, "-4", "-4"), (1, "steep", "slope or horizontal"),
-                            (2, "90", "below 90"), (2, "x", "'x' is no number"), (3, "3,5", "'3,5' is no number"),
-                            (4, "nan", "'nan' is no number"), (0, "1e-320", ""), (3, "1e300", "")):
+                            (2, "90", "below 90"), (2, "x", "'x' is not a number"), (3, "3,5", "'3,5' is not a number"),
+                            (4, "nan", "'nan' is not a number"), (0, "1e-320", ""), (3, "1e300", "")):
         before, _, refused, after = fast(counts_script(*good[:at], value, *good[at + 1:]))
         refused.has("Stand from the counts", part)
         expect_equal(after.text, before.text, f"after {value!r} and Esc")

@@ -195,7 +195,7 @@ static void what_is_wrong_changes_nothing(void **state)
     struct document d;
     open_scene(&d);
     refuse(&d, "rock.diameter_m", "-1", "-1 is below 0 m");
-    refuse(&d, "rock.diameter_m", "0,5", "'0,5' is no number");
+    refuse(&d, "rock.diameter_m", "0,5", "'0,5' is not a number");
     refuse(&d, "forest[0].to_m", "400", "beyond the slope");
     refuse(&d, "rock.size", "1", "unknown key");
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
@@ -465,7 +465,7 @@ static void unsaved_work_is_found_again(void **state)
     free(text);
     free(file);
     assert_false(ceduo_document_recover(&d, "[a, list]", &problems)); /* which is no scene */
-    assert_non_null(strstr(problems.text.bytes, "a mapping is wanted here, not a list"));
+    assert_non_null(strstr(problems.text.bytes, "expected a mapping, not a list"));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     ceduo_document_close(&d);
     ceduo_problems_free(&problems);

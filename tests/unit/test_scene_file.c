@@ -56,47 +56,47 @@ static void wrong_scenes_are_told(void **state)
     const struct {
         const char *line, *told;
     } rows[] = {
-        {"simulation: {rocks: [1]}", "simulation.rocks: a number is wanted here, not a list"},
-        {"simulation: {rocks: 10.5}", "simulation.rocks: '10.5' is no whole number"},
-        {"simulation: {law: [1]}", "simulation.law: a word is wanted here, not a list"},
+        {"simulation: {rocks: [1]}", "simulation.rocks: expected a number, not a list"},
+        {"simulation: {rocks: 10.5}", "simulation.rocks: '10.5' is not a whole number"},
+        {"simulation: {law: [1]}", "simulation.law: expected a word, not a list"},
         {"simulation: {law: lumpy}", "did you mean 'lumped'?"},
         {"simulation: {law: zzzzzzzzzz}", "'zzzzzzzzzz' is unknown; one of: lumped, crsp"},
-        {"simulation: {scale_rn: {a: 1}}", "simulation.scale_rn: true or false is wanted here, not a mapping"},
-        {"simulation: {scale_rn: 'true'}", "'true': true or false is wanted"},
-        {"simulation: {scale_rn: yes}", "'yes': true or false is wanted"},
-        {"simulation: 3", "simulation: a mapping is wanted here, not a single value"},
-        {"ceduo: [scene/1]", "ceduo: scene/1 is wanted here, not a list"},
-        {"ceduo: slope/1", "'slope/1': 'scene/1' is wanted here"},
+        {"simulation: {scale_rn: {a: 1}}", "simulation.scale_rn: expected true or false, not a mapping"},
+        {"simulation: {scale_rn: 'true'}", "'true': expected true or false"},
+        {"simulation: {scale_rn: yes}", "'yes': expected true or false"},
+        {"simulation: 3", "simulation: expected a mapping, not a single value"},
+        {"ceduo: [scene/1]", "ceduo: expected scene/1 here, not a list"},
+        {"ceduo: slope/1", "'slope/1': expected 'scene/1' here"},
         {"rock: {diameter_m: {mean: 0.5, wide: 1}}", "rock.diameter_m.wide: unknown key; known here: mean, spread, kind, source"},
         {"rock: {diameter_m: {spread: 0.1}}", "rock.diameter_m: 'mean' is missing"},
         {"rock: {diameter_m: {mean: 0.5, spread: 0.4}}", "the spread reaches from -0.7 to 1.7 m"},
         {"rock: {diameter_m: {mean: 999, spread: 1}}", "the spread reaches from 996 to 1002 m"},
-        {"rock: {diameter_m: {mean: x, spread: 9}}", "rock.diameter_m.mean: 'x' is no number"},
-        {"rock: {shape: block, axes_m: [1, 2]}", "rock.axes_m: a list of three numbers is wanted"},
-        {"rock: {shape: block, axes_m: 1}", "rock.axes_m: a list of three numbers is wanted"},
+        {"rock: {diameter_m: {mean: x, spread: 9}}", "rock.diameter_m.mean: 'x' is not a number"},
+        {"rock: {shape: block, axes_m: [1, 2]}", "rock.axes_m: expected a list of three numbers"},
+        {"rock: {shape: block, axes_m: 1}", "rock.axes_m: expected a list of three numbers"},
         {"rock: {shape: cylinder, diameter_m: 1, height_m: 1, mass_kg: 9, density_kg_m3: 2600}",
          "rock.density_kg_m3: mass_kg says it already"},
         {"slope: {vertices_m: [[0, 50], [40, x], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}",
-         "slope.vertices_m[1]: 'x' is no number"},
-        {"slope: {vertices_m: 5, segments: [{rn: 0.3, rt: 0.8}]}", "slope.vertices_m: a list is wanted here, not a single value"},
+         "slope.vertices_m[1]: 'x' is not a number"},
+        {"slope: {vertices_m: 5, segments: [{rn: 0.3, rt: 0.8}]}", "slope.vertices_m: expected a list, not a single value"},
         {"slope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 90, material: cliff}]}",
          "90 ends before the profile, at 100"},
         {"slope: {vertices_m: [[0, 50], [100, 0]], materials: []}", "slope.materials: the list is empty"},
         {"forest: [{from_m: 10, to_m: 80, stand: {cutting: {rotation_years: 20, stay_per_ha: 5}}}]",
-         "cutting.stay_per_ha: a list is wanted here, not a single value"},
+         "cutting.stay_per_ha: expected a list, not a single value"},
         {"forest: [{from_m: 10, to_m: 80, stand: {growth: {shoots_young: 2, shoots_old: 3}}}]", "2 is below shoots_old, 3"},
         {"forest: [{from_m: 10, to_m: 80, stand: {stools: {per_ha: 1, spacing_m: 0.4}, shoots: [{per_ha: 20000, dbh_m: 0.06, "
          "height_m: 6}]}}]",
          "20000 shoots on each stool are more than the 10000"},
         {"forest: [{from_m: 10, to_m: 80, stand: {system: bare, trees: [{per_ha: 10, dbh_m: 0.2, height_m: 9}]}}]",
          "'bare', but there are stems"},
-        {"forest: [{from_m: 10, to_m: 80, stand: {source: 3}}]", "source: a mapping {kind, text} is wanted"},
+        {"forest: [{from_m: 10, to_m: 80, stand: {source: 3}}]", "source: expected a mapping {kind, text}"},
         {"forest: [{from_m: 10, to_m: 80, stand: {source: {kind: guessed}}}]", "'guessed' is unknown"},
         {"forest: [{from_m: 10, to_m: 80, stand: {source: {word: x}}}]", "unknown key; known here: kind, text"},
-        {"forest: 5", "forest: a list is wanted here, not a single value"},
-        {"forest: [{from_m: 10, to_m: 80, stand: {base: [1]}}]", "base: a path to a file is wanted"},
+        {"forest: 5", "forest: expected a list, not a single value"},
+        {"forest: [{from_m: 10, to_m: 80, stand: {base: [1]}}]", "base: expected a path to a file"},
         {"slope: {base: other, vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}", "slope.base: unknown key"},
-        {"forest: [5]", "forest[0]: a mapping is wanted here, not a single value"},
+        {"forest: [5]", "forest[0]: expected a mapping, not a single value"},
         {"controls: [{x_m: 90, *a : 1}]", "an alias; write the value out"},
         {"controls: [{x_m: 90, [a]: 1}]", "a key must be a plain word"},
         {"controls: [{x_m: 90, \"a\\0b\": 1}]", "a key must be a plain word"},
@@ -130,9 +130,9 @@ static void one_fault_is_told_once(void **state)
     (void)state;
     const struct {
         const char *line, *told;
-    } rows[] = {{"slope: {csv: [1]}", "slope.csv: a text is wanted here, not a list"},
+    } rows[] = {{"slope: {csv: [1]}", "slope.csv: expected a text, not a list"},
                 {"forest: [{from_m: 10, to_m: 80, stand: {growth: {shoots_young: x, shoots_old: 3}}}]",
-                 "growth.shoots_young: 'x' is no number"},
+                 "growth.shoots_young: 'x' is not a number"},
                 /* a line that ends at U+2028 ends later for the eye, so the place may lie behind its end */
                 {"forest: [] # \xe2\x80\xa8#\nx:                                                                                   "
                  "                                                                                    @\n#",
@@ -156,10 +156,10 @@ static void files_that_are_followed(void **state)
     const struct {
         const char *line, *told;
         const char *const *set;
-    } rows[] = {{"forest: [{from_m: 10, to_m: 80, stand: five.yaml}]", "a mapping is wanted here, not a single value", NULL},
-                {"forest: [{from_m: 10, to_m: 80, stand: list.yaml}]", "a mapping is wanted here, not a list", NULL},
+    } rows[] = {{"forest: [{from_m: 10, to_m: 80, stand: five.yaml}]", "expected a mapping, not a single value", NULL},
+                {"forest: [{from_m: 10, to_m: 80, stand: list.yaml}]", "expected a mapping, not a list", NULL},
                 {"forest: [{from_m: 10, to_m: 80, stand: {base: five.yaml, name: x}}]",
-                 "a mapping is wanted here, not a single value", NULL},
+                 "expected a mapping, not a single value", NULL},
                 {"forest: [{from_m: 10, to_m: 80, stand: {}}]", NULL, with_base}};
     put("five.yaml", "5\n");
     put("list.yaml", "- 5\n");
@@ -239,11 +239,11 @@ static void paths_are_told(void **state)
                 {"forest.to_m=5", "there is no mapping here"},
                 {"rock[0]=5", "there is no list here"},
                 {"controls[0].x_m.spread=5", "there is no mapping here"},
-                {"options[0].name=x", "there is none to change"},
-                {"rock.axes_m[0]=5", "there is none to change"},
+                {"options[0].name=x", "there is nothing to change here"},
+                {"rock.axes_m[0]=5", "there is nothing to change here"},
                 {"rock.wide=5", "unknown key (ceduo --list-parameters)"},
-                {"=5", "PATH=VALUE is wanted"},
-                {"rock", "PATH=VALUE is wanted"},
+                {"=5", "expected PATH=VALUE"},
+                {"rock", "expected PATH=VALUE"},
                 {"rock.diameter_m=0.6", NULL},
                 {"rock.diameter_m.spread=0.01", NULL},
                 {"release.height_m.mean=2", NULL},
@@ -278,10 +278,10 @@ static void sources_of_changes(void **state)
     const struct {
         const char *source, *set, *told;
     } rows[] = {{"{kind: measured, except: [volume_m3]}", "rock.diameter_m=0.6", NULL},
-                {"{kind: measured, except: {a: b}}", "rock.diameter_m=0.6", "source.except: a list of keys is wanted"},
-                {"by hand", "rock.diameter_m=0.6", "source: a mapping {kind, text} is wanted"},
-                {"{kind: measured, except: volume_m3}", "rock.diameter_m=0.6", "source.except: a list of keys is wanted"},
-                {"{kind: measured, except: [[volume_m3]]}", "rock.diameter_m=0.6", "source.except: a key is wanted here, not a list"},
+                {"{kind: measured, except: {a: b}}", "rock.diameter_m=0.6", "source.except: expected a list of keys"},
+                {"by hand", "rock.diameter_m=0.6", "source: expected a mapping {kind, text}"},
+                {"{kind: measured, except: volume_m3}", "rock.diameter_m=0.6", "source.except: expected a list of keys"},
+                {"{kind: measured, except: [[volume_m3]]}", "rock.diameter_m=0.6", "source.except: expected a key, not a list"},
                 {"{kind: measured}", "rock.source.wide=1", "--set:1:18: rock.source.wide: unknown key; known here: kind, text, except"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct scene_file file;

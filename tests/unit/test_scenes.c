@@ -76,7 +76,7 @@ static void bases_go_eight_files_deep(void **state)
                 EXPECT(belt->stand.trees[0].per_ha, ==, 100);
             } else {
                 snprintf(place, sizeof place,
-                         "%s/8.yaml:2:7: base: more than 8 files that start from one another: a loop?\n", folder);
+                         "%s/8.yaml:2:7: base: more than 8 files in a chain of 'base'; do they form a loop?\n", folder);
                 if (strstr(told, place) != told)
                     fail_msg("%s", told);
             }
@@ -97,7 +97,7 @@ static void bases_in_a_circle_are_refused(void **state)
             write_file(last, "ceduo: stand/1\nbase: 0.yaml\n");
             write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", i ? "{base: 0.yaml}" : "0.yaml");
             assert_false(read_scene(&file, told));
-            assert_non_null(strstr(told, ":2:7: base: more than 8 files that start from one another: a loop?\n"));
+            assert_non_null(strstr(told, ":2:7: base: more than 8 files in a chain of 'base'; do they form a loop?\n"));
             assert_null(strstr(strstr(told, "a loop?") + 1, "a loop?"));
             ceduo_scene_release(&file);
         }
