@@ -103,7 +103,7 @@ def test_all_but_what_follows():
     told(HEAD.replace("segments: [{rn: 0.3, rt: 0.8}]", "csv: [x]") + "controls_m: [50]\n", "slope.csv: expected a text",
          "vertices_m and csv together")
     told(HEAD.replace("diameter_m: 0.5", "shape: 5, height_m: 9") + "release: 7\ncontrols_m: [50]\nforest: [9, {from_m: 8}]\n",
-         "rock.shape: '5'", "release: expected a mapping", "forest[0]: a mapping", "'to_m' is missing", "'stand' is missing")
+         "rock.shape: '5'", "release: expected a mapping", "forest[0]: expected a mapping", "'to_m' is missing", "'stand' is missing")
 
 
 def stand_fault(body, *words, place=None, more=None):
