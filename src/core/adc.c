@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
 #include "energy.h"
 #include "strata.h"
 
@@ -30,7 +31,11 @@ static double mean_dbh(const struct ceduo_stand *stand)
 
 double ceduo_stool_radius(unsigned n, double s)
 {
-    return n < 2 ? 0 : s / (2 * sin(M_PI / n));
+    if (n < 2)
+        return 0;
+    double angle = M_PI / n, sine, cosine;
+    elementary_sincos(&angle, &sine, &cosine);
+    return s / (2 * sine);
 }
 
 static double perimeter_of(double n, double s)

@@ -3,14 +3,18 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
+
+static const double ln10 = 2.302585092994046;
+
 double ceduo_dorren_energy(double dbh, double fracture_ratio)
 {
-    return fracture_ratio * 38.7 * pow(dbh * 100, 2.31);
+    return fracture_ratio * 38.7 * ceduo_pow(dbh * 100, 2.31);
 }
 
 double ceduo_dorren_share(double u)
 {
-    double share = -0.046 + 1.026 / (1 + pow(10, (0.58 - u) * -8.007));
+    double share = -0.046 + 1.026 / (1 + ceduo_exp(ln10 * ((0.58 - u) * -8.007)));
     return fmin(1, fmax(0, share));
 }
 
@@ -18,10 +22,10 @@ double ceduo_dorren_share(double u)
  * antiderivative is elementary; it is 0 from u0 on, where y = 1.026/0.046 - 1. */
 double ceduo_dorren_mean_share(void)
 {
-    const double rate = 8.007 * log(10), low = -0.046, span = 1.026, centre = 0.58;
-    double u0 = centre + log(span / -low - 1) / rate;
+    const double rate = 8.007 * ln10, low = -0.046, span = 1.026, centre = 0.58;
+    double u0 = centre + ceduo_log(span / -low - 1) / rate;
     double end = fmin(1, u0);
-    double inner = (log1p(exp(-rate * (0 - centre))) - log1p(exp(-rate * (end - centre)))) / rate;
+    double inner = (ceduo_log1p(ceduo_exp(-rate * (0 - centre))) - ceduo_log1p(ceduo_exp(-rate * (end - centre)))) / rate;
     return low * end + span * inner;
 }
 

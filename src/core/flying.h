@@ -232,7 +232,7 @@ HOT double largest_facet(const struct walker *w, size_t j)
     if (!w->g->theta_varies)
         return w->g->segments[j].theta;
     const struct ceduo_segment *s = w->g->given[j];
-    return s->roughness_m > 0 ? atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
+    return s->roughness_m > 0 ? ceduo_atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
 }
 
 HOT struct ground_point ground_point(const struct walker *w, size_t j)
@@ -268,7 +268,7 @@ HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
     }
     if (angle != f->angle) {
         f->angle = angle;
-        sincos_quarter(angle, &f->sine, &f->cosine);
+        elementary_sincos(&angle, &f->sine, &f->cosine);
     }
 }
 

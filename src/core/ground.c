@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/elementary.h"
+
 #ifndef MARGIN
 #define MARGIN 1e-10 /* of the slope's size; only speed depends on it */
 #endif
@@ -98,7 +100,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     const struct ceduo_segment *from = g->given[j];
     struct ground_segment *to = &g->segments[j];
     double dx = g->x[j + 1] - g->x[j], dz = g->z[j + 1] - g->z[j];
-    double length = hypot(dx, dz);
+    double length = ceduo_length(dx, dz);
     to->m = dz / dx;
     to->c = dx / length;
     to->s = dz / length;
@@ -108,7 +110,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     if (j > 0 && same_ground(from, g->given[j - 1]))
         to->theta = g->segments[j - 1].theta;
     else
-        to->theta = isnan(from->roughness_m) ? from->roughness_rad : atan(from->roughness_m / radius);
+        to->theta = isnan(from->roughness_m) ? from->roughness_rad : ceduo_atan(from->roughness_m / radius);
     to->steep = fabs(to->m) > 1;
     g->along[j + 1] = g->along[j] + length;
     g->rn_varies |= from->rn.spread > 0;

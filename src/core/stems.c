@@ -4,12 +4,11 @@
  * its centre. Work is counted as effort, and drawing pauses now and then, so that a caller can cancel. */
 #include "stems.h"
 
-#include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "random.h"
 
 /* What costs little is counted as a part of a stem: steps over others in a list, belts and strata that are passed over. */
@@ -30,38 +29,26 @@ static uint64_t kind_of_shoot(enum random_kind kind, unsigned i)
 
 /* ---- diameters ---- */
 
-/* Our random numbers as a source for GSL's distributions: those of one stem, one after the other. */
-struct source {
-    uint64_t seed, rock, event, kind;
-    uint64_t used;
-};
-
-static void source_set(void *state, unsigned long seed)
-{
-    (void)state;
-    (void)seed;
-}
-
-static double source_double(void *state)
-{
-    struct source *s = state;
-    return random_pair(s->seed, s->rock, s->event, s->kind | s->used++ << 32).u[0];
-}
-
-static unsigned long source_get(void *state)
-{
-    return (unsigned long)(source_double(state) * 0x1p32);
-}
-
-static const gsl_rng_type source_type = {"threefry", 0xffffffffu, 0, sizeof(struct source), source_set, source_get,
-                                         source_double};
-
-/* A diameter by the gamma law; `extra` 1: weighted by the diameter itself, as thick stems are met more often. */
+/* A diameter by the gamma law, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter itself, as thick stems
+ * are met more often. */
 static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_t event, uint64_t kind, int extra)
 {
-    struct source source = {s->seed, s->number, event, kind, 0};
-    gsl_rng rng = {&source_type, &source};
-    return fmin(gsl_ran_gamma(&rng, k->shape + extra, k->scale), k->most);
+    double shape = k->shape + extra, scale = k->scale;
+    if (shape < 1) { /* theirs is for 1 and more */
+        double u = random_pair(s->seed, s->number, event, kind | (uint64_t)UINT32_MAX << 32).u[0] + 0x1p-54;
+        scale *= ceduo_pow(u, 1 / shape);
+        shape += 1;
+    }
+    double d = shape - 1.0 / 3, c = 1 / (3 * sqrt(d));
+    for (uint64_t used = 0;; used++) {
+        struct random_pair u = random_pair(s->seed, s->number, event, kind | used << 32);
+        double z = ceduo_normal_quantile(u.u[0] + 0x1p-54), v = 1 + c * z;
+        if (!(v > 0))
+            continue;
+        v = v * v * v;
+        if (ceduo_log(u.u[1] + 0x1p-54) < 0.5 * (z * z) + d * (1 - v + ceduo_log(v)))
+            return fmin(d * v * scale, k->most);
+    }
 }
 
 /* ---- one stratum along the strip ---- */
@@ -74,7 +61,7 @@ static void advance(struct stems *s, int side, size_t stratum)
     size_t first = stream->belt;
     uint64_t event = event_of(stratum, side, stream->drawn++);
     struct random_four four = random_four(s->seed, s->number, event, RANDOM_STEM);
-    double left = -log(four.first + 0x1p-54), at = stream->at;
+    double left = -ceduo_log(four.first + 0x1p-54), at = stream->at;
     stream->offset = four.rest[0] + 0x1p-26;
     stream->turn = four.rest[1] + 0x1p-26;
     stream->number = four.rest[2] + 0x1p-26;

@@ -5,11 +5,11 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
+#include "base/elementary.h"
 #include "ceduo/trajectory.h"
 #include "landing.h"
 #include "prepared.h"
 #include "random.h"
-#include "sincos.h"
 #include "stems.h"
 
 /* One rock on its trajectory. */

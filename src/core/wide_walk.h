@@ -3,7 +3,7 @@
 #define CEDUO_WIDE_WALK_H
 
 /* The wide walk on the lanes of lanes.h; see wide.h. What is computed here is computed by walk.c, landing.h, law_*.h,
- * random.h and sincos.h for one rock: the same operations in the same order. */
+ * random.h and elementary.h for one rock: the same operations in the same order. */
 
 #include <math.h>
 
@@ -298,7 +298,7 @@ LANE reals step_series(reals sum, reals q, double term)
     return add(mul(sum, q), all(term));
 }
 
-/* As sincos_quarter(). */
+/* As elementary_sincos(). */
 LANE void sincos_lanes(reals angle, reals *sine, reals *cosine)
 {
     const double half_pi_hi = 1.5707963267948966, half_pi_lo = 6.123233995736766e-17;

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "ceduo/trajectory.h"
 #include "strata.h"
 
@@ -18,11 +19,11 @@
 static double thickest(double shape, double scale)
 {
     double lo = 0, hi = 1;
-    while (shape * (hi - log1p(hi)) < 37)
+    while (shape * (hi - ceduo_log1p(hi)) < 37)
         hi *= 2;
     for (int i = 0; i < 60; i++) {
         double mid = lo + (hi - lo) / 2;
-        if (shape * (mid - log1p(mid)) < 37)
+        if (shape * (mid - ceduo_log1p(mid)) < 37)
             lo = mid;
         else
             hi = mid;
@@ -80,10 +81,8 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
 static double *ring_of(unsigned n)
 {
     double *ring = malloc((2 * (size_t)n + 1) * sizeof *ring);
-    for (unsigned i = 0; ring && i < n; i++) {
-        ring[2 * i] = cos(2 * M_PI * i / n);
-        ring[2 * i + 1] = sin(2 * M_PI * i / n);
-    }
+    for (unsigned i = 0; ring && i < n; i++)
+        ceduo_direction(i, n, &ring[2 * i], &ring[2 * i + 1]);
     return ring;
 }
 
@@ -188,8 +187,8 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
     if (!allocate(wood, option))
         goto fail;
     for (int i = 0; i <= WOOD_DIRECTIONS; i++) {
-        wood->directions[i][0] = cos((i - WOOD_DIRECTIONS / 2) * (M_PI / WOOD_DIRECTIONS));
-        wood->directions[i][1] = sin((i - WOOD_DIRECTIONS / 2) * (M_PI / WOOD_DIRECTIONS));
+        double angle = (i - WOOD_DIRECTIONS / 2) * (M_PI / WOOD_DIRECTIONS);
+        elementary_sincos(&angle, &wood->directions[i][1], &wood->directions[i][0]);
     }
     size_t used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {

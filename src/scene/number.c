@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/number.h"
 
-#include <gsl/gsl_cdf.h>
 #include <math.h>
 
+#include "base/elementary.h"
+
 #define CUT_SD 3.0 /* a normal law is cut here */
+#define BELOW_CUT 0.0013498980316300946 /* chance of less than -CUT_SD */
 
 struct ceduo_number ceduo_number(double mean)
 {
@@ -30,12 +32,13 @@ double ceduo_number_draw(struct ceduo_number n, double u, double lo, double hi)
 {
     if (!(n.spread > 0))
         return n.mean;
-    lo = fmax(lo, ceduo_number_lowest(n));
-    hi = fmin(hi, ceduo_number_highest(n));
+    double lowest = ceduo_number_lowest(n), highest = ceduo_number_highest(n);
+    lo = fmax(lo, lowest);
+    hi = fmin(hi, highest);
     if (n.kind == CEDUO_UNIFORM)
         return lo + u * (hi - lo);
-    double p_lo = gsl_cdf_ugaussian_P((lo - n.mean) / n.spread);
-    double p_hi = gsl_cdf_ugaussian_P((hi - n.mean) / n.spread);
-    double x = n.mean + n.spread * gsl_cdf_ugaussian_Pinv(p_lo + u * (p_hi - p_lo));
+    double p_lo = lo == lowest ? BELOW_CUT : ceduo_normal_chance((lo - n.mean) / n.spread);
+    double p_hi = hi == highest ? 1 - BELOW_CUT : ceduo_normal_chance((hi - n.mean) / n.spread);
+    double x = n.mean + n.spread * ceduo_normal_quantile(p_lo + u * (p_hi - p_lo));
     return fmin(fmax(x, lo), hi);
 }

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "base/elementary.h"
+
 /* The sizes of one rock, all drawn: the numbers of a def, in its order. */
 union sizes {
     struct {
@@ -23,7 +25,7 @@ static void complete_sphere(union sizes *s, struct ceduo_rock *rock)
 {
     if (isnan(s->diameter)) {
         double volume = isnan(s->volume) ? s->mass / s->density : s->volume;
-        s->diameter = cbrt(6 * volume / M_PI);
+        s->diameter = ceduo_cbrt(6 * volume / M_PI);
     }
     rock->volume = M_PI / 6 * s->diameter * s->diameter * s->diameter;
     rock->mean_diameter = s->diameter;

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "elementary.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+double ceduo_log(double x)
+{
+    if (!(x > 0))
+        return x == 0 ? -INFINITY : NAN;
+    if (isinf(x))
+        return x;
+    bool small = x < 0x1p-1022;
+    double scaled = small ? x * 0x1p54 : x, result;
+    elementary_log(&scaled, &result);
+    return small ? result - 54 * 0.6931471805599453 : result;
+}
+
+/* What rounding adds to 1 + x, it adds to its logarithm in proportion (W. Kahan). */
+double ceduo_log1p(double x)
+{
+    double y = 1 + x;
+    return y == 1 || isinf(y) ? x : ceduo_log(y) * (x / (y - 1));
+}
+
+/* 2^k for k of normal numbers. */
+static double power_of_two(int k)
+{
+    return elementary_real((uint64_t)(k + 1023) << 52);
+}
+
+/* e^x = 2^k e^r with |r| <= log(2)/2, by the series of e^r. */
+double ceduo_exp(double x)
+{
+    const double ln2_hi = 0x1.62e42feep-1, ln2_lo = 0x1.a39ef35793c76p-33;
+    if (!(x > -746))
+        return isnan(x) ? x : 0;
+    if (x > 710)
+        return INFINITY;
+    double k = floor(x * 1.4426950408889634 + 0.5), r = (x - k * ln2_hi) - k * ln2_lo;
+    double sum = 1.0 / 6227020800.0;
+    static const double terms[] = {1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0,
+                                   1.0 / 5040.0,      1.0 / 720.0,      1.0 / 120.0,     1.0 / 24.0,     1.0 / 6.0,
+                                   1.0 / 2.0};
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
+        sum = sum * r + terms[i];
+    double e = 1 + (r + r * r * sum);
+    int half = (int)k / 2; /* 2^k may be no normal number where the result is */
+    return e * power_of_two(half) * power_of_two((int)k - half);
+}
+
+double ceduo_pow(double x, double y)
+{
+    return ceduo_exp(y * ceduo_log(x));
+}
+
+/* atan(x) = atan(c) + atan((x - c)/(1 + x c)) from a c = i/8 nearby, for x up to 1; beyond, pi/2 - atan(1/x). */
+double ceduo_atan(double x)
+{
+    static const double of_eighths[] = {0,
+                                        0.12435499454676144,
+                                        0.24497866312686415,
+                                        0.35877067027057225,
+                                        0.46364760900080615,
+                                        0.5585993153435624,
+                                        0.6435011087932844,
+                                        0.7188299996216245,
+                                        0.7853981633974483};
+    double a = fabs(x);
+    if (isnan(x))
+        return x;
+    bool large = a > 1;
+    if (large)
+        a = 1 / a;
+    int i = (int)(a * 8 + 0.5);
+    double c = i / 8.0, t = (a - c) / (1 + a * c), q = t * t, sum = 1.0 / 13;
+    for (int n = 11; n >= 3; n -= 2)
+        sum = 1.0 / n - sum * q;
+    double y = of_eighths[i] + (t - t * (q * sum));
+    if (large)
+        y = (1.5707963267948966 - y) + 6.123233995736766e-17;
+    return copysign(y, x);
+}
+
+/* Newton's method from a third of the exponent. */
+double ceduo_cbrt(double x)
+{
+    if (x == 0 || !isfinite(x))
+        return x;
+    double a = fabs(x), scale = 1;
+    if (a < 0x1p-1000) {
+        a *= 0x1p120;
+        scale = 0x1p-40;
+    }
+    double y = elementary_real(elementary_bits(a) / 3 + 0x2a9f789300000000);
+    for (int i = 0; i < 5; i++)
+        y -= (y - a / (y * y)) / 3;
+    return copysign(y * scale, x);
+}
+
+double ceduo_length(double x, double y)
+{
+    return sqrt(x * x + y * y);
+}
+
+void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine)
+{
+    uint64_t quarter = 4 * i / n;
+    double angle = 1.5707963267948966 * ((double)(4 * i % n) / (double)n), c, s;
+    elementary_sincos(&angle, &s, &c);
+    *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
+    *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
+}
+
+/* 1/2 + phi(z) (z + z3/3 + z5/(3 5) + …), of which no term cancels another. */
+double ceduo_normal_chance(double z)
+{
+    double term = z, sum = z;
+    for (int n = 3; n < 100; n += 2) {
+        term *= z * z / n;
+        sum += term;
+    }
+    return 0.5 + sum * 0.3989422804014327 * ceduo_exp(-0.5 * (z * z));
+}
+
+static double ratio_of(const double above[8], const double below[8], double r)
+{
+    double p = above[7], q = below[7];
+    for (int i = 6; i >= 0; i--) {
+        p = p * r + above[i];
+        q = q * r + below[i];
+    }
+    return p / q;
+}
+
+/* Wichura 1988, algorithm AS 241, PPND16. */
+double ceduo_normal_quantile(double p)
+{
+    static const double middle[2][8] = {
+        {3.3871328727963666080e0, 1.3314166789178437745e+2, 1.9715909503065514427e+3, 1.3731693765509461125e+4,
+         4.5921953931549871457e+4, 6.7265770927008700853e+4, 3.3430575583588128105e+4, 2.5090809287301226727e+3},
+        {1, 4.2313330701600911252e+1, 6.8718700749205790830e+2, 5.3941960214247511077e+3, 2.1213794301586595867e+4,
+         3.9307895800092710610e+4, 2.8729085735721942674e+4, 5.2264952788528545610e+3}};
+    static const double side[2][8] = {
+        {1.42343711074968357734e0, 4.63033784615654529590e0, 5.76949722146069140550e0, 3.64784832476320460504e0,
+         1.27045825245236838258e0, 2.41780725177450611770e-1, 2.27238449892691845833e-2, 7.74545014278341407640e-4},
+        {1, 2.05319162663775882187e0, 1.67638483018380384940e0, 6.89767334985100004550e-1, 1.48103976427480074590e-1,
+         1.51986665636164571966e-2, 5.47593808499534494600e-4, 1.05075007164441684324e-9}};
+    static const double tail[2][8] = {
+        {6.65790464350110377720e0, 5.46378491116411436990e0, 1.78482653991729133580e0, 2.96560571828504891230e-1,
+         2.65321895265761230930e-2, 1.24266094738807843860e-3, 2.71155556874348757815e-5, 2.01033439929228813265e-7},
+        {1, 5.99832206555887937690e-1, 1.36929880922735805310e-1, 1.48753612908506148525e-2, 7.86869131145613259100e-4,
+         1.84631831751005468180e-5, 1.42151175831644588870e-7, 2.04426310338993978564e-15}};
+    double q = p - 0.5;
+    if (fabs(q) <= 0.425)
+        return q * ratio_of(middle[0], middle[1], 0.180625 - q * q);
+    double r = sqrt(-ceduo_log(q < 0 ? p : 1 - p));
+    double z = r <= 5 ? ratio_of(side[0], side[1], r - 1.6) : ratio_of(tail[0], tail[1], r - 5);
+    return q < 0 ? -z : z;
+}

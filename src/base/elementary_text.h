@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Logarithm, sine and cosine by their power series: the same bits with any libm, any optimisation and in any lane. This is
+ * the text of each; whoever includes it has said for which numbers: REAL, a double or a vector of doubles; BITS, as many
+ * uint64_t; AS_BITS(p) and AS_REAL(p), the one read as the other; PICK(m, p, q), p where m holds, and q elsewhere;
+ * ELEMENTARY(name), what the function is called. */
+
+/* log(x) of an x that is normal, finite and above 0, within an ulp. x = 2^k (1 + f) with 1 + f near 1; with
+ * s = f/(2 + f), log(1 + f) = 2(s + s^3/3 + s^5/5 + …). */
+static inline void ELEMENTARY(log)(const REAL *x, REAL *result)
+{
+    const uint64_t one = 0x3ff0000000000000, root_of_half = 0x3fe6a09e667f3bcd;
+    const double ln2_hi = 0x1.62e42feep-1, ln2_lo = 0x1.a39ef35793c76p-33;
+    BITS i = AS_BITS(*x) + (one - root_of_half);
+    REAL k = AS_REAL(i >> 52 | 0x4330000000000000) - (0x1p52 + 1023); /* bits of 2^52 + an integer */
+    REAL f = AS_REAL((i & 0xfffffffffffff) + root_of_half) - 1.0;
+    REAL s = f / (f + 2.0), q = s * s, w = q * q;
+    REAL odd = w * (2.0 / 19) + 2.0 / 15, even = w * (2.0 / 21) + 2.0 / 17;
+    odd = odd * w + 2.0 / 11;
+    even = even * w + 2.0 / 13;
+    odd = odd * w + 2.0 / 7;
+    even = even * w + 2.0 / 9;
+    odd = odd * w + 2.0 / 3;
+    even = even * w + 2.0 / 5;
+    REAL series = odd * q + even * w, half = f * f * 0.5;
+    *result = k * ln2_hi - ((half - (s * (half + series) + k * ln2_lo)) - f);
+}
+
+/* Sine and cosine of an angle in [-pi/2, pi/2], within 2e-16. */
+static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosine)
+{
+    const double half_pi_hi = 1.5707963267948966, half_pi_lo = 6.123233995736766e-17;
+    const uint64_t sign = 0x8000000000000000;
+    REAL a = AS_REAL(AS_BITS(*angle) & ~sign);
+    REAL y = PICK(a > 0.7853981633974483, (half_pi_hi - a) + half_pi_lo, a); /* sin a = cos(pi/2 - a) */
+    REAL q = y * y;
+    REAL s = q * (1.0 / 355687428096000.0) - 1.0 / 1307674368000.0;
+    s = s * q + 1.0 / 6227020800.0;
+    s = s * q - 1.0 / 39916800.0;
+    s = s * q + 1.0 / 362880.0;
+    s = s * q - 1.0 / 5040.0;
+    s = s * q + 1.0 / 120.0;
+    s = s * q - 1.0 / 6.0;
+    s = y + y * (q * s);
+    REAL c = q * (1.0 / 20922789888000.0) - 1.0 / 87178291200.0;
+    c = c * q + 1.0 / 479001600.0;
+    c = c * q - 1.0 / 3628800.0;
+    c = c * q + 1.0 / 40320.0;
+    c = c * q - 1.0 / 720.0;
+    c = c * q + 1.0 / 24.0;
+    c = c * q - 1.0 / 2.0;
+    c = c * q + 1.0;
+    *cosine = PICK(a > 0.7853981633974483, s, c);
+    *sine = AS_REAL(AS_BITS(PICK(a > 0.7853981633974483, c, s)) | (AS_BITS(*angle) & sign));
+}

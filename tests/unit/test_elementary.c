@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions of one number, against those of the C library in long double, on grids and at random places. */
+#include "expect.h"
+
+#include <float.h>
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+
+#include "base/elementary.h"
+
+#define PLACES 200000
+
+static uint64_t state = 1;
+
+static double uniform(void)
+{
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return (double)(state >> 11) * 0x1p-53;
+}
+
+/* A grid first, then places at random. */
+static double place(size_t i, double lo, double hi)
+{
+    double u = i < PLACES / 2 ? (double)i / (PLACES / 2) : uniform();
+    return lo + (hi - lo) * u;
+}
+
+/* Units of the last place of the true value. */
+static double ulps(double value, long double exact)
+{
+    int exponent;
+    frexpl(exact, &exponent);
+    return (double)(fabsl((long double)value - exact) / ldexpl(1, exponent - DBL_MANT_DIG));
+}
+
+static void expect_near(const char *what, double at, double value, long double exact, double most)
+{
+    double off = ulps(value, exact);
+    if (!(off <= most))
+        fail_msg("%s(%.17g) is %.17g, %.2f ulp off", what, at, value, off);
+}
+
+static void logarithms(void **context)
+{
+    (void)context;
+    for (size_t i = 1; i < PLACES; i++) {
+        double near = place(i, 0.5, 2), far = exp2(place(i, -1070, 1023.9)), share = place(i, 0, 1);
+        expect_near("log", near, ceduo_log(near), logl(near), 1);
+        expect_near("log", far, ceduo_log(far), logl(far), 1);
+        expect_near("log", share, ceduo_log(share), logl(share), 1);
+    }
+    for (size_t i = 0; i < PLACES; i++) {
+        double x = exp2(place(i, -80, 60)), below = -exp2(place(i, -80, -0.01));
+        expect_near("log1p", x, ceduo_log1p(x), log1pl(x), 3);
+        expect_near("log1p", below, ceduo_log1p(below), log1pl(below), 3);
+    }
+    EXPECT(ceduo_log1p(INFINITY), ==, INFINITY);
+    EXPECT(ceduo_log(1), ==, 0);
+    EXPECT(ceduo_log(0), ==, -INFINITY);
+    EXPECT(ceduo_log(INFINITY), ==, INFINITY);
+    assert_true(isnan(ceduo_log(-1)) && isnan(ceduo_log(NAN)));
+}
+
+static void powers(void **context)
+{
+    (void)context;
+    for (size_t i = 0; i < PLACES; i++) {
+        double x = place(i, -708, 709.7), base = place(i, 0.1, 200), y = place(i, -5, 5);
+        expect_near("exp", x, ceduo_exp(x), expl(x), 1);
+        assert_true(fabsl(ceduo_pow(base, y) / powl(base, y) - 1) <= 0x1p-52L * (1 + fabsl(y * logl(base))));
+    }
+    EXPECT(ceduo_exp(0), ==, 1);
+    EXPECT(ceduo_exp(-745), ==, 0x1p-1074);
+    EXPECT(ceduo_exp(-1e9), ==, 0);
+    EXPECT(ceduo_exp(1e9), ==, INFINITY);
+    assert_true(isnan(ceduo_exp(NAN)));
+}
+
+static void angles(void **context)
+{
+    (void)context;
+    for (size_t i = 0; i < PLACES; i++) {
+        double angle = place(i, -M_PI_2, M_PI_2), near = place(i, -1.5, 1.5), far = exp2(place(i, -60, 60)), s, c;
+        elementary_sincos(&angle, &s, &c);
+        assert_true(fabsl(s - sinl(angle)) <= 2.5e-16L && fabsl(c - cosl(angle)) <= 2.5e-16L);
+        expect_near("atan", near, ceduo_atan(near), atanl(near), 2);
+        expect_near("atan", far, ceduo_atan(far), atanl(far), 2);
+    }
+    EXPECT(ceduo_atan(INFINITY), ==, M_PI_2);
+    for (uint64_t n = 1; n < 200; n++)
+        for (uint64_t i = 0; i < n; i++) {
+            double c, s;
+            ceduo_direction(i, n, &c, &s);
+            long double turn = 2 * acosl(-1) * (long double)i / (long double)n;
+            assert_true(fabsl(c - cosl(turn)) <= 4e-16L && fabsl(s - sinl(turn)) <= 4e-16L);
+        }
+}
+
+static void roots(void **context)
+{
+    (void)context;
+    for (size_t i = 0; i < PLACES; i++) {
+        double near = place(i, -10, 10), far = exp2(place(i, -1070, 1023));
+        expect_near("cbrt", near, ceduo_cbrt(near), cbrtl(near), 1);
+        expect_near("cbrt", far, ceduo_cbrt(far), cbrtl(far), 1);
+    }
+    EXPECT(ceduo_cbrt(0), ==, 0);
+    EXPECT(ceduo_length(3, -4), ==, 5);
+}
+
+static void normal_law(void **context)
+{
+    (void)context;
+    for (size_t i = 1; i < PLACES / 4; i++) {
+        double z = place(i, -3, 3), p = place(i, 0, 1), small = exp2(place(i, -300, -1));
+        assert_true(fabs(ceduo_normal_chance(z) - gsl_cdf_ugaussian_P(z)) <= 1e-15);
+        double q = ceduo_normal_quantile(p), tail = ceduo_normal_quantile(small);
+        assert_true(fabsl(0.5L * erfcl(-q / sqrtl(2)) - p) <= 1e-15L * p + 3e-16L);
+        assert_true(fabsl(0.5L * erfcl(-tail / sqrtl(2)) / small - 1) <= 2e-15L * (1 + (long double)(tail * tail)));
+    }
+    EXPECT(ceduo_normal_quantile(0.5), ==, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(logarithms), cmocka_unit_test(powers),     cmocka_unit_test(angles),
+        cmocka_unit_test(roots),      cmocka_unit_test(normal_law),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
