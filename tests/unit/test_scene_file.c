@@ -75,7 +75,7 @@ static void wrong_scenes_are_told(void **state)
         {"rock: {shape: block, axes_m: [1, 2]}", "rock.axes_m: expected a list of three numbers"},
         {"rock: {shape: block, axes_m: 1}", "rock.axes_m: expected a list of three numbers"},
         {"rock: {shape: cylinder, diameter_m: 1, height_m: 1, mass_kg: 9, density_kg_m3: 2600}",
-         "rock.density_kg_m3: mass_kg says it already"},
+         "rock.density_kg_m3: mass_kg already says this"},
         {"slope: {vertices_m: [[0, 50], [40, x], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}",
          "slope.vertices_m[1]: 'x' is not a number"},
         {"slope: {vertices_m: 5, segments: [{rn: 0.3, rt: 0.8}]}", "slope.vertices_m: expected a list, not a single value"},
