@@ -260,7 +260,9 @@ const char *ceduo_terminal_missing(void)
     if (!name || !name[0] || setupterm(NULL, STDOUT_FILENO, &error) != OK)
         return _("TERM names no terminal that is known");
     const char *move = tigetstr("cup");
-    return move && move != (char *)-1 ? NULL : _("this terminal cannot place the cursor");
+    bool moves = move && move != (char *)-1;
+    del_curterm(cur_term); /* curses opens it again */
+    return moves ? NULL : _("this terminal cannot place the cursor");
 }
 
 /* Opens the terminal once more for its keys, so that a read never waits; NULL if that fails. After an unwanted mouse

@@ -10,6 +10,8 @@
 #include "page.h"
 #include "words.h"
 
+#define SMALLEST 1e-290 /* a number below it is written as 0: powers of ten with more digits than it has do not exist */
+
 struct printer {
     struct text *text;
     size_t width;
@@ -172,6 +174,10 @@ static bool write_digits(struct text *text, double mean, double half, int digits
 /* A mean and its error, with as many digits as have room; (2.0±0.3)e6 where no other way has. */
 static void write_mean(struct text *text, double mean, double half, size_t width, const char *sign)
 {
+    if (mean < SMALLEST) {
+        mean = 0;
+        half = isnan(half) ? half : 0;
+    }
     for (int digits = 4; digits > 0 && write_digits(text, mean, half, digits, sign); digits--)
         if (fits(text, width))
             return;

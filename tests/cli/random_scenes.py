@@ -613,13 +613,13 @@ class Maker:
         if not found:
             return False
         mapping, key, p = found
-        step = 1 if p.kind == "count" else 0
+        count = p.kind == "count"
         ends = []
         if p.lo is not None:
-            ends.append(p.lo if p.above else p.lo - step if step else math.nextafter(p.lo, -math.inf))
+            ends.append(p.lo if p.above else int(p.lo) - 1 if count else math.nextafter(p.lo, -math.inf))
         if p.hi is not None:
             ends.append(p.hi + p.rounded if p.rounded else p.hi if p.under else
-                        p.hi + step if step else math.nextafter(p.hi, math.inf))
+                        int(p.hi) + 1 if count else math.nextafter(p.hi, math.inf))
         mapping[key] = self.rng.choice(ends)
         return self.spoiled(f"{p.path} one step beyond its range", key)
 

@@ -85,6 +85,19 @@ static void cells_stand_below_one_another(void **state)
                 " 5     \xe6\xa3\xae\xe6\x9e\x97   1e-5 yes (1\xc2\xb1""1)e-5\n");
 }
 
+/* A number too small to have a power of ten of its own is 0, not inf. */
+static void the_least_numbers_are_0(void **state)
+{
+    (void)state;
+    struct ceduo_page page = {.width = 40};
+    ceduo_page_table(&page, columns, 5);
+    add_row(&page, "9", "oak", 3e-323);
+    char *text = printed(&page, false);
+    assert_non_null(strstr(text, " 0\xc2\xb1" "0\n"));
+    assert_null(strstr(text, "inf"));
+    free(text);
+}
+
 static void signs_are_plain_for_a_plain_terminal(void **state)
 {
     (void)state;
@@ -258,7 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paragraphs_are_wrapped),
         cmocka_unit_test(cells_stand_below_one_another),
-        cmocka_unit_test(signs_are_plain_for_a_plain_terminal),
+        cmocka_unit_test(the_least_numbers_are_0), cmocka_unit_test(signs_are_plain_for_a_plain_terminal),
         cmocka_unit_test(every_figure_says_what_it_is),
         cmocka_unit_test(a_row_has_a_field_for_each_name),
         cmocka_unit_test(what_is_cut_short_is_told),
