@@ -34,7 +34,7 @@ enum ceduo_energy_model {
 
 /* Stems of one kind: shoots of one age on the stools, or trees of one class. Densities are per horizontal hectare. */
 struct ceduo_stems {
-    double per_ha; /* > 0 */
+    double per_ha; /* >= 0; of 0 there is nothing, whatever else is said */
     double dbh;    /* m, > 0 */
     double height; /* m, > 0 */
     double volume; /* m3 of a stem; NaN: from species, dbh and height */
@@ -63,7 +63,7 @@ struct ceduo_cutting {
     double *stay_per_ha; /* how many, >= 0: those that are 1, 2, 3 … rotations old */
 };
 
-/* A stand. No stools and no trees: no forest. Stools and shoots come together. */
+/* A stand. No shoots and no trees: no forest. Shoots stand on stools; stools without shoots are as none. */
 struct ceduo_stand {
     enum ceduo_system system;
     int species;           /* index into ceduo_species_list(); -1: not said */
@@ -83,6 +83,7 @@ struct ceduo_stand {
 double ceduo_stand_shoots(const struct ceduo_stand *stand);
 double ceduo_stand_trees(const struct ceduo_stand *stand);
 double ceduo_stand_basal_area(const struct ceduo_stand *stand); /* m2/ha: sum of N pi d2/4 */
+bool ceduo_stand_has_shoots(const struct ceduo_stand *stand);
 bool ceduo_stand_is_bare(const struct ceduo_stand *stand);
 
 /* What is known of a species. Volume (m3) = (b0 + b1 d2 h + b2 d)/1000, d in cm, h in m (Tabacchi et al. 2011), inside

@@ -79,7 +79,7 @@ static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_
 /* How many strata the shoots make. */
 static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : stand->shoots_count > 0;
+    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : ceduo_stand_has_shoots(stand);
 }
 
 size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
@@ -120,7 +120,7 @@ enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum c
 {
     if (rule != CEDUO_RULE_AUTO)
         return rule;
-    return stand->shoots_count == 0 || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
+    return !ceduo_stand_has_shoots(stand) || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
 }
 
 double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
@@ -152,7 +152,7 @@ static unsigned stems_warnings(const struct ceduo_stand *stand, const struct ced
 {
     unsigned warnings = 0;
     for (size_t i = 0; i < n; i++)
-        warnings |= stem_energy_warnings(stand, &stems[i]);
+        warnings |= stems[i].per_ha > 0 ? stem_energy_warnings(stand, &stems[i]) : 0;
     return warnings;
 }
 
@@ -162,7 +162,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         return 0;
     unsigned warnings = stems_warnings(stand, stand->shoots, stand->shoots_count) |
                         stems_warnings(stand, stand->trees, stand->trees_count);
-    if (stand->shoots_count == 0)
+    if (!ceduo_stand_has_shoots(stand))
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);
     if (adc.interception < adc.gsteiger_stems)

@@ -14,7 +14,7 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
     double trees = ceduo_stand_trees(stand);
     struct ceduo_stand_result r = {.length = length,
                                    .stems_per_ha = ceduo_stand_shoots(stand) + trees,
-                                   .stools_per_ha = stand->shoots_count > 0 ? stand->stools_per_ha : 0,
+                                   .stools_per_ha = ceduo_stand_has_shoots(stand) ? stand->stools_per_ha : 0,
                                    .trees_per_ha = trees,
                                    .basal_area = ceduo_stand_basal_area(stand),
                                    .bare = bare,

@@ -90,7 +90,7 @@ static double share_to_stay(const struct ceduo_stand *stand, double most, double
 
 static void thin(struct ceduo_stand *stand, double most, double least)
 {
-    if (!(most > 0) || stand->shoots_count == 0 || ceduo_stand_sdi(stand) <= most)
+    if (!(most > 0) || !ceduo_stand_has_shoots(stand) || ceduo_stand_sdi(stand) <= most)
         return;
     multiply_shoots(stand, share_to_stay(stand, most, fmin(1, least / ceduo_stand_shoots(stand))));
     keep_shoots(stand, least);
@@ -130,7 +130,7 @@ static double oldest(const struct ceduo_stems *stems, size_t n, const struct ced
 
 static double default_first_cut(const struct ceduo_stand *stand)
 {
-    bool coppice = stand->shoots_count > 0;
+    bool coppice = ceduo_stand_has_shoots(stand);
     double rotation = stand->cutting.rotation;
     double age = coppice ? oldest(stand->shoots, stand->shoots_count, &stand->growth.shoots)
                          : oldest(stand->trees, stand->trees_count, &stand->growth.trees);

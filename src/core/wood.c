@@ -119,7 +119,7 @@ static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *st
     double upto = 0;
     for (size_t i = 0; i < stand->shoots_count; i++)
         kinds[i] = shoot_kind(stand, i, &upto);
-    if (stand->shoots_count > 0) {
+    if (ceduo_stand_has_shoots(stand)) {
         if (!make_stools(w, belt, stand, kinds))
             return false;
         const struct wood_stools *s = to->stools = &w->stools[belt];
@@ -254,7 +254,7 @@ static void hash_stems(uint64_t *hash, const struct ceduo_stand *stand)
     struct wood_kind kind;
     double upto = 0;
     hash_count(hash, stand->shoots_count);
-    if (stand->shoots_count > 0) {
+    if (ceduo_stand_has_shoots(stand)) {
         hash_double(hash, stand->stools_per_ha);
         hash_double(hash, ceduo_stand_shoots(stand));
         hash_double(hash, stand->spacing);

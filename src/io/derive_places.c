@@ -98,7 +98,9 @@ void ceduo_derive_controls(struct deriver *d)
 
 static enum ceduo_system system_of(const struct ceduo_stand *stand)
 {
-    return stand->shoots_count > 0 ? CEDUO_SIMPLE_COPPICE : stand->trees_count > 0 ? CEDUO_HIGH_FOREST : CEDUO_BARE;
+    return ceduo_stand_has_shoots(stand) ? CEDUO_SIMPLE_COPPICE
+           : ceduo_stand_is_bare(stand)  ? CEDUO_BARE
+                                         : CEDUO_HIGH_FOREST;
 }
 
 /* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
@@ -122,7 +124,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_derive_known(d, "%s.growth.shoots_young", path))
         ceduo_derive_refuse(d, path, ".growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
                             s->growth.shoots_young, s->growth.shoots_old);
-    if (s->system == CEDUO_BARE && (s->shoots_count > 0 || s->trees_count > 0))
+    if (s->system == CEDUO_BARE && !ceduo_stand_is_bare(s))
         ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or remove them"), 0,
                             0);
     check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
@@ -132,12 +134,12 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MOST)
         ceduo_derive_refuse(d, path, ".shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
                             ceduo_stand_shoots(s) / s->stools_per_ha, SHOOTS_MOST);
-    if (s->shoots_count > 0 && !(s->stools_per_ha > 0))
+    if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
         ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0,
                             0);
     else if (s->shoots_count == 0 && s->stools_per_ha > 0)
         ceduo_derive_refuse(d, path, ".stools", _("stools without shoots; add 'shoots', or remove the stools"), 0, 0);
-    else if (s->shoots_count > 0 && ceduo_stand_shoots(s) < s->stools_per_ha)
+    else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha)
         ceduo_derive_refuse(d, path, ".stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
                             ceduo_stand_shoots(s), s->stools_per_ha);
 }

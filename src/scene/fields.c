@@ -121,7 +121,7 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
 /* ---- stand ---- */
 
 static const struct field stems_fields[] = {
-    NUMBER("per_ha", AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED | ABOVE, NULL,
+    NUMBER("per_ha", AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED, NULL,
            N_("stems per horizontal hectare")),
     NUMBER("dbh_m", AT(ceduo_stems, dbh), "m", 0, 10, REQUIRED | ABOVE, NULL, N_("diameter at breast height")),
     NUMBER("height_m", AT(ceduo_stems, height), "m", 0, 150, REQUIRED | ABOVE, NULL, N_("height of a stem")),
@@ -133,7 +133,7 @@ static const struct field stems_fields[] = {
 static const struct object stems_object = OBJECT(ceduo_stems, stems_fields, NULL);
 
 static const struct field stools_fields[] = {
-    NUMBER("per_ha", AT(ceduo_stand, stools_per_ha), "1/ha", 0, 1e6, REQUIRED | ABOVE | ZERO, NULL,
+    NUMBER("per_ha", AT(ceduo_stand, stools_per_ha), "1/ha", 0, 1e6, REQUIRED | ZERO, NULL,
            N_("stools per horizontal hectare")),
     NUMBER("spacing_m", AT(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
            N_("distance between neighbouring shoots of a stool (dbh_int of the paper)")),

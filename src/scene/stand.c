@@ -36,9 +36,14 @@ double ceduo_stand_basal_area(const struct ceduo_stand *stand)
     return basal_area(stand->shoots, stand->shoots_count) + basal_area(stand->trees, stand->trees_count);
 }
 
+bool ceduo_stand_has_shoots(const struct ceduo_stand *stand)
+{
+    return ceduo_stand_shoots(stand) > 0;
+}
+
 bool ceduo_stand_is_bare(const struct ceduo_stand *stand)
 {
-    return stand->shoots_count == 0 && stand->trees_count == 0;
+    return !ceduo_stand_has_shoots(stand) && !(ceduo_stand_trees(stand) > 0);
 }
 
 double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from)

@@ -183,9 +183,9 @@ double ceduo_plot_tallest(const struct ceduo_stand *stand)
 {
     double tallest = 0;
     for (size_t i = 0; i < stand->shoots_count; i++)
-        tallest = fmax(tallest, stand->shoots[i].height);
+        tallest = fmax(tallest, stand->shoots[i].per_ha > 0 ? stand->shoots[i].height : 0);
     for (size_t i = 0; i < stand->trees_count; i++)
-        tallest = fmax(tallest, stand->trees[i].height);
+        tallest = fmax(tallest, stand->trees[i].per_ha > 0 ? stand->trees[i].height : 0);
     return tallest;
 }
 

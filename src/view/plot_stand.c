@@ -136,7 +136,7 @@ static void draw_tree(struct plan *p, uint64_t number, const struct ceduo_stems 
 static void draw_stems(struct plan *p)
 {
     const struct ceduo_stand *s = p->stand;
-    size_t stools = s->shoots_count > 0 ? count_in(p, s->stools_per_ha) : 0, all = stools;
+    size_t stools = ceduo_stand_has_shoots(s) ? count_in(p, s->stools_per_ha) : 0, all = stools;
     for (size_t k = 0; k < s->trees_count; k++)
         all += count_in(p, s->trees[k].per_ha);
     p->feet = malloc((all + 1) * sizeof *p->feet);

@@ -61,7 +61,7 @@ static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ce
             i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
         enum ceduo_volume_from from;
         ceduo_stem_volume(stand, s, &from);
-        if (from != CEDUO_VOLUME_FORM_FACTOR)
+        if (from != CEDUO_VOLUME_FORM_FACTOR || !(s->per_ha > 0))
             continue;
         *first = n++ == 0 ? s : *first;
     }

@@ -119,5 +119,34 @@ def test_worst_control():
             expect_equal(is_found(drop(accepted, controls), "exceed", 0.5), reached, f"bears {accepted} kJ, {controls}")
 
 
+def test_from_none():
+    """A range may begin at no stems of a kind: 10^4/(n b) is below 25 m from 401 on with b + d = 1 m, and at 0 there is none"""
+    mapping = wood((0, 100, 400))
+    expect_equal(find(mapping, PER_HA, 0, 1000, "adc")["value"], 401, "the first below 25 m")
+    expect(not find(mapping, PER_HA, 0, 0, "adc")["found"], "without stems there is nothing to meet")
+    expect(find(mapping, PER_HA, 0, 0, "energy", 1e6)["found"], "any energy is below 1e6 kJ")
+
+
+def test_none_of_a_kind():
+    """No stems of a kind is as if the kind were not said; none of all is no forest, rock for rock"""
+    shoots = {"stools": {"per_ha": 2000, "spacing_m": 0.4}, "shoots": [{"per_ha": 6000, "dbh_m": 0.06, "height_m": 7}]}
+    no_shoots = {"stools": {"per_ha": 0, "spacing_m": 0.4}, "shoots": [{"per_ha": 0, "dbh_m": 0.06, "height_m": 7}]}
+
+    def run(stand):
+        mapping = wood((0, 100, 400))
+        mapping["simulation"]["rocks"] = 300
+        mapping["forest"] = [] if stand is None else [{"from_m": 0, "to_m": 100, "stand": stand}]
+        with Folder() as f:
+            return good("-b", "-f", "json", f.write("s.yaml", mapping)).json()[0]["options"][0]
+
+    for with_none, without in (({**shoots, **trees(0)}, shoots), ({**no_shoots, **trees(400)}, trees(400))):
+        a, b = (run({**s, "name": "x", "species": "fagus-sylvatica", "energy": {"u_J_m3": 100000}})["stands"][0]
+                for s in (with_none, without))
+        expect_equal(a, b, "the stand")
+    none, bare = run({**no_shoots, **trees(0), "name": "x"}), run(None)
+    expect_equal(none["controls"][0]["wooded"], bare["controls"][0]["wooded"], "what arrives")
+    expect_equal([none["stands"][0][k] for k in ("stems_per_ha", "stools_per_ha", "passes_threshold")], [0, 0, False], "the stand")
+
+
 if __name__ == "__main__":
     run_all(__name__)
