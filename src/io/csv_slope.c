@@ -77,13 +77,17 @@ static bool is_word(struct span f, const char *word)
 struct columns {
     char separator;
     size_t x, z;
+    char decimal; /* ',' or '.', once a number has shown it; '\0' before */
 };
 
-/* The column of a name; the longer name goes before the short one. SIZE_MAX: none, SIZE_MAX - 1: two of them. */
-static size_t column_of(struct span line, char separator, const char *name, const char *short_name)
+/* Names of a column, the better ones first; in other languages as their spreadsheets have them. */
+static const char *const distances[] = {"distance", "distanza", "progressiva", "entfernung", "distanz", "x", NULL};
+static const char *const elevations[] = {"elevation", "quota", "elevazione", "h\xc3\xb6he", "hoehe", "z", NULL};
+
+/* The column of the first name that there is. SIZE_MAX: none, SIZE_MAX - 1: two of them. */
+static size_t column_of(struct span line, char separator, const char *const *names)
 {
-    const char *const names[] = {name, short_name};
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; names[k]; k++) {
         size_t found = SIZE_MAX;
         struct span left = line, f;
         for (size_t i = 0; next_field(&left, separator, &f); i++)
@@ -97,9 +101,10 @@ static size_t column_of(struct span line, char separator, const char *name, cons
 
 static bool read_header(const struct source *s, struct span line, struct columns *c, struct problems *problems)
 {
+    c->decimal = '\0';
     c->separator = memchr(line.p, ';', line.n) ? ';' : memchr(line.p, '\t', line.n) ? '\t' : ',';
-    c->x = column_of(line, c->separator, "distance", "x");
-    c->z = column_of(line, c->separator, "elevation", "z");
+    c->x = column_of(line, c->separator, distances);
+    c->z = column_of(line, c->separator, elevations);
     if (c->x < SIZE_MAX - 1 && c->z < SIZE_MAX - 1)
         return true;
     if (c->x == SIZE_MAX || c->z == SIZE_MAX)
@@ -109,8 +114,22 @@ static bool read_header(const struct source *s, struct span line, struct columns
     return false;
 }
 
-static bool read_value(const struct source *s, struct span f, size_t line, const char *start, double *value,
-                       struct problems *problems)
+/* Where commas do not separate they may stand for the decimals, in all numbers of a file or in none: a dot beside them
+ * would be one of thousands. False where a number has the other. */
+static bool take_decimal(struct columns *c, char *room)
+{
+    char *comma = c->separator == ',' ? NULL : strchr(room, ',');
+    bool dot = strchr(room, '.') != NULL;
+    if ((comma && (dot || c->decimal == '.')) || (dot && c->decimal == ','))
+        return false;
+    if (comma)
+        *comma = '.';
+    c->decimal = comma ? ',' : dot ? '.' : c->decimal;
+    return true;
+}
+
+static bool read_value(const struct source *s, struct columns *c, struct span f, size_t line, const char *start,
+                       double *value, struct problems *problems)
 {
     char room[512];
     size_t column = (size_t)(f.p - start) + 1;
@@ -119,8 +138,10 @@ static bool read_value(const struct source *s, struct span f, size_t line, const
         memcpy(room, f.p, f.n);
         room[f.n] = '\0';
     }
-    enum ceduo_number_reading reading = fits && !memchr(room, '\0', f.n) ? ceduo_number_read(room, value)
-                                                                        : CEDUO_NUMBER_NONE;
+    bool one_decimal = !fits || take_decimal(c, room);
+    enum ceduo_number_reading reading = fits && one_decimal && !memchr(room, '\0', f.n)
+                                            ? ceduo_number_read(room, value)
+                                            : CEDUO_NUMBER_NONE;
     const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
     if (reading == CEDUO_NUMBER_GOOD && *value <= vertex->hi && *value >= vertex->lo)
         return true;
@@ -128,6 +149,8 @@ static bool read_value(const struct source *s, struct span f, size_t line, const
         ceduo_problem(problems, s, line, column, _("a value is missing; remove the line"));
     else if (reading != CEDUO_NUMBER_NONE)
         ceduo_problem(problems, s, line, column, _("beyond %g m"), vertex->hi);
+    else if (!one_decimal)
+        ceduo_problem(problems, s, line, column, _("'%s': decimals stand after a comma or after a dot, not both"), room);
     else if (fits && strchr(room, ','))
         ceduo_problem(problems, s, line, column, _("'%s' is not a number; write a dot for the decimals"), room);
     else
@@ -151,7 +174,7 @@ static bool is_blank(struct span line)
     return true;
 }
 
-static void read_row(const struct source *s, const struct columns *c, struct span line, size_t number,
+static void read_row(const struct source *s, struct columns *c, struct span line, size_t number,
                      struct points *points, struct problems *problems)
 {
     struct span fx, fz;
@@ -160,7 +183,7 @@ static void read_row(const struct source *s, const struct columns *c, struct spa
         ceduo_problem(problems, s, number, 1, _("too few columns"));
         return;
     }
-    if (!read_value(s, fx, number, line.p, &x, problems) || !read_value(s, fz, number, line.p, &z, problems))
+    if (!read_value(s, c, fx, number, line.p, &x, problems) || !read_value(s, c, fz, number, line.p, &z, problems))
         return;
     if (points->n > 0 && !(x > points->x[points->n - 1])) {
         char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
@@ -197,5 +220,6 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *
     for (size_t number = 2; next_line(s, &at, &line); number++)
         if (!is_blank(line))
             read_row(s, &columns, line, number, points, problems);
+    points->commas = columns.decimal == ',';
     return problems->met == before;
 }

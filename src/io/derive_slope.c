@@ -19,7 +19,7 @@ static bool read_vertices(struct deriver *d, struct points *p)
     }
     if (!csv) {
         const struct ceduo_slope *s = &d->draft.scene.slope;
-        *p = (struct points){s->x, s->z, s->vertices};
+        *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
         return ceduo_derive_known(d, "slope.vertices_m");
     }
     if (!ceduo_derive_known(d, "slope.csv"))
@@ -32,7 +32,10 @@ static bool read_vertices(struct deriver *d, struct points *p)
         ceduo_derive_complain(d, "slope.csv", _("cannot find '%s' beside this file"), node->text);
     if (!path)
         return false;
-    return ceduo_csv_slope_read(d->arena, path, p, d->problems);
+    bool good = ceduo_csv_slope_read(d->arena, path, p, d->problems);
+    if (good && p->commas)
+        ceduo_derive_assume(d, "slope.csv", _("commas in the file of the profile stand for decimals: 12,5 is 12.5"));
+    return good;
 }
 
 static bool check_vertices(struct deriver *d, const struct points *p)

@@ -24,24 +24,32 @@
 _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x) + sizeof(double *), "points are x, z");
 
 /* Rows by their kind; each expands in one step, for `at` is three members. */
-#define NUM(kind, key, at, unit, scale, lo, hi, flags, value, meaning) \
-    {key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL}
-#define NUMBER(key, at, unit, lo, hi, flags, value, meaning) \
-    {key, FIELD_NUMBER, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL}
-#define SPREAD(key, at, unit, lo, hi, flags, value, meaning) \
-    {key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL}
-#define OTHER(kind, key, at, flags, value, meaning, choices, object) \
-    {key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, object}
-#define WORD(key, at, flags, value, meaning, choices) \
-    {key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL}
-#define GROUP(key, at, flags, meaning, object) \
-    {key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object}
-#define ITEMS(key, at, flags, meaning, object) \
-    {key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object}
-#define TEXT(key, at, flags, meaning) \
-    {key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL}
-#define TAG(value) \
-    {"ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL, NULL}
+#define NUM(kind, key, says, at, unit, scale, lo, hi, flags, value, meaning) \
+    {key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL, says}
+#define NUMBER(key, says, at, unit, lo, hi, flags, value, meaning) \
+    {key, FIELD_NUMBER, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says}
+#define SPREAD(key, says, at, unit, lo, hi, flags, value, meaning) \
+    {key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says}
+#define OTHER(kind, key, says, at, flags, value, meaning, choices, object) \
+    {key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, object, says}
+#define WORD(key, says, at, flags, value, meaning, choices) \
+    {key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says}
+#define GROUP(key, says, at, flags, meaning, object) \
+    {key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says}
+#define ITEMS(key, says, at, flags, meaning, object) \
+    {key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says}
+#define TEXT(key, says, at, flags, meaning) \
+    {key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL, says}
+#define TAG(value)                                                                          \
+    {"ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value,             \
+     N_("what kind of file this is"), NULL, NULL, NAMED(N_("kind of file"), NULL)}
+
+/* What people call it: a label, and a short one for the head of a column (NULL: the same); what is usual, in the file's
+ * unit; another unit that people use. */
+#define SHOWN(label, brief, unit, per, least, most) {label, brief, unit, per, least, most}
+#define USUAL(label, brief, least, most) SHOWN(label, brief, NULL, 1, least, most)
+#define NAMED(label, brief) USUAL(label, brief, -INFINITY, INFINITY)
+#define CENTIMETRES(label, brief, least, most) SHOWN(label, brief, N_("cm"), 100, least, most)
 #define OBJECT(type, fields, folder) {fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder}
 #define STRING(macro) TEXT_OF(macro)
 #define TEXT_OF(text) #text
@@ -51,17 +59,24 @@ enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS 
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
-    WORD("shape", AT(ceduo_rock_def, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
-    SPREAD("diameter_m", AT(ceduo_rock_def, diameter), "m", 0, 1000, ABOVE, NULL,
+    WORD("shape", NAMED(N_("shape"), NULL),
+        AT(ceduo_rock_def, shape), 0, "sphere", N_("shape of the rock"), &ceduo_shape_words),
+    SPREAD("diameter_m", USUAL(N_("diameter, m"), NULL, 0.05, 15),
+        AT(ceduo_rock_def, diameter), "m", 0, 1000, ABOVE, NULL,
            N_("diameter of a sphere or cylinder")),
-    SPREAD("height_m", AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL, N_("height of a cylinder")),
-    NUM(FIELD_SPREADS, "axes_m", AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
+    SPREAD("height_m", USUAL(N_("height, m"), NULL, 0.05, 15),
+        AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL, N_("height of a cylinder")),
+    NUM(FIELD_SPREADS, "axes_m", NAMED(N_("axes, m"), NULL),
+        AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
         N_("the three axes of an ellipsoid or block")),
-    SPREAD("volume_m3", AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
+    SPREAD("volume_m3", NAMED(N_("or volume, m3"), NULL),
+        AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
            N_("volume of a sphere, instead of its diameter")),
-    SPREAD("mass_kg", AT(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
+    SPREAD("mass_kg", NAMED(N_("mass, kg"), NULL),
+        AT(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
            N_("mass: of a sphere instead of its diameter, of other shapes instead of the density")),
-    SPREAD("density_kg_m3", AT(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE, "2600",
+    SPREAD("density_kg_m3", USUAL(N_("density, kg/m3"), NULL, 1000, 5000),
+        AT(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE, "2600",
            N_("density of the rock; the default is limestone's, an assumption")),
 };
 static const struct object rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL);
@@ -69,14 +84,19 @@ static const struct object rock_object = OBJECT(ceduo_rock_def, rock_fields, NUL
 /* ---- release ---- */
 
 static const struct field release_fields[] = {
-    SPREAD("x_m", AT(ceduo_release, x), "m", -FAR, FAR, FIELD_MEANLESS | FIELD_PLACE, NULL,
+    SPREAD("x_m", NAMED(N_("x, m"), NULL),
+        AT(ceduo_release, x), "m", -FAR, FAR, FIELD_MEANLESS | FIELD_PLACE, NULL,
            N_("where the rock starts; in the slope's coordinates; without it at the first vertex")),
-    SPREAD("height_m", AT(ceduo_release, height), "m", 0, 10000, 0, "0",
+    SPREAD("height_m", USUAL(N_("height, m"), NULL, 0, 500),
+        AT(ceduo_release, height), "m", 0, 10000, 0, "0",
            N_("height of its underside above the ground")),
-    SPREAD("vx_m_s", AT(ceduo_release, vx), "m/s", -1000, 1000, 0, "0",
+    SPREAD("vx_m_s", USUAL(N_("speed along, m/s"), NULL, -60, 60),
+        AT(ceduo_release, vx), "m/s", -1000, 1000, 0, "0",
            N_("horizontal speed, positive downslope along x")),
-    SPREAD("vz_m_s", AT(ceduo_release, vz), "m/s", -1000, 1000, 0, "0", N_("vertical speed, positive upward")),
-    SPREAD("spin_rad_s", AT(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0",
+    SPREAD("vz_m_s", USUAL(N_("speed upward, m/s"), NULL, -60, 60),
+        AT(ceduo_release, vz), "m/s", -1000, 1000, 0, "0", N_("vertical speed, positive upward")),
+    SPREAD("spin_rad_s", USUAL(N_("spin, rad/s"), NULL, -200, 200),
+        AT(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0",
            N_("spin, positive rolling forward; not used by the law lumped")),
 };
 static const struct object release_object = OBJECT(ceduo_release, release_fields, NULL);
@@ -84,36 +104,50 @@ static const struct object release_object = OBJECT(ceduo_release, release_fields
 /* ---- slope ---- */
 
 static const struct field segment_fields[] = {
-    SPREAD("rn", AT(ceduo_segment, rn), "", 0, 1, REQUIRED, NULL, N_("normal restitution Rn")),
-    SPREAD("rt", AT(ceduo_segment, rt), "", 0, 1, REQUIRED, NULL, N_("tangential restitution Rt")),
-    NUMBER("roughness_rad", AT(ceduo_segment, roughness_rad), "rad", 0, M_PI_2, FIELD_UNDER | FIELD_ONE_OF, "0",
+    SPREAD("rn", NAMED(N_("bounce Rn"), N_("Rn")),
+        AT(ceduo_segment, rn), "", 0, 1, REQUIRED, NULL, N_("normal restitution Rn")),
+    SPREAD("rt", NAMED(N_("slide Rt"), N_("Rt")),
+        AT(ceduo_segment, rt), "", 0, 1, REQUIRED, NULL, N_("tangential restitution Rt")),
+    NUMBER("roughness_rad", NAMED(N_("roughness, rad"), N_("rough. rad")),
+        AT(ceduo_segment, roughness_rad), "rad", 0, M_PI_2, FIELD_UNDER | FIELD_ONE_OF, "0",
            N_("largest angle by which the ground's small facets are turned")),
-    NUMBER("roughness_m", AT(ceduo_segment, roughness_m), "m", 0, 1000, 0, NULL,
+    NUMBER("roughness_m", NAMED(N_("roughness, m"), N_("rough. m")),
+        AT(ceduo_segment, roughness_m), "m", 0, 1000, 0, NULL,
            N_("the same as a height S over the rock's radius, atan(S/R), as in CRSP")),
-    NUMBER("friction", AT(ceduo_segment, friction), "", 0, 100, 0, "0.5",
+    NUMBER("friction", NAMED(N_("friction"), NULL),
+        AT(ceduo_segment, friction), "", 0, 100, 0, "0.5",
            N_("tangent of the angle of rolling friction; the default is an assumption")),
 };
 static const struct object segment_object = OBJECT(ceduo_segment, segment_fields, NULL);
 
 static const struct field material_fields[] = {
-    NUMBER("from_m", AT(material_belt, from), "m", -FAR, FAR, REQUIRED, NULL, N_("where the ground begins")),
-    NUMBER("to_m", AT(material_belt, to), "m", -FAR, FAR, REQUIRED, NULL, N_("where it ends")),
-    WORD("material", AT(material_belt, material), REQUIRED, NULL, N_("a ground of the library"), &ceduo_material_words),
+    NUMBER("from_m", NAMED(N_("from, m"), N_("from m")),
+        AT(material_belt, from), "m", -FAR, FAR, REQUIRED, NULL, N_("where the ground begins")),
+    NUMBER("to_m", NAMED(N_("to, m"), N_("to m")),
+        AT(material_belt, to), "m", -FAR, FAR, REQUIRED, NULL, N_("where it ends")),
+    WORD("material", NAMED(N_("ground"), NULL),
+        AT(material_belt, material), REQUIRED, NULL, N_("a ground of the library"), &ceduo_material_words),
 };
 static const struct object material_object = OBJECT(material_belt, material_fields, NULL);
 
 static const struct field slope_fields[] = {
     TAG("slope/1"),
-    TEXT("name", NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the slope")),
-    WORD("facets", AT(ceduo_slope, facets), 0, "against", N_("which way the ground's small facets are turned"),
+    TEXT("name", NAMED(N_("name"), NULL),
+        NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the slope")),
+    WORD("facets", NAMED(N_("facets"), NULL),
+        AT(ceduo_slope, facets), 0, "against", N_("which way the ground's small facets are turned"),
          &ceduo_facets_words),
-    NUM(FIELD_POINTS, "vertices_m", POINTS(ceduo_slope, x, vertices), "m", 1, -FAR, FAR, 0, NULL,
+    NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile"), NULL),
+        POINTS(ceduo_slope, x, vertices), "m", 1, -FAR, FAR, 0, NULL,
         N_("the profile: pairs [x, z], x rising")),
-    ITEMS("segments", LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT,
+    ITEMS("segments", NAMED(N_("ground"), NULL),
+        LIST(ceduo_slope, segments, segments_given), FIELD_DRAFT,
           N_("the ground: one for each segment, or one for all"), &segment_object),
-    ITEMS("materials", OF_SLOPE(materials, materials_count), FIELD_DRAFT,
+    ITEMS("materials", NAMED(N_("ground"), NULL),
+        OF_SLOPE(materials, materials_count), FIELD_DRAFT,
           N_("the ground from the library, instead of segments"), &material_object),
-    OTHER(FIELD_FILE, "csv", NOWHERE, FIELD_NOWHERE, NULL,
+    OTHER(FIELD_FILE, "csv", NAMED(N_("file"), NULL),
+        NOWHERE, FIELD_NOWHERE, NULL,
           N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
 };
 static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slopes");
@@ -121,161 +155,226 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
 /* ---- stand ---- */
 
 static const struct field stems_fields[] = {
-    NUMBER("per_ha", AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED, NULL,
+    NUMBER("per_ha", USUAL(N_("per hectare"), N_("per ha"), 0, 50000),
+        AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED, NULL,
            N_("stems per horizontal hectare")),
-    NUMBER("dbh_m", AT(ceduo_stems, dbh), "m", 0, 10, REQUIRED | ABOVE, NULL, N_("diameter at breast height")),
-    NUMBER("height_m", AT(ceduo_stems, height), "m", 0, 150, REQUIRED | ABOVE, NULL, N_("height of a stem")),
-    NUMBER("volume_m3", AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE, NULL,
+    NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2),
+        AT(ceduo_stems, dbh), "m", 0, 10, REQUIRED | ABOVE, NULL, N_("diameter at breast height")),
+    NUMBER("height_m", USUAL(N_("height, m"), N_("height m"), 0.5, 50),
+        AT(ceduo_stems, height), "m", 0, 150, REQUIRED | ABOVE, NULL, N_("height of a stem")),
+    NUMBER("volume_m3", USUAL(N_("volume, m3"), N_("vol. m3"), 0, 30),
+        AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE, NULL,
            N_("volume of a stem; without it from species, dbh and height")),
-    NUMBER("dbh_sd_m", AT(ceduo_stems, dbh_sd), "m", 0, 10, 0, "0", N_("standard deviation of the diameters")),
-    NUMBER("age_y", AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL, N_("age")),
+    NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5),
+        AT(ceduo_stems, dbh_sd), "m", 0, 10, 0, "0", N_("standard deviation of the diameters")),
+    NUMBER("age_y", USUAL(N_("age, years"), N_("age y"), 0, 500),
+        AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL, N_("age")),
 };
 static const struct object stems_object = OBJECT(ceduo_stems, stems_fields, NULL);
 
 static const struct field stools_fields[] = {
-    NUMBER("per_ha", AT(ceduo_stand, stools_per_ha), "1/ha", 0, 1e6, REQUIRED | ZERO, NULL,
+    NUMBER("per_ha", USUAL(N_("stools per ha"), NULL, 0, 10000),
+        AT(ceduo_stand, stools_per_ha), "1/ha", 0, 1e6, REQUIRED | ZERO, NULL,
            N_("stools per horizontal hectare")),
-    NUMBER("spacing_m", AT(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
+    NUMBER("spacing_m", USUAL(N_("spacing, m"), NULL, 0.02, 3),
+        AT(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
            N_("distance between neighbouring shoots of a stool (dbh_int of the paper)")),
 };
 static const struct object stools_object = OBJECT(ceduo_stand, stools_fields, NULL);
 
 static const struct field energy_fields[] = {
-    WORD("model", AT(ceduo_stand, energy), 0, "brauner", N_("energy law: what a contact with a stem takes from the rock"), &ceduo_energy_words),
-    NUMBER("u_J_m3", AT(ceduo_stand, u), "J/m3", 0, 1e7, ABOVE, NULL,
+    WORD("model", NAMED(N_("model"), NULL),
+        AT(ceduo_stand, energy), 0, "brauner", N_("energy law: what a contact with a stem takes from the rock"),
+           &ceduo_energy_words),
+    NUMBER("u_J_m3", USUAL(N_("U, J/m3"), NULL, 20000, 500000),
+        AT(ceduo_stand, u), "J/m3", 0, 1e7, ABOVE, NULL,
            N_("brauner: work of breaking; without it that of the species, or of beech if unknown")),
-    NUMBER("fracture_ratio", AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, "1.5",
+    NUMBER("fracture_ratio", NAMED(N_("fracture ratio"), NULL),
+        AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, "1.5",
            N_("dorren: energy of this species over that of silver fir; the default is an assumption")),
 };
 static const struct object energy_object = OBJECT(ceduo_stand, energy_fields, NULL);
 
 static const struct field curve_fields[] = {
-    NUMBER("dbh_most_m", AT(ceduo_curve, dbh_most), "m", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
+    NUMBER("dbh_most_m", CENTIMETRES(N_("largest diam., cm"), NULL, 0.02, 3),
+        AT(ceduo_curve, dbh_most), "m", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
            N_("diameter that old stems approach: d(t) = D(1 - exp(-kt))")),
-    NUMBER("dbh_rate_1_y", AT(ceduo_curve, dbh_rate), "1/y", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
+    NUMBER("dbh_rate_1_y", NAMED(N_("its rate, 1/year"), NULL),
+        AT(ceduo_curve, dbh_rate), "1/y", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
            N_("k of the diameter")),
-    NUMBER("height_most_m", AT(ceduo_curve, height_most), "m", 0, 150, REQUIRED | ABOVE | ZERO | YEARS, NULL,
+    NUMBER("height_most_m", USUAL(N_("largest height, m"), NULL, 1, 60),
+        AT(ceduo_curve, height_most), "m", 0, 150, REQUIRED | ABOVE | ZERO | YEARS, NULL,
            N_("height that old stems approach: h(t) = H(1 - exp(-mt))")),
-    NUMBER("height_rate_1_y", AT(ceduo_curve, height_rate), "1/y", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
+    NUMBER("height_rate_1_y", NAMED(N_("its rate, 1/year"), NULL),
+        AT(ceduo_curve, height_rate), "1/y", 0, 10, REQUIRED | ABOVE | ZERO | YEARS, NULL,
            N_("m of the height")),
 };
 static const struct object curve_object = OBJECT(ceduo_curve, curve_fields, NULL);
 
 static const struct field growth_fields[] = {
-    GROUP("shoots", AT(ceduo_growth, shoots), 0, N_("growth of shoots"), &curve_object),
-    GROUP("trees", AT(ceduo_growth, trees), 0, N_("growth of single trees"), &curve_object),
-    NUMBER("shoots_young", AT(ceduo_growth, shoots_young), "", 1, 1000, ZERO | YEARS, NULL,
+    GROUP("shoots", NAMED(N_("shoots"), NULL),
+        AT(ceduo_growth, shoots), 0, N_("growth of shoots"), &curve_object),
+    GROUP("trees", NAMED(N_("trees"), NULL),
+        AT(ceduo_growth, trees), 0, N_("growth of single trees"), &curve_object),
+    NUMBER("shoots_young", NAMED(N_("shoots when young"), NULL),
+        AT(ceduo_growth, shoots_young), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots that come up on a stool after a cut")),
-    NUMBER("shoots_old", AT(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
+    NUMBER("shoots_old", NAMED(N_("shoots when old"), NULL),
+        AT(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots of an old stool: n(t) = old + (young - old)exp(-t/5)")),
-    NUMBER("sdi_most", AT(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
+    NUMBER("sdi_most", NAMED(N_("greatest density"), NULL),
+        AT(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
            N_("stand density index to which shoots thin themselves; 0 or absent: they do not")),
 };
 static const struct object growth_object = OBJECT(ceduo_growth, growth_fields, NULL);
 
 static const struct field cutting_fields[] = {
-    NUM(FIELD_COUNT, "rotation_years", AT(ceduo_stand, cutting.rotation), "y", 1, 1, 500, REQUIRED | YEARS, NULL,
+    NUM(FIELD_COUNT, "rotation_years", USUAL(N_("rotation, years"), NULL, 2, 300),
+        AT(ceduo_stand, cutting.rotation), "y", 1, 1, 500, REQUIRED | YEARS, NULL,
           N_("years between two cuts")),
-    NUM(FIELD_COUNT, "cohorts", AT(ceduo_stand, cutting.cohorts), "", 1, 1, 20, YEARS, "1",
+    NUM(FIELD_COUNT, "cohorts", NAMED(N_("ages on a stool"), NULL),
+        AT(ceduo_stand, cutting.cohorts), "", 1, 1, 20, YEARS, "1",
           N_("cohorts of shoots on a stool; each cut takes the oldest; 1: all shoots are cut")),
-    NUM(FIELD_NUMBERS, "stay_per_ha", LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, YEARS,
+    NUM(FIELD_NUMBERS, "stay_per_ha", NAMED(N_("trees kept per ha"), NULL),
+        LIST(ceduo_stand, cutting.stay_per_ha, cutting.stay_count), "1/ha", 1, 0, 1e5, YEARS,
         NULL, N_("single trees that a cut leaves: those one rotation old, two rotations old, …")),
 };
 static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, NULL);
 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
-    TEXT("name", NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the stand")),
-    OTHER(FIELD_FILE, "base", NOWHERE, FIELD_NOWHERE, NULL,
+    TEXT("name", NAMED(N_("name"), NULL),
+        NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the stand")),
+    OTHER(FIELD_FILE, "base", NAMED(N_("made from"), NULL),
+        NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
-    WORD("system", AT(ceduo_stand, system), UNFLOWN, NULL, N_("silvicultural system; without it derived from the stems"),
+    WORD("system", NAMED(N_("system"), NULL),
+        AT(ceduo_stand, system), UNFLOWN, NULL, N_("silvicultural system; without it derived from the stems"),
          &ceduo_system_words),
-    WORD("species", AT(ceduo_stand, species), YEARS, NULL, N_("main species: volume of its stems and work of breaking"),
+    WORD("species", NAMED(N_("species"), NULL),
+        AT(ceduo_stand, species), YEARS, NULL, N_("main species: volume of its stems and work of breaking"),
          &ceduo_species_words),
-    GROUP("stools", SAME, 0, N_("stools"), &stools_object),
-    ITEMS("shoots", LIST(ceduo_stand, shoots, shoots_count), 0, N_("cohorts of shoots on the stools"), &stems_object),
-    ITEMS("trees", LIST(ceduo_stand, trees, trees_count), 0, N_("classes of single trees: standards, reserves"),
+    GROUP("stools", NAMED(N_("stools"), NULL),
+        SAME, 0, N_("stools"), &stools_object),
+    ITEMS("shoots", NAMED(N_("shoots"), NULL),
+        LIST(ceduo_stand, shoots, shoots_count), 0, N_("cohorts of shoots on the stools"), &stems_object),
+    ITEMS("trees", NAMED(N_("trees"), NULL),
+        LIST(ceduo_stand, trees, trees_count), 0, N_("classes of single trees: standards, reserves"),
           &stems_object),
-    GROUP("energy", SAME, 0, N_("energy of a contact"), &energy_object),
-    GROUP("growth", AT(ceduo_stand, growth), 0, N_("how it grows; without it the stand stays as it is"),
+    GROUP("energy", NAMED(N_("energy"), NULL),
+        SAME, 0, N_("energy of a contact"), &energy_object),
+    GROUP("growth", NAMED(N_("growth"), NULL),
+        AT(ceduo_stand, growth), 0, N_("how it grows; without it the stand stays as it is"),
           &growth_object),
-    GROUP("cutting", SAME, 0, N_("how it is cut; without it never"), &cutting_object),
+    GROUP("cutting", NAMED(N_("cutting"), NULL),
+        SAME, 0, N_("how it is cut; without it never"), &cutting_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
 
 /* ---- scene ---- */
 
 static const struct field belt_fields[] = {
-    NUMBER("from_m", PLACE(ceduo_belt, from_given, from), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
+    NUMBER("from_m", NAMED(N_("from, m"), N_("from m")),
+        PLACE(ceduo_belt, from_given, from), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
            N_("where the belt begins; in the slope's coordinates")),
-    NUMBER("to_m", PLACE(ceduo_belt, to_given, to), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
+    NUMBER("to_m", NAMED(N_("to, m"), N_("to m")),
+        PLACE(ceduo_belt, to_given, to), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
            N_("where the belt ends")),
-    NUMBER("cut_year", AT(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
+    NUMBER("cut_year", NAMED(N_("cut in year"), N_("cut year")),
+        AT(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
            N_("a year in which it is cut, counted from the stand as filed; without it as soon as it is old enough")),
-    GROUP("stand", AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS, N_("the stand: a file, or what such a file holds"),
+    GROUP("stand", NAMED(N_("stand"), NULL),
+        AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS, N_("the stand: a file, or what such a file holds"),
           &stand_object),
 };
 static const struct object belt_object = OBJECT(ceduo_belt, belt_fields, NULL);
 
 static const struct field option_fields[] = {
-    TEXT("name", AT(ceduo_option, name), REQUIRED | UNFLOWN, N_("name of the option")),
-    ITEMS("forest", LIST(ceduo_option, belts, belts_count), 0, N_("belts of forest, rising along x"), &belt_object),
+    TEXT("name", NAMED(N_("name"), NULL),
+        AT(ceduo_option, name), REQUIRED | UNFLOWN, N_("name of the option")),
+    ITEMS("forest", NAMED(N_("belt"), NULL),
+        LIST(ceduo_option, belts, belts_count), 0, N_("belts of forest, rising along x"), &belt_object),
 };
 static const struct object option_object = OBJECT(ceduo_option, option_fields, NULL);
 
 static const struct field control_fields[] = {
-    NUMBER("x_m", PLACE(ceduo_control, x_given, x), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
+    NUMBER("x_m", NAMED(N_("counted at, m"), N_("at m")),
+        PLACE(ceduo_control, x_given, x), "m", -FAR, FAR, REQUIRED | FIELD_PLACE, NULL,
            N_("where passing rocks are counted")),
-    TEXT("name", AT(ceduo_control, name), UNFLOWN, N_("what stands there")),
-    NUM(FIELD_NUMBER, "accepted_kJ", AT(ceduo_control, accepted), "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
-    NUMBER("measured_speed_m_s", AT(ceduo_control, measured_speed), "m/s", 0, 1000, UNFLOWN, NULL,
+    TEXT("name", NAMED(N_("name"), NULL),
+        AT(ceduo_control, name), UNFLOWN, N_("what stands there")),
+    NUM(FIELD_NUMBER, "accepted_kJ", USUAL(N_("withstands, kJ"), N_("bears kJ"), 0, 20000),
+        AT(ceduo_control, accepted), "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
+    NUMBER("measured_speed_m_s", USUAL(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80),
+        AT(ceduo_control, measured_speed), "m/s", 0, 1000, UNFLOWN, NULL,
            N_("speed of a real rock seen there, for comparison")),
 };
 static const struct object control_object = OBJECT(ceduo_control, control_fields, NULL);
 
 static const struct field simulation_fields[] = {
-    WORD("law", AT(ceduo_simulation, law), 0, "lumped", N_("law of an impact on the ground"), &ceduo_law_words),
-    NUM(FIELD_COUNT, "rocks", AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST, UNFLOWN, "1000", N_("rocks simulated")),
-    NUM(FIELD_COUNT, "seed", AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, 0, "1", N_("seed of the random numbers")),
-    WORD("contact_model", AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
-         N_("how rocks meet stems: stem by stem, as a Poisson process with the rate of the rule, or not at all (index)"),
+    WORD("law", NAMED(N_("law of impact"), NULL),
+        AT(ceduo_simulation, law), 0, "lumped", N_("law of an impact on the ground"), &ceduo_law_words),
+    NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)"), NULL),
+        AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST, UNFLOWN, "1000", N_("rocks simulated")),
+    NUM(FIELD_COUNT, "seed", NAMED(N_("seed"), NULL),
+        AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, 0, "1", N_("seed of the random numbers")),
+    WORD("contact_model", NAMED(N_("rocks among stems"), NULL),
+        AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
+         N_("how rocks meet stems: stem by stem, as a Poisson process with the rate of the rule, "
+            "or not at all (index)"),
          &ceduo_contact_model_words),
-    WORD("rule", AT(ceduo_simulation, rule), FIELD_WOOD, "auto", N_("form of the ADC; auto is the paper's rule"),
+    WORD("rule", NAMED(N_("form of the ADC"), NULL),
+        AT(ceduo_simulation, rule), FIELD_WOOD, "auto", N_("form of the ADC; auto is the paper's rule"),
          &ceduo_rule_words),
-    NUMBER("threshold_m", AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | UNFLOWN, STRING(CEDUO_THRESHOLD_M),
+    NUMBER("threshold_m", NAMED(N_("threshold, m"), NULL),
+        AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | UNFLOWN, STRING(CEDUO_THRESHOLD_M),
            N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
-    NUMBER("gravity_m_s2", AT(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE, STRING(CEDUO_GRAVITY),
+    NUMBER("gravity_m_s2", USUAL(N_("gravity, m/s2"), NULL, 9.7, 9.9),
+        AT(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE, STRING(CEDUO_GRAVITY),
            N_("acceleration of gravity")),
-    OTHER(FIELD_FLAG, "scale_rn", AT(ceduo_simulation, scale_rn), 0, "false",
+    OTHER(FIELD_FLAG, "scale_rn", NAMED(N_("Rn by speed"), NULL),
+        AT(ceduo_simulation, scale_rn), 0, "false",
           N_("lumped: Rn falls with the speed of the impact, as in CRSP"), NULL, NULL),
 };
 static const struct object simulation_object = OBJECT(ceduo_simulation, simulation_fields, NULL);
 
 static const struct field minimum_fields[] = {
-    NUMBER("reserves_per_ha", AT(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5, REQUIRED | UNFLOWN, NULL,
+    NUMBER("reserves_per_ha", NAMED(N_("reserves per ha"), NULL),
+        AT(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5, REQUIRED | UNFLOWN, NULL,
            N_("single trees that must be kept by law or by wish of the owner; a forest with fewer is reported")),
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
 
 static const struct field scene_fields[] = {
     TAG("scene/1"),
-    TEXT("title", AT(scene_draft, scene.title), UNFLOWN, N_("title of the scene")),
-    GROUP("rock", AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &rock_object),
-    GROUP("release", AT(scene_draft, scene.release), 0, N_("how the rock starts"), &release_object),
-    GROUP("slope", AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
+    TEXT("title", NAMED(N_("title"), NULL),
+        AT(scene_draft, scene.title), UNFLOWN, N_("title of the scene")),
+    GROUP("rock", NAMED(N_("rock"), NULL),
+        AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &rock_object),
+    GROUP("release", NAMED(N_("release"), NULL),
+        AT(scene_draft, scene.release), 0, N_("how the rock starts"), &release_object),
+    GROUP("slope", NAMED(N_("slope"), NULL),
+        AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
           N_("the slope: a file, or what such a file holds"), &slope_object),
-    ITEMS("controls", LIST(scene_draft, scene.controls, scene.controls_count), 0,
+    ITEMS("controls", NAMED(N_("control"), NULL),
+        LIST(scene_draft, scene.controls, scene.controls_count), 0,
           N_("places where passing rocks are counted"), &control_object),
-    NUM(FIELD_NUMBERS, "controls_m", LIST(scene_draft, controls_m, controls_m_count), "m", 1, -FAR, FAR, FIELD_DRAFT, NULL,
+    NUM(FIELD_NUMBERS, "controls_m", NAMED(N_("counted at, m"), NULL),
+        LIST(scene_draft, controls_m, controls_m_count), "m", 1, -FAR, FAR, FIELD_DRAFT, NULL,
         N_("the same by their x alone")),
-    ITEMS("forest", LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD,
+    ITEMS("forest", NAMED(N_("belt"), NULL),
+        LIST(scene_draft, belts, belts_count), FIELD_DRAFT | FIELD_WOOD,
           N_("belts of forest, rising along x"), &belt_object),
-    ITEMS("options", LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD,
+    ITEMS("options", NAMED(N_("option"), NULL),
+        LIST(scene_draft, scene.options, scene.options_count), FIELD_WOOD,
           N_("silvicultural options to compare, instead of forest; the first is the baseline"), &option_object),
-    GROUP("simulation", AT(scene_draft, scene.simulation), 0, N_("how the scene is computed"), &simulation_object),
-    NUMBER("rocks_per_year", AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, UNFLOWN, NULL,
+    GROUP("simulation", NAMED(N_("simulation"), NULL),
+        AT(scene_draft, scene.simulation), 0, N_("how the scene is computed"), &simulation_object),
+    NUMBER("rocks_per_year", NAMED(N_("rocks per year"), NULL),
+        AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, UNFLOWN, NULL,
            N_("rocks that come down in a year, to print how many to expect")),
-    GROUP("minimum", SAME, 0, N_("what a forest must keep"), &minimum_object),
+    GROUP("minimum", NAMED(N_("minimum"), NULL),
+        SAME, 0, N_("what a forest must keep"), &minimum_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
 

@@ -8,6 +8,19 @@
 #include "base/intl.h"
 #include "io/emit.h"
 #include "popups.h"
+#include "view/typed.h"
+
+/* A refusal begins with the field's label, not its key. */
+static void name_field(struct app *app, const struct field *field)
+{
+    char key[64], rest[sizeof app->message];
+    snprintf(key, sizeof key, "%.60s: ", field->key);
+    const char *found = strstr(app->message, key);
+    if (!found || strcspn(app->message, " ") < (size_t)(found - app->message))
+        return;
+    snprintf(rest, sizeof rest, "%s", found + strlen(key));
+    ceduo_app_warn(app, "%s: %s", _(field->shown.label), rest);
+}
 
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
 {
@@ -15,12 +28,30 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     snprintf(path, sizeof path, "%s", cell->path); /* the form is made anew below */
     if (value[0] == '\0') /* nothing: back to the default */
         return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
-    struct text quoted = {0};
+    struct text written = {0};
     if (cell->field && cell->field->type == FIELD_TEXT)
-        ceduo_emit_scalar(&quoted, value, true);
-    bool good = ceduo_app_set(app, path, quoted.bytes ? quoted.bytes : value);
-    ceduo_text_free(&quoted);
+        ceduo_emit_scalar(&written, value, true);
+    else if (cell->field)
+        ceduo_typed_value(cell->field, value, &written);
+    const struct field *field = cell->field;
+    bool good = ceduo_app_set(app, path, written.bytes ? written.bytes : value);
+    if (!good && field)
+        name_field(app, field);
+    ceduo_text_free(&written);
     return good;
+}
+
+/* What was typed may be refused or asked back; the same once more is taken. */
+static bool is_meant(struct app *app, const struct form_cell *cell, const char *typed)
+{
+    struct text why = {0};
+    bool good = !cell->field || ceduo_typed_in_range(cell->field, typed, &why);
+    bool sure = app->line.doubted || !cell->field || !ceduo_typed_unusual(cell->field, typed, &why);
+    if (!good || !sure)
+        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
+    app->line.doubted = good && !sure;
+    ceduo_text_free(&why);
+    return good && sure;
 }
 
 /* The whole value as it is typed: what is shown may be cut or put in other words. */
@@ -36,8 +67,8 @@ void ceduo_edit_start(struct app *app)
     const struct node *node = ceduo_document_node(&app->document, cell->path);
     struct text text = {0};
     if (node && node->kind == NODE_SCALAR)
-        ceduo_text_put(&text, node->text);
-    else if (node)
+        ceduo_shown_value(cell->field, node->text, &text);
+    else if (node && cell->field->type != FIELD_SPREAD)
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_put(&text, cell->text);
@@ -52,7 +83,7 @@ void ceduo_edit_key(struct app *app, int key)
     if (key == K_ESCAPE || !cell) {
         app->editing = false;
     } else if (key == K_ENTER || key == K_TAB) {
-        if (set_value(app, cell, app->line.text)) {
+        if (is_meant(app, cell, app->line.text) && set_value(app, cell, app->line.text)) {
             app->editing = false;
             if (key == K_TAB)
                 ceduo_form_move(ceduo_app_form(app), 0, 1);

@@ -8,6 +8,8 @@
 
 #include "base/grow.h"
 #include "base/intl.h"
+#include "base/utf8.h"
+#include "view/typed.h"
 
 #define LABEL       18 /* columns of a line's label */
 #define COLUMN_MOST 22 /* of a table's column */
@@ -66,6 +68,15 @@ static void show_list(char *to, size_t size, const struct node *node)
                                node->items[i]->kind == NODE_SCALAR ? node->items[i]->text : "~");
 }
 
+/* A value that is written as one word, in the words and the unit of the field. */
+static void show_scalar(char *to, size_t size, const struct field *field, const char *written)
+{
+    struct text shown = {0};
+    ceduo_shown_value(field, written, &shown);
+    snprintf(to, size, "%s", ceduo_text_string(&shown));
+    ceduo_text_free(&shown);
+}
+
 static void fill_cell(struct form_cell *cell, const struct document *d, const struct field *field, const char *path)
 {
     const struct node *node = ceduo_document_node(d, path);
@@ -73,13 +84,15 @@ static void fill_cell(struct form_cell *cell, const struct document *d, const st
     cell->field = field;
     cell->given = node != NULL;
     cell->assumed = node && ceduo_scene_assumes_value(&d->file, path);
+    const char *written = node && node->kind == NODE_SCALAR ? node->text : !node && field && field->value ? field->value : "";
+    snprintf(cell->written, sizeof cell->written, "%s", written);
     const char *name = node && node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
     if (name && field && field->flags & FIELD_FOLLOWS)
         snprintf(cell->text, sizeof cell->text, "%s", name);
     else if (node && node->written && node->written->kind == NODE_SCALAR)
         snprintf(cell->text, sizeof cell->text, "%s", node->written->text);
     else if (node && node->kind == NODE_SCALAR)
-        snprintf(cell->text, sizeof cell->text, "%s", node->text);
+        show_scalar(cell->text, sizeof cell->text, field, node->text);
     else if (node && node->kind == NODE_MAP && field && field->type == FIELD_SPREAD)
         show_spread(cell->text, sizeof cell->text, node);
     else if (node && node->kind == NODE_LIST)
@@ -87,7 +100,7 @@ static void fill_cell(struct form_cell *cell, const struct document *d, const st
     else if (node)
         snprintf(cell->text, sizeof cell->text, "%s", "{}");
     else
-        snprintf(cell->text, sizeof cell->text, "%s", field && field->value ? field->value : "");
+        show_scalar(cell->text, sizeof cell->text, field, field && field->value ? field->value : "");
 }
 
 /* The field at a key that may hold a dot: of a group within the object. */
@@ -107,7 +120,7 @@ void ceduo_form_field(struct form *form, const struct document *d, const struct 
 {
     char path[FORM_PATH];
     const struct field *field = find_field(object, key);
-    struct form_row *row = add_row(form, FORM_FIELDS, label);
+    struct form_row *row = add_row(form, FORM_FIELDS, label ? label : _(field->shown.label));
     snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
     fill_cell(&row->cells[0], d, field, path);
     row->n = 1;
@@ -131,7 +144,7 @@ void ceduo_form_rest(struct form *form, const struct document *d, const struct o
         snprintf(key, sizeof key, "%.60s.%.60s", group, f->key);
         snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
         if (f->type != FIELD_GROUP && f->type != FIELD_LIST && !has_path(form, path))
-            ceduo_form_field(form, d, object, prefix, key, f->key);
+            ceduo_form_field(form, d, object, prefix, key, NULL);
     }
 }
 
@@ -153,8 +166,7 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
     const struct node *node = ceduo_document_node(d, list);
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, title);
     for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
-        const char *dot = strrchr(keys[k], '.');
-        snprintf(head->cells[k].text, sizeof head->cells[k].text, "%s", dot ? dot + 1 : keys[k]);
+        head->cells[k].field = find_field(object, keys[k]);
         head->n = k + 1;
     }
     snprintf(head->list, sizeof head->list, "%s", list);
@@ -291,6 +303,9 @@ static void draw_cell(const struct form_row *row, struct ceduo_cells *cells, int
     char shown[80];
     cell_place(row, width, k, &from, &span);
     snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
+    char *more = cell->field && cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
+    if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
+        *more = '\0';
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
@@ -301,6 +316,14 @@ static void draw_cell(const struct form_row *row, struct ceduo_cells *cells, int
     }
     enum ceduo_role role = cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM;
     ceduo_canvas_put(&cells->canvas, left + from, y, span, role, shown);
+}
+
+/* The label of a column, or its short one where that has no room. */
+static const char *head_of(const struct form_cell *cell, int span)
+{
+    const struct field_shown *shown = &cell->field->shown;
+    bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
+    return fits ? _(shown->label) : _(shown->brief);
 }
 
 static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width,
@@ -322,7 +345,8 @@ static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cell
         if (row->kind == FORM_COLUMNS_ROW) {
             int from, span;
             cell_place(row, width, k, &from, &span);
-            ceduo_canvas_put(&cells->canvas, left + from, y, span, CEDUO_ROLE_TITLE, row->cells[k].text);
+            ceduo_canvas_put(&cells->canvas, left + from, y, span, CEDUO_ROLE_TITLE,
+                             head_of(&row->cells[k], span));
         } else {
             draw_cell(row, cells, left, y, width, k, here && k == form->column, edit);
         }
@@ -368,18 +392,21 @@ bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int 
 void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text)
 {
     const struct field *f = cell->field;
-    struct text range = {0};
+    struct text range = {0}, usual = {0};
     if (!f)
         return;
-    const char *key = strrchr(cell->path, '.');
-    ceduo_text_format(text, "%s  %s", key ? key + 1 : cell->path, _(f->meaning));
-    if (f->unit[0])
-        ceduo_text_format(text, "; %s", f->unit);
-    if (ceduo_schema_range_text(f, &range))
+    const char *unit = ceduo_shown_unit(f);
+    ceduo_text_format(text, "%s: %s", _(f->shown.label), _(f->meaning));
+    if (unit[0])
+        ceduo_text_format(text, "; %s", unit);
+    if (ceduo_shown_range(f, &range))
         ceduo_text_format(text, ", %s", ceduo_text_string(&range));
     ceduo_text_free(&range);
-    if (f->value)
-        ceduo_text_format(text, _(" (default %s)"), f->value);
+    if (f->value) {
+        ceduo_shown_value(f, f->value, &usual);
+        ceduo_text_format(text, _(" (default %s)"), ceduo_text_string(&usual));
+        ceduo_text_free(&usual);
+    }
     const struct source_note *note = ceduo_notes_find(d->file.notes, cell->path);
     if (note && cell->given)
         ceduo_text_format(text, " [%s: %s]", note->kind, note->text);
@@ -397,7 +424,7 @@ static double step_of(double value, const struct field *f)
 static void step_word(const struct form_cell *cell, int direction, struct text *value)
 {
     const struct choices *c = cell->field->choices;
-    int now = ceduo_choice_find(c, cell->text);
+    int now = ceduo_choice_find(c, cell->written);
     size_t at = now < 0 ? 0 : ((size_t)now + (direction > 0 ? 1 : c->n - 1)) % c->n;
     ceduo_text_put(value, c->names[at]);
 }
@@ -411,7 +438,7 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     if (f->type == FIELD_CHOICE)
         step_word(cell, direction, value);
     else if (f->type == FIELD_FLAG)
-        ceduo_text_put(value, strcmp(cell->text, "true") == 0 ? "false" : "true");
+        ceduo_text_put(value, strcmp(cell->written, "true") == 0 ? "false" : "true");
     if (f->type == FIELD_CHOICE || f->type == FIELD_FLAG)
         return true;
     const struct node *node = ceduo_document_node(d, cell->path);
@@ -419,11 +446,11 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
         ceduo_number_read(cell->text, &now) != CEDUO_NUMBER_GOOD)
         return false;
-    double step = step_of(now, f);
+    double step = step_of(now, f), lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
     if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && step_of(now - step, f) < step && now > 0)
         step /= 10; /* from 1.0 down to 0.99, not to 0.9 */
     double next = (round(now / step) + direction) * step;
-    next = next < f->lo ? f->lo : next > f->hi ? f->hi : next;
+    next = next < lo ? lo : next > hi ? hi : next;
     int decimals = step < 1 ? (int)ceil(-log10(step) - 1e-9) : 0;
     ceduo_text_format(value, "%.*f", decimals, next == 0 ? 0.0 : next);
     return true;

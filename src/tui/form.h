@@ -13,7 +13,8 @@
 struct form_cell {
     char path[FORM_PATH]; /* of the value, as in --set */
     const struct field *field;
-    char text[64]; /* as it is shown */
+    char text[64]; /* as it is shown, see view/typed.h */
+    char written[64]; /* a single word or number, as in the file; "": nothing, or more than that */
     bool given;    /* written in the scene, not a default */
     bool assumed;
 };
@@ -24,7 +25,7 @@ struct form_row {
     enum form_kind kind;
     char label[64];
     size_t n;
-    struct form_cell cells[FORM_COLUMNS];
+    struct form_cell cells[FORM_COLUMNS]; /* of the head of a table: the fields alone */
     char list[FORM_PATH]; /* the list that the row is an item of; "": none */
     size_t index;
 };
@@ -42,12 +43,12 @@ void ceduo_form_free(struct form *form);
 void ceduo_form_heading(struct form *form, const char *text);
 void ceduo_form_note(struct form *form, const char *text);
 
-/* A line with one field. */
+/* A line with one field; label NULL: that of the table of keys. */
 void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
                       const char *key, const char *label);
 
-/* A line for each field of a group (such as growth.shoots) that has none yet, called by its key: what the table of the scene
- * has and a view does not name. */
+/* A line for each field of a group (such as growth.shoots) that has none yet: what the table of the scene has and a view
+ * does not name. */
 void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,
                      const char *group);
 

@@ -10,6 +10,7 @@ struct line {
     char text[1024];
     size_t at;  /* byte of the cursor */
     bool fresh; /* nothing typed yet: the first character replaces it all */
+    bool doubted; /* it was asked whether this is meant */
 };
 
 void ceduo_line_set(struct line *line, const char *text);

@@ -8,6 +8,7 @@
 #include "ceduo/material.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/typed.h"
 #include "scene/words.h"
 
 /* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
@@ -121,6 +122,14 @@ void ceduo_popup_new_option(struct app *app)
     list_stands(app, _("A new option with the stand …"), chose_new_option);
 }
 
+static void add_word(struct popup *p, const struct field *f, const char *word)
+{
+    struct text shown = {0};
+    ceduo_shown_value(f, word, &shown);
+    ceduo_popup_item(p, ceduo_text_string(&shown), word);
+    ceduo_text_free(&shown);
+}
+
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
 {
     const struct field *f = cell->field;
@@ -130,8 +139,8 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
     snprintf(p->path, sizeof p->path, "%s", cell->path);
     if (f->type == FIELD_CHOICE)
         for (size_t i = 0; i < f->choices->n; i++) {
-            ceduo_popup_item(p, f->choices->names[i], f->choices->names[i]);
-            if (strcmp(f->choices->names[i], cell->text) == 0)
+            add_word(p, f, f->choices->names[i]);
+            if (strcmp(f->choices->names[i], cell->written) == 0)
                 p->at = i;
         }
     else if (f->object == ceduo_schema_stand())

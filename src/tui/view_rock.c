@@ -5,10 +5,10 @@
 #include "app.h"
 #include "base/intl.h"
 
-static void add(struct app *app, struct form *form, const char *group, const char *key, const char *label)
+static void add(struct app *app, struct form *form, const char *group, const char *key)
 {
     const struct field *f = ceduo_schema_field(ceduo_schema_scene(), group);
-    ceduo_form_field(form, &app->document, f->object, group, key, label);
+    ceduo_form_field(form, &app->document, f->object, group, key, NULL);
 }
 
 static void build(struct app *app, struct form *form)
@@ -16,35 +16,35 @@ static void build(struct app *app, struct form *form)
     enum ceduo_shape shape = app->document.file.scene.rock.shape;
     bool round = shape == CEDUO_SPHERE || shape == CEDUO_CYLINDER;
     ceduo_form_heading(form, _("Rock"));
-    add(app, form, "rock", "shape", _("shape"));
+    add(app, form, "rock", "shape");
     if (round)
-        add(app, form, "rock", "diameter_m", _("diameter, m"));
+        add(app, form, "rock", "diameter_m");
     if (shape == CEDUO_CYLINDER)
-        add(app, form, "rock", "height_m", _("height, m"));
+        add(app, form, "rock", "height_m");
     if (!round)
-        add(app, form, "rock", "axes_m", _("axes, m"));
+        add(app, form, "rock", "axes_m");
     if (shape == CEDUO_SPHERE)
-        add(app, form, "rock", "volume_m3", _("or volume, m3"));
-    add(app, form, "rock", "mass_kg", shape == CEDUO_SPHERE ? _("or mass, kg") : _("mass, kg"));
-    add(app, form, "rock", "density_kg_m3", _("density, kg/m3"));
+        add(app, form, "rock", "volume_m3");
+    add(app, form, "rock", "mass_kg");
+    add(app, form, "rock", "density_kg_m3");
     ceduo_form_heading(form, _("Release"));
-    add(app, form, "release", "x_m", _("x, m"));
-    add(app, form, "release", "height_m", _("height, m"));
-    add(app, form, "release", "vx_m_s", _("speed along x, m/s"));
-    add(app, form, "release", "vz_m_s", _("speed upward, m/s"));
-    add(app, form, "release", "spin_rad_s", _("spin, rad/s"));
+    add(app, form, "release", "x_m");
+    add(app, form, "release", "height_m");
+    add(app, form, "release", "vx_m_s");
+    add(app, form, "release", "vz_m_s");
+    add(app, form, "release", "spin_rad_s");
     ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "release");
     ceduo_form_heading(form, _("Simulation"));
-    add(app, form, "simulation", "law", _("law of impact"));
-    add(app, form, "simulation", "contact_model", _("rocks among stems"));
-    add(app, form, "simulation", "rule", _("form of the ADC"));
-    add(app, form, "simulation", "threshold_m", _("threshold, m"));
-    add(app, form, "simulation", "scale_rn", _("Rn by speed"));
-    add(app, form, "simulation", "gravity_m_s2", _("gravity, m/s2"));
-    add(app, form, "simulation", "seed", _("seed"));
-    add(app, form, "simulation", "rocks", _("rocks (batch)"));
+    add(app, form, "simulation", "law");
+    add(app, form, "simulation", "contact_model");
+    add(app, form, "simulation", "rule");
+    add(app, form, "simulation", "threshold_m");
+    add(app, form, "simulation", "scale_rn");
+    add(app, form, "simulation", "gravity_m_s2");
+    add(app, form, "simulation", "seed");
+    add(app, form, "simulation", "rocks");
     ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "simulation");
-    ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", _("title"));
+    ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", NULL);
 }
 
 static void draw(struct app *app, struct ceduo_area area)

@@ -13,7 +13,7 @@ static void build_ground(struct app *app, struct form *form)
     const struct object *slope = ceduo_schema_slope();
     const struct node *segments = ceduo_document_node(d, "slope.segments");
     ceduo_form_heading(form, _("Ground"));
-    ceduo_form_field(form, d, slope, "slope", "facets", _("facets"));
+    ceduo_form_field(form, d, slope, "slope", "facets", NULL);
     if (ceduo_document_node(d, "slope.materials"))
         ceduo_form_table(form, d, ceduo_schema_field(slope, "materials")->object, "slope.materials", materials, "");
     if (segments) {
@@ -29,7 +29,7 @@ static void build_vertices(struct app *app, struct form *form)
     const struct node *vertices = ceduo_document_node(d, "slope.vertices_m");
     if (!vertices) {
         ceduo_form_heading(form, _("Profile: from a CSV file"));
-        ceduo_form_field(form, d, ceduo_schema_slope(), "slope", "csv", _("file"));
+        ceduo_form_field(form, d, ceduo_schema_slope(), "slope", "csv", NULL);
         return;
     }
     if (vertices->n > 200) { /* a list too long to be edited by hand */
@@ -54,7 +54,7 @@ static void build(struct app *app, struct form *form)
         ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "controls")->object, "controls",
                          control_columns, "");
     else
-        ceduo_form_field(form, &app->document, scene, "", "controls_m", _("x, m"));
+        ceduo_form_field(form, &app->document, scene, "", "controls_m", NULL);
     build_ground(app, form);
     build_vertices(app, form);
 }

@@ -23,10 +23,10 @@ static void build(struct app *app, struct form *form)
     snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
              ceduo_app_option(app)->belts[app->belt].name);
     ceduo_form_heading(form, heading);
-    ceduo_form_field(form, d, stand, path, "system", _("system"));
-    ceduo_form_field(form, d, stand, path, "species", _("species"));
-    ceduo_form_field(form, d, stand, path, "stools.per_ha", _("stools per ha"));
-    ceduo_form_field(form, d, stand, path, "stools.spacing_m", _("spacing, m"));
+    ceduo_form_field(form, d, stand, path, "system", NULL);
+    ceduo_form_field(form, d, stand, path, "species", NULL);
+    ceduo_form_field(form, d, stand, path, "stools.per_ha", NULL);
+    ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
     ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));
     snprintf(list, sizeof list, "%s.shoots", path);
@@ -35,11 +35,11 @@ static void build(struct app *app, struct form *form)
     snprintf(list, sizeof list, "%s.trees", path);
     ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
     ceduo_form_heading(form, _("Energy of a contact"));
-    ceduo_form_field(form, d, stand, path, "energy.model", _("model"));
-    ceduo_form_field(form, d, stand, path, "energy.u_J_m3", _("U, J/m3"));
-    ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", _("fracture ratio"));
+    ceduo_form_field(form, d, stand, path, "energy.model", NULL);
+    ceduo_form_field(form, d, stand, path, "energy.u_J_m3", NULL);
+    ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", NULL);
     ceduo_form_rest(form, d, stand, path, "energy");
-    ceduo_form_field(form, d, stand, path, "name", _("name"));
+    ceduo_form_field(form, d, stand, path, "name", NULL);
 }
 
 static void draw_figures(struct app *app, struct ceduo_area area)

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import Folder, Suite, expect, expect_equal, expect_in, result, scene, tests_of
+from harness import Folder, Suite, expect, expect_equal, expect_in, good, result, scene, tests_of
 from inputs import check, expect_places
 
 
@@ -30,6 +30,21 @@ def test_csv_good():
         slope_numbers(f, many)
 
 
+def test_csv_of_spreadsheets():
+    """CSV as an Italian or German spreadsheet writes it: semicolons, decimal commas, their words; and that is said"""
+    with Folder() as f:
+        wanted = slope_numbers(f, "distance,elevation\n0,64.5\n50.25,30\n100,0.75\n")
+        rows = "0;64,5\n50,25;30\n100;0,75\n"
+        for head, body in (("distance;elevation", rows), ("Distanza;Quota", rows), ("Entfernung;H\u00f6he", rows),
+                           ("distance;elevation", rows.replace("\n", "\r\n")), ("distance\televation", rows.replace(";", "\t")),
+                           ("distance;elevation", '"0";"64,5"\n"50,25";"30"\n"100";"0,75"\n')):
+            expect_equal(slope_numbers(f, f"{head}\n{body}"), wanted, head)
+        page = good("-b", "-n", 1, "s.yaml", cwd=f.path).out
+        expect_in("commas in the file of the profile stand for decimals", " ".join(page.split()), "the page")
+        slope_numbers(f, "distance;elevation\n0;64.5\n50.25;30\n100;0.75\n")
+        expect("commas in the file" not in good("-b", "-n", 1, "s.yaml", cwd=f.path).out, "dots are usual")
+
+
 CSV_CASES = [
     # (content, place, words)
     ("", None, "is empty"), ("distance,height\n0,1\n", (1, None), "'distance' and 'elevation'"),
@@ -37,8 +52,10 @@ CSV_CASES = [
     ("distance,elevation\n", None, "two vertices"), ("distance,elevation\n0,64\n", None, "two vertices"),
     ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
     ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"),
-    ("distance;elevation\n0;64\n50;30,5\n100;0\n", (3, 4), "'30,5' is not a number"),
-    ("distance;elevation\n0;64\n50;30,5\n100;0\n", (3, 4), "dot"),
+    ("distance,elevation\n0,64\n50,\"30,5\"\n100,0\n", (3, 5), "'30,5' is not a number; write a dot"),
+    ("distance;elevation\n0;64\n50;1.030,5\n100;0\n", (3, 4), "not both"),
+    ("distance;elevation\n0;64,5\n50.5;30\n100;0\n", (3, 1), "not both"),
+    ("distance;elevation\n0;64.5\n50,5;30\n100;0\n", (3, 1), "not both"),
     ("distance,elevation\n0,64\n50,30\n40,0\n", (4, 1), "distance 40 does not lie beyond 50"),
     ("distance,elevation\n0,64\n50,30\n50,0\n", (4, 1), "must rise"),
     ("distance,elevation\n0,64\n50,abc\n100,0\n", (3, 4), "'abc' is not a number"),

@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "typed.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/intl.h"
+
+#define TYPED_MOST 1024 /* bytes of what is typed in a line */
+#define EVERYWHERE 2e9  /* a range so wide tells a person nothing */
+
+static bool is_number(const struct field *f)
+{
+    return f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT;
+}
+
+/* ---- reading ---- */
+
+enum ceduo_number_reading ceduo_typed_number(const char *typed, double *value)
+{
+    char room[TYPED_MOST];
+    typed += strspn(typed, " ");
+    size_t n = strlen(typed);
+    while (n > 0 && typed[n - 1] == ' ')
+        n--;
+    if (n >= sizeof room)
+        return CEDUO_NUMBER_NONE;
+    memcpy(room, typed, n);
+    room[n] = '\0';
+    char *comma = strchr(room, ',');
+    if (comma && !strchr(room, '.') && !strchr(comma + 1, ','))
+        *comma = '.';
+    return ceduo_number_read(room, value);
+}
+
+/* A number of the file that is so many of what is shown; without what dividing adds. */
+static const char *as_file(const struct field *f, double shown, char room[CEDUO_NUMBER_ROOM])
+{
+    char digits[CEDUO_NUMBER_ROOM];
+    double value = shown / f->shown.per;
+    snprintf(digits, sizeof digits, "%.14g", value);
+    if (f->shown.per != 1)
+        ceduo_number_read(digits, &value);
+    return ceduo_number_shortest(value, room);
+}
+
+/* The next of some numbers with blanks or semicolons between, and commas where they are none of a number. */
+static bool next_number(const char **at, bool commas_part, double *value)
+{
+    char room[64];
+    const char *between = commas_part ? " \t;,[]" : " \t;[]";
+    *at += strspn(*at, between);
+    size_t n = strcspn(*at, between), used = n;
+    while (used > 0 && (*at)[used - 1] == ',')
+        used--;
+    if (used == 0 || used >= sizeof room)
+        return false;
+    memcpy(room, *at, used);
+    room[used] = '\0';
+    *at += n;
+    return ceduo_typed_number(room, value) == CEDUO_NUMBER_GOOD;
+}
+
+static size_t read_numbers(const char *typed, bool commas_part, double *values, size_t most)
+{
+    size_t n = 0;
+    while (n < most && next_number(&typed, commas_part, &values[n]))
+        n++;
+    return typed[strspn(typed, " \t;,[]")] == '\0' ? n : 0;
+}
+
+static bool rises(const double *values, size_t n)
+{
+    for (size_t i = 2; i < n; i += 2)
+        if (!(values[i] > values[i - 2]))
+            return false;
+    return n >= 4 && n % 2 == 0;
+}
+
+bool ceduo_typed_points(const char *typed, struct text *vertices, double *first, double *last)
+{
+    double values[TYPED_MOST / 2];
+    char x[CEDUO_NUMBER_ROOM], z[CEDUO_NUMBER_ROOM];
+    size_t n = strchr(typed, ';') ? 0 : read_numbers(typed, true, values, TYPED_MOST / 2);
+    if (!rises(values, n))
+        n = read_numbers(typed, false, values, TYPED_MOST / 2);
+    if (n < 4 || n % 2 != 0)
+        return false;
+    ceduo_text_put(vertices, "[");
+    for (size_t i = 0; i < n; i += 2)
+        ceduo_text_format(vertices, "%s[%s, %s]", i ? ", " : "", ceduo_number_shortest(values[i], x),
+                          ceduo_number_shortest(values[i + 1], z));
+    ceduo_text_put(vertices, "]");
+    *first = values[0];
+    *last = values[n - 2];
+    return true;
+}
+
+/* "2,6 ± 0,1", with u behind it where all between is alike. */
+static bool put_spread(const struct field *f, const char *typed, struct text *value)
+{
+    const char *sign = strstr(typed, "\xc2\xb1"), *plain = sign ? sign : strstr(typed, "+-");
+    double mean, spread;
+    char room[TYPED_MOST], a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
+    if (!plain || strlen(typed) >= sizeof room)
+        return false;
+    snprintf(room, sizeof room, "%.*s", (int)(plain - typed), typed);
+    bool good = ceduo_typed_number(room, &mean) == CEDUO_NUMBER_GOOD;
+    snprintf(room, sizeof room, "%s", plain + 2);
+    char *uniform = strchr(room, 'u');
+    if (uniform)
+        *uniform = '\0';
+    if (!good || ceduo_typed_number(room, &spread) != CEDUO_NUMBER_GOOD)
+        return false;
+    ceduo_text_format(value, "{mean: %s, spread: %s%s}", as_file(f, mean, a), as_file(f, spread, b),
+                      uniform ? ", kind: uniform" : "");
+    return true;
+}
+
+/* Numbers with blanks between as a list; what is in brackets already is YAML. */
+static bool put_numbers(const struct field *f, const char *typed, struct text *value)
+{
+    double values[32];
+    char room[CEDUO_NUMBER_ROOM];
+    if (typed[0] == '[')
+        return false;
+    size_t n = read_numbers(typed, false, values, 32);
+    for (size_t i = 0; i < n; i++)
+        ceduo_text_format(value, "%s%s", i ? ", " : "[", as_file(f, values[i], room));
+    ceduo_text_put(value, n > 0 ? "]" : "");
+    return n > 0;
+}
+
+void ceduo_typed_value(const struct field *f, const char *typed, struct text *value)
+{
+    double number;
+    char room[CEDUO_NUMBER_ROOM];
+    bool list = f->type == FIELD_NUMBERS || f->type == FIELD_POINTS || f->type == FIELD_SPREADS;
+    if (list && put_numbers(f, typed, value))
+        return;
+    if (f->type == FIELD_SPREAD && put_spread(f, typed, value))
+        return;
+    if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) &&
+        ceduo_typed_number(typed, &number) == CEDUO_NUMBER_GOOD)
+        typed = as_file(f, number, room);
+    ceduo_text_put(value, typed);
+}
+
+/* ---- ranges ---- */
+
+bool ceduo_typed_in_range(const struct field *f, const char *typed, struct text *why)
+{
+    double shown;
+    if (!is_number(f) || ceduo_typed_number(typed, &shown) != CEDUO_NUMBER_GOOD ||
+        ceduo_schema_in_range(f, shown / f->shown.per))
+        return true;
+    double lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
+    const char *unit = ceduo_shown_unit(f), *blank = unit[0] ? " " : "";
+    if (shown < lo)
+        ceduo_text_format(why, _("%s: %s is below %.5g%s%s"), _(f->shown.label), typed, lo, blank, unit);
+    else if (shown > hi)
+        ceduo_text_format(why, _("%s: %s is above %.5g%s%s"), _(f->shown.label), typed, hi, blank, unit);
+    else
+        ceduo_text_format(why, _("%s: %s itself is outside the range"), _(f->shown.label), typed);
+    return false;
+}
+
+bool ceduo_typed_unusual(const struct field *f, const char *typed, struct text *question)
+{
+    double shown;
+    if (!is_number(f) || ceduo_typed_number(typed, &shown) != CEDUO_NUMBER_GOOD)
+        return false;
+    double value = shown / f->shown.per;
+    if (value == 0 || (value >= f->shown.least && value <= f->shown.most))
+        return false;
+    const char *unit = ceduo_shown_unit(f);
+    ceduo_text_format(question, _("%s: %g%s%s? Usual is %g to %g. Enter once more takes it."), _(f->shown.label), shown,
+                      unit[0] ? " " : "", unit, f->shown.least * f->shown.per, f->shown.most * f->shown.per);
+    return true;
+}
+
+/* ---- showing ---- */
+
+const char *ceduo_shown_unit(const struct field *f)
+{
+    return f->shown.unit ? _(f->shown.unit) : f->unit;
+}
+
+bool ceduo_shown_range(const struct field *f, struct text *text)
+{
+    if (f->hi - f->lo >= EVERYWHERE)
+        return false;
+    struct field shown = *f;
+    shown.lo *= f->shown.per;
+    shown.hi *= f->shown.per;
+    return ceduo_schema_range_text(&shown, text);
+}
+
+const char *ceduo_shown_number(const struct field *f, double value, char room[CEDUO_NUMBER_ROOM])
+{
+    snprintf(room, CEDUO_NUMBER_ROOM, "%.12g", value * f->shown.per);
+    return room;
+}
+
+/* "hop hornbeam (Ostrya carpinifolia)" */
+static void put_species(const struct ceduo_species *s, struct text *shown)
+{
+    ceduo_text_format(shown, "%s (%c", _(s->common), s->name[0] - 'a' + 'A');
+    for (const char *c = s->name + 1; *c; c++)
+        ceduo_text_char(shown, *c == '-' ? ' ' : *c);
+    ceduo_text_char(shown, ')');
+}
+
+static void put_word(const struct field *f, const char *written, struct text *shown)
+{
+    size_t n;
+    const struct ceduo_species *species = ceduo_species_list(&n);
+    int i = f->choices == &ceduo_species_words ? ceduo_species_find(written) : -1;
+    if (i >= 0)
+        put_species(&species[i], shown);
+    for (const char *c = written; i < 0 && *c; c++)
+        ceduo_text_char(shown, *c == '-' ? ' ' : *c);
+}
+
+void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
+{
+    double value;
+    if (f && f->type == FIELD_CHOICE) {
+        put_word(f, written, shown);
+        return;
+    }
+    char room[CEDUO_NUMBER_ROOM];
+    bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
+    ceduo_text_put(shown, other ? ceduo_shown_number(f, value, room) : written);
+}
+
+/* ---- paths ---- */
+
+static void put_place(const struct path_step *step, const char *item, struct text *places)
+{
+    size_t i;
+    struct text place = {0};
+    if (ceduo_path_index(step, &i))
+        ceduo_text_format(&place, "%s %zu", item, i + 1);
+    else
+        ceduo_text_format(&place, "%s '%.*s'", item, (int)step->n, step->p);
+    if (places->length) {
+        ceduo_text_put(&place, ", ");
+        ceduo_text_put(&place, places->bytes);
+        ceduo_text_free(places);
+    }
+    ceduo_text_put(places, ceduo_text_string(&place));
+    ceduo_text_free(&place);
+}
+
+void ceduo_shown_path(const char *path, struct text *text)
+{
+    const struct object *object = ceduo_schema_scene();
+    const struct field *f = NULL, *named = NULL;
+    struct path_step step;
+    struct text places = {0};
+    size_t at = 0, n = strlen(path);
+    while (ceduo_path_next(path, n, &at, &step)) {
+        if (step.bracket && f) {
+            put_place(&step, _(f->shown.label), &places);
+            named = NULL;
+            continue;
+        }
+        f = object ? ceduo_schema_step(object, &step) : NULL;
+        object = f ? f->object : NULL;
+        named = f;
+    }
+    if (named)
+        ceduo_text_format(text, "%s%s", _(named->shown.label), places.length ? ", " : "");
+    ceduo_text_put(text, named || places.length ? ceduo_text_string(&places) : path);
+    ceduo_text_free(&places);
+}
