@@ -73,6 +73,8 @@ static void draw_scale(const struct adc_picture *p, int row)
         free_from = column + width + 2;
     }
     ceduo_text_free(&threshold);
+    ceduo_plot_say(p->canvas, end + 4, row, p->area->left + p->area->width - end - 4, CEDUO_ROLE_AXIS, "%s",
+                   _("logarithmic"));
     if (row + 2 < p->end)
         ceduo_plot_say(p->canvas, p->area->left, row + 2, p->area->width, CEDUO_ROLE_DIM,
                        _("\xe2\x94\x82 %g m: in this distance without a contact a rock reaches its full speed."),

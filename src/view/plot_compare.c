@@ -213,8 +213,9 @@ static void write_last_head(const struct comparison *c, struct text *heads)
 static void put_heads(const struct comparison *c, int row)
 {
     struct text heads[3][HEADS] = {{{0}}};
-    ceduo_text_format(&heads[0][0], _("ADC, m (\xe2\x94\x82 %g)"), c->picture->scene->simulation.threshold);
-    ceduo_text_put(&heads[0][1], _("ADC, m"));
+    ceduo_text_format(&heads[0][0], _("ADC, m, logarithmic (\xe2\x94\x82 %g)"),
+                      c->picture->scene->simulation.threshold);
+    ceduo_text_format(&heads[0][1], _("ADC, m, log (\xe2\x94\x82 %g)"), c->picture->scene->simulation.threshold);
     write_middle_head(c, heads[1]);
     write_last_head(c, heads[2]);
     for (int i = 0; i < 3; i++)

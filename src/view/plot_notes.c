@@ -31,7 +31,8 @@ static void note_scale(struct notes *n, double factor)
     if (factor == 1)
         note(n, CEDUO_ROLE_DIM, _("true to scale"));
     else
-        note(n, CEDUO_ROLE_WARN, _("heights \xc3\x97%g"), factor);
+        note(n, CEDUO_ROLE_WARN, factor > 1 ? _("heights drawn %g times") : _("heights drawn at %g %%"),
+             factor > 1 ? factor : 100 * factor);
 }
 
 static void note_ways(struct notes *n)
@@ -102,9 +103,13 @@ static void note_control(struct notes *n, size_t c)
 /* The factor alone, at the right of the top row. */
 static void put_factor(struct ceduo_canvas *canvas, const struct ceduo_area *area, double factor)
 {
-    if (factor != 1)
+    bool words = area->width >= 30;
+    if (factor > 1)
         ceduo_plot_say_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
-                             area->width >= 30 ? _(" heights \xc3\x97%g") : " \xc3\x97%g", factor);
+                             words ? _(" heights drawn %g times") : " \xc3\x97%g", factor);
+    else if (factor < 1)
+        ceduo_plot_say_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
+                             words ? _(" heights drawn at %g %%") : " %g %%", 100 * factor);
 }
 
 bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,

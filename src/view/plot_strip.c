@@ -243,6 +243,30 @@ static void name_curves(const struct strip *s)
 
 /* ---- controls ---- */
 
+static bool is_free(const struct strip *s, int column, int row, int width)
+{
+    const struct ceduo_frame *f = &s->frame;
+    bool inside = row >= f->top && row < f->top + f->height && column >= f->left && column + width <= f->left + f->width;
+    for (int i = -1; inside && i <= width; i++) /* a blank on either side, so that it is no part of a curve */
+        inside = ceduo_canvas_is_blank(s->canvas, column + i, row);
+    return inside;
+}
+
+/* A place for a label beside a line at `row`, before it or behind it, in that row or the nearest that is free of curves.
+ * False where there is none: what it says stands beside the pictures, too. */
+static bool find_free(const struct strip *s, int before, int behind, int width, int *column, int *row)
+{
+    for (int i = 0; i < 2 * s->frame.height; i++) {
+        int at = *row + (i % 2 ? -(i + 1) / 2 : i / 2);
+        *column = is_free(s, before, at, width) ? before : behind;
+        if (is_free(s, *column, at, width)) {
+            *row = at;
+            return true;
+        }
+    }
+    return false;
+}
+
 static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
 {
     double accepted = c->accepted * KILO, reach = 0.03 * (s->frame.x1 - s->frame.x0);
@@ -252,10 +276,11 @@ static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
     ceduo_canvas_line(s->canvas, &s->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
     struct text label = {0};
     ceduo_text_format(&label, _("bears %g kJ"), accepted);
-    int width = label.bytes ? ceduo_canvas_label_width(s->canvas, label.bytes) : 0;
-    ceduo_frame_cell(&s->frame, s->canvas, fmax(c->x - reach, s->frame.x0), accepted, &column, &row);
-    if (column - 2 - width >= s->frame.left)
-        ceduo_canvas_label_right(s->canvas, column - 2, row, CEDUO_ROLE_BAD, label.bytes);
+    int width = label.bytes ? ceduo_canvas_label_width(s->canvas, label.bytes) : 0, left, right;
+    ceduo_frame_cell(&s->frame, s->canvas, fmax(c->x - reach, s->frame.x0), accepted, &left, &row);
+    ceduo_frame_cell(&s->frame, s->canvas, fmin(c->x + reach, s->frame.x1), accepted, &right, &row);
+    if (width > 0 && find_free(s, left - 1 - width, right + 2, width, &column, &row))
+        ceduo_canvas_label(s->canvas, column, row, CEDUO_ROLE_BAD, label.bytes);
     ceduo_text_free(&label);
 }
 

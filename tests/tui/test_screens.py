@@ -176,7 +176,7 @@ def check_view(screen, view, scene, charset):
         pattern = r"One pattern of many(\. The rock \(0\.68 m wide\) meets \d+ stools or trees in 20 m|: \d+ stools or trees are met)"
         expect(re.search(pattern + ("" if by_index else r"|The way of this rock: \d+ stems hit in 20 m"), screen.body), screen)
     if view == "slope":
-        screen.has("heights x" if charset == "ascii" else "heights ×")
+        expect(re.search(r"heights drawn (at [\d.]+ %|[\d.]+ times)", screen.body), "the factor of heights in words", screen)
         screen.has("ADS 1" if "paper-site" in scene else "simple coppice")
     if view == "compare" and "four-systems" in scene:
         screen.has("* best, ! worst")

@@ -155,8 +155,8 @@ static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_writ
     s.z[2] = -3;
     s.scene.slope.origin_z = 3;
     expect(CEDUO_PLOT_PROFILE, &p, 60, 12, ASCII,
-           "  v release              v path (40 m)     80 m v heights x8\n"
-           "3+..                     '                      '\n"
+           "  v release              v path (40 m) heights drawn 8 times\n"
+           "3+..                     '                      ' 80 m\n"
            " |  '''....              '                      '\n"
            " |         '''...        '                      '\n"
            "2+               '''...  '                      '\n"
@@ -170,7 +170,7 @@ static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_writ
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 200, 8, "heights"));
     s.z[1] = -800; /* a wall: pressed */
     s.z[2] = -900;
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 60, 12, "heights x0."));
+    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 60, 12, "heights drawn at "));
 }
 
 static void the_selected_way_is_drawn_over_all(void **state)
@@ -401,9 +401,9 @@ static void strips_show_quantiles_along_the_slope(void **state)
            "100┤                    ⠅         ⡀⠄⠂⠁     ⠨      ⢀⡀   mean\n"
            "   │                    ⠅     ⡀⠄⠂⠁         ⢨⣀⡠⠤⠒⠊⠉⠅    p50\n"
            "   │                    ⠅ ⡀⠄⠂⠁       ⣀⡠⠤⠔⠒⡉⠩⠄ ⠂ ⠁\n"
-           "   │                  ⡀⠄⠇⠁      ⣀⠤⠔⠊⡉ ⠄ ⠁  ⠨\n"
+           "   │      bears 40 kJ ⡀⠄⠇⠁      ⣀⠤⠔⠊⡉ ⠄ ⠁  ⠨\n"
            " 50┤              ⡀⠄⠂⠁  ⠅ ⣀⡠⡤⠒⠎⠉⠂ ⠁        ⠨     ⡀⡀⡀   p5\n"
-           "   │      bears 40 kJ⠤⡴⠶⠭⠭⠂          ⡀⡀⡀⠄⠄⠄⠪⠂⠂⠁⠁⠁\n"
+           "   │          ⡀⠄⠂⠁ ⣀⣀⠤⡴⠶⠭⠭⠂          ⡀⡀⡀⠄⠄⠄⠪⠂⠂⠁⠁⠁\n"
            "   │      ⡀⠄⠂⢁⣀⠤⠖⠊⠋ ⠁   ⠅⡀⡀⡀⠄⠄⠄⠂⠂⠂⠁⠁⠁      ⠨\n"
            "   │   ⢄⣂⠥⠤⠒⠊⡁⡁⡀⠄⠄⠄⠂⠂⠂⠁⠁⠅                  ⠨\n"
            "  0┤  ⠈⠃⠂⠂⠁⠁⠁           ⠅                  ⠨\n"
@@ -444,9 +444,9 @@ static void strips_show_the_wood_beside_the_bare_slope(void **state)
            "100┤                      ⠅           ⠄ ⠁      ⠨       ⡀    bare mean\n"
            "   │                      ⠅       ⠄ ⠁          ⠨⡀⡀⠄⠂⠂⠁⠁\n"
            "   │                      ⠅ ⡀ ⠂ ⠁        ⡀⡀⠄⠄⠂⠁⠩\n"
-           "   │                    ⡀ ⠇        ⡀⠄⠄⠂⠂⠁      ⠨\n"
+           "   │        bears 40 kJ ⡀ ⠇        ⡀⠄⠄⠂⠂⠁      ⠨\n"
            " 50┤                ⠄ ⢂⡀  ⠅ ⡀⡀⠄⠂⠂⠁⠁            ⠨\n"
-           "   │        bears 40 kJ⠌⠦⠶⠥⠥⣀                  ⠨\n"
+           "   │            ⠄⢀⠁⠤⠒⡀⡁⠌⠦⠶⠥⠥⣀                  ⠨\n"
            "   │      ⡀ ⠂⣀⡥⡀⠎⣅⣂⠥⠥⠤⠒⠒⠢⠤⠥⢄⣀⡉ ⠒⠤ ⣀            ⠨\n"
            "   │   ⣀⣦⣄⣖⠯⠦⠓⠒⠉⠉         ⠅  ⠈⠉⠑⠒⠢⠤⢍⣀⣒⡤        ⠨            wood p95\n"
            "  0┤  ⠈⠉                  ⠅           ⠈⠉       ⠨            wood mean\n"
@@ -469,8 +469,8 @@ static void small_strips_show_one_pair_of_curves(void **state)
            "    mean energy, kJ  -- wood  .. bare\n"
            "100+                        '                      '  . . . '    bare\n"
            "   |                        '           . . . ' ' '''\n"
-           " 50+                      . : . . ' ' '            '\n"
-           "   |        . bears 40 kJ'''::....                 '\n"
+           " 50+          bears 40 kJ . : . . ' ' '            '\n"
+           "   |        . . ....:.''''''::....                 '\n"
            "  0+   '''''''''            '     '''''''''        '             wood\n"
            "   ++-----+-----+-----+-----+-----+----+-----+-----+-----+-----+\n"
            "    0 m   10    20    30    40    50   60    70    80    90  100\n");
@@ -756,7 +756,7 @@ static void adc_shows_the_forms_beside_the_threshold(void **state)
            "  gsteiger-stems   ███████▋             │      5.35 m\n"
            "▶ interception     ███████████          │      8.24 m applied: passes\n"
            "  crofton          ███████████▌         │      8.83 m\n"
-           "                   2      5     10   20 30 m\n"
+           "                   2      5     10   20 30 m    logarithmic\n"
            "\n"
            "│ 30 m: in this distance without a contact a rock reaches its full sp…\n"
            "\n");
@@ -787,7 +787,7 @@ static void many_belts_get_a_row_each(void **state)
            "cut                                     |        none NO\n"
            "coppice*           ###########          |      8.24 m passes\n"
            "cut                                     |        none NO\n"
-           "                   2      5     10   20 30 m\n");
+           "                   2      5     10   20 30 m    logarithmic\n");
     assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 5, "and 3 more belts"));
 }
 
@@ -798,7 +798,7 @@ static void options_stand_side_by_side(void **state)
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
-           "  ADC, m (│ 30)             taken, kJ/100 m           left, kJ (│ bears 40)\n"
+           "  ADC, m, log (│ 30)        taken, kJ/100 m           left, kJ (│ bears 40)\n"
            "\n"
            "kept\n"
            "  ████▊      │    8.24 pass ██████████████  90.5      █████▎       │  15.0\n"
@@ -808,7 +808,7 @@ static void options_stand_side_by_side(void **state)
            "\n"
            "left = 33.12 kJ (mean, without forest) less what the stems could take (index)\n");
     expect(CEDUO_PLOT_COMPARE, &p, 110, 6, ASCII,
-           "         ADC, m (| 30)                     taken, kJ/100 m                   left, kJ (| bears 40)\n"
+           "         ADC, m, logarithmic (| 30)        taken, kJ/100 m                   left, kJ (| bears 40)\n"
            "\n"
            "kept     #######        |      8.24 pass   ####################  90.5        ########           |  15.0\n"
            "\n"
@@ -825,7 +825,7 @@ static void options_are_compared_by_what_gets_through(void **state)
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
-           "  ADC, m (│ 30)             of 1000 > 40 kJ (│ 50)    mean, kJ (│ bears 40)\n"
+           "  ADC, m, log (│ 30)        of 1000 > 40 kJ (│ 50)    mean, kJ (│ bears 40)\n"
            "\n"
            "kept\n"
            "  ████▊      │    8.24 pass █│               100 NO   ███████▊     │  22.0\n"
@@ -835,7 +835,7 @@ static void options_are_compared_by_what_gets_through(void **state)
            "\n"
            "without forest: 200 of 1000 > 40 kJ, mean 33.12 kJ; mean: of those that arrive\n");
     expect(CEDUO_PLOT_COMPARE, &p, 60, 7, ASCII,
-           "  ADC, m (| 30)      of 1000 > 40 kJ    mean, kJ (| 40)\n"
+           "  ADC, m, log (| 30) of 1000 > 40 kJ    mean, kJ (| 40)\n"
            "kept\n"
            "  ##   |   8.24 pass |         100 NO   ####  |  22.0\n"
            "felled\n"
@@ -846,7 +846,7 @@ static void options_are_compared_by_what_gets_through(void **state)
     assert_true(shows(CEDUO_PLOT_COMPARE, &p, 80, 9, " 50.0 pass"));
     s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII,
-           "  ADC, m (| 30)             of 1000 arrive            mean, kJ\n"
+           "  ADC, m, log (| 30)        of 1000 arrive            mean, kJ\n"
            "\n"
            "kept\n"
            "  #####      |    8.24 pass #######          500      #########       22.0\n"
@@ -865,7 +865,7 @@ static void options_without_wooded_rocks_are_compared(void **state)
     struct ceduo_picture p = picture_of(&s);
     stop_all(&s);
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII,
-           "  ADC, m (| 30)             of 1000 > 40 kJ (| 50)    mean, kJ (| bears 40)\n"
+           "  ADC, m, log (| 30)        of 1000 > 40 kJ (| 50)    mean, kJ (| bears 40)\n"
            "\n"
            "kept\n"
            "  #####      |    8.24 pass  |                 0 pass              |     -\n"
@@ -876,7 +876,7 @@ static void options_without_wooded_rocks_are_compared(void **state)
            "without forest: 200 of 1000 > 40 kJ, mean 33.12 kJ; mean: of those that arrive\n");
     s.wooded[0] = NULL;
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE,
-           "  ADC, m (│ 30)             of 1000 > 40 kJ (│ 50)    mean, kJ (│ bears 40)\n"
+           "  ADC, m, log (│ 30)        of 1000 > 40 kJ (│ 50)    mean, kJ (│ bears 40)\n"
            "\n"
            "kept\n"
            "  ████▊      │    8.24 pass  │                 …                   │     …\n"
