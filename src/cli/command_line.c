@@ -115,7 +115,9 @@ static enum exit_status check_arguments(struct arguments *a)
     if (ceduo_option_given(a, "goal") && a->mode != MODE_FIND)
         return ceduo_usage(NULL, _("--goal requires --find"));
     if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
-        return ceduo_usage(NULL, _("--goal energy needs the mean energy in kJ, such as energy=50"));
+        return ceduo_usage(NULL, a->goal == CEDUO_GOAL_ENERGY
+                                     ? _("--goal energy needs the mean energy in kJ, such as energy=50")
+                                     : _("--goal arrive needs the share of the rocks, such as arrive=0.5"));
     if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0))
         return ceduo_usage(NULL, _("--find cannot be used with --plot, --years or --tolerance"));
     if (wants_scene && a->scenes_count == 0)

@@ -13,6 +13,8 @@
 
 #include "io/file.h"
 
+#define UNSAVED "# unsaved work on " /* begins the first line of a copy */
+
 /* Makes every folder of a path. */
 static bool make_folders(char *path)
 {
@@ -66,7 +68,7 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
 {
     struct text text = {0};
     char *real = path ? realpath(path, NULL) : NULL;
-    ceduo_text_format(&text, "# unsaved work on ");
+    ceduo_text_put(&text, UNSAVED);
     ceduo_text_safe(&text, real ? real : "a new scene");
     ceduo_text_char(&text, '\n');
     ceduo_text_add(&text, bytes, n);
@@ -76,7 +78,7 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
     return good;
 }
 
-static char *read_copy(const char *path)
+char *ceduo_recovery_text(const char *path)
 {
     struct arena arena = {0};
     struct problems problems = {0};
@@ -96,35 +98,101 @@ static void tidy(const char *folder, const char *name)
     ceduo_text_free(&path);
 }
 
-char *ceduo_recovery_find(const char *path, char **file)
+/* The next copy in the folder whose process has ended: its name is put, and the number of its scene's place. */
+static bool next_left(DIR *dir, const struct text *folder, struct text *name, uint64_t *number)
 {
-    struct text folder = {0};
-    char *found = NULL;
-    DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
-    for (struct dirent *e; dir && !found && (e = readdir(dir));) {
-        unsigned long long number;
+    for (struct dirent *e; (e = readdir(dir));) {
+        unsigned long long of;
         long process;
         int used = 0;
-        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &number, &process, &used) != 2 || used == 0 ||
-            number != number_of(path))
+        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &of, &process, &used) != 2 || used == 0)
             continue;
         if (e->d_name[used] != '\0') { /* its writer was killed, and it may be half of one */
             e->d_name[used] = '\0';
-            tidy(folder.bytes, e->d_name);
+            tidy(folder->bytes, e->d_name);
             continue;
         }
         if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM)
             continue; /* its program still runs */
-        struct text name = {0};
-        ceduo_text_format(&name, "%s/%s", folder.bytes, e->d_name);
-        found = name.bytes ? read_copy(name.bytes) : NULL;
-        if (found)
-            *file = name.bytes;
-        else
-            ceduo_text_free(&name);
+        ceduo_text_free(name);
+        ceduo_text_format(name, "%s/%s", folder->bytes, e->d_name);
+        *number = of;
+        return name->bytes != NULL;
     }
+    return false;
+}
+
+char *ceduo_recovery_find(const char *path, char **file)
+{
+    struct text folder = {0}, name = {0};
+    uint64_t number, wanted = number_of(path);
+    char *found = NULL;
+    DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
+    while (dir && !found && next_left(dir, &folder, &name, &number))
+        found = number == wanted ? ceduo_recovery_text(name.bytes) : NULL;
+    if (found)
+        *file = name.bytes;
+    else
+        ceduo_text_free(&name);
     if (dir)
         closedir(dir);
     ceduo_text_free(&folder);
     return found;
+}
+
+/* ---- all of them ---- */
+
+#define LISTED_MOST 100
+
+static int newest_first(const void *a, const void *b)
+{
+    time_t x = ((const struct recovery *)a)->when, y = ((const struct recovery *)b)->when;
+    return x < y ? 1 : x > y ? -1 : 0;
+}
+
+/* What follows a word to the end of its line, without quotes; NULL where the word is not there. */
+static const char *rest_of_line(struct arena *arena, const char *text, const char *word)
+{
+    const char *at = strstr(text, word);
+    if (!at)
+        return NULL;
+    at += strlen(word);
+    at += strspn(at, " \"");
+    size_t n = strcspn(at, "\n");
+    while (n > 0 && (at[n - 1] == '"' || at[n - 1] == ' '))
+        n--;
+    return ceduo_arena_copy(arena, at, n);
+}
+
+static bool read_head(struct arena *arena, const char *file, struct recovery *r)
+{
+    struct stat st;
+    char *text = stat(file, &st) == 0 ? ceduo_recovery_text(file) : NULL;
+    if (!text)
+        return false;
+    const char *scene = rest_of_line(arena, text, UNSAVED), *title = rest_of_line(arena, text, "\ntitle:");
+    *r = (struct recovery){.file = ceduo_arena_string(arena, file),
+                           .scene = scene && scene[0] == '/' ? scene : NULL,
+                           .title = title ? title : "",
+                           .when = st.st_mtime};
+    free(text);
+    return r->file != NULL;
+}
+
+struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
+{
+    struct text folder = {0}, name = {0};
+    uint64_t number;
+    struct recovery *list = ceduo_arena_take(arena, LISTED_MOST * sizeof *list);
+    DIR *dir = list && state_folder(&folder) ? opendir(folder.bytes) : NULL;
+    *n = 0;
+    while (dir && *n < LISTED_MOST && next_left(dir, &folder, &name, &number))
+        *n += read_head(arena, name.bytes, &list[*n]);
+    if (dir)
+        closedir(dir);
+    if (list)
+        qsort(list, *n, sizeof *list, newest_first);
+    ceduo_text_free(&name);
+    ceduo_text_free(&folder);
+    return list;
 }

@@ -4,6 +4,9 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <time.h>
+
+#include "base/arena.h"
 
 /* Copies of unsaved work in the user's state folder ($XDG_STATE_HOME/ceduo, ~/.local/state/ceduo): one for each process
  * and scene, the process in the name, so that one left behind by a program that is gone is known. */
@@ -17,5 +20,19 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
 
 /* Text of a copy for `path` whose process has ended, and in `*file` where it lies; both to be freed. NULL: none. */
 char *ceduo_recovery_find(const char *path, char **file);
+
+/* A copy that was left behind. */
+struct recovery {
+    const char *file;  /* where it lies */
+    const char *scene; /* whose work it is; NULL: a scene that was never saved */
+    const char *title; /* of the scene; "" where it says none */
+    time_t when;       /* of the last edit */
+};
+
+/* All copies whose processes have ended, the newest first; `*n` of them, in the arena. */
+struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n);
+
+/* The text of a copy; NULL where it cannot be read. To be freed. */
+char *ceduo_recovery_text(const char *file);
 
 #endif

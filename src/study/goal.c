@@ -15,7 +15,10 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
                            "the mean energy of the rocks that arrive through the forest (with contact_model: index what the "
                            "index leaves of the mean without forest)", NULL},
     [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, true,
-                           "the share of the released that arrive through the forest with more than the place bears", "0.05"}};
+                           "the share of the released that arrive through the forest with more than the place bears", "0.05"},
+    [CEDUO_GOAL_ARRIVE] = {"arrive", N_("share that arrives"), "%", false, true,
+                           "the share of the released that arrive through the forest (with contact_model: index without "
+                           "forest)", NULL}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {
@@ -30,7 +33,7 @@ void ceduo_goal_words(struct text *text)
 
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation)
 {
-    const double limits[CEDUO_GOALS] = {simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST};
+    const double limits[CEDUO_GOALS] = {simulation->threshold, CEDUO_FREE_RUN_MOST, NAN, CEDUO_EXCEED_MOST, NAN};
     return limits[goal];
 }
 
@@ -50,6 +53,7 @@ double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *resul
         double value = goal == CEDUO_GOAL_ADC        ? index->worst_adc
                        : goal == CEDUO_GOAL_FREE_RUN ? index->worst_free_run
                        : goal == CEDUO_GOAL_EXCEED   ? arrivals->exceed_probability
+                       : goal == CEDUO_GOAL_ARRIVE   ? arrivals->reach_probability
                                                      : mean_kJ(arrivals, wooded != NULL, index);
         worst = isnan(value) || value > worst ? value : worst;
     }

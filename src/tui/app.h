@@ -73,7 +73,7 @@ struct app {
     struct popup *popup;
     bool opened;           /* a document was just opened: offer unsaved work that was left behind */
     bool no_recovery;      /* for a script: offer no unsaved work and keep no copy */
-    bool quit_once_saved;
+    void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
     bool quit, redraw;     /* redraw: paint the whole terminal again */
     bool stopped;          /* out of memory: cannot go on */
 };

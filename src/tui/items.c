@@ -6,6 +6,7 @@
 
 #include "base/intl.h"
 #include "edit.h"
+#include "view/typed.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
 struct item {
@@ -202,8 +203,11 @@ void ceduo_items_delete(struct app *app)
     }
     snprintf(path, sizeof path, "%s[%zu]", item.list, item.index);
     if (ceduo_app_edited(app, delete_item(app, &item, path))) {
+        struct text words = {0};
         stay_in_list(app, item.list);
-        ceduo_app_say(app, _("deleted %s; u brings it back"), path);
+        ceduo_shown_path(path, &words);
+        ceduo_app_say(app, _("deleted: %s; u brings it back"), ceduo_text_string(&words));
+        ceduo_text_free(&words);
     }
 }
 

@@ -82,6 +82,7 @@ enum key {
     X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                 \
     X(SEARCH, '/', "/", K_F3, "F3", 0, N_("search"))                                                   \
     X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                              \
+    X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names")) \
     X(NEW, 'n', "n", K_F7, "F7", 0, N_("new scene"))                                                   \
     X(OPEN, 'o', "o", K_F4, "F4", 0, N_("open a scene"))                                               \
     X(SAVE, 's', "s", K_F2, "F2", 2, N_("save"))                                                        \

@@ -7,9 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/grow.h"
 #include "base/intl.h"
 #include "base/utf8.h"
+#include "view/typed.h"
 
 /* ---- making ---- */
 
@@ -30,7 +30,7 @@ static struct popup *open_popup(struct app *app, enum popup_kind kind, const cha
 static void free_popup(struct popup *p)
 {
     ceduo_arena_free(&p->arena);
-    free(p->items);
+    ceduo_picker_clear(&p->picker);
     ceduo_text_free(&p->text);
     free(p->kept);
     free(p);
@@ -66,25 +66,35 @@ struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_fille
 
 void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 {
-    struct popup_item *items = p ? ceduo_grow(p->items, p->items_count, &p->items_room, sizeof *items) : NULL;
-    if (!items)
-        return;
-    p->items = items;
-    struct text safe = {0};
-    ceduo_text_safe(&safe, text);
-    const char *shown = ceduo_arena_string(&p->arena, ceduo_text_string(&safe));
-    const char *kept = ceduo_arena_string(&p->arena, value);
-    ceduo_text_free(&safe);
-    if (shown && kept)
-        p->items[p->items_count++] = (struct popup_item){shown, kept};
+    ceduo_popup_item_now(p, text, value, false);
+}
+
+void ceduo_popup_item_now(struct popup *p, const char *text, const char *value, bool now)
+{
+    if (p)
+        ceduo_picker_add(&p->picker, text, value, now);
 }
 
 void ceduo_popup_field(struct popup *p, const char *label, const char *value)
 {
+    ceduo_popup_choice(p, label, value, NULL);
+}
+
+void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_offer *offer)
+{
     if (!p || p->fields_count == POPUP_FIELDS_MOST)
         return;
     snprintf(p->labels[p->fields_count], sizeof p->labels[0], "%s", label);
+    p->offers[p->fields_count] = offer;
     ceduo_line_set(&p->fields[p->fields_count++], value);
+}
+
+bool ceduo_popup_number(struct app *app, const struct popup *p, size_t field, double *value)
+{
+    if (ceduo_typed_number(p->fields[field].text, value) == CEDUO_NUMBER_GOOD)
+        return true;
+    ceduo_app_warn(app, _("%s: '%s' is not a number"), p->labels[field], p->fields[field].text);
+    return false;
 }
 
 bool ceduo_popup_may_write(struct app *app, struct popup *p)
@@ -98,72 +108,162 @@ bool ceduo_popup_may_write(struct app *app, struct popup *p)
     return false;
 }
 
-/* ---- keys ---- */
+/* ---- what is offered ---- */
 
-static void move(struct popup *p, int by, size_t n)
+/* A file that is typed and not there is said at once, not after the last question. */
+static void say_missing(struct popup *p, const char *typed)
 {
-    long at = (long)p->at + by;
-    at = at < 0 ? 0 : at >= (long)n ? (long)n - 1 : at;
-    p->at = n > 0 ? (size_t)at : 0;
+    size_t n = strlen(typed), end = p->endings ? strlen(p->endings) : 0;
+    bool named = n > end && end > 0 && strcmp(typed + n - end, p->endings) == 0;
+    if (named && ceduo_picker_at(&p->picker) == NULL && access(typed, F_OK) != 0)
+        snprintf(p->message, sizeof p->message, _("there is no file '%.180s'"), typed);
 }
+
+/* The items for what is typed into the line under the cursor. */
+static void offer(struct app *app, struct popup *p)
+{
+    p->ready = true;
+    p->moved = false;
+    const struct line *line = &p->fields[p->at];
+    popup_offer *fill = p->offers[p->at];
+    if (fill || p->kind == POPUP_FIELDS)
+        ceduo_picker_clear(&p->picker);
+    if (fill)
+        fill(app, p, line->text);
+    ceduo_picker_filter(&p->picker, line->fresh ? "" : line->text);
+    if (line->fresh)
+        ceduo_picker_go_to(&p->picker, line->text);
+    if (!line->fresh && fill && !p->typed_wins)
+        say_missing(p, line->text);
+}
+
+static void go_to_field(struct app *app, struct popup *p, size_t field)
+{
+    p->at = field;
+    ceduo_line_set(&p->fields[field], p->fields[field].text);
+    offer(app, p);
+}
+
+/* What matches takes the place of what was typed. */
+static void take_match(struct popup *p)
+{
+    struct line *line = &p->fields[p->at];
+    const struct pick *pick = p->offers[p->at] ? ceduo_picker_at(&p->picker) : NULL;
+    if (pick && (p->moved || !(p->typed_wins || line->fresh)))
+        ceduo_line_set(line, pick->value);
+}
+
+/* Whether a field may be left: what is wrong with it is said there. */
+static bool may_leave(struct app *app, struct popup *p)
+{
+    app->message[0] = '\0';
+    bool good = !p->check || p->check(app, p, p->at);
+    if (!good)
+        snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
+    app->message[0] = '\0';
+    return good;
+}
+
+/* ---- keys ---- */
 
 /* Returns how many lines a key moves by; 0 if it does not move. */
 static int lines_of(int key)
 {
-    switch (ceduo_action_of(key)) {
-    case ACTION_UP: return -1;
-    case ACTION_DOWN: return 1;
-    case ACTION_PAGE_UP: return -10;
-    case ACTION_PAGE_DOWN: return 10;
-    case ACTION_TOP: return -100000;
-    case ACTION_BOTTOM: return 100000;
+    switch (key) {
+    case K_UP: return -1;
+    case K_DOWN: return 1;
+    case K_PAGE_UP: return -10;
+    case K_PAGE_DOWN: return 10;
+    case K_HOME: return -100000;
+    case K_END: return 100000;
     default: return 0;
     }
 }
 
+static int lines_of_text(int key)
+{
+    static const char letters[] = "kjgG";
+    static const int lines[] = {-1, 1, -100000, 100000};
+    const char *at = key > 0 && key < 128 ? strchr(letters, key) : NULL;
+    return at ? lines[at - letters] : lines_of(key);
+}
+
 static void text_key(struct app *app, struct popup *p, int key)
 {
-    int by = lines_of(key);
+    int by = lines_of_text(key);
     p->top = p->top + by > 0 ? p->top + by : 0;
     if (by == 0)
         ceduo_popup_close(app);
 }
 
+/* Takes the popup off the screen for its callback, which may open another. */
+static void choose(struct app *app, struct popup *p)
+{
+    const struct pick *pick = ceduo_picker_at(&p->picker);
+    const char *value = pick ? pick->value : p->endings && p->fields[0].text[0] ? p->fields[0].text : NULL;
+    if (!value)
+        return;
+    app->popup = NULL;
+    p->chosen(app, p, value);
+    free_popup(p);
+}
+
 static void list_key(struct app *app, struct popup *p, int key)
 {
-    if (key == K_ESCAPE || key == 'q') {
+    int by = lines_of(key);
+    p->message[0] = '\0';
+    if (key == K_ESCAPE) {
         ceduo_popup_close(app);
-    } else if (key == K_ENTER && p->items_count > 0) {
-        app->popup = NULL;
-        p->chosen(app, p, p->items[p->at].value);
-        free_popup(p);
-    } else {
-        move(p, lines_of(key), p->items_count);
+    } else if (key == K_ENTER) {
+        choose(app, p);
+    } else if (by != 0) {
+        ceduo_picker_move(&p->picker, by);
+    } else if (key == K_TAB) {
+        if (ceduo_picker_complete(&p->picker, &p->fields[0]))
+            offer(app, p);
+    } else if (ceduo_line_key(&p->fields[0], key)) {
+        offer(app, p);
     }
+}
+
+static void submit(struct app *app, struct popup *p)
+{
+    app->message[0] = '\0';
+    app->popup = NULL;
+    if (p->filled(app, p)) {
+        free_popup(p);
+        return;
+    }
+    if (app->popup) /* it opened another */
+        ceduo_popup_close(app);
+    app->popup = p;
+    snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
 }
 
 static void fields_key(struct app *app, struct popup *p, int key)
 {
-    bool last = p->at + 1 >= p->fields_count;
+    bool last = p->at + 1 >= p->fields_count, listed = p->offers[p->at] && p->picker.matches > 0;
+    int by = lines_of(key);
+    bool vertical = key == K_UP || key == K_DOWN || key == K_PAGE_UP || key == K_PAGE_DOWN;
     p->message[0] = '\0';
     ceduo_jobs_stop_seek(app->figures.jobs); /* that these fields asked for */
-    if (key == K_ESCAPE) {
+    if (key == K_ESCAPE && p->at == 0) {
         ceduo_popup_close(app);
-    } else if (key == K_UP || key == K_SHIFT_TAB) {
-        move(p, -1, p->fields_count);
-    } else if (key == K_DOWN || key == K_TAB || (key == K_ENTER && !last)) {
-        move(p, 1, p->fields_count);
-    } else if (key == K_ENTER) {
-        app->message[0] = '\0';
-        app->popup = NULL;
-        if (p->filled(app, p)) {
-            free_popup(p);
-            return;
-        }
-        app->popup = p;
-        snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
-    } else {
-        ceduo_line_key(&p->fields[p->at], key);
+    } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
+        go_to_field(app, p, p->at > 0 ? p->at - 1 : 0);
+    } else if (listed && vertical) {
+        ceduo_picker_move(&p->picker, by);
+        p->moved = true;
+    } else if (key == K_TAB && p->endings && p->offers[p->at] && ceduo_picker_complete(&p->picker, &p->fields[p->at])) {
+        offer(app, p);
+    } else if (key == K_TAB || key == K_DOWN || key == K_ENTER) {
+        take_match(p);
+        if (last && key == K_ENTER)
+            submit(app, p);
+        else if (!last && may_leave(app, p))
+            go_to_field(app, p, p->at + 1);
+    } else if (ceduo_line_key(&p->fields[p->at], key)) {
+        offer(app, p);
     }
 }
 
@@ -195,6 +295,8 @@ static void draw_more(struct app *app, const struct popup *p, bool above, bool b
                             i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, "%s", words[i]);
 }
 
+#define NOTE_LINES 5
+
 /* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
@@ -219,32 +321,60 @@ static void draw_text(struct app *app, struct popup *p)
     draw_more(app, p, p->top > 0, more);
 }
 
+static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
+{
+    int more = ceduo_picker_draw(&p->picker, app->cells, area);
+    draw_more(app, p, more & 1, more & 2);
+}
+
+/* A line that is typed into, its end in sight. */
+static void draw_line(struct app *app, const struct line *line, int x, int y, int width, bool cursor)
+{
+    int n = ceduo_cells_put_end(app->cells, x, y, width - 1, cursor ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, line->text);
+    if (cursor)
+        ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
+}
+
+static void draw_message(struct app *app, const struct popup *p, struct ceduo_area area)
+{
+    ceduo_app_text(app, area, CEDUO_ROLE_WARN, p->message, NULL);
+}
+
 static void draw_list(struct app *app, struct popup *p)
 {
-    struct ceduo_area in = draw_frame(app, p, (int)p->items_count, 3);
-    int at = (int)p->at, n = (int)p->items_count;
-    p->top = at < p->top ? at : at >= p->top + in.height ? at + 1 - in.height : p->top;
-    for (int i = p->top; i < p->top + in.height && i < n; i++)
-        ceduo_canvas_put(&app->cells->canvas, in.left, in.top + i - p->top, in.width,
-                         i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->items[i].text);
-    draw_more(app, p, p->top > 0, p->top + in.height < n);
+    int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
+    struct ceduo_area in = draw_frame(app, p, lines + 1, NOTE_LINES);
+    ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search: "));
+    int x = in.left + (int)ceduo_utf8_width(_("search: "));
+    draw_line(app, &p->fields[0], x, in.top, in.left + in.width - x, true);
+    in.top++;
+    in.height--;
+    if (p->message[0])
+        draw_message(app, p, in);
+    else if (p->picker.matches == 0)
+        ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), NULL);
+    else
+        draw_picks(app, p, in);
 }
+
+#define PICKS_SHOWN 6 /* below the fields */
 
 static void draw_fields(struct app *app, struct popup *p)
 {
-    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2, 4);
+    int picks = 0;
+    for (size_t i = 0; i < p->fields_count; i++)
+        picks = p->offers[i] ? PICKS_SHOWN : picks;
+    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + picks, NOTE_LINES);
     int x = in.left + 32, width = in.width - 32;
     for (size_t i = 0; i < p->fields_count; i++) {
-        int y = in.top + (int)i;
-        ceduo_app_text(app, (struct ceduo_area){in.left, y, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);
-        int n = ceduo_cells_put_end(app->cells, x, y, width - 1, i == p->at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT,
-                                    p->fields[i].text);
-        if (i == p->at)
-            ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
+        ceduo_app_text(app, (struct ceduo_area){in.left, in.top + (int)i, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);
+        draw_line(app, &p->fields[i], x, in.top + (int)i, width, i == p->at);
     }
-    in.top += in.height - 1;
-    in.height = 1;
-    ceduo_app_text(app, in, CEDUO_ROLE_WARN, p->message, NULL);
+    in.top += (int)p->fields_count;
+    in.height -= (int)p->fields_count;
+    draw_message(app, p, (struct ceduo_area){in.left, in.top, in.width, in.height < 2 ? in.height : 2});
+    if (!p->message[0])
+        draw_picks(app, p, (struct ceduo_area){in.left + 2, in.top + 1, in.width - 2, in.height - 1});
 }
 
 /* ---- the one that is open ---- */
@@ -255,11 +385,13 @@ static const struct {
     const char *bar;
 } kinds[] = {
     [POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
-    [POPUP_LIST] = {list_key, draw_list, N_("Up Down move  Enter choose  Esc never mind")},
-    [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Up back  Esc never mind")}};
+    [POPUP_LIST] = {list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
+    [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
 
 void ceduo_popup_key(struct app *app, int key)
 {
+    if (!app->popup->ready)
+        offer(app, app->popup);
     kinds[app->popup->kind].key(app, app->popup, key);
 }
 
@@ -268,10 +400,23 @@ const char *ceduo_popup_bar(const struct app *app)
     return _(kinds[app->popup->kind].bar);
 }
 
+/* The note over a list follows the item under the cursor; that of a text is put anew at every look. */
+static void look_ahead(struct app *app, struct popup *p)
+{
+    const struct pick *pick = ceduo_picker_at(&p->picker);
+    const char *value = pick ? pick->value : "";
+    if (p->kind != POPUP_TEXT && (!pick || strcmp(p->previewed, value) == 0))
+        return;
+    snprintf(p->previewed, sizeof p->previewed, "%s", value);
+    p->preview(app, p, value);
+}
+
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    if (p->preview && (p->kind != POPUP_LIST || p->items_count > 0))
-        p->preview(app, p, p->kind == POPUP_LIST ? p->items[p->at].value : "");
+    if (!p->ready)
+        offer(app, p);
+    if (p->preview)
+        look_ahead(app, p);
     kinds[p->kind].draw(app, p);
 }

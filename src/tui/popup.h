@@ -5,14 +5,11 @@
 #include <stdio.h>
 
 #include "app.h"
+#include "picker.h"
 
 enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
 
-#define POPUP_FIELDS_MOST 12
-
-struct popup_item {
-    const char *text, *value;
-};
+#define POPUP_FIELDS_MOST 16
 
 /* An item was chosen; the popup is off the screen already, and freed after the call. */
 typedef void popup_chosen(struct app *app, struct popup *popup, const char *value);
@@ -20,34 +17,50 @@ typedef void popup_chosen(struct app *app, struct popup *popup, const char *valu
 /* The fields were filled. False: app->message says what is wrong, and it stays open. */
 typedef bool popup_filled(struct app *app, struct popup *popup);
 
+/* Adds to the picker what goes with the text that is typed into the line under the cursor. */
+typedef void popup_offer(struct app *app, struct popup *popup, const char *typed);
+
 struct popup {
     enum popup_kind kind;
     char title[128];
     struct arena arena;
-    struct text text;         /* to read; over a list or fields: what it is about */
-    struct popup_item *items; /* to choose from */
-    size_t items_count, items_room;
+    struct text text; /* to read; over a list or fields: what it is about */
     char labels[POPUP_FIELDS_MOST][40];
-    struct line fields[POPUP_FIELDS_MOST]; /* to fill */
+    struct line fields[POPUP_FIELDS_MOST];  /* to fill; of a list the first: what is searched for */
+    popup_offer *offers[POPUP_FIELDS_MOST]; /* NULL: none; of a list: its items stay the same */
     size_t fields_count;
-    size_t at;            /* the item or field under the cursor */
-    int top;              /* the first line shown */
+    size_t at;             /* the field under the cursor */
+    struct picker picker;  /* of the list, or of the field under the cursor */
+    const char *endings;   /* of files that may be typed: ".yaml"; NULL: none */
+    bool ready;            /* what is offered was listed once */
+    bool moved;            /* the cursor was moved in the picker */
+    bool typed_wins;       /* a new name: what is typed stays, unless the cursor was moved in the picker */
+    int top;               /* the first line shown of a text */
     struct ceduo_area box; /* where it was drawn */
     char message[256];
-    char path[1024];      /* what a choice is for */
-    char *kept;           /* a text that goes with it */
+    char path[1024];       /* what a choice is for */
+    char *kept;            /* a text that goes with it */
     popup_chosen *chosen;
-    popup_chosen *preview; /* puts `text` anew whenever it is drawn, for the item under the cursor; NULL: it stays */
+    popup_chosen *preview; /* puts `text` anew for the item under the cursor; NULL: it stays */
+    char previewed[256];   /* the item that `text` is about */
     popup_filled *filled;
+    bool (*check)(struct app *app, struct popup *popup, size_t field); /* as a field is left; false: it is said why */
+    void (*then)(struct app *app); /* what goes on once unsaved work is saved or given up */
 };
 
 /* Each opens a popup in place of any other. NULL, with a warning, if there is no memory. */
 struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
-/* Both do nothing for NULL. */
+/* All do nothing for NULL. `now`: what is there at present, where the cursor begins. */
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
+void ceduo_popup_item_now(struct popup *popup, const char *text, const char *value, bool now);
 void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
+/* A field with a list of what may stand in it; what matches what is typed is taken. */
+void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_offer *offer);
+
+/* Reads a number that was typed into a field, with a dot or a comma; false where it is none, which is said. */
+bool ceduo_popup_number(struct app *app, const struct popup *popup, size_t field, double *value);
 
 /* Returns whether the file named in the first field may be written. For an existing file it asks for Enter once more. */
 bool ceduo_popup_may_write(struct app *app, struct popup *popup);

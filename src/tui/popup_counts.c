@@ -1,61 +1,207 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a plot's counts to hectares. */
+/* A stand from what a sample plot counts and measures. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/intl.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/typed.h"
 
-enum { COUNT_AREA, COUNT_SLOPE, COUNT_ANGLE, COUNT_STOOLS, COUNT_SHOOTS, COUNT_TREES };
+/* Numbers but for COUNT_HOW. */
+enum {
+    COUNT_AREA,
+    COUNT_HOW,
+    COUNT_ANGLE,
+    COUNT_STOOLS,
+    COUNT_SHOOTS,
+    COUNT_SHOOT_DBH,
+    COUNT_SHOOT_HEIGHT,
+    COUNT_TREES,
+    COUNT_TREE_DBH,
+    COUNT_TREE_HEIGHT,
+    COUNTS
+};
 
-static bool counts_of(struct app *app, struct popup *p, double values[6], bool *on_slope)
+#define ALONG_SLOPE "slope"
+#define ON_MAP "map"
+
+struct plot {
+    double values[COUNTS]; /* as typed */
+    double area, per;      /* m2, horizontal; per ha for each one that was counted */
+};
+
+/* ---- reading ---- */
+
+/* Sizes of what was not counted need not be said. */
+static bool is_needed(const struct plot *plot, size_t field)
 {
-    for (size_t i = 0; i < 6; i++) {
-        if (i == COUNT_SLOPE)
-            continue;
-        bool good = ceduo_number_read(p->fields[i].text, &values[i]) == CEDUO_NUMBER_GOOD && values[i] >= 0;
-        if (!good) {
-            ceduo_app_warn(app, _("%s: '%s' is not a number"), p->labels[i], p->fields[i].text);
+    if (field == COUNT_SHOOT_DBH || field == COUNT_SHOOT_HEIGHT)
+        return plot->values[COUNT_SHOOTS] > 0;
+    if (field == COUNT_TREE_DBH || field == COUNT_TREE_HEIGHT)
+        return plot->values[COUNT_TREES] > 0;
+    return true;
+}
+
+static bool read_number(struct app *app, const struct popup *p, struct plot *plot, size_t field)
+{
+    bool count = field == COUNT_STOOLS || field == COUNT_SHOOTS || field == COUNT_TREES;
+    bool empty = p->fields[field].text[0] == '\0';
+    plot->values[field] = 0;
+    if ((count && empty) || !is_needed(plot, field))
+        return true;
+    if (!ceduo_popup_number(app, p, field, &plot->values[field]))
+        return false;
+    double value = plot->values[field];
+    bool good = count || field == COUNT_ANGLE ? value >= 0 : value > 0;
+    if (!good)
+        ceduo_app_warn(app, count || field == COUNT_ANGLE ? _("%s: %s is below 0") : _("%s: %s is not above 0"),
+                       p->labels[field], p->fields[field].text);
+    return good;
+}
+
+/* What is so unusual that it is asked back; the same once more is taken. */
+static bool is_usual(struct app *app, struct popup *p, const struct plot *plot)
+{
+    static const struct {
+        size_t field;
+        const char *path;
+    } sizes[] = {{COUNT_SHOOT_DBH, "forest[0].stand.shoots[0].dbh_m"},
+                 {COUNT_SHOOT_HEIGHT, "forest[0].stand.shoots[0].height_m"},
+                 {COUNT_TREE_DBH, "forest[0].stand.trees[0].dbh_m"},
+                 {COUNT_TREE_HEIGHT, "forest[0].stand.trees[0].height_m"}};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        struct text why = {0};
+        struct line *line = &p->fields[sizes[i].field];
+        const struct field *f = ceduo_schema_at(sizes[i].path);
+        bool good = !is_needed(plot, sizes[i].field) || ceduo_typed_in_range(f, line->text, &why);
+        bool asked = good && is_needed(plot, sizes[i].field) && !line->doubted && ceduo_typed_unusual(f, line->text, &why);
+        line->doubted |= asked;
+        if (why.bytes)
+            ceduo_app_warn(app, "%s", why.bytes);
+        ceduo_text_free(&why);
+        if (!good || asked)
             return false;
-        }
-    }
-    const char *how = p->fields[COUNT_SLOPE].text;
-    *on_slope = strcmp(how, _("slope")) == 0;
-    if (!*on_slope && strcmp(how, _("horizontal")) != 0) {
-        ceduo_app_warn(app, _("'%s': slope or horizontal is wanted"), how);
-        return false;
-    }
-    if (!(values[COUNT_AREA] > 0) || values[COUNT_ANGLE] >= 90) {
-        ceduo_app_warn(app, "%s", _("the size must be above 0, the angle below 90"));
-        return false;
     }
     return true;
 }
 
+static bool read_plot(struct app *app, struct popup *p, struct plot *plot)
+{
+    for (size_t i = 0; i < COUNTS; i++)
+        if (i != COUNT_HOW && !read_number(app, p, plot, i))
+            return false;
+    const char *how = p->fields[COUNT_HOW].text;
+    bool along = strcmp(how, ALONG_SLOPE) == 0;
+    const double *v = plot->values;
+    if (!along && strcmp(how, ON_MAP) != 0)
+        ceduo_app_warn(app, _("'%s': slope or map is wanted"), how);
+    else if (v[COUNT_ANGLE] >= 90)
+        ceduo_app_warn(app, "%s", _("the angle must be below 90 degrees"));
+    else if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
+        ceduo_app_warn(app, "%s", _("fewer shoots than stools: a stool has one shoot at least"));
+    else if ((v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0))
+        ceduo_app_warn(app, "%s", _("stools and shoots belong together: count both"));
+    else {
+        plot->area = along ? v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180) : v[COUNT_AREA];
+        plot->per = 10000 / plot->area;
+        return is_usual(app, p, plot);
+    }
+    return false;
+}
+
+/* ---- the stand ---- */
+
+#define CHANGES_MOST 5
+#define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
+
+struct changes {
+    char sets[CHANGES_MOST][FORM_PATH + 128];
+    const char *list[CHANGES_MOST];
+    size_t n;
+};
+
+__attribute__((format(printf, 2, 3))) static void change(struct changes *c, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(c->sets[c->n], sizeof c->sets[0], format, args);
+    va_end(args);
+    c->list[c->n] = c->sets[c->n];
+    c->n++;
+}
+
+/* One class of stems in the place of those that stand there, or none. */
+static void change_stems(struct app *app, struct changes *c, const char *stand, const char *key, const struct plot *plot,
+                         size_t count)
+{
+    char path[FORM_PATH + 16];
+    const double *v = &plot->values[count];
+    snprintf(path, sizeof path, "%.160s.%s", stand, key);
+    if (v[0] > 0)
+        change(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", path, v[0] * plot->per, v[1] / 100, v[2]);
+    else if (ceduo_document_node(&app->document, path))
+        change(c, "%s", path);
+}
+
+static void change_stand(struct app *app, struct changes *c, const char *stand, const struct plot *plot)
+{
+    const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
+    char path[FORM_PATH + 16];
+    snprintf(path, sizeof path, "%.160s.stools", stand);
+    if (plot->values[COUNT_STOOLS] > 0)
+        change(c, "%s={per_ha: %.6g, spacing_m: %.10g}", path, plot->values[COUNT_STOOLS] * plot->per,
+               now->stools_per_ha > 0 ? now->spacing : SPACING);
+    else if (ceduo_document_node(&app->document, path))
+        change(c, "%s", path);
+    change_stems(app, c, stand, "shoots", plot, COUNT_SHOOTS);
+    change_stems(app, c, stand, "trees", plot, COUNT_TREES);
+    snprintf(path, sizeof path, "%.160s.system", stand);
+    if (now->system == CEDUO_BARE && ceduo_document_node(&app->document, path))
+        change(c, "%s", path);
+    change(c, "%s.name=%s", stand, _("sample plot"));
+}
+
 static bool filled_counts(struct app *app, struct popup *p)
 {
-    double v[6];
-    bool on_slope;
-    if (!counts_of(app, p, v, &on_slope))
+    struct plot plot;
+    struct changes changes = {.n = 0};
+    if (!read_plot(app, p, &plot))
         return false;
-    double area = on_slope ? v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180) : v[COUNT_AREA];
-    double per = 10000 / area;
-    const struct ceduo_stand *stand = &ceduo_app_option(app)->belts[app->belt].stand;
-    char sets[3][FORM_PATH + 64];
-    if (stand->shoots_count != 1 || stand->trees_count != 1) {
-        ceduo_app_warn(app, _("the stand must have one cohort of shoots and one class of trees, not %zu and %zu"),
-                       stand->shoots_count, stand->trees_count);
-        return false;
-    }
-    snprintf(sets[0], sizeof sets[0], "%.160s.stools.per_ha=%.6g", p->path, v[COUNT_STOOLS] * per);
-    snprintf(sets[1], sizeof sets[1], "%.160s.shoots[0].per_ha=%.6g", p->path, v[COUNT_SHOOTS] * per);
-    snprintf(sets[2], sizeof sets[2], "%.160s.trees[0].per_ha=%.6g", p->path, v[COUNT_TREES] * per);
-    const char *const list[] = {sets[0], sets[1], sets[2]};
-    bool good = ceduo_document_set_all(&app->document, list, 3, _("counts of a plot"), &app->problems);
+    change_stand(app, &changes, p->path, &plot);
+    bool good = ceduo_document_set_all(&app->document, changes.list, changes.n, _("counts of a plot"), &app->problems);
     if (ceduo_app_edited(app, good))
-        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
+        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), plot.area,
+                      plot.per);
     return good;
+}
+
+/* ---- asking ---- */
+
+static void offer_how(struct app *app, struct popup *p, const char *typed)
+{
+    (void)app;
+    (void)typed;
+    ceduo_popup_item(p, _("slope: the tape lay on the ground"), ALONG_SLOPE);
+    ceduo_popup_item(p, _("map: horizontal"), ON_MAP);
+}
+
+/* The mean angle of the slope within the belt, in degrees. */
+static double angle_of(const struct app *app)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct ceduo_belt *b = &ceduo_app_option(app)->belts[app->belt];
+    double fall = ceduo_slope_height(s, b->from) - ceduo_slope_height(s, b->to);
+    return round(atan2(fabs(fall), b->to - b->from) * 180 / M_PI);
+}
+
+static void field_number(struct popup *p, const char *label, double value)
+{
+    char room[CEDUO_NUMBER_ROOM] = "";
+    if (value > 0)
+        snprintf(room, sizeof room, "%.6g", value);
+    ceduo_popup_field(p, label, room);
 }
 
 void ceduo_popup_counts(struct app *app)
@@ -64,16 +210,23 @@ void ceduo_popup_counts(struct app *app)
         ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
         return;
     }
+    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
+    const struct ceduo_stand *stand = &belt->stand;
     struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), filled_counts);
     if (!p)
         return;
     ceduo_app_stand(app, p->path, sizeof p->path);
-    ceduo_text_put(&p->text, _("Densities are per horizontal hectare. A plot that was measured along the slope is smaller "
-                               "than it seems: 400 m2 at 40 degrees are 306 m2."));
-    ceduo_popup_field(p, _("size of the plot, m2"), "400");
-    ceduo_popup_field(p, _("measured: slope or horizontal"), _("slope"));
-    ceduo_popup_field(p, _("angle of the slope, degrees"), "35");
+    ceduo_text_format(&p->text, _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
+                                  "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),
+                      belt->name);
+    field_number(p, _("size of the plot, m2"), 400);
+    ceduo_popup_choice(p, _("measured along the slope or map"), ALONG_SLOPE, offer_how);
+    field_number(p, _("angle of the slope, degrees"), angle_of(app));
     ceduo_popup_field(p, _("stools counted"), "");
-    ceduo_popup_field(p, _("shoots counted"), "");
+    ceduo_popup_field(p, _("shoots counted on them"), "");
+    field_number(p, _("their mean diameter, cm"), stand->shoots_count ? stand->shoots[0].dbh * 100 : 0);
+    field_number(p, _("their mean height, m"), stand->shoots_count ? stand->shoots[0].height : 0);
     ceduo_popup_field(p, _("single trees counted"), "");
+    field_number(p, _("their mean diameter, cm"), stand->trees_count ? stand->trees[0].dbh * 100 : 0);
+    field_number(p, _("their mean height, m"), stand->trees_count ? stand->trees[0].height : 0);
 }

@@ -4,43 +4,117 @@
 #include <string.h>
 
 #include "base/intl.h"
+#include "model/foresee.h"
 #include "model/seek.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/typed.h"
 
-enum { FIND_GOAL, FIND_LO, FIND_HI };
+enum { FIND_GOAL, FIND_TARGET, FIND_LO, FIND_HI };
 
-static bool read_goal(struct app *app, char *text, struct ceduo_search *search)
+#define FIND_ROCKS 2000 /* so that the answer is there soon */
+
+/* ---- the goal ---- */
+
+/* A goal in words. What is typed beside it is in the unit that stands at the end: of 1000, %, kJ, m. */
+static const struct {
+    enum ceduo_goal goal;
+    const char *words, *unit;
+    double per; /* so many of that unit are one of the goal's */
+} goals[] = {
+    {CEDUO_GOAL_ADC, N_("mean distance between hits below … m (ADC)"), "m", 1},
+    {CEDUO_GOAL_FREE_RUN, N_("chance of a free run at most … %"), "%", 100},
+    {CEDUO_GOAL_EXCEED, N_("at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
+    {CEDUO_GOAL_ARRIVE, N_("at most … of 1000 arrive"), N_("of 1000"), 1000},
+    {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
+#define GOALS_OFFERED (sizeof goals / sizeof goals[0])
+
+static void offer_goals(struct app *app, struct popup *p, const char *typed)
 {
-    enum ceduo_goal_reading reading = ceduo_goal_read(text, &search->goal, &search->target);
+    (void)app;
+    (void)typed;
+    for (size_t i = 0; i < GOALS_OFFERED; i++)
+        ceduo_popup_item(p, _(goals[i].words), _(goals[i].words));
+}
+
+static size_t row_of(enum ceduo_goal goal)
+{
+    size_t i = 0;
+    while (i + 1 < GOALS_OFFERED && goals[i].goal != goal)
+        i++;
+    return i;
+}
+
+/* Words of the list, or what the command line takes: energy=50. */
+static bool read_word(struct app *app, const char *typed, struct ceduo_search *search)
+{
+    char goal[64];
+    for (size_t i = 0; i < GOALS_OFFERED; i++)
+        if (strcmp(typed, _(goals[i].words)) == 0) {
+            search->goal = goals[i].goal;
+            search->target = NAN;
+            return true;
+        }
+    snprintf(goal, sizeof goal, "%.63s", typed);
+    enum ceduo_goal_reading reading = ceduo_goal_read(goal, &search->goal, &search->target);
     if (reading == CEDUO_GOAL_NO_SHARE)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
     else if (reading != CEDUO_GOAL_GOOD)
-        ceduo_app_warn(app, "%s", _("the goal is adc, free-run, energy=KJ or exceed=SHARE"));
-    else if (!ceduo_goals[search->goal].usual && isnan(search->target))
-        ceduo_app_warn(app, "%s", _("energy wants a mean in kJ: energy=50"));
-    else
+        ceduo_app_warn(app, "%s", _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
+    return reading == CEDUO_GOAL_GOOD;
+}
+
+static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *search)
+{
+    if (!read_word(app, p->fields[FIND_GOAL].text, search))
+        return false;
+    size_t row = row_of(search->goal);
+    double target;
+    if (p->fields[FIND_TARGET].text[0]) {
+        if (!ceduo_popup_number(app, p, FIND_TARGET, &target))
+            return false;
+        search->target = target / goals[row].per;
+        if (!(search->target >= 0) || (ceduo_goal_is_share(search->goal) && search->target > 1)) {
+            ceduo_app_warn(app, _("%g %s cannot be"), target, _(goals[row].unit));
+            return false;
+        }
+    }
+    if (ceduo_goals[search->goal].usual || !isnan(search->target))
         return true;
+    ceduo_app_warn(app, _("how many %s? This goal has no usual limit"), _(goals[row].unit));
     return false;
 }
 
-#define FIND_ROCKS 2000 /* so that the answer is there soon */
+/* ---- what is asked for ---- */
+
+static bool read_end(struct app *app, const struct popup *p, size_t field, double *end)
+{
+    const struct field *f = ceduo_schema_at(p->path);
+    struct text value = {0}, why = {0};
+    if (!ceduo_popup_number(app, p, field, end))
+        return false;
+    bool good = !f || ceduo_typed_in_range(f, p->fields[field].text, &why);
+    if (!good)
+        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
+    ceduo_typed_value(f, p->fields[field].text, &value);
+    good = good && value.bytes && ceduo_number_read(value.bytes, end) == CEDUO_NUMBER_GOOD;
+    ceduo_text_free(&value);
+    ceduo_text_free(&why);
+    return good;
+}
 
 /* What the fields ask for; the path is the popup's. */
 static bool read_fields(struct app *app, struct popup *p, struct seek *seek)
 {
-    char goal[64];
     *seek = (struct seek){.file = &app->document.file,
                           .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS}};
-    snprintf(goal, sizeof goal, "%.63s", p->fields[FIND_GOAL].text);
-    if (!read_goal(app, goal, &seek->search))
+    if (!read_goal(app, p, &seek->search) || !read_end(app, p, FIND_LO, &seek->search.lo) ||
+        !read_end(app, p, FIND_HI, &seek->search.hi))
         return false;
-    if (ceduo_number_read(p->fields[FIND_LO].text, &seek->search.lo) != CEDUO_NUMBER_GOOD ||
-        ceduo_number_read(p->fields[FIND_HI].text, &seek->search.hi) != CEDUO_NUMBER_GOOD || !(seek->search.lo <= seek->search.hi)) {
-        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
-        return false;
-    }
-    return true;
+    if (seek->search.lo <= seek->search.hi)
+        return true;
+    ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+    return false;
 }
 
 /* Starts the search; the popup stays until it is done. */
@@ -49,9 +123,67 @@ static bool filled_find(struct app *app, struct popup *p)
     struct seek seek;
     if (read_fields(app, p, &seek)) {
         ceduo_jobs_seek(app->figures.jobs, &seek);
-        ceduo_app_say(app, "%s", _("looking for it; any key stops"));
+        ceduo_app_say(app, "%s", _("computing … Esc or another key stops it"));
     }
     return false;
+}
+
+/* ---- what was found ---- */
+
+static void put_shown(struct text *text, const struct field *f, double value)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    ceduo_text_put(text, f ? ceduo_shown_number(f, value, room) : ceduo_number_shortest(value, room));
+}
+
+static void put_reached(struct text *text, enum ceduo_goal goal, double value)
+{
+    size_t row = row_of(goal);
+    ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
+    if (isinf(value))
+        ceduo_text_put(text, _("without end"));
+    else
+        ceduo_text_format(text, "%.4g %s", value * goals[row].per, _(goals[row].unit));
+}
+
+static void put_found(struct text *text, const struct popup *p, const struct ceduo_search *s,
+                      const struct ceduo_found *f)
+{
+    const struct field *field = ceduo_schema_at(p->path);
+    ceduo_shown_path(p->path, text);
+    ceduo_text_put(text, " = ");
+    put_shown(text, field, f->value);
+    ceduo_text_put(text, f->side == CEDUO_SMALLEST ? _(": the smallest value that reaches the goal; ")
+                                                   : _(": the largest value that reaches the goal; "));
+    put_reached(text, s->goal, f->goal_at_value);
+}
+
+static void put_none(struct text *text, const struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f)
+{
+    ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text, p->fields[FIND_HI].text);
+    if (isnan(f->nearest))
+        return;
+    ceduo_text_put(text, _("; nearest is "));
+    put_shown(text, ceduo_schema_at(p->path), f->nearest);
+    ceduo_text_put(text, _(" with "));
+    put_reached(text, s->goal, f->goal_at_nearest);
+}
+
+static void put_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f,
+                      struct text *text)
+{
+    const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    size_t row = row_of(s->goal);
+    if (f->found && f->whole_range) { /* then the value that is there is as good as another */
+        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), p->fields[FIND_LO].text,
+                          p->fields[FIND_HI].text, cell && cell->text[0] ? cell->text : _("as it is"));
+        return;
+    }
+    (f->found ? put_found : put_none)(text, p, s, f);
+    ceduo_text_format(text, ceduo_goals[s->goal].below ? _(" (below %g %s is wanted)") : _(" (at most %g %s is wanted)"),
+                      s->target * goals[row].per, _(goals[row].unit));
+    if (!f->monotone)
+        ceduo_text_put(text, _("; not monotone: there may be other values"));
 }
 
 /* Puts the value that was found into the field, and says it. */
@@ -66,14 +198,7 @@ static bool take(struct app *app, struct popup *p, struct sought *sought)
     seek.search.target = sought->target;
     struct text words = {0};
     bool set = true;
-    if (found->found && found->whole_range) { /* then the value that is there is as good as another */
-        const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-        ceduo_text_format(&words, _("every value from %s to %s reaches the goal %s; the field stays %s"),
-                          p->fields[FIND_LO].text, p->fields[FIND_HI].text, p->fields[FIND_GOAL].text,
-                          cell && cell->text[0] ? cell->text : _("as it is"));
-    } else {
-        ceduo_find_page(&words, &(struct ceduo_find_report){seek.file, &seek.search, found});
-    }
+    put_words(app, p, &seek.search, found, &words);
     if (found->found && !found->whole_range) {
         char room[CEDUO_NUMBER_ROOM];
         set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);
@@ -81,8 +206,6 @@ static bool take(struct app *app, struct popup *p, struct sought *sought)
     } else {
         ceduo_problems_free(&app->problems);
     }
-    for (char *c = words.bytes; c && *c; c++)
-        *c = *c == '\n' ? ' ' : *c;
     if (set && words.bytes)
         ceduo_app_say(app, "%s", words.bytes);
     ceduo_text_free(&words);
@@ -101,29 +224,78 @@ void ceduo_popup_found(struct app *app, struct sought *sought)
         snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
 }
 
+/* ---- the range ---- */
+
+static bool fits(const struct app *app, const char *path, double value)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    return ceduo_foresee_fits(&app->document, path, ceduo_number_shortest(value, room));
+}
+
+/* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */
+static double limit_of(const struct app *app, const char *path, bool whole, double now, double end)
+{
+    if (fits(app, path, end))
+        return end;
+    double good = now, bad = end;
+    for (int i = 0; i < 12; i++) {
+        double middle = whole ? round((good + bad) / 2) : (good + bad) / 2;
+        if (middle == good || middle == bad)
+            break;
+        *(fits(app, path, middle) ? &good : &bad) = middle;
+    }
+    double grain = good == 0 ? 1 : pow(10, floor(log10(fabs(good))) - 2);
+    double inward = end > now ? floor(good / grain) * grain : ceil(good / grain) * grain;
+    bool between = end > now ? inward >= now : inward <= now;
+    return between && fits(app, path, inward) ? inward : good;
+}
+
+/* A range around the value that is there, no end of which its own scene refuses. */
+static void propose(struct app *app, const struct form_cell *cell, double *lo, double *hi)
+{
+    const struct field *f = cell->field;
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    bool whole = f->type == FIELD_COUNT || strcmp(f->unit, "1/ha") == 0;
+    double now;
+    bool known = ceduo_number_read(cell->written, &now) == CEDUO_NUMBER_GOOD;
+    *lo = known && now > 0 ? (f->type == FIELD_COUNT ? 1 : now / 10) : 1;
+    *hi = known && now > 0 ? now * 10 : 1000;
+    if (whole)
+        *lo = floor(*lo);
+    if (f->flags & FIELD_PLACE) {
+        *lo = s->origin_x;
+        *hi = s->origin_x + s->x[s->vertices - 1];
+    }
+    *lo = fmax(*lo, f->lo);
+    *hi = fmin(*hi, f->hi);
+    if (!known)
+        return;
+    *lo = limit_of(app, cell->path, whole, now, fmin(*lo, now));
+    *hi = limit_of(app, cell->path, whole, now, fmax(*hi, now));
+}
+
 void ceduo_popup_find(struct app *app)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     bool number = cell && cell->field && (cell->field->type == FIELD_NUMBER || cell->field->type == FIELD_COUNT ||
                                           cell->field->type == FIELD_SPREAD);
-    if (!number) {
+    if (!number || (cell->field->flags & FIELD_NOWHERE)) {
         ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
         return;
     }
-    char path[FORM_PATH], lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    snprintf(path, sizeof path, "%s", cell->path);
-    double value = 0;
-    bool known = ceduo_number_read(cell->text, &value) == CEDUO_NUMBER_GOOD && value > 0;
-    ceduo_number_shortest(known ? (cell->field->type == FIELD_COUNT ? 1 : value / 10) : 1, lo);
-    ceduo_number_shortest(known ? value * 10 : 1000, hi);
+    char lo_room[CEDUO_NUMBER_ROOM], hi_room[CEDUO_NUMBER_ROOM];
+    double lo, hi;
+    propose(app, cell, &lo, &hi);
     struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
     if (!p)
         return;
-    snprintf(p->path, sizeof p->path, "%s", path);
-    ceduo_text_format(&p->text, _("%s, with the same rocks for every value. Goals at the worst control: adc, free-run, "
-                                  "energy=KJ (mean), exceed=SHARE (0.05). What is found is put into the field; u takes it back."),
-                      path);
-    ceduo_popup_field(p, _("goal"), "adc");
-    ceduo_popup_field(p, _("from"), lo);
-    ceduo_popup_field(p, _("to"), hi);
+    snprintf(p->path, sizeof p->path, "%s", cell->path);
+    ceduo_text_put(&p->text, _("The value of: "));
+    ceduo_shown_path(cell->path, &p->text);
+    ceduo_text_put(&p->text, _(". The same rocks for every value; the goal counts at the worst control. What is found is put "
+                               "into the field; u takes it back."));
+    ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
+    ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
+    ceduo_popup_field(p, _("values from"), ceduo_shown_number(cell->field, lo, lo_room));
+    ceduo_popup_field(p, _("to"), ceduo_shown_number(cell->field, hi, hi_room));
 }

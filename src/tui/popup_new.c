@@ -1,36 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A new scene from a few fields. */
+/* A new scene from a few questions. */
 #include <stdio.h>
 #include <string.h>
 
 #include "base/intl.h"
 #include "ceduo/material.h"
+#include "io/derive.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
+#include "scene/words.h"
+#include "view/typed.h"
 
-enum { NEW_TITLE, NEW_PROFILE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
+enum { NEW_TITLE, NEW_PROFILE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 
-/* "0 120, 30 100, 60 95" as a list of vertices; false where it is none. */
-static bool typed_vertices(const char *text, struct text *yaml, double *first, double *last)
-{
-    size_t n = 0;
-    ceduo_text_put(yaml, "vertices_m: [");
-    while (*text) {
-        double x, z;
-        int used = 0;
-        if (sscanf(text, " %lf %lf%n", &x, &z, &used) != 2)
-            return false;
-        *first = n == 0 ? x : *first;
-        *last = x;
-        ceduo_text_format(yaml, "%s[%.10g, %.10g]", n++ ? ", " : "", x, z);
-        text += used;
-        text += strspn(text, " ,;");
-    }
-    ceduo_text_put(yaml, "]");
-    return n >= 2;
-}
+/* What the fields say, numbers read. */
+struct answers {
+    struct text slope;        /* the profile as YAML: "vertices_m: …", "csv: …" */
+    double first, last;       /* x of the profile */
+    double face;              /* where the face ends; the first x without one */
+    double rock, control, accepted;
+    bool has_accepted, counted;
+};
+
+/* ---- reading ---- */
 
 static bool ends_in_csv(const char *name)
 {
@@ -38,90 +32,185 @@ static bool ends_in_csv(const char *name)
     return n > 4 && strcmp(name + n - 4, ".csv") == 0;
 }
 
-/* What is typed into a field is that field's value alone: a number where one is wanted, otherwise a text. */
-static bool numbers_typed(struct app *app, const struct popup *p)
+static bool read_csv(struct app *app, struct popup *p, const char *path, struct answers *a)
 {
-    static const int numbers[] = {NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED};
-    double value;
-    for (size_t i = 0; i < 3; i++) {
-        const char *text = p->fields[numbers[i]].text;
-        bool may_be_empty = numbers[i] == NEW_ACCEPTED && text[0] == '\0';
-        if (!may_be_empty && ceduo_number_read(text, &value) != CEDUO_NUMBER_GOOD) {
-            ceduo_app_warn(app, _("%s: '%s' is not a number; write a dot for the decimals"), p->labels[numbers[i]], text);
-            return false;
-        }
+    struct problems problems = {0};
+    struct points points = {0};
+    bool good = ceduo_csv_slope_read(&p->arena, path, &points, &problems) && points.n > 1;
+    if (good) {
+        a->first = points.x[0];
+        a->last = points.x[points.n - 1];
+        ceduo_text_put(&a->slope, "csv: ");
+        ceduo_emit_scalar(&a->slope, path, true);
+    } else {
+        const char *why = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
+        ceduo_app_warn(app, "%.*s", (int)strcspn(why, "\n"), why);
     }
-    return true;
+    ceduo_problems_free(&problems);
+    return good;
 }
 
-static bool stand_typed(struct app *app, struct popup *p)
+static bool read_profile(struct app *app, struct popup *p, struct answers *a)
+{
+    const char *typed = p->fields[NEW_PROFILE].text;
+    if (ends_in_csv(typed))
+        return read_csv(app, p, typed, a);
+    ceduo_text_put(&a->slope, "vertices_m: ");
+    if (ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
+        return true;
+    ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
+    return false;
+}
+
+/* A number, or `otherwise` where the field is empty. */
+static bool read_number(struct app *app, const struct popup *p, size_t field, double otherwise, double *value)
+{
+    *value = otherwise;
+    return p->fields[field].text[0] == '\0' || ceduo_popup_number(app, p, field, value);
+}
+
+static bool read_stand(struct app *app, struct popup *p, struct answers *a)
 {
     const char *stand = p->fields[NEW_STAND].text;
-    if (stand[0] == '\0' || ceduo_file_find(&p->arena, stand, NULL, "stands"))
+    a->counted = strcmp(stand, STAND_COUNTED) == 0;
+    if (a->counted || stand[0] == '\0' || ceduo_file_find(&p->arena, stand, NULL, "stands"))
         return true;
     ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), stand);
     return false;
 }
 
+static bool read_face(struct app *app, const struct popup *p, struct answers *a)
+{
+    if (!read_number(app, p, NEW_FACE, a->first, &a->face))
+        return false;
+    if (a->face >= a->first && a->face < a->last)
+        return true;
+    ceduo_app_warn(app, _("the face ends at %g m, outside the profile from %g to %g m"), a->face, a->first, a->last);
+    return false;
+}
+
+static bool read_control(struct app *app, const struct popup *p, struct answers *a)
+{
+    if (!read_number(app, p, NEW_CONTROL, a->last, &a->control))
+        return false;
+    if (a->control > a->first && a->control > a->face && a->control <= a->last)
+        return true;
+    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, a->face, a->last);
+    return false;
+}
+
+static bool read_rock(struct app *app, const struct popup *p, struct answers *a)
+{
+    struct text why = {0};
+    bool good = ceduo_popup_number(app, p, NEW_ROCK, &a->rock);
+    if (good && !ceduo_typed_in_range(ceduo_schema_at("rock.diameter_m"), p->fields[NEW_ROCK].text, &why)) {
+        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
+        good = false;
+    }
+    ceduo_text_free(&why);
+    return good;
+}
+
+static bool read_material(struct app *app, const struct popup *p)
+{
+    const char *ground = p->fields[NEW_MATERIAL].text;
+    if (ceduo_choice_find(&ceduo_material_words, ground) >= 0)
+        return true;
+    ceduo_app_warn(app, _("no ground '%s' in the library"), ground);
+    return false;
+}
+
+/* All fields up to one. */
+static bool read_answers(struct app *app, struct popup *p, size_t upto, struct answers *a)
+{
+    a->has_accepted = p->fields[NEW_ACCEPTED].text[0] != '\0';
+    return (upto < NEW_PROFILE || read_profile(app, p, a)) && (upto < NEW_FACE || read_face(app, p, a)) &&
+           (upto < NEW_MATERIAL || read_material(app, p)) && (upto < NEW_ROCK || read_rock(app, p, a)) &&
+           (upto < NEW_CONTROL || read_control(app, p, a)) &&
+           (upto < NEW_ACCEPTED || read_number(app, p, NEW_ACCEPTED, 0, &a->accepted)) &&
+           (upto < NEW_STAND || read_stand(app, p, a));
+}
+
+/* What is wrong is said at its question, not after the last one. */
+static bool check_new(struct app *app, struct popup *p, size_t field)
+{
+    struct answers a = {.slope = {0}};
+    bool good = read_answers(app, p, field, &a);
+    ceduo_text_free(&a.slope);
+    return good;
+}
+
+/* ---- the scene ---- */
+
+static void put_quoted(struct text *yaml, const char *before, const char *value)
+{
+    ceduo_text_put(yaml, before);
+    ceduo_emit_scalar(yaml, value, true);
+}
+
+static void put_scene(struct popup *p, const struct answers *a, struct text *yaml)
+{
+    put_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].text);
+    ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nslope:\n  %s\n  materials:\n", a->rock,
+                      ceduo_text_string(&a->slope));
+    if (a->face > a->first)
+        ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g, material: cliff}\n", a->first, a->face);
+    ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g", a->face, a->last);
+    put_quoted(yaml, ", material: ", p->fields[NEW_MATERIAL].text);
+    ceduo_text_format(yaml, "}\ncontrols:\n  - {x_m: %.10g", a->control);
+    if (a->has_accepted)
+        ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
+    ceduo_text_put(yaml, "}\n");
+    const char *stand = a->counted ? "simple-coppice" : p->fields[NEW_STAND].text;
+    if (!stand[0])
+        return;
+    ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
+    put_quoted(yaml, ", stand: ", stand);
+    ceduo_text_put(yaml, "}\n");
+}
+
 static bool filled_new(struct app *app, struct popup *p)
 {
-    struct text yaml = {0}, title = {0}, csv = {0}, material = {0}, stand = {0};
-    const char *profile = p->fields[NEW_PROFILE].text;
-    if (!numbers_typed(app, p) || !stand_typed(app, p))
-        return false;
-    ceduo_emit_scalar(&material, p->fields[NEW_MATERIAL].text, true);
-    ceduo_emit_scalar(&stand, p->fields[NEW_STAND].text, true);
-    ceduo_emit_scalar(&title, p->fields[NEW_TITLE].text, true);
-    ceduo_emit_scalar(&csv, profile, true);
-    ceduo_text_format(&yaml, "ceduo: scene/1\ntitle: %s\nrock: {diameter_m: %s}\nslope: {", title.bytes ? title.bytes : "x",
-                      p->fields[NEW_ROCK].text);
-    bool good = true;
-    double first = -1e6, last = 1e6; /* of a file that is not read yet: wide enough */
-    if (ends_in_csv(profile))
-        ceduo_text_format(&yaml, "csv: %s", ceduo_text_string(&csv));
-    else
-        good = typed_vertices(profile, &yaml, &first, &last);
-    ceduo_text_format(&yaml, ", materials: [{from_m: %.10g, to_m: %.10g, material: %s}]}\n", first, last,
-                      material.bytes ? material.bytes : ceduo_material_talus()->name);
-    ceduo_text_format(&yaml, "controls: [{x_m: %s", p->fields[NEW_CONTROL].text);
-    if (p->fields[NEW_ACCEPTED].text[0])
-        ceduo_text_format(&yaml, ", accepted_kJ: %s", p->fields[NEW_ACCEPTED].text);
-    ceduo_text_put(&yaml, "}]\n");
-    if (!good) {
-        ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
-    } else {
+    struct answers a = {.slope = {0}};
+    struct text yaml = {0};
+    bool good = read_answers(app, p, NEW_STAND, &a);
+    if (good) {
+        put_scene(p, &a, &yaml);
         good = ceduo_app_open_text(app, ceduo_text_string(&yaml));
-        char set[FORM_PATH + 64];
-        const struct ceduo_slope *s = &app->document.file.scene.slope;
-        if (good && p->fields[NEW_STAND].text[0]) {
-            snprintf(set, sizeof set, "forest=[{from_m: %.10g, to_m: %.10g, stand: %.100s}]", s->origin_x,
-                     app->document.file.scene.controls[0].x_given, stand.bytes ? stand.bytes : "bare");
-            const char *const sets[] = {set};
-            ceduo_app_edited(app, ceduo_document_set_all(&app->document, sets, 1, "forest", &app->problems));
-        }
     }
     ceduo_text_free(&yaml);
-    ceduo_text_free(&title);
-    ceduo_text_free(&csv);
-    ceduo_text_free(&material);
-    ceduo_text_free(&stand);
+    ceduo_text_free(&a.slope);
+    if (good && a.counted)
+        ceduo_popup_counts(app);
     return good;
+}
+
+static void offer_profiles(struct app *app, struct popup *p, const char *typed)
+{
+    (void)app;
+    ceduo_picker_add_files(&p->picker, typed, ".csv");
+}
+
+static void ask(struct app *app)
+{
+    struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
+    if (!p)
+        return;
+    ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is left "
+                               "empty is not there; rocks are then counted at the end. All can be changed later."));
+    p->endings = ".csv";
+    p->check = check_new;
+    ceduo_popup_field(p, _("title"), _("My slope"));
+    ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 60, 20 35, 60 20, 100 12", offer_profiles);
+    ceduo_popup_field(p, _("face from the top to x, m"), "");
+    ceduo_popup_choice(p, _("ground below it"), ceduo_material_talus()->name, ceduo_popup_offer_grounds);
+    ceduo_popup_field(p, _("rock: diameter, m"), "0.6");
+    ceduo_popup_field(p, _("counted at x, m"), "");
+    ceduo_popup_field(p, _("the place withstands, kJ"), "50");
+    ceduo_popup_choice(p, _("stand on the way"), "simple-coppice", ceduo_popup_offer_stands);
 }
 
 void ceduo_popup_new(struct app *app)
 {
-    if (ceduo_popup_unsaved(app))
-        return;
-    struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
-    if (!p)
-        return;
-    ceduo_text_put(&p->text, _("The profile: a CSV file with distance and elevation, as QGIS writes it, or points typed as "
-                               "x z, x z, … Everything can be changed later."));
-    ceduo_popup_field(p, _("title"), _("My slope"));
-    ceduo_popup_field(p, _("profile (CSV file or points)"), "0 60, 20 35, 60 20, 100 12");
-    ceduo_popup_field(p, _("ground: talus, colluvium, cliff"), ceduo_material_talus()->name);
-    ceduo_popup_field(p, _("rock: diameter, m"), "0.6");
-    ceduo_popup_field(p, _("counted at x, m"), "90");
-    ceduo_popup_field(p, _("that bears, kJ (may be empty)"), "50");
-    ceduo_popup_field(p, _("stand on the whole way"), "simple-coppice");
+    ceduo_popup_once_saved(app, ask);
 }

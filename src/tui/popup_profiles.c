@@ -1,15 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of what there is to choose from: the words of a field, the program's and the user's files. */
+/* Lists of what there is to choose from: the words of a field, the program's and the user's files; and what each would do
+ * to the lights. */
+#include <dirent.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/intl.h"
-#include "io/file.h"
 #include "ceduo/material.h"
+#include "io/file.h"
+#include "model/foresee.h"
 #include "popup.h"
 #include "popups.h"
-#include "view/typed.h"
 #include "scene/words.h"
+#include "view/typed.h"
+#include "view/words.h"
 
 /* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
 static const char *how_common(const char *name)
@@ -26,29 +32,149 @@ static const char *how_common(const char *name)
     return "";
 }
 
-/* Fills a list with the files of a kind ("stands", …), the first of each name. */
-static void add_profiles(struct popup *p, const char *kind)
+/* ---- files ---- */
+
+static void add_file(struct popup *p, const char *name, const char *value, const char *about, const char *now)
+{
+    char line[320];
+    if (ceduo_picker_has(&p->picker, value))
+        return;
+    snprintf(line, sizeof line, "%-27s %s", name, about);
+    for (size_t n = strlen(line); n > 0 && line[n - 1] == ' ';)
+        line[--n] = '\0';
+    ceduo_popup_item_now(p, line, value, now && strcmp(now, value) == 0);
+}
+
+#define HEAD_BYTES 4096 /* where a file says what it is */
+
+/* Whether a file says early that it is of a kind: "ceduo: stand/". */
+static bool is_kind(const char *path, const char *tag)
+{
+    char head[HEAD_BYTES + 1];
+    FILE *file = fopen(path, "re");
+    size_t n = file ? fread(head, 1, HEAD_BYTES, file) : 0;
+    head[n] = '\0';
+    if (file)
+        fclose(file);
+    return strstr(head, tag) != NULL;
+}
+
+/* The folder of the scene, with a slash; "": the one that the program runs in. */
+static void put_folder(const struct app *app, struct text *folder)
+{
+    const char *path = app->document.path && !app->document.shipped ? app->document.path : "";
+    const char *slash = strrchr(path, '/');
+    ceduo_text_add(folder, path, slash ? (size_t)(slash - path) + 1 : 0);
+}
+
+static int ends_in_yaml(const struct dirent *entry)
+{
+    size_t n = strlen(entry->d_name);
+    return n > 5 && n < 200 && entry->d_name[0] != '.' && strcmp(entry->d_name + n - 5, ".yaml") == 0;
+}
+
+#define FILES_MOST 500 /* beside a scene: more are not looked into */
+
+/* The user's own files of a kind beside the scene; `whole`: with the folder in their name. */
+static void add_beside(struct app *app, struct popup *p, const char *tag, bool whole, const char *now)
+{
+    struct dirent **entries = NULL;
+    struct text folder = {0};
+    put_folder(app, &folder);
+    int n = scandir(folder.length ? folder.bytes : ".", &entries, ends_in_yaml, alphasort);
+    for (int i = 0; i < n; i++) {
+        struct text path = {0};
+        ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), entries[i]->d_name);
+        if (i < FILES_MOST && path.bytes && is_kind(path.bytes, tag))
+            add_file(p, entries[i]->d_name, whole ? path.bytes : entries[i]->d_name, _("yours, beside the scene"), now);
+        ceduo_text_free(&path);
+        free(entries[i]);
+    }
+    free(entries);
+    ceduo_text_free(&folder);
+}
+
+/* Files of a kind ("stands", …): the user's own first, then those of the program, the first of each name. */
+static void add_profiles(struct popup *p, const char *kind, const char *now)
 {
     const char *const *folders = ceduo_file_folders(&p->arena);
-    for (size_t i = 0; folders && folders[i]; i++) {
-        size_t n;
-        const char *const *names = ceduo_file_list(&p->arena, folders[i], kind, &n);
-        for (size_t k = 0; k < n; k++) {
-            char name[128];
-            bool known = false;
-            snprintf(name, sizeof name, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
-            for (size_t m = 0; m < p->items_count; m++)
-                known |= strcmp(p->items[m].value, name) == 0;
-            char line[256];
-            snprintf(line, sizeof line, "%-27s %s", name, how_common(name));
-            if (!known)
-                ceduo_popup_item(p, line, name);
+    for (int shipped = 0; shipped < 2; shipped++)
+        for (size_t i = 0; folders && folders[i]; i++) {
+            size_t n;
+            const char *const *names = ceduo_file_list(&p->arena, folders[i], kind, &n);
+            for (size_t k = 0; k < n; k++) {
+                char name[128], path[1024];
+                snprintf(name, sizeof name, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
+                snprintf(path, sizeof path, "%.700s/%.60s/%.200s", folders[i], kind, names[k]);
+                if (ceduo_document_is_shipped(path) == (shipped == 1))
+                    add_file(p, name, name, shipped ? how_common(name) : _("yours"), now);
+            }
         }
-    }
+}
+
+/* ---- what a choice would do ---- */
+
+static void put_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
+{
+    ceduo_text_format(text, "%s %s", name, ceduo_words_verdict(light));
+    if (light != now)
+        ceduo_text_format(text, _(" (now %s)"), ceduo_words_verdict(now));
+}
+
+static void put_lights(struct app *app, struct text *text, const struct foreseen *f)
+{
+    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
+    put_light(text, _("Contact"), f->index.contact, now->contact);
+    if (isfinite(f->index.worst_adc))
+        ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
+    put_light(text, _("; free run"), f->index.free_run, now->free_run);
+    put_light(text, _("; energy"), f->index.energy, now->energy);
+    if (!isnan(f->exceed))
+        ceduo_text_format(text, _(", about %.0f of 1000 with too much"), 1000 * f->exceed);
+    else if (!isnan(f->reach))
+        ceduo_text_format(text, _(", about %.0f of 1000 arrive"), 1000 * f->reach);
+    ceduo_text_put(text, "\n");
+}
+
+/* What the lights would be with a value at the popup's path. */
+static void put_change(struct app *app, struct popup *p, const char *value)
+{
+    struct foreseen foreseen;
+    struct text set = {0};
+    ceduo_text_format(&set, "%s=%s", p->path, value);
+    const char *const sets[] = {ceduo_text_string(&set)};
+    if (set.bytes && ceduo_foresee(&app->document, sets, 1, app->option, ceduo_jobs_threads(app->figures.jobs), &foreseen))
+        put_lights(app, &p->text, &foreseen);
+    ceduo_text_free(&set);
+}
+
+static void preview_word(struct app *app, struct popup *p, const char *value)
+{
+    ceduo_text_free(&p->text);
+    put_change(app, p, value);
+    if (!p->text.bytes)
+        ceduo_text_put(&p->text, " ");
+}
+
+static void put_ground(struct text *text, const char *name)
+{
+    size_t n;
+    const struct ceduo_material *rows = ceduo_materials(&n);
+    int i = ceduo_choice_find(&ceduo_material_words, name);
+    if (i >= 0)
+        ceduo_text_format(text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
+}
+
+static void preview_ground(struct app *app, struct popup *p, const char *value)
+{
+    ceduo_text_free(&p->text);
+    put_ground(&p->text, value);
+    put_change(app, p, value);
 }
 
 /* What a preset would give, in the lines over the list. */
-static void preview_stand(struct app *app, struct popup *p, const char *value)
+static void put_stand(struct app *app, struct text *text, const char *value)
 {
     struct scene_file file = {0};
     struct problems problems = {0};
@@ -57,19 +183,18 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
                       "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
                       "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
                       value);
-    ceduo_text_free(&p->text);
-    if (yaml.bytes && ceduo_scene_read_text(&file, "preset", yaml.bytes, &problems)) {
+    if (yaml.bytes && ceduo_scene_read_text(&file, app->document.path ? app->document.path : "preset", yaml.bytes, &problems)) {
         file.scene.rock = app->document.file.scene.rock;
         file.scene.simulation = app->document.file.scene.simulation;
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
-        ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
+        ceduo_text_format(text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
                           r.stools_per_ha, r.stems_per_ha, r.trees_per_ha, r.basal_area);
         if (r.bare)
-            ceduo_text_put(&p->text, _("no stems\n"));
+            ceduo_text_put(text, _("no stems\n"));
         else
-            ceduo_text_format(&p->text, _("with this rock: ADC %.3g m by %s, free run %.1f %%, %.3g kJ/100 m (%s)\n"),
-                              r.adc_m, ceduo_rule_words.names[r.rule], r.free_run_probability * 100, r.dissipated * KILO,
+            ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"),
+                              r.adc_m, r.free_run_probability * 100, r.dissipated * KILO,
                               ceduo_rule_words.names[r.rule]);
     }
     ceduo_text_free(&yaml);
@@ -77,12 +202,14 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
     ceduo_scene_release(&file);
 }
 
-static void add_stands(struct popup *p)
+static void preview_stand(struct app *app, struct popup *p, const char *value)
 {
-    p->preview = preview_stand;
-    ceduo_text_put(&p->text, " "); /* lines for it */
-    add_profiles(p, "stands");
+    ceduo_text_free(&p->text);
+    put_stand(app, &p->text, value);
+    put_change(app, p, value);
 }
+
+/* ---- choosing ---- */
 
 static void chose_word(struct app *app, struct popup *p, const char *value)
 {
@@ -100,13 +227,72 @@ static void chose_new_option(struct app *app, struct popup *p, const char *value
     }
 }
 
-static void list_stands(struct app *app, const char *title, popup_chosen *chosen)
+/* The file that a node was read from; NULL where it is no reference. */
+static const char *reference_of(const struct app *app, const char *path)
 {
+    const struct node *node = ceduo_document_node(&app->document, path);
+    return node && node->written && node->written->kind == NODE_SCALAR ? node->written->text : NULL;
+}
+
+/* The same by the bare name, as the list has it. */
+static const char *listed_name(const struct app *app, const char *path, char *room, size_t size)
+{
+    const char *file = reference_of(app, path), *slash = file ? strrchr(file, '/') : NULL;
+    snprintf(room, size, "%s", slash ? slash + 1 : file ? file : "");
+    size_t n = strlen(room);
+    if (slash && n > 5 && strcmp(room + n - 5, ".yaml") == 0)
+        room[n - 5] = '\0';
+    return room;
+}
+
+static void chose_stand(struct app *app, struct popup *p, const char *value)
+{
+    if (strcmp(value, STAND_COUNTED) == 0)
+        ceduo_popup_counts(app);
+    else
+        chose_word(app, p, value);
+}
+
+static struct popup *list_stands(struct app *app, const char *title, popup_chosen *chosen)
+{
+    char now[256];
     struct popup *p = ceduo_popup_list(app, title, chosen);
     if (!p)
-        return;
+        return NULL;
     ceduo_app_stand(app, p->path, sizeof p->path);
-    add_stands(p);
+    if (chosen == chose_stand)
+        ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
+    p->preview = preview_stand;
+    ceduo_text_put(&p->text, " "); /* lines for it */
+    listed_name(app, p->path, now, sizeof now);
+    add_beside(app, p, "ceduo: stand/", false, now);
+    add_profiles(p, "stands", now);
+    return p;
+}
+
+void ceduo_popup_offer_stands(struct app *app, struct popup *p, const char *typed)
+{
+    (void)typed;
+    ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
+    add_beside(app, p, "ceduo: stand/", true, NULL);
+    add_profiles(p, "stands", NULL);
+}
+
+static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
+{
+    struct text shown = {0};
+    ceduo_shown_value(f, word, &shown);
+    ceduo_popup_item_now(p, ceduo_text_string(&shown), word, now && strcmp(word, now) == 0);
+    ceduo_text_free(&shown);
+}
+
+void ceduo_popup_offer_grounds(struct app *app, struct popup *p, const char *typed)
+{
+    const struct field *f = ceduo_schema_at("slope.materials[0].material");
+    (void)app;
+    (void)typed;
+    for (size_t i = 0; i < f->choices->n; i++)
+        add_word(p, f, f->choices->names[i], NULL);
 }
 
 void ceduo_popup_presets(struct app *app)
@@ -114,7 +300,7 @@ void ceduo_popup_presets(struct app *app)
     if (ceduo_app_option(app)->belts_count == 0)
         ceduo_app_say(app, "%s", _("there is no belt yet: a adds one in view 1"));
     else
-        list_stands(app, _("Stand of this belt"), chose_word);
+        list_stands(app, _("Stand of this belt"), chose_stand);
 }
 
 void ceduo_popup_new_option(struct app *app)
@@ -122,59 +308,65 @@ void ceduo_popup_new_option(struct app *app)
     list_stands(app, _("A new option with the stand …"), chose_new_option);
 }
 
-static void add_word(struct popup *p, const struct field *f, const char *word)
-{
-    struct text shown = {0};
-    ceduo_shown_value(f, word, &shown);
-    ceduo_popup_item(p, ceduo_text_string(&shown), word);
-    ceduo_text_free(&shown);
-}
-
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
 {
     const struct field *f = cell->field;
-    struct popup *p = ceduo_popup_list(app, cell->path, chose_word);
+    char title[160], now[256];
+    if (f->object == ceduo_schema_stand()) {
+        ceduo_popup_presets(app);
+        return;
+    }
+    struct text words = {0};
+    ceduo_shown_path(cell->path, &words);
+    snprintf(title, sizeof title, "%.150s", ceduo_text_string(&words));
+    ceduo_text_free(&words);
+    struct popup *p = ceduo_popup_list(app, title, chose_word);
     if (!p)
         return;
     snprintf(p->path, sizeof p->path, "%s", cell->path);
-    if (f->type == FIELD_CHOICE)
-        for (size_t i = 0; i < f->choices->n; i++) {
-            add_word(p, f, f->choices->names[i]);
-            if (strcmp(f->choices->names[i], cell->written) == 0)
-                p->at = i;
-        }
-    else if (f->object == ceduo_schema_stand())
-        add_stands(p);
-    else
-        add_profiles(p, f->object->folder);
+    if (f->type == FIELD_CHOICE) {
+        bool ground = f->choices == &ceduo_material_words;
+        for (size_t i = 0; i < f->choices->n; i++)
+            add_word(p, f, f->choices->names[i], cell->written);
+        p->preview = ground ? preview_ground : preview_word;
+        ceduo_text_put(&p->text, " ");
+        return;
+    }
+    listed_name(app, cell->path, now, sizeof now);
+    add_beside(app, p, "ceduo: slope/", false, now);
+    add_profiles(p, f->object->folder, now);
 }
 
 /* ---- a scene to open ---- */
 
-static bool opened(struct app *app, struct popup *p)
+static void offer_scenes(struct app *app, struct popup *p, const char *typed)
 {
-    return ceduo_app_open(app, p->fields[0].text);
+    const char *own = app->document.path && !app->document.shipped ? app->document.path : NULL;
+    if (!strchr(typed, '/')) {
+        ceduo_popup_offer_recoveries(p);
+        add_beside(app, p, "ceduo: scene/", true, own);
+        add_profiles(p, "scenes", NULL);
+    }
+    ceduo_picker_add_files(&p->picker, typed, ".yaml");
 }
 
 static void chose_scene(struct app *app, struct popup *p, const char *value)
 {
     (void)p;
-    if (value[0]) {
+    if (!ceduo_popup_take_recovery(app, value))
         ceduo_app_open(app, value);
+}
+
+static void list_scenes(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("Open a scene: a name, or the path of a file"), chose_scene);
+    if (!p)
         return;
-    }
-    struct popup *q = ceduo_popup_fields(app, _("Open a scene"), opened);
-    if (q)
-        ceduo_popup_field(q, _("file"), "");
+    p->offers[0] = offer_scenes;
+    p->endings = ".yaml";
 }
 
 void ceduo_popup_open(struct app *app)
 {
-    if (ceduo_popup_unsaved(app))
-        return;
-    struct popup *p = ceduo_popup_list(app, _("Open"), chose_scene);
-    if (!p)
-        return;
-    ceduo_popup_item(p, _("a file …"), "");
-    add_profiles(p, "scenes");
+    ceduo_popup_once_saved(app, list_scenes);
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Saving, and all questions about unsaved work. */
+/* Saving, and all questions about unsaved work, that of this program and what others left behind. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/intl.h"
@@ -36,7 +37,9 @@ static bool save_to(struct app *app, const char *path)
         ceduo_app_say(app, _("saved %s; laid out anew, the old file is %s.bak"), path, path);
     else
         ceduo_app_say(app, _("saved %s"), path);
-    app->quit |= app->quit_once_saved;
+    if (app->once_saved)
+        app->once_saved(app);
+    app->once_saved = NULL;
     return true;
 }
 
@@ -52,6 +55,12 @@ static bool filled_save(struct app *app, struct popup *p)
     return (own || ceduo_popup_may_write(app, p)) && save_to(app, path);
 }
 
+static void offer_files(struct app *app, struct popup *p, const char *typed)
+{
+    (void)app;
+    ceduo_picker_add_files(&p->picker, typed, p->endings);
+}
+
 /* `why` the last attempt failed; NULL: none did. */
 static void ask_for_name(struct app *app, const char *why)
 {
@@ -64,7 +73,9 @@ static void ask_for_name(struct app *app, const char *why)
     else if (d->shipped)
         ceduo_text_put(&p->text, _("This scene belongs to the program and is never written over; save your own copy."));
     const char *slash = d->path && d->shipped ? strrchr(d->path, '/') : NULL;
-    ceduo_popup_field(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml");
+    p->endings = ".yaml";
+    p->typed_wins = true;
+    ceduo_popup_choice(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml", offer_files);
 }
 
 void ceduo_popup_save_as(struct app *app)
@@ -114,69 +125,136 @@ void ceduo_popup_save(struct app *app)
 
 /* ---- unsaved work ---- */
 
-bool ceduo_popup_unsaved(struct app *app)
+static void chose_unsaved(struct app *app, struct popup *p, const char *value)
 {
-    if (!ceduo_document_unsaved(&app->document))
-        return false;
-    ceduo_app_warn(app, "%s", _("unsaved work: s saves it, or u back to what is saved, before another scene is opened"));
-    return true;
+    void (*then)(struct app *app) = p->then;
+    if (strcmp(value, "save") == 0) {
+        app->once_saved = then; /* once a name is given, where one is asked for */
+        ceduo_popup_save(app);
+    } else if (strcmp(value, "discard") == 0) {
+        then(app);
+    }
 }
 
-static void chose_quit(struct app *app, struct popup *p, const char *value)
+void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app))
 {
-    (void)p;
-    if (strcmp(value, "save") == 0) {
-        app->quit_once_saved = true; /* once a name is given, where one is asked for */
-        ceduo_popup_save(app);
-    } else if (strcmp(value, "drop") == 0) {
-        ceduo_document_forget(&app->document);
-        app->quit = true;
+    if (!ceduo_document_unsaved(&app->document)) {
+        then(app);
+        return;
     }
+    struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), chose_unsaved);
+    if (!p)
+        return;
+    p->then = then;
+    ceduo_popup_item(p, _("stay"), "");
+    ceduo_popup_item(p, _("save it, then go on"), "save");
+    ceduo_popup_item(p, _("discard it"), "discard");
+}
+
+static void quit(struct app *app)
+{
+    ceduo_document_forget(&app->document);
+    app->quit = true;
 }
 
 void ceduo_popup_quit(struct app *app)
 {
-    app->quit = !ceduo_document_unsaved(&app->document);
-    if (app->quit)
-        return;
-    struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), chose_quit);
-    ceduo_popup_item(p, _("stay"), "");
-    ceduo_popup_item(p, _("save and quit"), "save");
-    ceduo_popup_item(p, _("quit and lose it"), "drop");
+    ceduo_popup_once_saved(app, quit);
+}
+
+/* ---- work that was left behind ---- */
+
+#define RECOVERY "recover:" /* before the path of the copy */
+
+static void add_recovery(struct popup *p, const struct recovery *r)
+{
+    char date[32] = "", value[1200];
+    struct tm tm;
+    struct text line = {0};
+    if (localtime_r(&r->when, &tm))
+        strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
+    const char *slash = r->scene ? strrchr(r->scene, '/') : NULL;
+    ceduo_text_format(&line, _("unsaved work of %s: %s%s%s"), date, r->title[0] ? r->title : _("no title"),
+                      slash ? ", " : "", slash ? slash + 1 : _(", never saved"));
+    snprintf(value, sizeof value, RECOVERY "%.1100s", r->file);
+    ceduo_popup_item(p, ceduo_text_string(&line), value);
+    ceduo_text_free(&line);
+}
+
+void ceduo_popup_offer_recoveries(struct popup *p)
+{
+    size_t n;
+    struct recovery *list = ceduo_recovery_list(&p->arena, &n);
+    for (size_t i = 0; list && i < n; i++)
+        add_recovery(p, &list[i]);
+}
+
+/* Puts a copy in place: in this document where it is of this one, otherwise in its own. */
+static bool take_up(struct app *app, const struct recovery *r, const char *text)
+{
+    char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
+    bool same = r->scene && here && strcmp(here, r->scene) == 0;
+    free(here);
+    if (!r->scene)
+        return ceduo_app_open_text(app, text);
+    if (!same && !ceduo_app_open(app, r->scene))
+        return false;
+    return ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
+}
+
+bool ceduo_popup_take_recovery(struct app *app, const char *value)
+{
+    struct arena arena = {0};
+    size_t n;
+    if (strncmp(value, RECOVERY, strlen(RECOVERY)) != 0)
+        return false;
+    const struct recovery *list = ceduo_recovery_list(&arena, &n);
+    for (size_t i = 0; list && i < n; i++) {
+        if (strcmp(list[i].file, value + strlen(RECOVERY)) != 0)
+            continue;
+        char *text = ceduo_recovery_text(list[i].file);
+        if (text && take_up(app, &list[i], text)) {
+            unlink(list[i].file); /* this program keeps a copy of its own now */
+            app->opened = false;
+            ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));
+        }
+        free(text);
+    }
+    ceduo_arena_free(&arena);
+    return true;
 }
 
 static void chose_recover(struct app *app, struct popup *p, const char *value)
 {
-    bool without_file = value[0] == 'o';
-    if (strcmp(value, "forget") == 0) {
-        unlink(p->path);
-    } else if (without_file ? ceduo_app_open_text(app, p->kept)
-                            : ceduo_app_edited(app, ceduo_document_recover(&app->document, p->kept, &app->problems))) {
-        unlink(p->path); /* this program keeps a copy of its own now */
-        ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));
-    }
+    size_t n;
+    const struct recovery *list = strcmp(value, "forget") == 0 ? ceduo_recovery_list(&p->arena, &n) : NULL;
+    for (size_t i = 0; list && i < n; i++)
+        unlink(list[i].file);
+    ceduo_popup_take_recovery(app, value);
+}
+
+/* Whether a copy is of this scene, or of one that has no other place. */
+static bool is_due(const struct app *app, const struct recovery *r)
+{
+    char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
+    bool due = !r->scene || (here && strcmp(here, r->scene) == 0);
+    free(here);
+    return due;
 }
 
 void ceduo_popup_recover(struct app *app)
 {
-    char *file = NULL, *text = ceduo_recovery_find(app->document.path, &file);
-    bool without_file = !text && app->document.path;
-    if (without_file)
-        text = ceduo_recovery_find(NULL, &file);
-    if (!text)
-        return;
-    struct popup *p = ceduo_popup_list(app, without_file ? _("A new scene that was never saved was left behind")
-                                                         : _("Unsaved work on this scene was left behind"),
-                                       chose_recover);
-    if (p && strlen(file) < sizeof p->path) {
-        snprintf(p->path, sizeof p->path, "%s", file);
-        p->kept = text;
-        text = NULL;
-        ceduo_popup_item(p, _("take it up again"), without_file ? "open" : "take");
-        ceduo_popup_item(p, _("forget it"), "forget");
-    } else {
-        ceduo_popup_close(app);
-    }
-    free(text);
-    free(file);
+    struct arena arena = {0};
+    size_t n, due = 0;
+    const struct recovery *list = ceduo_recovery_list(&arena, &n);
+    for (size_t i = 0; list && i < n; i++)
+        due += is_due(app, &list[i]);
+    struct popup *p = due > 0 ? ceduo_popup_list(app, _("Unsaved work was left behind"), chose_recover) : NULL;
+    for (int other = 0; p && other < 2; other++)
+        for (size_t i = 0; i < n; i++)
+            if (is_due(app, &list[i]) == !other)
+                add_recovery(p, &list[i]);
+    ceduo_popup_item(p, _("leave it for later: o lists it, too"), "");
+    ceduo_popup_item(p, n > 1 ? _("forget all of it") : _("forget it"), "forget");
+    ceduo_arena_free(&arena);
 }

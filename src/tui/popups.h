@@ -25,13 +25,22 @@ void ceduo_popup_found(struct app *app, struct sought *sought);
 void ceduo_popup_save(struct app *app);
 void ceduo_popup_save_as(struct app *app);
 
-/* Ends the program; asks first if there is unsaved work. */
+/* Ends the program, once the work is saved or given up. */
 void ceduo_popup_quit(struct app *app);
 
-/* Returns whether there is unsaved work, and warns that it must be saved before another scene is opened. */
-bool ceduo_popup_unsaved(struct app *app);
+/* Goes on with `then`; asks first (save, discard, stay) where there is unsaved work. */
+void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app));
 
-/* Offers unsaved work on this document that an earlier process left behind. */
+/* Lists unsaved work that earlier processes left behind, where some of it is on this document or has no file. */
 void ceduo_popup_recover(struct app *app);
+/* Adds all of it to a list; takes up the one that was chosen, false where the value is none. */
+void ceduo_popup_offer_recoveries(struct popup *popup);
+bool ceduo_popup_take_recovery(struct app *app, const char *value);
+
+/* ---- what fields of popups may hold ---- */
+
+#define STAND_COUNTED "from a sample plot" /* in the place of a stand: what a sample plot counts */
+void ceduo_popup_offer_stands(struct app *app, struct popup *popup, const char *typed);
+void ceduo_popup_offer_grounds(struct app *app, struct popup *popup, const char *typed);
 
 #endif

@@ -2,19 +2,24 @@
 #include "program.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/intl.h"
 #include "edit.h"
 #include "popup.h"
 #include "popups.h"
 #include "screen.h"
+#include "view/typed.h"
 
 static void undo_or_redo(struct app *app, bool redo)
 {
     struct document *d = &app->document;
     const char *what = redo ? (d->at + 1 < d->count ? d->states[d->at + 1].what : "") : d->states[d->at].what;
     char line[200];
-    snprintf(line, sizeof line, "%s", what);
+    struct text words = {0};
+    ceduo_shown_path(what, &words);
+    snprintf(line, sizeof line, "%.199s", ceduo_text_string(&words));
+    ceduo_text_free(&words);
     if (!(redo ? ceduo_document_redo(d) : ceduo_document_undo(d))) {
         ceduo_app_say(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
@@ -68,6 +73,27 @@ static void next_charset(struct app *app)
     ceduo_app_resize(app, app->width, app->height);
 }
 
+/* ---- commands by name ---- */
+
+static void chose_command(struct app *app, struct popup *p, const char *value)
+{
+    (void)p;
+    ceduo_program_key(app, ceduo_actions[atoi(value)].key);
+}
+
+static void list_commands(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("Commands"), chose_command);
+    for (int i = 0; p && i < ACTION_COUNT; i++) {
+        char line[160], value[16];
+        if (i == ACTION_COMMANDS)
+            continue;
+        snprintf(line, sizeof line, "%-10s %s", ceduo_actions[i].word, _(ceduo_actions[i].help));
+        snprintf(value, sizeof value, "%d", i);
+        ceduo_popup_item(p, line, value);
+    }
+}
+
 static void act(struct app *app, enum action action)
 {
     int page = app->height > 12 ? app->height / 2 : 5;
@@ -104,6 +130,7 @@ static void act(struct app *app, enum action action)
     case ACTION_LAST_ROCK: ceduo_app_next_rock(app, -1); break;
     case ACTION_SEARCH: ask_for_word(app); break;
     case ACTION_AGAIN: ceduo_app_search(app); break;
+    case ACTION_COMMANDS: list_commands(app); break;
     case ACTION_NEW: ceduo_popup_new(app); break;
     case ACTION_OPEN: ceduo_popup_open(app); break;
     case ACTION_SAVE: ceduo_popup_save(app); break;
@@ -139,7 +166,7 @@ void ceduo_program_key(struct app *app, int key)
         ceduo_edit_key(app, key);
     } else {
         app->message[0] = '\0';
-        app->quit_once_saved = false;
+        app->once_saved = NULL;
         if (action != ACTION_NONE && !(view->act && view->act(app, action)))
             act(app, action);
     }

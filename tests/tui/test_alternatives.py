@@ -35,7 +35,7 @@ def said_by(rock, keys):
 
 
 def choose(shape):
-    return "find rock.shape\nkey Enter g " + " ".join(["Down"] * SHAPES.index(shape)) + " Enter"
+    return "find rock.shape\nkey Enter Home " + " ".join(["Down"] * SHAPES.index(shape)) + " Enter"
 
 
 def mass_of(screen):
@@ -68,7 +68,7 @@ def test_shape_figures():
     """The sphere of a cylinder's volume to three digits; a cylinder as wide as high from a sphere."""
     screen = said_by("{shape: cylinder, diameter_m: 0.56, height_m: 0.80}", choose("sphere"))
     diameter = (6 / pi * pi / 4 * 0.56**2 * 0.8) ** (1 / 3)
-    expect_equal(screen.note, f"filled in for the same volume: diameter_m {diameter:.3g}; taken out: height_m")
+    expect_equal(screen.note, f"filled in for the same volume: diameter_m {diameter:.3g}; removed: height_m")
     screen = said_by("{diameter_m: 0.8}", choose("cylinder"))
     side = (4 / pi * pi / 6 * 0.8**3) ** (1 / 3)
     expect_equal(screen.note, f"filled in for the same volume: diameter_m {side:.3g}, height_m {side:.3g}")
@@ -102,7 +102,7 @@ def test_sphere_sizes():
         old = re.search(r"(\w+_\w+):", rock).group(1)
         keys = f"find rock.{name}\nset {value}"
         before, after, undone, said, line = edited(rock, keys)
-        expect_equal(said, f"taken out: {old}", "what is said")
+        expect_equal(said, f"removed: {old}", "what is said")
         expect(f"{name}: {value}" in line and old not in line, line)
         expect(after.now != before.now, "the figures are still those of before", after)
         expect_equal(undone.now, before.now, "figures after u")
@@ -122,7 +122,7 @@ def test_mass_or_density():
     rock = "{shape: cylinder, diameter_m: 0.5, height_m: 0.5, density_kg_m3: 2600}"
     keys = "find rock.mass_kg\nset 300"
     _, after, undone, said, line = edited(rock, keys)
-    expect_equal(said, "taken out: density_kg_m3", "what is said")
+    expect_equal(said, "removed: density_kg_m3", "what is said")
     expect("mass_kg: 300" in line and "density" not in line, line)
     expect_equal(mass_of(after), 300, "kg")
     expect_equal(undone.row("^density")[-1], "2600", "after u")
@@ -136,7 +136,7 @@ def test_roughness():
         text = FAST.replace("rt: 0.98, roughness_rad: 0,", "rt: 0.98, roughness_m: 0,")
         place.write("mixed.yaml", text)
         screen = place.play("find segments[1].roughness_m\nset 0.1\ndump\nkey s", "mixed.yaml")[0]
-        expect_equal(screen.note, "taken out: roughness_rad", "what is said")
+        expect_equal(screen.note, "removed: roughness_rad", "what is said")
         check_good(place.path, "mixed.yaml")
         expect("roughness_m: 0.1" in place.text("mixed.yaml") and "roughness_rad" not in place.text("mixed.yaml"),
                place.text("mixed.yaml"))
@@ -151,7 +151,7 @@ def test_command_line():
     with Place() as place:
         place.write("bad.yaml", scene_with("{shape: sphere, diameter_m: 1, height_m: 2}"))
         done = ceduo("--check", str(place.path / "bad.yaml"))
-        expect("take it out" in done.err and "-s" not in done.err, done)
+        expect("remove it" in done.err and "-s" not in done.err, done)
 
 
 if __name__ == "__main__":

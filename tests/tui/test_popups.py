@@ -9,6 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, actions, check_good, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
+from test_screens import lights  # noqa: E402
 
 
 # ---- presets, new, open ----
@@ -26,7 +27,7 @@ def test_presets():
             expect(any(re.search(rf"[│|] {name} .*{re.escape(share)}", x) for x in lines), f"{name} at {size}", share)
     first, second, chosen, undone = fast("""key 2
         wait idle
-        key p
+        key p Down
         dump
         key Down
         dump
@@ -57,8 +58,8 @@ def test_new_typed():
             type Above the mill
             key Enter
             type 0 100, 40 60; 90 20, 120 18
-            key Enter Enter
-            type 0.9
+            key Enter Enter Enter
+            type 0,9
             key Enter
             type 95
             key Enter
@@ -74,9 +75,9 @@ def test_new_typed():
             type mill.yaml
             key Enter
             dump""")
-        screens[0].has("New scene", "profile (CSV file or points)", "ground", "rock: diameter, m",
-                       "counted at x, m", "that bears, kJ", "stand on the whole way", "Esc never mind")
-        screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0.9", "95", "30", "simple-coppice")
+        screens[0].has("New scene", "profile (CSV file or points)", "face from the top", "ground",
+                       "rock: diameter, m", "counted at x, m", "the place withstands, kJ", "stand on the way", "Esc one back")
+        screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0,9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
         screens[3].has("Save as")
         screens[4].has("saved mill.yaml")
@@ -92,7 +93,7 @@ def test_new_csv():
         place.write("line.csv", "distance,elevation\n0,150\n30,120\n80,80\n140,60\n200,55\n")
         made, saved = place.play("""key n Enter
             type line.csv
-            key Enter Enter Enter
+            key Enter Enter Enter Enter
             type 150
             key Enter Enter Enter
             wait idle
@@ -110,28 +111,56 @@ def test_new_csv():
 
 
 def test_new_refused():
-    """n: what cannot be a scene is explained in the form, and nothing is lost."""
-    for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "0 1, 0 2, 0 3"), ""),
-                         (("x", "none.csv"), "none.csv"), (("x", "0 60, 100 12", "moon"), "moon"),
-                         (("x", "0 60, 100 12", "talus", "-1"), "-1"), (("x", "0 60, 100 12", "talus", "0,6"), "0,6"),
-                         (("x", "0 60, 100 12", "talus", "0.6", "500"), "500"),
-                         (("x", "0 60, 100 12", "talus", "0.6", "90", "much"), "much")):
+    """n: what cannot be a scene is explained at its own question, and nothing is lost."""
+    for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "none.csv"), "none.csv"),
+                         (("x", "0 60, 100 12", "100"), "outside the profile"), (("x", "0 60, 100 12", "x"), "'x' is not a number"),
+                         (("x", "0 60, 100 12", "", "moon"), "no ground 'moon'"),
+                         (("x", "0 60, 100 12", "", "talus", "-1"), "-1 is below 0 m"),
+                         (("x", "0 60, 100 12", "", "talus", "wide"), "'wide' is not a number"),
+                         (("x", "0 60, 100 12", "10", "talus", "0.6", "500"), "outside the slope below the face, 10 to 100 m"),
+                         (("x", "0 60, 100 12", "10", "talus", "0.6", "5"), "outside the slope below the face"),
+                         (("x", "0 60, 100 12", "", "talus", "0.6", "90", "much"), "'much' is not a number")):
         script = "wait idle\nkey n\n"
         for field in fields:
             script += f"key Ctrl-U\ntype {field}\nkey Enter\n"
-        script += "key Enter\n" * (7 - len(fields)) + "dump\nkey Esc\nclear\ndump"
-        refused, after = fast(script)
+        refused, after = fast(script + "dump\n" + "key Esc\n" * len(fields) + "clear\ndump")
         refused.has("New scene", fields[-1])
-        message = refused.text.split("stand on the whole way")[1]
-        expect("Enter: next" not in message and part in message, f"{fields} is not refused with a reason:", refused)
+        expect(part in refused.popup.split("stand on the way")[1], f"{fields} is not refused with a reason:", refused)
         after.has("1 5 45 upper")
         expect(after.title.endswith(" fast"), after.title)
+    refused = fast("key n Enter Ctrl-U\ntype 0 1, 0 2, 0 3\n" + "key Enter\n" * 7 + "dump")[0]
+    expect_in("New scene", refused.text, "x does not rise")
 
 
 def test_new_bad_stand():
     """n: a stand that there is not is told, not left out in silence."""
-    screen = fast("key n Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand\nkey Enter\ndump")[0]
-    expect_in("no-such-stand", screen.text)
+    screen = fast("key n Enter Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand.yaml\nkey Enter\ndump")[0]
+    expect_in("no stand 'no-such-stand.yaml'", screen.popup)
+
+
+def test_missing_file():
+    """A file that is not there is said while it is typed; Tab completes a path."""
+    with Place() as place:
+        place.write("survey/profile-north.csv", "distance,elevation\n0,150\n200,55\n")
+        place.write("survey/profile-south.csv", "distance,elevation\n0,150\n200,55\n")
+        typed, half, whole = place.play("""key n Enter Ctrl-U
+            type none.csv
+            dump
+            key Ctrl-U
+            type sur
+            key Tab
+            type p
+            key Tab
+            dump
+            type n
+            key Tab
+            dump""")
+        typed.has("there is no file 'none.csv'")
+        half.has("survey/profile-_", "survey/profile-north.csv", "survey/profile-south.csv")
+        whole.has("survey/profile-north.csv_").lacks("there is no file")
+        opened = place.play("key o\ntype nothing/here.yaml\ndump\nkey Enter\ndump")
+        opened[0].has("there is no file 'nothing/here.yaml'")
+        opened[1].has("No such file")
 
 
 def test_open():
@@ -139,37 +168,94 @@ def test_open():
     screens = fast("""wait idle
         key o
         dump
-        key Down Enter
+        type four
+        key Enter
         dump
-        key o Enter
+        key o
         type options.yaml
         key Enter
         dump
-        key o Enter
+        key o
         type missing.yaml
-        key Enter
         dump
-        key Esc
+        key Enter
         dump""")
-    screens[0].has("a file …", "four-systems", "paper-site")
+    screens[0].has("fast.yaml", "yours", "(now)", "four-systems", "paper-site")
+    own, shipped = (screens[0].popup.find(name) for name in ("options.yaml", "four-systems"))
+    expect(0 <= own < shipped, "the user's own come first", screens[0])
     screens[1].has("Four systems, befo", "Rock 0.68 m 512.3 kg")
     screens[2].has("Wood thick")
-    screens[3].has("No such file", "missing.yaml")
+    screens[3].has("there is no file 'missing.yaml'")
     screens[4].has("Wood thick")
+    expect_in("No such file", screens[4].note)
 
 
-def test_open_unsaved():
-    """o and n say first that there is unsaved work, and open nothing."""
-    screens = fast("""key 3
-        find title
-        set other
-        key o
+def test_unsaved():
+    """o, n and q ask alike where there is unsaved work: stay, save it and go on, discard it and go on."""
+    edit = "key 3\nfind title\nset other\n"
+    for key, then in (("o", "Open a scene"), ("n", "New scene"), ("q", None)):
+        with Place() as place:
+            asked, stayed = place.play(f"{edit}key {key}\ndump\nkey Enter\ndump")
+            asked.has("There is unsaved work", "stay", "save it", "discard it")
+            stayed.has("* other").lacks("There is unsaved work")
+            expect_in("title: fast", place.text("fast.yaml"))
+            script = f"{edit}key {key}\ntype dis\nkey Enter\n"
+            if then:
+                place.play(script + "dump")[0].has(then)
+            else:
+                place.play(script)
+            expect_in("title: fast", place.text("fast.yaml"), "discarded")
+            script = f"{edit}key {key}\ntype save\nkey Enter\n"
+            if then:
+                place.play(script + "dump")[0].has(then)
+            else:
+                place.play(script)
+            expect_in("title: other", place.text("fast.yaml"), f"saved before {key}")
+
+
+def test_picker():
+    """Typing leaves what matches, the best first, marks what is there now, and says what a choice does to the lights."""
+    all_, some, none, took = fast("""key 2
+        wait idle
+        key p
         dump
-        key n
-        dump""")
-    for screen in screens:
-        expect_in("unsaved work", screen.note)
-        screen.has("* other")
+        type lresc
+        dump
+        type zzz
+        dump
+        key Backspace Backspace Backspace Enter
+        wait idle
+        dump""", "wood.yaml")
+    all_.has("from a sample plot", "simple-coppice")
+    expect(re.search(r"search: lresc_ large-reserves-cut", some.popup), "the best match first", some)
+    expect(re.search(r"Contact (passes|FAILS).*free run .*energy .*about \d+ of 1000 with too much", some.popup), some)
+    none.has("nothing matches")
+    expect_equal(took.row("^system")[1:], ["large", "reserves"], "the one that was under the cursor")
+    now = fast("key 2\nkey p\ndump", "paper-site")[0]
+    expect(re.search(r"ads-1 +\(now\)", now.text), "what is there now is marked", now)
+    species = fast("key 2\nwait idle\nfind species\nkey Enter\ntype beech\ndump\nkey Enter\ndump", "wood.yaml")
+    species[0].has("search: beech_", "beech (Fagus sylvatica)", "about")
+    expect_equal(species[1].row("^species")[1:], ["beech", "(Fagus", "sylvatica)"])
+
+
+def test_preview_is_what_comes():
+    """The lights that a choice is said to have are those that it has once it is taken."""
+    for name in ("bare", "simple-coppice", "large-reserves-cut"):
+        ahead, after = fast(f"key 2\nwait idle\nkey p\ntype {name}\ndump\nkey Enter\nwait idle\ndump", "wood.yaml")
+        found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+).*?about (\d+) of 1000", ahead.popup)
+        expect(found, "no lights in", ahead.popup)
+        expect_equal(list(found.groups()[:3]), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], name)
+        expect_near(float(found.group(4)), after.pair(">250 kJ")[0], 60, f"{name}: of 1000")  # 4 s.e. of 1024 rocks
+
+
+def test_commands():
+    """: lists every command by what it does; typing finds it, Enter runs it."""
+    listed, ran = fast("key :\ndump\ntype rotation\nkey Enter\ndump")
+    listed.has("Commands", "search: _")
+    expect_in("6 rotation", ran.title)
+    expect(ran.body != listed.body, ran)
+    undone = fast("key 2\nfind stools.per_ha\nset 9\nkey :\ntype undo\nkey Enter\ndump")[0]
+    expect_in("undone", undone.note)
 
 
 # ---- search, help, counts ----
@@ -255,38 +341,56 @@ def test_contract_keys():
 
 
 def counts_script(*fields):
-    """Fills the form of the counts for the second belt, and takes three screens: filled, done, left by Esc."""
+    """Fills the form of the counts for the second belt, and takes four screens: before, filled, done, left by Esc."""
     script = "key 2\nwait idle\nfind forest[1]\ndump\nkey c\n"
     for field in fields:
         script += f"key Ctrl-U\ntype {field}\nkey Tab\n"
-    return script + "dump\nkey Enter\ndump\nkey Esc\nclear\ndump"
+    return script + "dump\nkey Enter\ndump\n" + "key Esc\n" * len(fields) + "clear\ndump"
+
+
+COUNTED = ["400", "slope", "40", "100", "250", "7,5", "8", "20", "22", "13"]
 
 
 def test_counts():
-    """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2."""
+    """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2; sizes of stems are taken too."""
     area = 400 * math.cos(math.radians(40))
-    for how, per in (("slope", 10000 / area), ("horizontal", 25)):
-        before, form, screen, _ = fast(counts_script("400", how, "40", "100", "250", "20"))
-        form.has("Stand from the counts of a sample plot", "size of the plot, m2", "slope or horizontal", "angle")
-        rows = [re.findall(r"^\d +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
-        found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0]), float(rows[1][0])]
+    for how, per in (("slope", 10000 / area), ("map", 25)):
+        before, form, screen, _ = fast(counts_script(COUNTED[0], how, *COUNTED[2:]))
+        form.has("Stand from the counts of a sample plot", "size of the plot, m2", "angle", "their mean diameter, cm")
+        rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
+        found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0][0]), float(rows[1][0][0])]
         for value, count in zip(found, (100, 250, 20)):
             expect_near(value, count * per, count * per * 1e-5, f"{how}: {count} in the plot, per ha")
+        expect_equal(rows[0][0][1:] + rows[1][0][1:], ("7.5", "8", "22", "13"), "diameters and heights")
+        expect_equal([len(r) for r in rows], [1, 1], "one class of each")
         expect_in("306.4 m2" if how == "slope" else "400 m2", screen.note)
         expect_in("32.64" if how == "slope" else "25", screen.note)
         expect(screen.now != before.now, "the figures stay as they were")
     expect_near(10000 / area, 10000 / 306.4, 0.005, "this test's own arithmetic")
 
 
+def test_counts_of_nothing():
+    """c: what was not counted is not there: a plot without stools, one without trees, an empty one."""
+    no_stools = fast(counts_script(*COUNTED[:3], "", "", "", "", "20", "22", "13"))[2]
+    expect_equal(no_stools.row("^stools per ha")[-1], "-", "stools")
+    expect_in("Shoots on the stools none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per ha[^\n]*", "", no_stools.body)))
+    no_trees = fast(counts_script(*COUNTED[:7], "0", "", ""))[2]
+    expect_in("reserves none; a adds one", re.sub(r"\s+", " ", re.sub(r"\n +per ha[^\n]*", "", no_trees.body)))
+    empty = fast(counts_script(*COUNTED[:3], "", "", "", "", "", "", ""))[2]
+    expect_in("FAILS", empty.now)
+
+
 def test_counts_refused():
-    """c: what cannot be is refused with a reason, nothing changes."""
-    good = ["400", "slope", "40", "7", "7", "7"]
-    for at, value, part in ((0, "0", "above 0"), (0, "-4", "-4"), (1, "steep", "slope or horizontal"),
-                            (2, "90", "below 90"), (2, "x", "'x' is not a number"), (3, "3,5", "'3,5' is not a number"),
-                            (4, "nan", "'nan' is not a number"), (0, "1e-320", ""), (3, "1e300", "")):
-        before, _, refused, after = fast(counts_script(*good[:at], value, *good[at + 1:]))
+    """c: what cannot be is refused with a reason, nothing changes; what is unusual is asked once."""
+    for at, value, part in ((0, "0", "not above 0"), (0, "-4", "-4"), (1, "steep", "slope or map"), (2, "90", "below 90"),
+                            (2, "x", "'x' is not a number"), (3, "3,5,5", "'3,5,5' is not a number"), (4, "50", "one shoot at least"),
+                            (3, "", "belong together"), (4, "nan", "'nan' is not a number"), (5, "0", "not above 0"),
+                            (5, "900", "900 cm? Usual is"), (9, "1000", "above 150 m"), (0, "1e-320", ""), (3, "1e300", "")):
+        before, _, refused, after = fast(counts_script(*COUNTED[:at], value, *COUNTED[at + 1:]))
         refused.has("Stand from the counts", part)
         expect_equal(after.text, before.text, f"after {value!r} and Esc")
+    taken = fast(counts_script(*COUNTED[:5], "900", *COUNTED[6:]).replace("key Enter\ndump", "key Enter Enter\ndump"))[2]
+    taken.lacks("Stand from the counts")
 
 
 def test_keys_at_once():
@@ -319,8 +423,8 @@ def test_new_is_data():
 
 def test_popup_bar():
     """The bar has the keys of what lies over the view, and those of the view again once it is closed."""
-    for keys, words in (("p", ("Up Down move", "Enter choose", "Esc never mind")), ("q", ("Enter choose", "Esc never mind")),
-                        ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc never mind")),
+    for keys, words in (("p", ("type to search", "Enter choose", "Esc cancel")), ("q", ("Enter choose", "Esc cancel")),
+                        ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc one back")),
                         ("w End Enter", ("any other key closes",))):
         for width in (60, 80, 200):
             edit = "find stools.per_ha\nkey +\n" if keys == "q" else ""

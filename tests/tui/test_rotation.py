@@ -391,7 +391,7 @@ def test_find():
     """f on a number finds the value for a goal and puts it there: 379 reserves; u takes it back"""
     with Place() as place:
         screens = place.play("wait idle\n" + FIND + """dump
-            key Enter Enter Enter
+            key Enter Enter Enter Enter
             wait idle
             dump
             key u
@@ -403,7 +403,8 @@ def test_find():
         text = (place.path / "reserves.yaml").read_text()
         check_good(place.path, "reserves.yaml")
     popup, found, undone, _ = screens
-    for part in ("trees[0].per_ha", "adc", "free-run", "energy=KJ", "exceed=SHARE", "u takes it back"):
+    for part in ("per hectare, trees 1, belt 1", "mean distance between hits below … m (ADC)", "chance of a free run at most … %",
+                 "at most … of 1000 arrive with too much", "at most … of 1000 arrive", "mean energy of arrivals", "u takes it back"):
         expect_in(part, popup.popup, "the question")
     expect_equal(re.findall(r"(?:from|to) +(\d+)", popup.popup), ["6", "600"], "the range that is offered")
     expect_equal(found.row(r"^1 +379")[:2], ["1", "379"])
@@ -424,7 +425,7 @@ def test_find_other_goals():
             path = f"options[{option}].forest[0].stand.trees[0].per_ha" if option else "forest[0].stand.trees[0].per_ha"
             wanted = good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-n", 2000, "-f", "json",
                           *(["--option", option] if option else []), place.path / f"{scene}.yaml").json()[0]
-            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, lo, hi))
+            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", lo, hi))
             screen = place.play("key 2\n" + ("key ]\n" if option == "more" else "") + "find trees[0].per_ha\nkey f\n" + steps + "dump",
                                 f"{scene}.yaml")[0]
             expect(wanted["found"], scene, goal, wanted)
@@ -434,16 +435,16 @@ def test_find_other_goals():
 
 def test_find_nothing():
     """f where no value reaches the goal: it says so with the nearest, and the field stays"""
-    screen = shown(FIND + "key Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
+    screen = shown(FIND + "key Enter Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
     note = re.sub(r"\s+", " ", screen.note)
-    expect("no value of" in note and "nearest: 300" in note, note)
+    expect("no value from 6 to 300" in note and "nearest is 300" in note, note)
     expect_equal(screen.row(r"^1 +60")[:2], ["1", "60"])
 
 
 def test_find_all():
     """f where every value of the range reaches the goal: it says so, and the field stays"""
     for word, value in (("forest[1]", "0.5"), ("forest[0]", "0.5")):
-        screen, undone = shown(f"key 2\nfind {word}\nfind spacing_m\nkey f Enter Enter Enter\ndump\nkey u\ndump", "paper-site")
+        screen, undone = shown(f"key 2\nfind {word}\nfind spacing_m\nkey f Enter Enter Enter Enter\ndump\nkey u\ndump", "paper-site")
         note = re.sub(r"\s+", " ", screen.note)
         expect_in("every value from 0.05 to 5 reaches the goal", note)
         expect_in(f"stays {value}", note)
@@ -453,14 +454,14 @@ def test_find_all():
 
 def test_find_refused():
     """f: wrong goals and ranges are refused in words, the question stays open, and nothing changes"""
-    for goal, lo, hi, words in (("fun", 6, 600, "adc, free-run, energy=KJ or exceed"), ("energy", 6, 600, "energy=50"),
-                                ("adc=x", 6, 600, "adc, free-run, energy=KJ or exceed"), ("adc=-3", 6, 600, "the goal is"),
-                                ("", 6, 600, "the goal is"), ("adc", "x", 600, "numbers"), ("adc", 600, 6, "the smaller first"),
-                                ("adc", 6, "", "numbers"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
+    for goal, lo, hi, words in (("quick", 6, 600, "adc, free-run, energy=KJ, exceed"), ("energy", 6, 600, "how many kJ"),
+                                ("adc=x", 6, 600, "adc, free-run, energy=KJ, exceed"), ("adc=-3", 6, 600, "the goal is"),
+                                ("adc", "x", 600, "'x' is not a number"), ("adc", 600, 6, "the smaller first"),
+                                ("adc", 6, "", "'' is not a number"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
                                 ("free-run=2", 6, 600, "0.05 for 5 %")):
-        steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, lo, hi))
+        steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", lo, hi))
         with Place() as place:
-            open_, closed = place.play(FIND + steps + "dump\nkey Esc\ndump", "reserves.yaml")
+            open_, closed = place.play(FIND + steps + "dump\nkey Esc Esc Esc Esc\ndump", "reserves.yaml")
             expect_equal((place.path / "reserves.yaml").read_text(), RESERVES, "the file")
         expect_in("Which value reaches a goal?", open_.text, f"{goal} {lo} {hi}: the question is gone")
         expect_in(words, re.sub(r"\s+", " ", open_.popup + " " + open_.note), f"{goal} {lo} {hi}")
@@ -473,15 +474,15 @@ def test_find_where():
     screens = shown("key 2\nfind species\nkey f\ndump\nclear\nkey 6\nfind rotation_years\nkey f\ndump\nkey Esc\n"
                     "find from_m\nkey l l\nkey f\ndump\nkey Esc\nkey 3\nfind diameter_m\nkey f\ndump\nkey Esc\nkey 4\nkey f\ndump")
     expect_in("put the cursor on a number first", screens[0].note)
-    for screen, path in zip(screens[1:4], ("rotation_years", "cut_year", "rock.diameter_m")):
+    for screen, path in zip(screens[1:4], ("rotation, years", "cut in year", "diameter, m")):
         expect_in(path, screen.popup, "the question")
     expect_in("put the cursor on a number first", screens[4].note)
 
 
 def test_find_invalid():
     """f over values that a scene may not have: the reason is said, the scene stays as it was"""
-    screens = shown(FIND + "key Enter\nkey Ctrl-U\ntype -5\nkey Enter Enter\ndump\nkey Esc\nwait idle\ndump", "reserves.yaml")
-    expect_in("per_ha: -5 is below 0", re.sub(r"\s+", " ", screens[0].popup + " " + screens[0].note))
+    screens = shown(FIND + "key Enter Enter\nkey Ctrl-U\ntype -5\nkey Enter Enter\ndump\nkey Esc Esc Esc Esc\nwait idle\ndump", "reserves.yaml")
+    expect_in("per hectare: -5 is below 0", re.sub(r"\s+", " ", screens[0].popup + " " + screens[0].note))
     expect_equal(screens[1].row(r"^1 +60")[:2], ["1", "60"])
     expect_in("FAILS 189 m", screens[1].now)
 

@@ -267,7 +267,7 @@ def test_quit():
         expect("late.txt" not in place.names(), "still there after q")
         edit = "key 2\nkey /\ntype stools.per_ha\nkey Enter Enter\ntype 1234\nkey Enter\n"
         asked = place.play(edit + "key q\ndump\nkey Enter\ndump\nkey q Esc\ndump\nkey F10\ndump")
-        asked[0].has("There is unsaved work", "stay", "save and quit", "quit and lose it")
+        asked[0].has("There is unsaved work", "stay", "save it", "discard it")
         asked[1].has("* fast").lacks("There is unsaved work")
         asked[2].has("* fast").lacks("There is unsaved work")
         asked[3].has("There is unsaved work")

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "picker.h"
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/fuzzy.h"
+#include "base/grow.h"
+#include "base/intl.h"
+#include "base/text.h"
+
+void ceduo_picker_clear(struct picker *p)
+{
+    ceduo_arena_free(&p->arena);
+    free(p->picks);
+    free(p->order);
+    *p = (struct picker){0};
+}
+
+void ceduo_picker_add(struct picker *p, const char *text, const char *value, bool now)
+{
+    struct pick *picks = ceduo_grow(p->picks, p->count, &p->room, sizeof *picks);
+    p->picks = picks ? picks : p->picks;
+    size_t *order = ceduo_grow(p->order, p->count, &p->order_room, sizeof *order);
+    p->order = order ? order : p->order;
+    if (!picks || !order)
+        return;
+    struct text safe = {0};
+    ceduo_text_safe(&safe, text);
+    if (now)
+        ceduo_text_put(&safe, _("  (now)"));
+    const char *shown = ceduo_arena_string(&p->arena, ceduo_text_string(&safe));
+    const char *kept = ceduo_arena_string(&p->arena, value);
+    ceduo_text_free(&safe);
+    if (!shown || !kept)
+        return;
+    if (now)
+        p->at = p->matches;
+    p->order[p->matches++] = p->count;
+    p->picks[p->count++] = (struct pick){shown, kept, now, 0};
+}
+
+bool ceduo_picker_has(const struct picker *p, const char *value)
+{
+    for (size_t i = 0; i < p->count; i++)
+        if (strcmp(p->picks[i].value, value) == 0)
+            return true;
+    return false;
+}
+
+/* ---- matching ---- */
+
+/* Puts an item among those that match: before those that match less well. */
+static void insert(struct picker *p, size_t item)
+{
+    size_t at = p->matches++;
+    for (; at > 0 && p->picks[p->order[at - 1]].match < p->picks[item].match; at--)
+        p->order[at] = p->order[at - 1];
+    p->order[at] = item;
+}
+
+void ceduo_picker_filter(struct picker *p, const char *typed)
+{
+    p->matches = p->at = 0;
+    p->top = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        struct pick *pick = &p->picks[i];
+        pick->match = ceduo_fuzzy_match(typed, pick->text);
+        if (pick->match >= 0)
+            insert(p, i);
+    }
+    for (size_t i = 0; !typed[0] && i < p->matches; i++)
+        if (p->picks[p->order[i]].now)
+            p->at = i;
+}
+
+void ceduo_picker_go_to(struct picker *p, const char *value)
+{
+    for (size_t i = 0; i < p->matches; i++)
+        if (strcmp(p->picks[p->order[i]].value, value) == 0)
+            p->at = i;
+}
+
+void ceduo_picker_move(struct picker *p, int by)
+{
+    long at = (long)p->at + by, last = (long)p->matches - 1;
+    at = at > last ? last : at;
+    p->at = at > 0 ? (size_t)at : 0;
+}
+
+const struct pick *ceduo_picker_at(const struct picker *p)
+{
+    return p->at < p->matches ? &p->picks[p->order[p->at]] : NULL;
+}
+
+int ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_area area)
+{
+    int at = (int)p->at, n = (int)p->matches, height = area.height;
+    if (height < 1)
+        return 0;
+    p->top = at < p->top ? at : at >= p->top + height ? at + 1 - height : p->top;
+    for (int i = p->top; i < p->top + height && i < n; i++)
+        ceduo_canvas_put(&cells->canvas, area.left, area.top + i - p->top, area.width,
+                         i == at ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, p->picks[p->order[i]].text);
+    return (p->top > 0) + 2 * (p->top + height < n);
+}
+
+/* ---- files ---- */
+
+static bool ends_in(const char *name, const char *endings)
+{
+    size_t n = strlen(name);
+    for (const char *e = endings; *e;) {
+        size_t length = strcspn(e, " ");
+        if (n > length && strncmp(name + n - length, e, length) == 0)
+            return true;
+        e += length + strspn(e + length, " ");
+    }
+    return false;
+}
+
+static int by_name(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+#define FILES_MOST 2000 /* of a folder: more nobody looks through */
+
+void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
+{
+    const char *slash = strrchr(typed, '/');
+    struct text folder = {0}, path = {0};
+    struct dirent **entries = NULL;
+    ceduo_text_add(&folder, typed, slash ? (size_t)(slash - typed) + 1 : 0);
+    int n = scandir(folder.length ? folder.bytes : ".", &entries, NULL, by_name);
+    for (int i = 0; i < n; i++) {
+        struct stat st;
+        const char *name = entries[i]->d_name;
+        path.length = 0;
+        ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), name);
+        bool is_folder = path.bytes && stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
+        if (is_folder)
+            ceduo_text_put(&path, "/");
+        if (i < FILES_MOST && name[0] != '.' && path.bytes && (is_folder || ends_in(name, endings)) &&
+            !ceduo_picker_has(p, path.bytes))
+            ceduo_picker_add(p, path.bytes, path.bytes, false);
+        free(entries[i]);
+    }
+    free(entries);
+    ceduo_text_free(&path);
+    ceduo_text_free(&folder);
+}
+
+bool ceduo_picker_complete(const struct picker *p, struct line *line)
+{
+    const char *common = NULL;
+    size_t n = 0, typed = strlen(line->text);
+    for (size_t i = 0; i < p->count; i++) {
+        const char *value = p->picks[i].value;
+        if (strncmp(value, line->text, typed) != 0)
+            continue;
+        size_t same = 0;
+        while (common && same < n && common[same] == value[same])
+            same++;
+        n = common ? same : strlen(value);
+        common = common ? common : value;
+    }
+    if (!common || n <= typed || n >= sizeof line->text)
+        return false;
+    char room[sizeof line->text];
+    snprintf(room, sizeof room, "%.*s", (int)n, common);
+    ceduo_line_set(line, room);
+    line->fresh = false;
+    return true;
+}

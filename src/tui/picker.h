@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_PICKER_H
+#define CEDUO_PICKER_H
+
+#include "base/arena.h"
+#include "line.h"
+#include "view/cells.h"
+
+/* The one list to choose from: what is typed leaves those that match, the best first. It knows nothing of what it lists. */
+
+struct pick {
+    const char *text, *value;
+    bool now; /* what is there at present */
+    int match;
+};
+
+struct picker {
+    struct arena arena;
+    struct pick *picks;
+    size_t count, room;
+    size_t *order; /* those that match, best first; as they were added where nothing is typed */
+    size_t matches, order_room;
+    size_t at;     /* among those that match */
+    int top;       /* the first line shown */
+};
+
+void ceduo_picker_clear(struct picker *picker);
+
+/* Adds an item; a text that is not safe to print is shown with \xHH. `now`: the cursor goes there. */
+void ceduo_picker_add(struct picker *picker, const char *text, const char *value, bool now);
+
+/* Whether a value is there already. */
+bool ceduo_picker_has(const struct picker *picker, const char *value);
+
+/* Leaves those that match; "": all, with the cursor on what is there at present. */
+void ceduo_picker_filter(struct picker *picker, const char *typed);
+
+/* Puts the cursor on a value, where it is there. */
+void ceduo_picker_go_to(struct picker *picker, const char *value);
+void ceduo_picker_move(struct picker *picker, int by);
+
+/* The item under the cursor; NULL: none matches. */
+const struct pick *ceduo_picker_at(const struct picker *picker);
+
+/* Draws lines from the first shown on; returns 1 where more stand above, + 2 where more stand below. */
+int ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct ceduo_area area);
+
+/* ---- files ---- */
+
+/* Adds what a path that is typed may go on to: folders, and files that end as given (".csv"; several with blanks between). */
+void ceduo_picker_add_files(struct picker *picker, const char *typed, const char *endings);
+
+/* The longest that a typed path can be completed to without a choice; false where there is none. */
+bool ceduo_picker_complete(const struct picker *picker, struct line *line);
+
+#endif
