@@ -357,6 +357,20 @@ static void bind_numbers(struct binder *b, const struct field *f, const struct n
     }
 }
 
+static void bind_words(struct binder *b, const struct field *f, const struct node *node, void *item)
+{
+    const char **words;
+    if (!want_list(b, node) || !(words = ceduo_bind_take(b->arena, node->n, sizeof *words, b->problems)))
+        return;
+    put_list(f, item, words, node->n);
+    for (size_t i = 0; i < node->n; i++) {
+        size_t before = enter_item(b, i);
+        words[i] = "";
+        bind_text(b, node->items[i], &words[i]);
+        leave(b, before);
+    }
+}
+
 static void bind_points(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     double *xz[2];
@@ -385,6 +399,8 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     char *items;
+    if (f->flags & FIELD_OR_NONE && node->kind == NODE_SCALAR && strcmp(node->text, "none") == 0)
+        return;
     if (!want_list(b, node) || !(items = ceduo_bind_take(b->arena, node->n, f->object->size, b->problems)))
         return;
     put_list(f, item, items, node->n);
@@ -431,6 +447,9 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         break;
     case FIELD_NUMBERS:
         bind_numbers(b, f, node, item);
+        break;
+    case FIELD_WORDS:
+        bind_words(b, f, node, item);
         break;
     case FIELD_POINTS:
         bind_points(b, f, node, item);

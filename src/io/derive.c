@@ -179,5 +179,6 @@ bool ceduo_derive(struct deriver *d)
     ceduo_derive_release(d);
     ceduo_derive_controls(d);
     ceduo_derive_options(d);
+    ceduo_derive_doubts(d);
     return true;
 }

@@ -3,6 +3,7 @@
 #define CEDUO_DERIVE_H
 
 #include "bind.h"
+#include "ceduo/doubt.h"
 #include "ceduo/material.h"
 
 /* What follows from the values of a scene once they are read into its draft: places relative to the slope's first vertex,
@@ -18,6 +19,8 @@ struct deriver {
     struct bad_values bad;
     bool profile;        /* the slope has its vertices */
     bool ground_assumed; /* the slope's file says no ground: talus was taken */
+    size_t inputs_count; /* what the scene says is not known */
+    struct ceduo_input *inputs;
     double origin;       /* what was taken off every x */
 };
 
@@ -50,6 +53,7 @@ void ceduo_derive_slope(struct deriver *d);
 void ceduo_derive_release(struct deriver *d);
 void ceduo_derive_controls(struct deriver *d);
 void ceduo_derive_options(struct deriver *d);
+void ceduo_derive_doubts(struct deriver *d);
 
 /* ---- for its steps ---- */
 

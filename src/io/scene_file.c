@@ -35,6 +35,8 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
         return false;
     file->notes = d.notes;
     file->ground_assumed = d.ground_assumed;
+    file->inputs = d.inputs;
+    file->inputs_count = d.inputs_count;
     file->scene = d.draft.scene;
     file->scene.title = (char *)(uintptr_t)title_of(file, file->scene.title);
     bool good = problems->count == before && !problems->memory;

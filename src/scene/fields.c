@@ -345,6 +345,23 @@ static const struct field minimum_fields[] = {
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
 
+#define ANY(key, name, member, meaning) \
+    OTHER(FIELD_NUMBER, key, NAMED(name, NULL), AT(doubt, member), UNFLOWN, NULL, meaning, NULL, NULL)
+
+static const struct field doubt_fields[] = {
+    TEXT("path", NAMED(N_("value"), NULL),
+        AT(doubt, path), REQUIRED | UNFLOWN,
+        N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
+    ANY("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
+    ANY("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
+    ANY("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
+    ANY("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
+    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of"), NULL),
+        LIST(doubt, one_of, one_of_count), UNFLOWN, NULL,
+        N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
+};
+static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
+
 static const struct field scene_fields[] = {
     TAG("scene/1"),
     TEXT("title", NAMED(N_("title"), NULL),
@@ -373,6 +390,10 @@ static const struct field scene_fields[] = {
     NUMBER("rocks_per_year", NAMED(N_("rocks per year"), NULL),
         AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, UNFLOWN, NULL,
            N_("rocks that come down in a year, to print how many to expect")),
+    ITEMS("doubt", NAMED(N_("doubt"), NULL),
+        LIST(scene_draft, doubts, doubts_count), FIELD_DRAFT | FIELD_OR_NONE | UNFLOWN,
+        N_("what is not known, for --sensitivity; values that are marked as assumed have ranges of their own; none: nothing"),
+        &doubt_object),
     GROUP("minimum", NAMED(N_("minimum"), NULL),
         SAME, 0, N_("what a forest must keep"), &minimum_object),
 };

@@ -24,6 +24,7 @@ enum field_type {
     FIELD_CHOICE,  /* int or an enum: index into choices; -1: not said */
     FIELD_FLAG,    /* bool */
     FIELD_NUMBERS, /* double *, and a count beside */
+    FIELD_WORDS,   /* char **, and a count beside */
     FIELD_POINTS,  /* double *x, *z, and a count beside */
     FIELD_GROUP,   /* a mapping of its own */
     FIELD_LIST     /* a pointer to items, and a count beside */
@@ -42,6 +43,7 @@ enum field_flag {
     FIELD_DRAFT = 1 << 9,    /* as the files have it: the scene holds what follows from it */
     FIELD_WOOD = 1 << 10,    /* it decides about stems, not about trajectories without them */
     FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
+    FIELD_OR_NONE = 1 << 13, /* a list instead of which the word none may stand */
     FIELD_UNFLOWN = 1 << 12  /* it decides about no rock: a name, a limit that figures are held against */
 };
 
@@ -82,13 +84,22 @@ struct material_belt {
     int material;
 };
 
+/* What a scene says of a value that is not known: lo and hi, mean and sd, or one_of. */
+struct doubt {
+    char *path;
+    double lo, hi, mean, sd; /* NaN: not given */
+    size_t one_of_count;
+    char **one_of;
+};
+
 /* A scene as its files give it. Behind struct ceduo_scene stands what the files may say in another form. */
 struct scene_draft {
     struct ceduo_scene scene;
-    size_t materials_count, controls_m_count, belts_count;
+    size_t materials_count, controls_m_count, belts_count, doubts_count;
     struct material_belt *materials; /* instead of segments */
     double *controls_m;              /* instead of controls */
     struct ceduo_belt *belts;        /* instead of options */
+    struct doubt *doubts;
 };
 
 /* The scene, the root of all: it fills a struct scene_draft. */

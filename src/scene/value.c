@@ -65,9 +65,10 @@ static bool enter_list(struct finder *f, const struct field *list)
     struct ceduo_slope *slope = &f->scene->slope;
     char *items;
     size_t n;
-    if (list->object == ceduo_schema_segment()) { /* one may be for all */
-        f->n = slope->segments_given == 1 ? slope->vertices - 1 : 1;
-        return enter_item(f, list->object, (char *)slope->segments, slope->segments_given);
+    if (list->object == ceduo_schema_segment()) { /* one may be for all; materials give one for each stretch */
+        size_t given = slope->segments_given;
+        f->n = given == 1 ? slope->vertices - 1 : 1;
+        return enter_item(f, list->object, (char *)slope->segments, given > 0 ? given : slope->vertices - 1);
     }
     if (list->object == ceduo_schema_belt() && list->flags & FIELD_DRAFT) /* the forest is the only option */
         return f->scene->options_count == 1 &&
@@ -135,6 +136,7 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
         v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->beside) : NULL;
         return ended(f);
     case FIELD_COUNT:
+    case FIELD_CHOICE:
         return ended(f);
     case FIELD_SPREAD:
         return find_part(f, v);
@@ -179,11 +181,20 @@ static double get_count(const struct field *f, const void *at)
     return (double)count;
 }
 
+static double get_choice(const void *at)
+{
+    int choice;
+    memcpy(&choice, at, sizeof choice);
+    return choice;
+}
+
 double ceduo_value_get(const struct value *v)
 {
     const struct ceduo_number *n = v->at;
     if (v->field->type == FIELD_COUNT)
         return get_count(v->field, v->at);
+    if (v->field->type == FIELD_CHOICE)
+        return get_choice(v->at);
     if (v->part == VALUE_SPREAD)
         return n->spread / v->field->scale;
     double si = is_spread(v->field) ? n->mean : *(const double *)v->at;
@@ -202,10 +213,22 @@ static bool change(const struct value *v, double number, struct ceduo_number *n)
     return good && ceduo_schema_spread_fits(v->field, given);
 }
 
+/* To the word of that index; -1: not said. */
+static bool put_choice(const struct value *v, double number)
+{
+    int choice = (int)number;
+    if (!(number >= -1) || number != floor(number) || !(number < (double)v->field->choices->n))
+        return false;
+    memcpy(v->at, &choice, sizeof choice);
+    return true;
+}
+
 bool ceduo_value_put(const struct value *v, double number)
 {
     const struct field *f = v->field;
     struct ceduo_number changed = {0};
+    if (f->type == FIELD_CHOICE)
+        return put_choice(v, number);
     if (is_spread(f)) {
         memcpy(&changed, v->at, sizeof changed);
         if (!change(v, number, &changed))

@@ -19,7 +19,8 @@ struct value {
 };
 
 /* Looks up the number at a path as --set has it: forest[0].stand.trees[0].per_ha, rock.density_kg_m3.spread. False where
- * there is none: an unknown path, a word or a flag, what the scene does not hold as its files do (materials).
+ * there is none: an unknown path, a text or a flag, what the scene does not hold as its files do (materials). A word of a
+ * choice is a number too: its index in field->choices. Ground from materials has one of slope.segments[] for each stretch.
  * The value points into the scene, and is good for as long as the scene and its lists are. */
 bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value *value);
 

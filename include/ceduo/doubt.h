@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_DOUBT_H
+#define CEDUO_DOUBT_H
+
+#include <stdatomic.h>
+
+#include "scene.h"
+#include "sensitivity.h"
+
+/* Doubt: what is not known of a scene's values, and what that does to its figures. It is not the error of the sample,
+ * which more rocks reduce; only measuring reduces it. Every value that is in doubt is an input with a range; many scenes are
+ * drawn from the ranges, and each is computed with the same rocks. */
+
+enum ceduo_input_kind {
+    CEDUO_INPUT_RANGE,  /* uniform between lo and hi */
+    CEDUO_INPUT_FACTOR, /* its value in the scene times a factor, uniform between lo and hi */
+    CEDUO_INPUT_NORMAL, /* normal, cut at three standard deviations: lo and hi */
+    CEDUO_INPUT_WORDS   /* one of several words, each as likely */
+};
+
+/* One thing that is not known. It may stand at several places of the scene, which then change together. */
+struct ceduo_input {
+    const char *path; /* of its first place, or what its places have in common */
+    enum ceduo_input_kind kind;
+    double lo, hi;   /* in the unit of the file */
+    double mean, sd; /* CEDUO_INPUT_NORMAL */
+    size_t words_count;
+    const int *words; /* values of the choice */
+    size_t places_count;
+    const char *const *places; /* paths, each with its place in brackets: forest[0].stand.trees[0].per_ha */
+};
+
+/* What is asked for at the last control, of the rocks through the forest (without forest where the contact model is
+ * index). */
+enum ceduo_doubt_kind { CEDUO_DOUBT_REACH, CEDUO_DOUBT_EXCEED, CEDUO_DOUBT_ENERGY, CEDUO_DOUBT_KINDS };
+
+#define CEDUO_DOUBT_POINTS 256
+#define CEDUO_DOUBT_FIRST  32 /* base points of a first look that ranks more inputs than can have an index */
+
+struct ceduo_doubt_def {
+    const struct ceduo_scene *scene;
+    size_t inputs_count; /* >= 1 */
+    const struct ceduo_input *inputs;
+    size_t points;  /* N >= 2 */
+    uint64_t rocks; /* of each evaluation, >= 2 */
+    unsigned threads;
+    const atomic_bool *cancel; /* may be NULL */
+    void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
+    void *context;
+};
+
+/* A figure of an option, or its difference to that of the first option. Shares are 0…1, energies J per released rock. */
+struct ceduo_doubt_figure {
+    size_t option;
+    enum ceduo_doubt_kind kind;
+    bool difference;
+    double value, sampling_lo, sampling_hi; /* of the scene as it is, with the error of the rocks; NaN: not known */
+    double p5, p50, p95;                    /* over what may be true */
+    struct ceduo_indices indices;
+    double at[CEDUO_SENSITIVITY_GROUPS][2]; /* with one input at its lower, at its upper end, all others as they are */
+    double left[CEDUO_SENSITIVITY_GROUPS];  /* p95 - p5 that would be left, on the mean, if this input were known */
+};
+
+/* Of two neighbours in rank: how probable the order is in what may be true. */
+struct ceduo_doubt_order {
+    size_t better, than; /* options */
+    double probability;
+};
+
+struct ceduo_doubt_answer {
+    size_t groups;                             /* what has an index */
+    size_t input[CEDUO_SENSITIVITY_GROUPS];    /* its input; of the last of several together: their number */
+    size_t together;                           /* inputs that move as one, the last of `groups`; 0: none */
+    size_t order[CEDUO_SENSITIVITY_GROUPS];    /* groups by the total index of the main figure, largest first */
+    size_t figures_count;
+    struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
+    enum ceduo_doubt_kind main;         /* too much energy where that is known, otherwise energy */
+    size_t orders_count;
+    struct ceduo_doubt_order *orders;
+    uint64_t evaluations;
+};
+
+/* Computes all. Bits do not depend on the number of threads. CEDUO_NO_MEMORY, CEDUO_CANCELLED or what
+ * ceduo_scene_check() says: then nothing is to be freed. */
+enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer);
+void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
+
+const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
+                                                       enum ceduo_doubt_kind kind, bool difference);
+
+#endif

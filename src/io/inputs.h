@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_IO_INPUTS_H
+#define CEDUO_IO_INPUTS_H
+
+#include "derive.h"
+#include "scene_file.h"
+
+/* The inputs of a scene: what its `doubt` names, and every value that is marked as assumed and has a range (ranges.h).
+ * Values that come from one line of one file are one input, as are all energy laws, and the strength of one species. */
+struct scene_inputs {
+    size_t n;
+    struct ceduo_input *items; /* in the arena of the scene's file */
+    const char **sources;      /* of each: where its range comes from */
+};
+
+/* False without memory. `doubt: none`: there are none. */
+bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
+
+/* Paths of the segments of a ground of the library, one for each stretch; returns how many. */
+size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene,
+                          const char *material, const char *key, const char **places);
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ranges.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+
+#define ASSUMED N_("assumed")
+
+#define STEMS "forest[].stand.trees[]."
+
+static const struct range ranges[] = {
+    {"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, {0}, N_("limestones and dolomites; assumed")},
+    {"slope.segments[].rn", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, ASSUMED},
+    {"slope.segments[].rt", CEDUO_INPUT_FACTOR, 0.95, 1.05, {0}, ASSUMED},
+    {"slope.segments[].roughness_rad", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
+    {"slope.segments[].roughness_m", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
+    {"slope.segments[].friction", CEDUO_INPUT_RANGE, 0.3, 0.8, {0}, ASSUMED},
+    {"forest[].stand.stools.per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
+    {STEMS "per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
+    {STEMS "dbh_m", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, N_("error of a few sample plots; assumed")},
+    {STEMS "volume_m3", CEDUO_INPUT_FACTOR, 0.75, 1.25, {0}, N_("volume tables of single stems; assumed")},
+    {"forest[].stand.energy.u_J_m3", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
+    {"forest[].stand.energy.fracture_ratio", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
+    {"forest[].stand.energy.model", CEDUO_INPUT_WORDS, NAN, NAN, {"brauner", "dorren"},
+     N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")},
+};
+
+const struct range *ceduo_ranges(size_t *n)
+{
+    *n = sizeof ranges / sizeof ranges[0];
+    return ranges;
+}
+
+const struct range *ceduo_range_of(const struct field *field)
+{
+    for (size_t i = 0; field && i < sizeof ranges / sizeof ranges[0]; i++)
+        if (ceduo_schema_at(ranges[i].path) == field)
+            return &ranges[i];
+    return NULL;
+}
+
+struct range ceduo_range_of_material(const struct ceduo_material *m, const char *key)
+{
+    if (strcmp(key, "rn") == 0)
+        return (struct range){NULL, CEDUO_INPUT_RANGE, m->rn_lo, m->rn_hi, {0}, m->source};
+    if (strcmp(key, "rt") == 0)
+        return (struct range){NULL, CEDUO_INPUT_RANGE, m->rt_lo, m->rt_hi, {0}, m->source};
+    bool rough = strcmp(key, "roughness_rad") == 0;
+    struct range r = *ceduo_range_of(ceduo_schema_field(ceduo_schema_segment(), key));
+    if (rough) {
+        r.lo *= m->roughness_rad;
+        r.hi *= m->roughness_rad;
+        r.kind = CEDUO_INPUT_RANGE;
+    }
+    return r;
+}

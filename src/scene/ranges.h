@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RANGES_H
+#define CEDUO_RANGES_H
+
+#include "ceduo/doubt.h"
+#include "ceduo/material.h"
+#include "schema.h"
+
+/* How far a value that is only assumed may be from what is true, if the scene does not say it. */
+struct range {
+    const char *path;            /* of such a value */
+    enum ceduo_input_kind kind;
+    double lo, hi;               /* as in struct ceduo_input; unused for words */
+    const char *words[3];        /* CEDUO_INPUT_WORDS: each; NULL behind the last */
+    const char *source;          /* where the range comes from; marked for translation */
+};
+
+/* All rows, for the manual. */
+const struct range *ceduo_ranges(size_t *n);
+
+/* The range of a row of the table of keys; NULL: none, the value is not varied. */
+const struct range *ceduo_range_of(const struct field *field);
+
+/* The range of rn, rt, roughness_rad or friction of a ground of the library. */
+struct range ceduo_range_of_material(const struct ceduo_material *material, const char *key);
+
+#endif

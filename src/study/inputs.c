@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "inputs.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+#include "scene/value.h"
+
+#define CUT 3 /* standard deviations */
+
+struct input_place {
+    struct value value;
+    double given; /* in the file's unit */
+};
+
+/* ---- the copy ---- */
+
+/* Replaces *items by a copy of n of them. */
+static void copy_items(struct arena *arena, void *items, size_t n, size_t size)
+{
+    void *from, *to = ceduo_arena_take(arena, n * size + 1);
+    memcpy(&from, items, sizeof from);
+    if (to && n > 0)
+        memcpy(to, from, n * size);
+    memcpy(items, &to, sizeof to);
+}
+
+static void copy_stand(struct arena *arena, struct ceduo_stand *stand)
+{
+    copy_items(arena, &stand->shoots, stand->shoots_count, sizeof *stand->shoots);
+    copy_items(arena, &stand->trees, stand->trees_count, sizeof *stand->trees);
+}
+
+/* Copies all that an input may change. */
+static bool copy_scene(struct arena *arena, struct ceduo_scene *scene)
+{
+    struct ceduo_slope *s = &scene->slope;
+    copy_items(arena, &s->x, s->vertices, sizeof *s->x);
+    copy_items(arena, &s->z, s->vertices, sizeof *s->z);
+    copy_items(arena, &s->segments, s->vertices - 1, sizeof *s->segments);
+    copy_items(arena, &scene->controls, scene->controls_count, sizeof *scene->controls);
+    copy_items(arena, &scene->options, scene->options_count, sizeof *scene->options);
+    for (size_t i = 0; !arena->failed && i < scene->options_count; i++) {
+        struct ceduo_option *option = &scene->options[i];
+        copy_items(arena, &option->belts, option->belts_count, sizeof *option->belts);
+        for (size_t k = 0; !arena->failed && k < option->belts_count; k++)
+            copy_stand(arena, &option->belts[k].stand);
+    }
+    return !arena->failed;
+}
+
+enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene,
+                                    const struct ceduo_input *inputs, size_t n)
+{
+    size_t places = 0;
+    *copy = (struct input_scene){.scene = *scene, .inputs = inputs, .inputs_count = n};
+    for (size_t i = 0; i < n; i++)
+        places += inputs[i].places_count;
+    copy->places = ceduo_arena_take(&copy->arena, (places + 1) * sizeof *copy->places);
+    if (!copy_scene(&copy->arena, &copy->scene) || !copy->places)
+        return CEDUO_NO_MEMORY;
+    struct input_place *p = copy->places;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < inputs[i].places_count; k++, p++) {
+            if (!ceduo_value_find(&copy->scene, inputs[i].places[k], &p->value))
+                return CEDUO_BAD_SLOPE;
+            p->given = ceduo_value_get(&p->value);
+        }
+    return CEDUO_OK;
+}
+
+void ceduo_inputs_release(struct input_scene *copy)
+{
+    ceduo_arena_free(&copy->arena);
+}
+
+/* ---- setting ---- */
+
+static double value_at(const struct ceduo_input *input, const struct input_place *place, double u)
+{
+    double between = input->lo + u * (input->hi - input->lo), least = gsl_cdf_ugaussian_P(-CUT);
+    switch (input->kind) {
+    case CEDUO_INPUT_FACTOR:
+        return place->given * between;
+    case CEDUO_INPUT_NORMAL:
+        return input->mean + input->sd * gsl_cdf_ugaussian_Pinv(least + u * (1 - 2 * least));
+    case CEDUO_INPUT_WORDS:
+        return input->words[(size_t)fmin(u * (double)input->words_count, (double)(input->words_count - 1))];
+    default:
+        return between;
+    }
+}
+
+/* What lies outside the range of the value is set to the end of the range. */
+static void put(const struct value *value, double number)
+{
+    const struct field *f = value->field;
+    if (f->type == FIELD_COUNT)
+        number = round(number);
+    if (!isnan(number) && !ceduo_value_put(value, number))
+        ceduo_value_put(value, fmin(fmax(number, nextafter(f->lo, INFINITY)), nextafter(f->hi, -INFINITY)));
+}
+
+static void mend_stools(struct ceduo_scene *scene)
+{
+    for (size_t i = 0; i < scene->options_count; i++)
+        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
+            struct ceduo_stand *stand = &scene->options[i].belts[k].stand;
+            stand->stools_per_ha = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
+        }
+}
+
+void ceduo_inputs_set(struct input_scene *copy, const double *u)
+{
+    const struct input_place *p = copy->places;
+    for (size_t i = 0; i < copy->inputs_count; i++)
+        for (size_t k = 0; k < copy->inputs[i].places_count; k++, p++)
+            put(&p->value, isnan(u[i]) ? p->given : value_at(&copy->inputs[i], p, u[i]));
+    mend_stools(&copy->scene);
+}

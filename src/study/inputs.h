@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_INPUTS_H
+#define CEDUO_INPUTS_H
+
+#include "base/arena.h"
+#include "ceduo/doubt.h"
+
+/* A copy of a scene whose inputs can be set again and again. It uses no more memory for that. */
+struct input_place;
+struct input_scene {
+    struct arena arena;
+    struct ceduo_scene scene;
+    const struct ceduo_input *inputs;
+    size_t inputs_count;
+    struct input_place *places; /* of all inputs, one after the other */
+};
+
+/* CEDUO_NO_MEMORY; CEDUO_BAD_SLOPE where a place is not one of the scene's. Release it in any case. */
+enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene,
+                                    const struct ceduo_input *inputs, size_t n);
+void ceduo_inputs_release(struct input_scene *copy);
+
+/* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. A stand whose stools would be more
+ * than its shoots has as many stools as shoots. */
+void ceduo_inputs_set(struct input_scene *copy, const double *u);
+
+#endif
