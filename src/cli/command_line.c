@@ -16,6 +16,11 @@
 
 /* ---- the help ---- */
 
+static int takes(const struct option_row *row)
+{
+    return !row->value ? no_argument : row->value[0] == '[' ? optional_argument : required_argument;
+}
+
 #define HELP_COLUMN 30
 
 /* A help text from its column on, in lines of 80 columns at most. */
@@ -52,7 +57,7 @@ void ceduo_arguments_help(struct text *text)
     for (size_t i = 0; i < n; i++) {
         char head[64];
         int width = snprintf(head, sizeof head, rows[i].letter ? "  -%c, --%s%s%s" : "    %c --%s%s%s",
-                             rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].value ? " " : "",
+                             rows[i].letter ? rows[i].letter : ' ', rows[i].name, takes(&rows[i]) == required_argument ? " " : "",
                              rows[i].value ? rows[i].value : "");
         ceduo_text_format(text, "%-30s%s", head, width >= 30 ? "\n                              " : "");
         put_help(text, _(rows[i].help));
@@ -109,7 +114,7 @@ static enum exit_status check_arguments(struct arguments *a)
         return EXIT_USAGE;
     if (a->mode == MODE_MERGE && a->scenes_count == 0)
         return ceduo_usage(NULL, _("--merge needs files written by --shard, or '-' for standard input"));
-    bool wants_scene = a->mode == MODE_BATCH || a->mode == MODE_MERGE || a->mode == MODE_CHECK || a->mode == MODE_FIND;
+    bool wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
     if (a->mode == MODE_FIND && !ceduo_option_given(a, "goal"))
         return ceduo_usage(NULL, _("--find requires a --goal"));
     if (ceduo_option_given(a, "goal") && a->mode != MODE_FIND)
@@ -120,6 +125,8 @@ static enum exit_status check_arguments(struct arguments *a)
                                      : _("--goal arrive needs the share of the rocks, such as arrive=0.5"));
     if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0))
         return ceduo_usage(NULL, _("--find cannot be used with --plot, --years or --tolerance"));
+    if (a->mode == MODE_SENSITIVITY && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands))
+        return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
     if (wants_scene && a->scenes_count == 0)
         return ceduo_usage(NULL,
                            _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
@@ -154,7 +161,7 @@ static void fill_getopt(const struct option_row *rows, size_t n, struct option *
 {
     *shorts++ = ':';
     for (size_t i = 0; i < n; i++) {
-        longs[i] = (struct option){rows[i].name, rows[i].value ? required_argument : no_argument, NULL, LONG + (int)i};
+        longs[i] = (struct option){rows[i].name, takes(&rows[i]), NULL, LONG + (int)i};
         if (rows[i].letter)
             *shorts++ = rows[i].letter;
         if (rows[i].letter && rows[i].value)

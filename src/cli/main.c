@@ -58,6 +58,8 @@ static enum exit_status act(const struct arguments *a)
         return ceduo_batch_merge(a);
     case MODE_FIND:
         return ceduo_batch_find(a);
+    case MODE_SENSITIVITY:
+        return ceduo_batch_sensitivity(a);
     case MODE_CHECK:
         return ceduo_batch_check(a);
     case MODE_PARAMETERS:

@@ -7,13 +7,14 @@
 #include <string.h>
 
 #include "base/intl.h"
-#include "ceduo/scene.h"
+#include "ceduo/doubt.h"
 #include "ceduo/years.h"
 #include "io/part_file.h"
 #include "say.h"
 
 #define WIDTH_LEAST  20
 #define HEIGHT_LEAST 6
+#define POINTS_MOST  100000
 
 /* ---- setters that several options share ---- */
 
@@ -207,6 +208,14 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     }
 }
 
+static enum exit_status set_sensitivity(struct arguments *a, const struct option_row *row, char *value)
+{
+    uint64_t n = CEDUO_DOUBT_POINTS;
+    enum exit_status status = value ? read_count(row->name, value, 2, POINTS_MOST, &n) : EXIT_DONE;
+    a->points = (size_t)n;
+    return status;
+}
+
 /* "I/N" */
 static enum exit_status set_shard(struct arguments *a, const struct option_row *row, char *value)
 {
@@ -259,6 +268,8 @@ static const struct option_row rows[] = {
      N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, NOT_CHECK,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, NOT_PART | NOT_CHECK,
+     N_("show how sure the result is, and what that depends on; N base points (256)")},
     {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE,
      N_("compute part I of N of each scene and write it for --merge")},
     {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},

@@ -83,15 +83,30 @@ struct progress ceduo_progress_begin(const struct arguments *a)
     return (struct progress){.start = ceduo_clock(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
 }
 
-void ceduo_progress_show(void *context, uint64_t rocks)
+/* Whether it is time to show how far it is; `*seconds`: since the start. */
+static bool is_time(struct progress *p, double *seconds)
 {
-    struct progress *p = context;
     double t = ceduo_clock();
-    if (!p->wanted || t - p->start < 1 || t - p->shown < 0.2)
-        return;
-    fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)rocks, t - p->start);
+    *seconds = t - p->start;
+    if (!p->wanted || *seconds < 1 || t - p->shown < 0.2)
+        return false;
     p->shown = t;
     p->open = true;
+    return true;
+}
+
+void ceduo_progress_show(void *progress, uint64_t rocks)
+{
+    double seconds;
+    if (is_time(progress, &seconds))
+        fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
+}
+
+void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all)
+{
+    double seconds;
+    if (is_time(progress, &seconds))
+        fprintf(stderr, _("\r%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
 }
 
 void ceduo_progress_end(const struct progress *p)

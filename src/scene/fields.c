@@ -183,7 +183,7 @@ static const struct field stools_fields[] = {
 static const struct object stools_object = OBJECT(ceduo_stand, stools_fields, NULL);
 
 static const struct field energy_fields[] = {
-    WORD("model", NAMED(N_("model"), NULL),
+    WORD("model", NAMED(N_("energy law"), NULL),
         AT(ceduo_stand, energy), 0, "brauner", N_("energy law: what a contact with a stem takes from the rock"),
            &ceduo_energy_words),
     NUMBER("u_J_m3", USUAL(N_("U, J/m3"), NULL, 20000, 500000),

@@ -8,22 +8,22 @@
 
 #define ASSUMED N_("assumed")
 
-#define STEMS "forest[].stand.trees[]."
+#define STEMS "forest[0].stand.trees[0]."
 
 static const struct range ranges[] = {
     {"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, {0}, N_("limestones and dolomites; assumed")},
-    {"slope.segments[].rn", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, ASSUMED},
-    {"slope.segments[].rt", CEDUO_INPUT_FACTOR, 0.95, 1.05, {0}, ASSUMED},
-    {"slope.segments[].roughness_rad", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
-    {"slope.segments[].roughness_m", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
-    {"slope.segments[].friction", CEDUO_INPUT_RANGE, 0.3, 0.8, {0}, ASSUMED},
-    {"forest[].stand.stools.per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
+    {"slope.segments[0].rn", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, ASSUMED},
+    {"slope.segments[0].rt", CEDUO_INPUT_FACTOR, 0.95, 1.05, {0}, ASSUMED},
+    {"slope.segments[0].roughness_rad", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
+    {"slope.segments[0].roughness_m", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
+    {"slope.segments[0].friction", CEDUO_INPUT_RANGE, 0.3, 0.8, {0}, ASSUMED},
+    {"forest[0].stand.stools.per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
     {STEMS "per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
     {STEMS "dbh_m", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, N_("error of a few sample plots; assumed")},
     {STEMS "volume_m3", CEDUO_INPUT_FACTOR, 0.75, 1.25, {0}, N_("volume tables of single stems; assumed")},
-    {"forest[].stand.energy.u_J_m3", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
-    {"forest[].stand.energy.fracture_ratio", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
-    {"forest[].stand.energy.model", CEDUO_INPUT_WORDS, NAN, NAN, {"brauner", "dorren"},
+    {"forest[0].stand.energy.u_J_m3", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
+    {"forest[0].stand.energy.fracture_ratio", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
+    {"forest[0].stand.energy.model", CEDUO_INPUT_WORDS, NAN, NAN, {"brauner", "dorren"},
      N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")},
 };
 

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The page of --sensitivity: how far each option may be off, what that depends on, whether the order of the options
+ * holds, and what to measure first. */
+#include <math.h>
+
+#include "base/intl.h"
+#include "page.h"
+#include "report_doubt.h"
+#include "words.h"
+
+#define FIRST 3 /* inputs that are named as what to measure first */
+
+static const struct ceduo_control *last_control(const struct ceduo_scene *s)
+{
+    const struct ceduo_control *last = s->controls;
+    for (size_t i = 1; i < s->controls_count; i++)
+        if (s->controls[i].x > last->x)
+            last = &s->controls[i];
+    return last;
+}
+
+static const struct ceduo_doubt_figure *main_of(const struct ceduo_doubt_report *r, size_t option)
+{
+    return ceduo_doubt_figure_of(r->answer, option, r->answer->main, false);
+}
+
+/* Of 1000 rocks, or kJ per released rock. */
+static double scale_of(const struct ceduo_doubt_report *r)
+{
+    return r->answer->main == CEDUO_DOUBT_ENERGY ? KILO : 1000;
+}
+
+static void put_title(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_control *c = last_control(&r->file->scene);
+    struct text *t = ceduo_page_add(page, CEDUO_PAGE_TITLE);
+    ceduo_text_safe(t, r->file->scene.title);
+    t = ceduo_page_add(page, CEDUO_PAGE_SECTION);
+    ceduo_text_put(t, _("How sure is it? "));
+    if (c->name)
+        ceduo_text_safe(t, c->name);
+    ceduo_text_format(t, _(" at %g m, "), c->x_given);
+    if (r->answer->main == CEDUO_DOUBT_EXCEED)
+        ceduo_text_format(t, _("of 1000 rocks those with more than %g kJ"), ceduo_words_accepted(c));
+    else
+        ceduo_text_put(t, _("kJ per released rock"));
+}
+
+static const struct ceduo_page_column option_columns[] = {{N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0},
+                                                          {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
+
+static void put_pair(struct text *t, double lo, double hi, double scale)
+{
+    ceduo_words_number(t, lo * scale, scale < 1 ? 3 : 0);
+    ceduo_text_put(t, "\xe2\x80\x93");
+    ceduo_words_number(t, hi * scale, scale < 1 ? 3 : 0);
+}
+
+static void whole(struct text *t, double value)
+{
+    ceduo_text_format(t, "%.0f", value);
+}
+
+static void put_range(struct text *t, double lo, double hi, double scale)
+{
+    if (scale < 1) {
+        put_pair(t, lo, hi, scale);
+        return;
+    }
+    whole(t, lo * scale);
+    ceduo_text_put(t, "\xe2\x80\x93");
+    whole(t, hi * scale);
+}
+
+static void put_options(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    double scale = scale_of(r);
+    ceduo_page_table(page, option_columns, 4);
+    for (size_t i = 0; i < s->options_count; i++) {
+        const struct ceduo_doubt_figure *f = main_of(r, i);
+        ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
+        struct text *t = ceduo_page_text(page);
+        if (scale < 1)
+            ceduo_words_number(t, f->value * scale, 3);
+        else
+            whole(t, f->value * scale);
+        put_range(ceduo_page_text(page), f->sampling_lo, f->sampling_hi, scale);
+        put_range(ceduo_page_text(page), f->p5, f->p95, scale);
+    }
+}
+
+static const struct ceduo_page_column input_columns[] = {{N_("it depends on"), 34, 2, 0},
+                                                         {N_("from"), -9, 1, 0},
+                                                         {N_("to"), -9, 1, 0},
+                                                         {N_("share"), -6, 1, 0},
+                                                         {N_("left if known"), -13, 2, 0}};
+
+/* An input matters where its share is more than its error. */
+static bool matters(const struct ceduo_doubt_figure *f, size_t g)
+{
+    return f->indices.total[g].value > 2 * f->indices.total[g].se && f->indices.total[g].value >= 0.01;
+}
+
+static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_doubt_figure *f = main_of(r, 0);
+    double scale = scale_of(r);
+    size_t rest = 0;
+    ceduo_page_table(page, input_columns, 5);
+    for (size_t i = 0; i < r->answer->groups; i++) {
+        size_t g = r->answer->order[i];
+        if (!matters(f, g)) {
+            rest++;
+            continue;
+        }
+        ceduo_doubt_input_name(ceduo_page_text(page), r, g);
+        for (int end = 0; end < 2; end++)
+            ceduo_doubt_input_end(ceduo_page_text(page), r, g, end);
+        ceduo_text_format(ceduo_page_text(page), "%.0f %%", fmin(1, fmax(0, f->indices.total[g].value)) * 100);
+        struct text *left = ceduo_page_text(page);
+        if (isnan(f->left[g]))
+            ceduo_text_char(left, '-');
+        else if (scale < 1)
+            ceduo_words_number(left, f->left[g] * scale, 3);
+        else
+            whole(left, f->left[g] * scale);
+    }
+    if (rest > 0)
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), ngettext("%zu other input has hardly any effect.",
+                                                                         "%zu other inputs have hardly any effect.", rest), rest);
+}
+
+static void put_orders(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    for (size_t i = 0; i < r->answer->orders_count; i++) {
+        const struct ceduo_doubt_order *o = &r->answer->orders[i];
+        struct text *t = ceduo_page_add(page, CEDUO_PAGE_ITEM);
+        ceduo_text_safe(t, s->options[o->better].name);
+        ceduo_text_put(t, _(" is better than "));
+        ceduo_text_safe(t, s->options[o->than].name);
+        ceduo_text_format(t, _(" in %.0f %% of what may be true: %s."), o->probability * 100, ceduo_doubt_verdict(o->probability));
+    }
+}
+
+/* Three lines in words: what to measure, and what would be left of the doubt. */
+static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_doubt_figure *f = main_of(r, 0);
+    double scale = scale_of(r);
+    size_t told = 0;
+    for (size_t i = 0; i < r->answer->groups && told < FIRST; i++) {
+        size_t g = r->answer->order[i];
+        if (!matters(f, g) || isnan(f->left[g]))
+            continue;
+        struct text *t = ceduo_page_add(page, CEDUO_PAGE_ITEM);
+        ceduo_text_put(t, told == 0 ? _("Measure first: ") : _("then: "));
+        ceduo_doubt_input_name(t, r, g);
+        ceduo_text_format(t, _("; of a doubt %.3g wide it would leave %.3g."), (f->p95 - f->p5) * scale, f->left[g] * scale);
+        told++;
+    }
+}
+
+void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)
+{
+    struct ceduo_page page = {.width = 80};
+    if (!r->answer) {
+        ceduo_text_safe(text, r->file->scene.title);
+        ceduo_text_put(text, _("\nNothing in this scene is marked as assumed or named by 'doubt'; nothing was computed.\n"));
+        return;
+    }
+    put_title(&page, r);
+    put_options(&page, r);
+    ceduo_page_add(&page, CEDUO_PAGE_GAP);
+    if (r->file->scene.options_count > 1) {
+        struct text *t = ceduo_page_add(&page, CEDUO_PAGE_SENTENCE);
+        ceduo_text_put(t, _("What the first option depends on:"));
+    }
+    put_inputs(&page, r);
+    ceduo_page_add(&page, CEDUO_PAGE_GAP);
+    put_advice(&page, r);
+    put_orders(&page, r);
+    ceduo_text_format(ceduo_page_add(&page, CEDUO_PAGE_NOTE),
+                      _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
+                        "reduces it. %llu scenes were computed."),
+                      (unsigned long long)r->rocks, (unsigned long long)r->answer->evaluations);
+    text->failed |= page.failed;
+    ceduo_page_print(text, &page, plain);
+    ceduo_page_free(&page);
+}

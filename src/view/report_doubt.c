@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What doubt does to the figures of a scene, as JSON and CSV; and the words that the page shares with them. */
+#include "report_doubt.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/intl.h"
+#include "base/json.h"
+#include "ceduo/version.h"
+#include "scene/value.h"
+#include "words.h"
+
+#define SURE   0.95
+#define LIKELY 0.8
+
+static const char *const keys[CEDUO_DOUBT_KINDS] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
+
+/* ---- inputs ---- */
+
+/* NULL: the last group, of several inputs together. */
+static const struct ceduo_input *input_of(const struct ceduo_doubt_report *r, size_t group)
+{
+    bool several = r->answer->together > 0 && group + 1 == r->answer->groups;
+    return several ? NULL : &r->inputs->items[r->answer->input[group]];
+}
+
+/* The stand that a place is in: forest[0].stand…, options[2].forest[0].stand… */
+static const char *stand_name(const struct ceduo_scene *scene, const char *place)
+{
+    for (size_t i = 0; i < scene->options_count; i++)
+        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
+            struct text one = {0}, other = {0};
+            ceduo_text_format(&one, "options[%zu].forest[%zu].", i, k);
+            ceduo_text_format(&other, "forest[%zu].", k);
+            bool here = strncmp(place, ceduo_text_string(&one), one.length) == 0 ||
+                        (scene->options_count == 1 && strncmp(place, ceduo_text_string(&other), other.length) == 0);
+            ceduo_text_free(&one);
+            ceduo_text_free(&other);
+            if (here)
+                return scene->options[i].belts[k].name;
+        }
+    return NULL;
+}
+
+#define GROUND "slope.materials["
+
+void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t group)
+{
+    const struct ceduo_input *input = input_of(r, group);
+    struct value v;
+    if (!input) {
+        ceduo_text_format(text, _("%zu others together"), r->answer->together);
+        return;
+    }
+    const char *place = input->places[0], *stand = stand_name(&r->file->scene, place);
+    if (!ceduo_value_find(&r->file->scene, place, &v)) {
+        ceduo_text_safe(text, input->path);
+        return;
+    }
+    ceduo_text_put(text, _(v.field->shown.label));
+    bool law = input->kind == CEDUO_INPUT_WORDS;
+    if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0)
+        ceduo_text_format(text, ", %.*s", (int)strcspn(input->path + sizeof GROUND - 1, "]"), input->path + sizeof GROUND - 1);
+    else if (stand && !law) {
+        ceduo_text_put(text, ", ");
+        ceduo_text_safe(text, stand);
+    } else if (strncmp(place, "slope.segments[", 15) == 0) {
+        ceduo_text_format(text, input->places_count > 1 ? _(", %zu stretches") : "", input->places_count);
+    }
+}
+
+void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t group, int end)
+{
+    const struct ceduo_input *input = input_of(r, group);
+    char room[CEDUO_NUMBER_ROOM];
+    struct value v;
+    if (!input || !ceduo_value_find(&r->file->scene, input->places[0], &v))
+        return;
+    double value = end == 0 ? input->lo : input->hi;
+    if (input->kind == CEDUO_INPUT_WORDS)
+        ceduo_text_put(text, v.field->choices->names[input->words[end == 0 ? 0 : input->words_count - 1]]);
+    else
+        ceduo_text_put(text, ceduo_number_shortest(
+                                 input->kind == CEDUO_INPUT_FACTOR ? value * ceduo_value_get(&v) : value, room));
+}
+
+const char *ceduo_doubt_verdict(double probability)
+{
+    return probability >= SURE ? _("clear") : probability >= LIKELY ? _("likely") : _("undecided");
+}
+
+/* ---- JSON ---- */
+
+static double scale_of(const struct ceduo_doubt_figure *f)
+{
+    return f->kind == CEDUO_DOUBT_ENERGY ? KILO : 1;
+}
+
+static void put_end(struct json *j, const char *key, const struct ceduo_doubt_report *r, size_t group, int end)
+{
+    struct text text = {0};
+    double value;
+    ceduo_doubt_input_end(&text, r, group, end);
+    if (text.length > 0 && ceduo_number_read(text.bytes, &value) == CEDUO_NUMBER_GOOD)
+        ceduo_json_number(j, key, value);
+    else
+        ceduo_json_string(j, key, text.length > 0 ? text.bytes : NULL);
+    ceduo_text_free(&text);
+}
+
+static void put_input(struct json *j, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t g)
+{
+    const struct ceduo_input *input = input_of(r, g);
+    struct text together = {0};
+    ceduo_text_format(&together, "%zu inputs together", r->answer->together);
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "path", input ? input->path : ceduo_text_string(&together));
+    ceduo_json_count(j, "places", input ? input->places_count : r->answer->together);
+    ceduo_json_string(j, "source", input ? r->inputs->sources[r->answer->input[g]] : NULL);
+    put_end(j, "lo", r, g, 0);
+    put_end(j, "hi", r, g, 1);
+    ceduo_json_number(j, "first", f->indices.first[g].value);
+    ceduo_json_number(j, "first_se", f->indices.first[g].se);
+    ceduo_json_number(j, "total", f->indices.total[g].value);
+    ceduo_json_number(j, "total_se", f->indices.total[g].se);
+    ceduo_json_number(j, "at_lo", f->at[g][0] * scale_of(f));
+    ceduo_json_number(j, "at_hi", f->at[g][1] * scale_of(f));
+    ceduo_json_number(j, "width_if_known", f->left[g] * scale_of(f));
+    ceduo_json_close(j, '}');
+    ceduo_text_free(&together);
+}
+
+static double last_x(const struct ceduo_scene *s)
+{
+    size_t last = 0;
+    for (size_t i = 1; i < s->controls_count; i++)
+        if (s->controls[i].x > s->controls[last].x)
+            last = i;
+    return s->controls[last].x_given;
+}
+
+static void put_figure(struct json *j, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    double scale = scale_of(f);
+    ceduo_json_open(j, NULL, '{');
+    ceduo_json_string(j, "option", s->options[f->option].name);
+    ceduo_json_string(j, "against", f->difference ? s->options[0].name : NULL);
+    ceduo_json_number(j, "x_m", last_x(s));
+    ceduo_json_string(j, "figure", keys[f->kind]);
+    ceduo_json_number(j, "value", f->value * scale);
+    ceduo_json_number(j, "sampling_lo", f->sampling_lo * scale);
+    ceduo_json_number(j, "sampling_hi", f->sampling_hi * scale);
+    ceduo_json_number(j, "doubt_p5", f->p5 * scale);
+    ceduo_json_number(j, "doubt_p50", f->p50 * scale);
+    ceduo_json_number(j, "doubt_p95", f->p95 * scale);
+    ceduo_json_open(j, "inputs", '[');
+    for (size_t g = 0; g < r->answer->groups; g++)
+        put_input(j, r, f, r->answer->order[g]);
+    ceduo_json_close(j, ']');
+    ceduo_json_close(j, '}');
+}
+
+void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_doubt_answer *a = r->answer;
+    const struct ceduo_scene *s = &r->file->scene;
+    struct json j = {.text = text};
+    ceduo_json_open(&j, NULL, '{');
+    ceduo_json_string(&j, "format", "ceduo-sensitivity-1");
+    ceduo_json_string(&j, "version", CEDUO_VERSION);
+    ceduo_json_string(&j, "scene", r->file->path);
+    ceduo_json_string(&j, "title", s->title);
+    ceduo_json_count(&j, "seed", s->simulation.seed);
+    ceduo_json_count(&j, "rocks", r->rocks);
+    ceduo_json_count(&j, "points", r->points);
+    ceduo_json_open(&j, "figures", '[');
+    for (size_t i = 0; a && i < a->figures_count; i++)
+        put_figure(&j, r, &a->figures[i]);
+    ceduo_json_close(&j, ']');
+    ceduo_json_open(&j, "ranking", '[');
+    for (size_t i = 0; a && i < a->orders_count; i++) {
+        ceduo_json_open(&j, NULL, '{');
+        ceduo_json_string(&j, "better", s->options[a->orders[i].better].name);
+        ceduo_json_string(&j, "than", s->options[a->orders[i].than].name);
+        ceduo_json_number(&j, "x_m", last_x(s));
+        ceduo_json_number(&j, "probability", a->orders[i].probability);
+        ceduo_json_close(&j, '}');
+    }
+    ceduo_json_close(&j, ']');
+    ceduo_json_count(&j, "evaluations", a ? a->evaluations : 0);
+    ceduo_json_close(&j, '}');
+    ceduo_text_char(text, '\n');
+}
+
+/* ---- CSV ---- */
+
+void ceduo_doubt_csv_header(struct text *text)
+{
+    ceduo_text_put(text, "scene,title,seed,rocks,points,option,against,x_m,figure,value,sampling_lo,sampling_hi,doubt_p5,"
+                         "doubt_p50,doubt_p95,path,lo,hi,first,first_se,total,total_se,at_lo,at_hi,width_if_known\n");
+}
+
+static void put_number(struct text *text, double value)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    ceduo_text_char(text, ',');
+    if (isfinite(value))
+        ceduo_text_put(text, ceduo_number_shortest(value, room));
+}
+
+static void put_text(struct text *text, const char *value)
+{
+    ceduo_text_char(text, ',');
+    ceduo_text_csv(text, value ? value : "");
+}
+
+static void put_row(struct text *text, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t g)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    const struct ceduo_input *input = input_of(r, g);
+    double scale = scale_of(f);
+    struct text name = {0}, ends[2] = {{0}, {0}};
+    ceduo_text_format(&name, "%zu inputs together", r->answer->together);
+    ceduo_text_csv(text, r->file->path);
+    put_text(text, s->title);
+    ceduo_text_format(text, ",%llu,%llu,%zu", (unsigned long long)s->simulation.seed, (unsigned long long)r->rocks, r->points);
+    put_text(text, s->options[f->option].name);
+    put_text(text, f->difference ? s->options[0].name : NULL);
+    put_number(text, last_x(s));
+    put_text(text, keys[f->kind]);
+    const double of_figure[] = {f->value, f->sampling_lo, f->sampling_hi, f->p5, f->p50, f->p95};
+    for (size_t i = 0; i < 6; i++)
+        put_number(text, of_figure[i] * scale);
+    put_text(text, input ? input->path : ceduo_text_string(&name));
+    for (int end = 0; end < 2; end++) {
+        ceduo_doubt_input_end(&ends[end], r, g, end);
+        put_text(text, ceduo_text_string(&ends[end]));
+        ceduo_text_free(&ends[end]);
+    }
+    const double indices[] = {f->indices.first[g].value, f->indices.first[g].se, f->indices.total[g].value,
+                              f->indices.total[g].se};
+    for (size_t i = 0; i < 4; i++)
+        put_number(text, indices[i]);
+    const double at[] = {f->at[g][0], f->at[g][1], f->left[g]};
+    for (size_t i = 0; i < 3; i++)
+        put_number(text, at[i] * scale);
+    ceduo_text_char(text, '\n');
+    ceduo_text_free(&name);
+}
+
+void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *r)
+{
+    for (size_t i = 0; r->answer && i < r->answer->figures_count; i++)
+        for (size_t g = 0; g < r->answer->groups; g++)
+            put_row(text, r, &r->answer->figures[i], r->answer->order[g]);
+}

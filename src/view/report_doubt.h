@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_REPORT_DOUBT_H
+#define CEDUO_REPORT_DOUBT_H
+
+#include "ceduo/doubt.h"
+#include "io/inputs.h"
+
+/* What doubt does to a scene. */
+struct ceduo_doubt_report {
+    struct scene_file *file; /* its scene is only read, but by paths */
+    const struct scene_inputs *inputs;
+    const struct ceduo_doubt_answer *answer; /* NULL: nothing is in doubt, nothing was computed */
+    size_t points;
+    uint64_t rocks;
+};
+
+/* What people call an input: "diameter, ADS 1"; "energy law". */
+void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
+
+/* The range of an input, as it would be written; the first and the last of words. */
+void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
+
+/* How sure an order of two options is, in a word. */
+const char *ceduo_doubt_verdict(double probability);
+
+void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
+void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *report); /* one line, "ceduo-sensitivity-1" */
+void ceduo_doubt_csv_header(struct text *text);
+void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *report); /* a row for each figure and input */
+
+#endif
