@@ -100,7 +100,10 @@ double ceduo_cbrt(double x)
 
 double ceduo_length(double x, double y)
 {
-    return sqrt(x * x + y * y);
+    double square = x * x + y * y;
+    if (square < 0x1p-900) /* exact in the next line, where digits were lost here */
+        return sqrt((x * 0x1p600) * (x * 0x1p600) + (y * 0x1p600) * (y * 0x1p600)) * 0x1p-600;
+    return sqrt(square);
 }
 
 void ceduo_direction(uint64_t i, uint64_t n, double *cosine, double *sine)

@@ -16,7 +16,7 @@ double ceduo_cbrt(double x);
 /* x to the power y, for x > 0, within 2^-52 (1 + |y log(x)|) of itself. */
 double ceduo_pow(double x, double y);
 
-/* sqrt(x2 + y2), where neither square is beyond all numbers. */
+/* sqrt(x2 + y2), where neither square is too large for a double. */
 double ceduo_length(double x, double y);
 
 /* sin and cos of 2 pi i/n. */

@@ -31,6 +31,9 @@ static double thickest(double shape, double scale)
     return shape * scale * (1 + hi);
 }
 
+/* A smaller spread changes no digit of a diameter; its gamma law would be beyond what doubles can hold. */
+#define LEAST_SPREAD 1e-9 /* of the diameter */
+
 static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     struct wood_kind k = {.dbh = stems->dbh,
@@ -38,7 +41,7 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
                           .height = stems->height,
                           .energy = NAN,
                           .by_hit = stem_energy_of(stand, stems)};
-    if (stems->dbh_sd > 0) {
+    if (stems->dbh_sd > LEAST_SPREAD * stems->dbh) {
         double ratio = stems->dbh / stems->dbh_sd;
         k.shape = ratio * ratio;
         k.scale = stems->dbh_sd / ratio;

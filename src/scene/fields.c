@@ -346,7 +346,7 @@ static const struct field minimum_fields[] = {
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
 
 #define ANY(key, name, member, meaning) \
-    OTHER(FIELD_NUMBER, key, NAMED(name, NULL), AT(doubt, member), UNFLOWN, NULL, meaning, NULL, NULL)
+    NUMBER(key, NAMED(name, NULL), AT(doubt, member), "", -1e12, 1e12, UNFLOWN, NULL, meaning)
 
 static const struct field doubt_fields[] = {
     TEXT("path", NAMED(N_("value"), NULL),

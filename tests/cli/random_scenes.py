@@ -14,7 +14,7 @@ import re
 
 ROW = re.compile(r"(\S+)\s+((?:\d+ )?\S+)\s+(\S+)\s+((?:>=? )?\S+)\s+(\S+)\s+(.*)")
 HEAD = ["path", "type", "unit", "range", "default", "meaning"]
-TYPES = {"text", "word", "flag", "number", "number~", "numbers", "3 numbers~", "count", "points", "file"}
+TYPES = {"text", "word", "words", "flag", "number", "number~", "numbers", "3 numbers~", "count", "points", "file"}
 MOST = 1e9         # of a number whose range says none
 COUNT_MOST = 2**53  # of a count
 
@@ -556,6 +556,17 @@ class Maker:
                 scene["options"].append(option)
             self.case.used.add("options[].name")
 
+    def doubt(self):
+        """What is not known: it changes no figure of a run."""
+        rows = {"lo": {"path": "simulation.gravity_m_s2", "lo": 9.7, "hi": self.rng.uniform(9.8, 10)},
+                "mean": {"path": "release.height_m", "mean": 10, "sd": self.rng.uniform(0.1, 3)},
+                "one_of": {"path": "simulation.law", "one_of": ["lumped", "crsp"]}}
+        if self.chance(0.2):
+            return "none"
+        keys = self.rng.sample(list(rows), self.rng.randint(1, 3))
+        self.case.used |= {f"doubt[].{key}" for one in keys for key in rows[one]}
+        return [rows[key] for key in keys]
+
     # ---- all together ----
 
     def make(self):
@@ -572,7 +583,9 @@ class Maker:
         scene["simulation"] = self.fill(tree["simulation"], {}, ("rocks",))
         scene["simulation"]["rocks"] = case.rocks = self.rng.choice([1, 2, 3, 10, 20, 50])
         case.used.add("simulation.rocks")
-        self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release"))
+        self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release", "doubt"))
+        if self.chance(0.2):
+            scene["doubt"] = self.doubt()
         if self.chance(0.08):
             self.spoil()
         self.orders()

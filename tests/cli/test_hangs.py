@@ -56,6 +56,11 @@ def test_spread():
             expect_equal(r.status, INPUT, r)
             expect_in(f"{where}.dbh_sd_m: ", r.err)
             expect_in("more than the diameter itself", r.err)
+    for least in (5e-324, 1e-200, 1e-12):  # as none at all: a gamma law of it is beyond what doubles hold
+        with Folder() as f:
+            trees = [{"per_ha": 800, "dbh_m": 0.2, "height_m": 9, "dbh_sd_m": least}]
+            path = f.write("s.yaml", scene(forest=[{"from_m": 0, "to_m": 90, "stand": stand(stools=None, shoots=None, trees=trees)}]))
+            expect_equal(ceduo("--batch", "-n", 20, path, timeout=60).status, DONE, f"{least}")
     with Folder() as f:
         equal = {"trees": [{"per_ha": 10, "dbh_m": 0.2, "height_m": 9, "dbh_sd_m": 0.2}]}
         path = f.write("s.yaml", scene(forest=[{"from_m": 0, "to_m": 90, "stand": stand(**equal)}]))

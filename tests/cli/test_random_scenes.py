@@ -296,7 +296,7 @@ def check_controls(case, result, controls, stems, what):
 # ---- JSON: stands ----
 
 def stems_of(stand):
-    return stand.get("shoots", []) + stand.get("trees", [])
+    return [s for s in stand.get("shoots", []) + stand.get("trees", []) if s["per_ha"] > 0]
 
 
 def expect_width(found, sum_of_widths, what):

@@ -106,6 +106,8 @@ static void roots(void **context)
     }
     EXPECT(ceduo_cbrt(0), ==, 0);
     EXPECT(ceduo_length(3, -4), ==, 5);
+    EXPECT(ceduo_length(3e-320, 4e-320), ==, 5e-320); /* their squares are 0 */
+    EXPECT(ceduo_length(0, 5e-324), ==, 5e-324);
 }
 
 static void normal_law(void **context)
