@@ -361,6 +361,39 @@ static void an_interrupted_reader_goes_on(void **state)
     close(was);
 }
 
+static atomic_bool gives_up;
+static atomic_int ticks;
+
+static void give_up_at_third(int signal)
+{
+    (void)signal;
+    if (++ticks == 3)
+        gives_up = true;
+}
+
+/* A writer that waits is interrupted and goes on, until somebody gives up: nobody reads the pipe, which is full. */
+static void an_interrupted_writer_goes_on_until_it_is_cancelled(void **state)
+{
+    (void)state;
+    int ends[2];
+    assert_int_equal(pipe2(ends, O_NONBLOCK), 0);
+    while (write(ends[1], "x", 1) == 1)
+        ;
+    assert_int_equal(fcntl(ends[1], F_SETFL, 0), 0);
+    const struct sigaction action = {.sa_handler = give_up_at_third};
+    const struct itimerval often = {{.tv_usec = 10000}, {.tv_usec = 10000}}, never = {.it_value = {0}};
+    assert_int_equal(sigaction(SIGALRM, &action, NULL), 0);
+    assert_int_equal(setitimer(ITIMER_REAL, &often, NULL), 0);
+    bool filled = ceduo_file_fill(ends[1], "y", 1, &gives_up);
+    int why = errno;
+    assert_int_equal(setitimer(ITIMER_REAL, &never, NULL), 0);
+    assert_false(filled);
+    assert_int_equal(why, EINTR);
+    EXPECT(atomic_load(&ticks), >=, 3);
+    close(ends[0]);
+    close(ends[1]);
+}
+
 static void a_closed_shelf_is_all_there_is(void **state)
 {
     (void)state;
@@ -403,6 +436,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_down),
         cmocka_unit_test_setup_teardown(what_cannot_be_written, folder_set_up_profiles, folder_tear_down),
         cmocka_unit_test(an_interrupted_reader_goes_on),
+        cmocka_unit_test(an_interrupted_writer_goes_on_until_it_is_cancelled),
         cmocka_unit_test_setup_teardown(a_closed_shelf_is_all_there_is, folder_set_up_profiles, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

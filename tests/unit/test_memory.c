@@ -267,6 +267,76 @@ static bool question(void)
     return status == CEDUO_OK;
 }
 
+/* The question of 30 rocks, answered. */
+static bool ask(struct ceduo_question q)
+{
+    struct ceduo_answer answer;
+    q.rocks = 30;
+    enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    assert_int_equal(answer.result != NULL, status == CEDUO_OK);
+    if (status == CEDUO_OK) {
+        const struct ceduo_option_result *option = &answer.result->options[0];
+        assert_int_equal(option->wooded.rocks, 30);
+        add(&option->wooded.arrivals[0], offsetof(struct ceduo_arrivals, exact));
+        add(&option->controls[0].residual, sizeof option->controls[0].residual);
+    }
+    ceduo_answer_release(&answer);
+    return status == CEDUO_OK;
+}
+
+static bool ask_by_index(void)
+{
+    init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
+    return ask(ceduo_question_default(&site.scene));
+}
+
+static bool ask_of_one_option(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    q.only = 0;
+    return ask(q);
+}
+
+static bool ask_part(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    unsigned char *bytes = NULL;
+    size_t n = 0;
+    q.run.rocks_most = 30;
+    enum ceduo_status status = ceduo_ask_part(&q, 1, 1, &bytes, &n);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    assert_int_equal(bytes != NULL, status == CEDUO_OK);
+    if (status == CEDUO_OK)
+        add(bytes, n);
+    free(bytes);
+    return status == CEDUO_OK;
+}
+
+/* What was read before. */
+static bool assess(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    static struct ceduo_arrivals bare = {.released = 10, .reached = 10}, wooded = {.released = 10, .reached = 4};
+    const struct ceduo_flown flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
+                                         {.rocks = 10, .controls = 1, .arrivals = &wooded}};
+    const struct ceduo_difference difference = {.reach_probability = {-.6, .1}};
+    struct ceduo_result *result;
+    enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_flown *){&flown[1]},
+                                                   &difference, &result);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    assert_int_equal(result != NULL, status == CEDUO_OK);
+    if (status == CEDUO_OK) {
+        assert_int_equal(result->bare.arrivals[0].reached, 10);
+        assert_int_equal(ceduo_result_wooded(result, 0, 0)->reached, 4);
+        add(&result->options[0].stands[0].adc_m, sizeof(double));
+    }
+    ceduo_result_free(result);
+    return status == CEDUO_OK;
+}
+
 /* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
 static bool follow_roll(void)
 {
@@ -408,6 +478,10 @@ static void what_stands_on_runs(void **state)
     (void)state;
     without_memory(join_pools);
     without_memory(question);
+    without_memory(ask_by_index);
+    without_memory(ask_of_one_option);
+    without_memory(ask_part);
+    without_memory(assess);
     without_memory(follow);
     without_memory(follow_one);
     without_memory(follow_roll);

@@ -16,7 +16,7 @@ static const char scene[] = "# my comment\n"
                             "ceduo: scene/1\n"
                             "rock: {diameter_m: {mean: 0.5, spread: 0.1, source: {kind: assumed, text: a guess, except: [spread]}}}\n"
                             "slope: slope.yaml\n"
-                            "controls: [{x_m: 90, name: road, accepted_kJ: 50}]\n"
+                            "controls: [{x_m: 90, name: road, accepted_kJ: 50, source: {kind: assumed, text: said}}]\n"
                             "forest:\n"
                             "  - {from_m: 10, to_m: 50, stand: stand.yaml}\n"
                             "  - {from_m: 50, to_m: 80, stand: {base: stand.yaml, stools: {per_ha: 1500}}}\n";
@@ -79,9 +79,12 @@ int __wrap_fsync(int fd)
 void *__real_ceduo_arena_take(struct arena *arena, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__real_ceduo_arena_string(struct arena *arena, const char *string);
+char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
 void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
+__attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format,
+                                                                       va_list args);
 
 static bool arena_fails(struct arena *arena)
 {
@@ -103,6 +106,33 @@ char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string)
 {
     return arena_fails(arena) ? NULL : __real_ceduo_arena_string(arena, string);
+}
+
+char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
+{
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_vformat(arena, format, args);
+}
+
+__attribute__((format(printf, 2, 3))) static const char *format_in(struct arena *arena, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const char *text = ceduo_arena_vformat(arena, format, args);
+    va_end(args);
+    return text;
+}
+
+/* Into an arena that has no page yet. */
+static bool format_text(void)
+{
+    struct arena arena = {0};
+    const char *text = format_in(&arena, "%s[%d]", "forest", 7);
+    bool good = text;
+    assert_int_equal(arena.failed, !good);
+    if (good)
+        assert_string_equal(text, "forest[7]");
+    ceduo_arena_free(&arena);
+    return good;
 }
 
 /* ---- reading ---- */
@@ -131,17 +161,18 @@ static bool read_scene(void)
 {
     ceduo_text_lost(); /* of a task before */
     static const char *sets[] = {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10",
-                                 "rock.diameter_m.mean=0.6", "release.vx_m_s={mean: 2, spread: 0.5}"};
+                                 "rock.diameter_m.mean=0.6", "release.vx_m_s={mean: 2, spread: 0.5}",
+                                 "controls[0].accepted_kJ=60"};
     struct scene_file file;
     struct problems problems = {0};
     struct shelf shelf = {0};
     struct text text = {0};
-    bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 4, &problems);
+    bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 5, &problems);
     if (good) {
         uint64_t key = ceduo_part_key(&file, 10);
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
-        struct part_inputs in = {.path = scene_path, .sets = {sets, 4}, .shelf = shelf};
+        struct part_inputs in = {.path = scene_path, .sets = {sets, 5}, .shelf = shelf};
         good = key != 0 && !text.failed && add_inputs(&in) && !ceduo_text_lost();
         if (good)
             add_text(&text);
@@ -365,6 +396,14 @@ static bool write_link(void)
     return good;
 }
 
+/* In the place of a file, which is asked for where it is. */
+static bool ask_to_write(void)
+{
+    bool good = ceduo_file_can_write(scene_path);
+    assert_true(good || errno == ENOMEM);
+    return good;
+}
+
 static bool list_profiles(void)
 {
     struct arena arena = {0};
@@ -383,6 +422,7 @@ static bool list_profiles(void)
 static void scenes_are_read(void **state)
 {
     (void)state;
+    without_memory(format_text);
     without_memory(read_scene);
     without_memory(read_text);
     without_memory(read_csv);
@@ -406,6 +446,7 @@ static void parts_and_folders(void **state)
     without_memory(write_part);
     without_memory(list_profiles);
     without_memory(write_link);
+    without_memory(ask_to_write);
 }
 
 int main(void)

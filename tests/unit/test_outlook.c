@@ -186,6 +186,64 @@ static void figures_come_from_the_longer_run(void **state)
     ceduo_pool_free(pictures);
 }
 
+/* Figures do not wait for pictures; and where the run of the pictures alone has grown, all is read again. */
+static void pictures_may_be_behind(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    double x[CEDUO_OUTLOOK_CELLS];
+    size_t cells = ceduo_outlook_places(&s.scene, x);
+    struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES), *pictures;
+    struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
+    run_def.cells = cells;
+    run_def.cell_x = x;
+    assert_int_equal(ceduo_pool_create(&run_def, &pictures), CEDUO_OK);
+    struct ceduo_outlook_def def = {
+        .scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    const uint64_t rocks[] = {0, 300, 400};
+    struct ceduo_outlook *o[3];
+    for (int i = 0; i < 3; i++) {
+        if (i > 0)
+            assert_int_equal(ceduo_pool_fill(pictures), CEDUO_OK);
+        assert_int_equal(ceduo_pool_extend(pictures, rocks[i]), CEDUO_OK);
+        def.last = i > 0 ? o[i - 1] : NULL;
+        o[i] = outlook_of(&def);
+        assert_int_equal(o[i]->bare->flown.rocks, 600);
+        assert_int_equal(o[i]->bare->picture_rocks, rocks[i]);
+        assert_int_equal(o[i]->bare->envelopes[0].passed, rocks[i]);
+        assert_true(i == 0 || o[i]->bare != o[i - 1]->bare);
+    }
+    for (int i = 0; i < 3; i++)
+        ceduo_outlook_free(o[i]);
+    ceduo_pool_free(figures);
+    ceduo_pool_free(pictures);
+}
+
+/* Of a forest that was just changed one sees what it was, but not where that is now the forest of another option; of an
+ * option that was not there nothing. */
+static void a_changed_forest_shows_what_it_was(void **state)
+{
+    (void)state;
+    static struct site a, b;
+    wooded_site_init(&a);
+    wooded_site_init(&b);
+    struct ceduo_pool *pool = pool_of(&a, 100, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &a.scene, .figures = pool, .pictures = pool});
+    struct ceduo_option options[4] = {b.options[0], b.options[1], a.options[0], b.options[0]};
+    b.scene.options = options;
+    b.belts[0].stand.u = 50e3;
+    assert_ptr_equal(ceduo_outlook_sight(o, &b.scene, 0), o->wooded[0]);
+    assert_ptr_equal(ceduo_outlook_sight(o, &b.scene, 1), o->wooded[1]);
+    b.scene.options_count = 4;
+    assert_null(ceduo_outlook_sight(o, &b.scene, 0));
+    assert_ptr_equal(ceduo_outlook_sight(o, &b.scene, 2), o->wooded[0]);
+    assert_null(ceduo_outlook_sight(o, &b.scene, 3));
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
 /* What has not changed since the last outlook is not read again but shared; who is freed first does not matter. */
 static void sights_are_taken_over(void **state)
 {
@@ -325,6 +383,56 @@ static void flights_are_sampled_finely(void **state)
     ceduo_pool_free(pool);
 }
 
+/* A rock that bounces in its place, 20 m high, until it is given up: drawn whole it would have millions of points. */
+static void init_endless(struct site *s)
+{
+    site_init(s);
+    for (int i = 0; i < 3; i++)
+        s->z[i] = 0;
+    for (int i = 0; i < 2; i++)
+        s->segments[i] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5};
+    s->scene.release = (struct ceduo_release){.x = ceduo_number(25), .height = ceduo_number(20)};
+}
+
+static void an_endless_trajectory_is_drawn_in_part(void **state)
+{
+    (void)state;
+    static struct site s;
+    init_endless(&s);
+    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook *o = outlook_of(
+        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    const struct ceduo_polyline t = o->bare->trajectories[0];
+    struct ceduo_trajectory way;
+    assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
+    assert_int_equal(way.contacts, CEDUO_CONTACTS_MOST);
+    EXPECT(t.n, >, 10000);
+    EXPECT(t.n, <=, 20001);
+    EXPECT(t.x[t.n - 1], ==, way.x);
+    EXPECT(t.z[t.n - 1], ==, way.z);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
+static void nobody_waits_for_an_endless_trajectory(void **state)
+{
+    (void)state;
+    static struct site s;
+    init_endless(&s);
+    atomic_bool cancel = true;
+    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    struct ceduo_outlook_def def = {
+        .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
+    struct ceduo_outlook *o;
+    assert_int_equal(ceduo_outlook_create(&def, &o), CEDUO_CANCELLED);
+    assert_null(o);
+    cancel = false;
+    o = outlook_of(&def);
+    assert_int_equal(o->bare->trajectories_count, 1);
+    ceduo_outlook_free(o);
+    ceduo_pool_free(pool);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -334,11 +442,15 @@ int main(void)
         cmocka_unit_test(the_index_looks_at_the_bare_slope),
         cmocka_unit_test(what_is_not_flown_yet_is_not_known),
         cmocka_unit_test(figures_come_from_the_longer_run),
+        cmocka_unit_test(pictures_may_be_behind),
+        cmocka_unit_test(a_changed_forest_shows_what_it_was),
         cmocka_unit_test(sights_are_taken_over),
         cmocka_unit_test(longer_runs_are_read_again),
         cmocka_unit_test(energies_are_flown_where_they_were_not_kept),
         cmocka_unit_test(trajectories_follow_the_rocks),
         cmocka_unit_test(flights_are_sampled_finely),
+        cmocka_unit_test(an_endless_trajectory_is_drawn_in_part),
+        cmocka_unit_test(nobody_waits_for_an_endless_trajectory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

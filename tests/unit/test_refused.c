@@ -111,6 +111,7 @@ static void no_rock_no_figures(void **state)
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
     assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
+    assert_null(ceduo_follower_create(&site.scene, NULL));
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, 1, NULL, blocks), CEDUO_BAD_ROCK);

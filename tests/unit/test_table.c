@@ -166,6 +166,61 @@ static void every_default_lies_in_its_range(void **state)
     assert_true(isnan(ceduo_segment_default().rn.mean));
 }
 
+/* A flag is raised only where its row says true. */
+static void flags_begin_as_their_rows_say(void **state)
+{
+    (void)state;
+    struct flags {
+        bool raised, lowered, unsaid;
+    } flags;
+    const struct field fields[] = {
+        {.key = "raised", .type = FIELD_FLAG, .offset = offsetof(struct flags, raised), .value = "true"},
+        {.key = "lowered", .type = FIELD_FLAG, .offset = offsetof(struct flags, lowered), .value = "false"},
+        {.key = "unsaid", .type = FIELD_FLAG, .offset = offsetof(struct flags, unsaid)}};
+    ceduo_schema_init(&(struct object){fields, LENGTH(fields), sizeof flags, NULL}, &flags);
+    assert_true(flags.raised);
+    assert_false(flags.lowered || flags.unsaid);
+}
+
+/* ---- rows by their paths ---- */
+
+static void paths_of_rows(void **state)
+{
+    (void)state;
+    const struct {
+        const char *path, *key;
+    } rows[] = {{"title", "title"},
+                {"rock.diameter_m", "diameter_m"},
+                {"slope.vertices_m", "vertices_m"},
+                {"forest[0].stand.trees[oak].per_ha", "per_ha"},
+                {"options[a].forest[2].from_m", "from_m"}};
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct field *f = ceduo_schema_at(rows[i].path);
+        assert_non_null(f);
+        assert_string_equal(f->key, rows[i].key);
+    }
+    const char *const none[] = {"",
+                                ".",
+                                "title.",
+                                "title.text",
+                                "title[0]",
+                                "rock",
+                                "rock.",
+                                "rock.size",
+                                "rock[0].diameter_m",
+                                "rock.diameter_m.mean",
+                                "forest",
+                                "forest[0]",
+                                "forest[0",
+                                "forest[0][1]",
+                                "forest.to_m",
+                                "forest.a.to_m",
+                                "slope.vertices_m[0][0]"};
+    for (size_t i = 0; i < LENGTH(none); i++)
+        if (ceduo_schema_at(none[i]))
+            fail_msg("'%s' has a row", none[i]);
+}
+
 /* ---- what a row decides about ---- */
 
 #define SLOPE    "vertices_m: [[100, 60], [130, 30], [160, 12], [200, 0]]"
@@ -457,6 +512,50 @@ static void paths_of_numbers(void **state)
     ceduo_scene_release(&file);
 }
 
+/* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
+ * has places. */
+static void paths_of_numbers_in_lists(void **state)
+{
+    (void)state;
+    struct scene_file file = {0};
+    struct value v;
+    read_text(&file, scenes[4]);
+    struct ceduo_scene *s = &file.scene;
+    assert_true(ceduo_value_find(s, "slope.vertices_m[1][0]", &v));
+    EXPECT(ceduo_value_get(&v), ==, 130);
+    assert_true(ceduo_value_put(&v, 140));
+    EXPECT(s->slope.x[1], ==, 40);
+    assert_true(ceduo_value_find(s, "slope.vertices_m[1][1]", &v));
+    EXPECT(ceduo_value_get(&v), ==, 30);
+    assert_true(ceduo_value_put(&v, 35));
+    EXPECT(s->slope.z[1], ==, -25);
+    assert_true(ceduo_value_find(s, "rock.axes_m[1].spread", &v));
+    assert_true(ceduo_value_put(&v, .125));
+    assert_false(ceduo_value_put(&v, -.125) || ceduo_value_put(&v, INFINITY) || ceduo_value_put(&v, NAN));
+    EXPECT(ceduo_value_get(&v), ==, .125);
+    EXPECT(s->rock.axes[1].mean, ==, .5);
+    EXPECT(s->rock.axes[1].spread, ==, .125);
+    assert_true(ceduo_value_find(s, "slope.segments[0].rn.spread", &v));
+    assert_false(ceduo_value_put(&v, INFINITY)); /* though what is drawn is cut at 0 and 1 */
+    assert_true(ceduo_value_put(&v, 2));
+    assert_true(ceduo_value_find(s, "forest[0].stand.cutting.stay_per_ha[1]", &v));
+    EXPECT(ceduo_value_get(&v), ==, 20);
+    const char *const none[] = {"slope.vertices_m[4][1]",
+                                "slope.vertices_m[a][1]",
+                                "slope.vertices_m.1[1]",
+                                "slope.vertices_m[1][1].x",
+                                "rock.axes_m[1].kind",
+                                "forest[0].stand.cutting.stay_per_ha[2]",
+                                "forest[0].stand.cutting.stay_per_ha[1].x",
+                                "forest[0].stand.trees[oak].per_ha", /* stems have no names */
+                                "controls",
+                                "controls."};
+    for (size_t i = 0; i < LENGTH(none); i++)
+        if (ceduo_value_find(s, none[i], &v))
+            fail_msg("'%s' is found", none[i]);
+    ceduo_scene_release(&file);
+}
+
 /* Many values are tried on one scene without memory that stays. */
 static void puts_take_no_memory(void **state)
 {
@@ -492,9 +591,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_member_has_a_row),
         cmocka_unit_test(every_default_lies_in_its_range),
+        cmocka_unit_test(flags_begin_as_their_rows_say),
+        cmocka_unit_test(paths_of_rows),
         cmocka_unit_test_setup_teardown(every_row_decides_about_what_it_says, folder_set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(put_is_as_set, folder_set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(paths_of_numbers, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(paths_of_numbers_in_lists, folder_set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(puts_take_no_memory, folder_set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is said of figures: an interval holds all that lies in it once it is rounded, and an option is worse than another
- * only where they are more than two standard errors apart. */
+ * only where they are more than two standard errors apart; what was not simulated is not compared. */
 #include "expect.h"
 
 #include <math.h>
@@ -38,17 +38,24 @@ static void open_scene(double accepted)
     }
 }
 
-static struct ceduo_result *assess(void)
+/* Of the first `known` options something is known. */
+static struct ceduo_result *assess_first(size_t known)
 {
     struct ceduo_flown flown[OPTIONS];
     const struct ceduo_flown *wooded[OPTIONS];
     struct ceduo_result *result;
-    for (int i = 0; i < OPTIONS; i++) {
-        flown[i] = (struct ceduo_flown){.rocks = 1000, .controls = 1, .arrivals = &arrivals[i]};
-        wooded[i] = &flown[i];
+    for (size_t i = 0; i < OPTIONS; i++) {
+        flown[i] =
+            (struct ceduo_flown){.rocks = 1000, .controls = scene.scene.controls_count, .arrivals = &arrivals[i]};
+        wooded[i] = i < known ? &flown[i] : NULL;
     }
     assert_int_equal(ceduo_result_assess(&scene.scene, &flown[0], wooded, differences, &result), CEDUO_OK);
     return result;
+}
+
+static struct ceduo_result *assess(void)
+{
+    return assess_first(OPTIONS);
 }
 
 /* ---- intervals ---- */
@@ -161,12 +168,76 @@ static void nothing_is_best_within_two_standard_errors(void **state)
         "By energy 'b' is best, though not clearly before all others; contact does not tell the options apart.");
 }
 
+/* ---- what is compared ---- */
+
+/* The difference of two shares has a margin of 1.96 standard errors; of two that are both 0, whose error is 0, it has
+ * Wilson's: none of n is at most z2/(n + z2). */
+static void a_difference_of_nothing_has_the_margin_of_a_share(void **state)
+{
+    (void)state;
+    double half;
+    open_scene(50e3);
+    set(0, true, 0, 0);
+    set(1, true, 0, 0);
+    set(2, true, .25, .03125);
+    differences[2].exceed_probability.mean = .25;
+    struct ceduo_result *result = assess();
+    EXPECT(ceduo_compare_difference(result, 1, &half), ==, 0);
+    EXPECT_NEAR(half, CEDUO_Z95 * CEDUO_Z95 / (1000 + CEDUO_Z95 * CEDUO_Z95), 1e-15);
+    EXPECT(ceduo_compare_difference(result, 2, &half), ==, .25);
+    EXPECT(half, ==, CEDUO_Z95 * .03125);
+    EXPECT(ceduo_compare_share(result, 2, &half), ==, .25);
+    EXPECT_NEAR(half, CEDUO_Z95 * sqrt(.25 * .75 / 1000), 1e-15);
+    ceduo_result_free(result);
+}
+
+static void what_was_not_simulated_is_not_compared(void **state)
+{
+    (void)state;
+    double half = 0;
+    open_scene(50e3);
+    differences[2] = (struct ceduo_difference){{NAN, NAN}, {NAN, NAN}, {NAN, NAN}};
+    struct ceduo_result *result = assess_first(2);
+    assert_true(isnan(ceduo_compare_share(result, 2, &half)) && isnan(half));
+    half = 0;
+    assert_true(isnan(ceduo_compare_difference(result, 2, &half)) && isnan(half));
+    assert_false(ceduo_compare_worse(result, 2, 0) || ceduo_compare_worse(result, 0, 2));
+    assert_false(ceduo_compare_best(result).known);
+    ceduo_result_free(result);
+}
+
+static void expect_known(bool wanted)
+{
+    struct ceduo_result *result = assess();
+    assert_int_equal(ceduo_compare_best(result).known, wanted);
+    ceduo_result_free(result);
+}
+
+/* It takes two options, rocks among their stems and a place where they are counted. */
+static void the_best_of_nothing_is_not_known(void **state)
+{
+    (void)state;
+    open_scene(50e3);
+    expect_known(true);
+    scene.scene.options_count = 1;
+    expect_known(false);
+    scene.scene.options_count = OPTIONS;
+    scene.scene.controls_count = 0;
+    expect_known(false);
+    scene.scene.controls_count = 1;
+    scene.scene.simulation.contact_model = CEDUO_INDEX;
+    expect_known(false);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_interval_is_rounded_outward),
         cmocka_unit_test(two_standard_errors_apart_is_not_worse),
         cmocka_unit_test(nothing_is_best_within_two_standard_errors),
+        cmocka_unit_test(a_difference_of_nothing_has_the_margin_of_a_share),
+        cmocka_unit_test(what_was_not_simulated_is_not_compared),
+        cmocka_unit_test(the_best_of_nothing_is_not_known),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
