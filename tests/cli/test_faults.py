@@ -431,11 +431,15 @@ def test_read_only_folder():
         f.write("play.txt", SHOWN_SAVE.replace("dump before.txt", "").replace("dump again.txt", "")
                 .replace("dump after.txt", "dump -\nkey Esc q\ndump -"))
         os.chmod(f.path / "theirs", 0o555)
+        counts = f.path / "counts"  # of a build with gcc's --coverage: the other user cannot write to their own place
+        counts.mkdir()
+        counts.chmod(0o777)
         other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
 
         def run(*words):
             try:
-                return subprocess.run([f.path / "ceduo", *map(str, words)], cwd=f.path / "theirs", env=environment(), check=False,
+                return subprocess.run([f.path / "ceduo", *map(str, words)], cwd=f.path / "theirs", check=False,
+                                      env=environment(GCOV_PREFIX=str(counts)),
                                       stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **other)
             except PermissionError as why:
                 raise Skip(f"another user cannot be taken on: {why}") from why
