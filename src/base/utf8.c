@@ -65,7 +65,7 @@ size_t ceduo_utf8_columns(uint32_t code)
 size_t ceduo_utf8_width_of(const char *string, size_t n)
 {
     size_t width = 0, columns;
-    for (const char *end = string + n; string < end && *string; width += columns)
+    for (const char *end = string + n; string < end; width += columns)
         string += step(string, &columns);
     return width;
 }

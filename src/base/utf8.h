@@ -33,7 +33,7 @@ const char *ceduo_utf8_back(const char *start, const char *at);
 /* Columns of a code point: 0 for a mark on the character before it, 2 for a wide character; 1 for a control. */
 size_t ceduo_utf8_columns(uint32_t code);
 
-/* Columns of a string, or of its first n bytes. */
+/* Columns of a string, or of its first n bytes, of which it must have as many. */
 size_t ceduo_utf8_width(const char *string);
 size_t ceduo_utf8_width_of(const char *string, size_t n);
 

@@ -100,7 +100,7 @@ struct ceduo_best ceduo_compare_best(const struct ceduo_result *result)
         worse += ceduo_compare_worse(result, i, best.energy);
         behind += better_by_contact(result, best.contact, i) > 0;
     }
-    best.apart = behind > 0 && !isinf(ceduo_result_last_index(result, best.contact)->worst_adc);
+    best.apart = behind > 0;
     best.before_some = worse > 0;
     best.before_all = worse == n - 1;
     return best;
