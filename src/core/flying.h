@@ -6,6 +6,9 @@
 
 #include <gsl/gsl_interp.h>
 
+#include "one_lane.h"
+/* after the lane */
+#include "hit.h"
 #include "law_crsp.h"
 #include "law_lumped.h"
 #include "walker.h"
@@ -123,7 +126,10 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
  * up. */
 static bool take_stem(struct walker *w, int side, struct stem *stem)
 {
-    bool taken = ceduo_stems_take(w->stems, side, stem);
+    bool taken = w->stems->side[side].next_known;
+    if (taken)
+        *stem = *ceduo_stems_next(&w->stems->side[side]);
+    ceduo_stems_take(w->stems, side);
     set_next_stems(w);
     w->cancelled |= w->stems->no_memory;
     if (w->stems->effort >= w->stems_pause) {
@@ -135,15 +141,15 @@ static bool take_stem(struct walker *w, int side, struct stem *stem)
 }
 
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
-static double hit_stem(struct walker *w, const struct stem *stem, double x, double clearance, double energy)
+static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
     double cost = ceduo_stem_energy(stem, w->rock.mean_diameter);
     w->stems_hit++;
     w->stools_met += ceduo_stems_meet(w->stems, stem);
-    bool stops = !(cost < energy);
+    double share = speed_kept((struct hit){.energy = energy, .cost = cost});
     if (w->watch && w->watch->stem)
-        show_stem(w, stem, x, clearance, energy, stops ? energy : cost);
-    return stops ? 0 : sqrt(1 - cost / energy);
+        show_stem(w, stem, x, clearance, energy, share > 0 ? cost : energy);
+    return share;
 }
 
 /* The segment under x, which lies between segments a and b. */
@@ -194,8 +200,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         }
         fly(w, at, &here);
         at->on_ground = false;
-        double energy = 0.5 * w->rock.mass * (at->vx * at->vx + at->vz * at->vz) +
-                        0.5 * w->rock.moment * (w->spin * w->spin);
+        double energy = flying_energy(w->rock.mass, w->rock.moment, at->vx, at->vz, w->spin);
         double share = hit_stem(w, &stem, x, clearance, energy);
         at->vx *= share;
         at->vz *= share;

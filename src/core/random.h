@@ -19,8 +19,7 @@ enum random_kind {
     RANDOM_RELEASE, /* events: x, height, vx, vz, spin */
     RANDOM_ROCK,    /* events: diameter, height, volume, mass, density, axes */
     RANDOM_GROUND,  /* events: Rn, Rt */
-    RANDOM_STEM,    /* of a stool or tree: its gap and offset, a stool's shoots and turn, which law of diameter for a tree;
-                     * events: stratum, side, number */
+    RANDOM_STEM,    /* of a stool or tree: its gap, offset, mark and turn; events: stream, side, number */
     RANDOM_SHOOT,   /* a shoot's cohort; its number from bit 8 on */
     RANDOM_DBH      /* a stem's diameter; likewise, and from bit 32 on how many were used */
 };
@@ -37,23 +36,6 @@ static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint6
     threefry2x64_key_t k = {{seed, rock}};
     threefry2x64_ctr_t r = threefry2x64(c, k);
     return (struct random_pair){{(double)(r.v[0] >> 11) * 0x1p-53, (double)(r.v[1] >> 11) * 0x1p-53}};
-}
-
-/* Four uniform numbers in [0, 1) from one draw: the first to 53 bits, the others to 25, which is finer than anything that
- * is seen of them. */
-struct random_four {
-    double first, rest[3];
-};
-
-static inline struct random_four random_four(uint64_t seed, uint64_t rock, uint64_t event, uint64_t kind)
-{
-    threefry2x64_ctr_t c = {{event, kind}};
-    threefry2x64_key_t k = {{seed, rock}};
-    threefry2x64_ctr_t r = threefry2x64(c, k);
-    uint64_t low = (r.v[0] & 0x7ff) << 14 | r.v[1] >> 50;
-    return (struct random_four){(double)(r.v[0] >> 11) * 0x1p-53,
-                                {(double)(r.v[1] & 0x1ffffff) * 0x1p-25, (double)(r.v[1] >> 25 & 0x1ffffff) * 0x1p-25,
-                                 (double)low * 0x1p-25}};
 }
 
 /* One number of kind `kind`; never 0, so that every quantile of it is finite. */

@@ -260,7 +260,7 @@ static bool init_stems(struct worker *w)
         return false;
     for (size_t i = 0; i < run->lanes; i++) {
         if (!ceduo_stems_init(&w->stems[i], &run->ready.wood,
-                              run->ready.scene.simulation.contact_model == CEDUO_POISSON))
+                              run->ready.scene.simulation.contact_model == CEDUO_POISSON, run->def.kernel))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

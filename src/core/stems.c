@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stems that a rock can hit, drawn as it reaches them. In each direction every stratum is a stream of exponential gaps.
- * The next stem is the nearest of all streams. A stool is drawn whole and its shoots wait, sorted, because they stand around
- * its centre. Work is counted as effort, and drawing pauses now and then, so that a caller can cancel. */
+/* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x and
+ * all single trees (or contacts) another, each drawn some places ahead (stems_fill.h). A stool is made whole when the rock
+ * comes near, and its shoots wait, sorted, because they stand around its centre. Work is counted as effort, and drawing
+ * pauses now and then, so that a caller can cancel. */
 #include "stems.h"
 
 #include <math.h>
@@ -10,15 +11,28 @@
 
 #include "base/elementary.h"
 #include "random.h"
+#include "stems_fill.h"
 
-/* What costs little is counted as a part of a stem: steps over others in a list, belts and strata that are passed over. */
-#define STEPS_OF_A_STEM 4
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
 
-/* The number of an event, never 0: which stratum, which side, the how-manieth. The side is its last bit. */
-static uint64_t event_of(size_t stratum, int side, uint64_t n)
+void ceduo_stems_fill_scalar(struct stems *s, int side, enum stem_stream stream)
 {
-    return (uint64_t)stratum << 41 | (n + 1) << 1 | (uint64_t)side;
+    fill_points(s, side, stream);
+}
+
+static stems_fill_fn *choose_fill(enum ceduo_kernel kernel)
+{
+#if defined(__x86_64__) && defined(__GNUC__)
+    bool best = kernel == CEDUO_KERNEL_BEST;
+    if ((best || kernel == CEDUO_KERNEL_AVX512) && __builtin_cpu_supports("avx512f") &&
+        __builtin_cpu_supports("avx512dq"))
+        return ceduo_stems_fill_avx512;
+    if ((best || kernel == CEDUO_KERNEL_AVX2) && __builtin_cpu_supports("avx2"))
+        return ceduo_stems_fill_avx2;
+#else
+    (void)kernel;
+#endif
+    return ceduo_stems_fill_scalar;
 }
 
 /* What belongs to shoot i of a stool. */
@@ -49,41 +63,6 @@ static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_
         if (ceduo_log(u.u[1] + 0x1p-54) < 0.5 * (z * z) + d * (1 - v + ceduo_log(v)))
             return fmin(d * v * scale, k->most);
     }
-}
-
-/* ---- one stratum along the strip ---- */
-
-/* Moves a stream to its next place: gaps are exponential in the rate summed along the strip, across belts. */
-static void advance(struct stems *s, int side, size_t stratum)
-{
-    struct stream *stream = &s->side[side].streams[stratum];
-    const struct wood_belt *belts = s->wood->along[side];
-    size_t first = stream->belt;
-    uint64_t event = event_of(stratum, side, stream->drawn++);
-    struct random_four four = random_four(s->seed, s->number, event, RANDOM_STEM);
-    double left = -ceduo_log(four.first + 0x1p-54), at = stream->at;
-    stream->offset = four.rest[0] + 0x1p-26;
-    stream->turn = four.rest[1] + 0x1p-26;
-    stream->number = four.rest[2] + 0x1p-26;
-    for (; stream->belt < s->wood->belts; stream->belt++) {
-        const struct wood_belt *belt = &belts[stream->belt];
-        if (stratum >= belt->strata_count)
-            continue;
-        double rate = belt->strata[stratum].still + belt->strata[stratum].per_b * s->b;
-        double from = at > belt->from ? at : belt->from;
-        if (!(from < belt->to))
-            continue;
-        double room = (belt->to - from) * rate;
-        if (left < room) {
-            at = from + left / rate;
-            stream->at = at < belt->to ? at : belt->to;
-            s->effort += (stream->belt - first) / STEPS_OF_A_STEM;
-            return;
-        }
-        left -= room;
-    }
-    stream->at = INFINITY;
-    s->effort += (stream->belt - first) / STEPS_OF_A_STEM;
 }
 
 /* ---- stools ---- */
@@ -151,29 +130,47 @@ static __attribute__((noinline)) const struct wood_kind *draw_shoot(const struct
     return k;
 }
 
-/* The shoots of the stool that the stream of side `side` has come to, as far as the rock can hit them. */
-static void draw_stool(struct stems *s, int i_side)
+/* The next place of a stream, drawn if need be; infinite where there is none. */
+static double next_place(struct stems *s, int i_side, enum stem_stream stream)
+{
+    struct points *p = &s->side[i_side].streams[stream];
+    if (p->next == p->count) {
+        if (p->end_belt == s->wood->belts)
+            return INFINITY;
+        s->fill(s, i_side, stream);
+        if (p->count == 0)
+            return INFINITY;
+    }
+    return p->at[p->next];
+}
+
+static uint64_t event_of_next(const struct points *p, enum stem_stream stream, int side)
+{
+    return stem_event(stream, side, p->drawn - p->count + p->next);
+}
+
+/* Makes the stool that the stream of side `side` has come to: its shoots, as far as the rock can hit them. */
+static void make_stool(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
-    const struct stream *stream = &side->streams[0];
-    const struct wood_stools *stools = s->wood->along[i_side][stream->belt].stools;
-    uint64_t event = event_of(0, i_side, stream->drawn - 1);
-    double centre = (stream->offset - 0.5) * (2 * stools->reach + stools->most + s->b);
-    unsigned more = stream->number < stools->more, n = stools->n + more;
+    struct points *p = &side->streams[STREAM_STOOLS];
+    unsigned k = p->next;
+    const struct wood_stools *stools = s->wood->along[i_side][p->belt[k]].stools;
+    double centre = p->offset[k] * (2 * stools->reach + stools->most + s->b);
+    unsigned more = p->mark[k] < stools->more, n = stools->n + more;
     if (!make_room(s, side, n))
         return;
+    uint64_t event = event_of_next(p, STREAM_STOOLS, i_side);
+    p->next++;
     s->drawn += n;
     s->effort += 1 + n;
-    double r = stools->radius[more], sine, cosine;
+    double sine = p->sine[k] * stools->radius[more], cosine = p->cosine[k] * stools->radius[more];
     const double *ring = stools->ring[more];
-    wood_direction(s->wood, (stream->turn - 0.5) * stools->turn[more], &cosine, &sine);
-    sine *= r;
-    cosine *= r;
     for (unsigned i = 0; i < n; i++) {
         double y = centre + (ring[2 * i] * sine + ring[2 * i + 1] * cosine);
         if (fabs(y) > (s->b + stools->most) / 2)
             continue;
-        struct stem stem = {.along = stream->at + (ring[2 * i] * cosine - ring[2 * i + 1] * sine),
+        struct stem stem = {.along = p->at[k] + (ring[2 * i] * cosine - ring[2 * i + 1] * sine),
                             .y = y,
                             .dbh = stools->kinds->dbh,
                             .kind = stools->kinds,
@@ -184,6 +181,7 @@ static void draw_stool(struct stems *s, int i_side)
             if (fabs(y) > (s->b + stem.dbh) / 2)
                 continue;
         }
+        stem.energy = stem.kind->energy;
         if (i_side == 0 && stem.along < s->start)
             turn_behind(s, stem);
         else
@@ -191,37 +189,71 @@ static void draw_stool(struct stems *s, int i_side)
     }
 }
 
+/* ---- single trees, and contacts ---- */
+
+/* The stratum that a place of the merged stream belongs to; *u: uniform in [0, 1) within it. */
+static const struct wood_stratum *stratum_at(struct stems *s, int side, const struct wood_belt *belt, size_t j,
+                                             double mark, double *u)
+{
+    double left = mark * rates_in(s, side, j)->rate[STREAM_SINGLE], rate = 0;
+    const struct wood_stratum *found = NULL;
+    for (size_t k = 0; k < belt->strata_count; k++) {
+        const struct wood_stratum *stratum = &belt->strata[k];
+        if (!stratum->kind)
+            continue;
+        found = stratum;
+        rate = stratum->still + stratum->per_b * s->b;
+        if (left < rate)
+            break;
+        left -= rate;
+    }
+    s->effort += belt->strata_count / STEPS_OF_A_STEM;
+    *u = left / rate;
+    return found;
+}
+
+/* Makes the next single tree of a side. */
+static void make_single(struct stems *s, int i_side)
+{
+    struct stems_side *side = &s->side[i_side];
+    struct points *p = &side->streams[STREAM_SINGLE];
+    side->single.along = next_place(s, i_side, STREAM_SINGLE);
+    if (!(side->single.along < INFINITY))
+        return;
+    unsigned k = p->next;
+    uint64_t event = event_of_next(p, STREAM_SINGLE, i_side);
+    double u;
+    const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
+    const struct wood_kind *kind = stratum_at(s, i_side, belt, p->belt[k], p->mark[k], &u)->kind;
+    double d = kind->dbh;
+    if (kind->shape > 0) /* met with a chance that goes with b + d */
+        d = draw_dbh(s, kind, event, RANDOM_DBH, u * (s->b + d) >= s->b);
+    side->single = (struct stem){.along = p->at[k],
+                                 .y = s->poisson ? NAN : p->offset[k] * (s->b + d),
+                                 .dbh = d,
+                                 .energy = kind->energy,
+                                 .kind = kind,
+                                 .stool = event};
+    p->next++;
+}
+
+/* ---- what comes next ---- */
+
 /* Whether it is time to let the caller look up. */
 static bool pauses(const struct stems *s)
 {
     return s->no_memory || s->effort >= s->pause || ceduo_stems_too_many(s);
 }
 
-/* Draws the stools that have a centre up to `to` along a side; false where it stopped before. */
-static bool draw_stools_to(struct stems *s, int side, double to)
+/* Makes the stools that have a centre up to `to` along a side; false where it stopped before. */
+static bool make_stools_to(struct stems *s, int side, double to)
 {
-    struct stream *stream = &s->side[side].streams[0];
-    while (stream->at <= to && stream->at < INFINITY) {
+    for (double at; (at = next_place(s, side, STREAM_STOOLS)) <= to && at < INFINITY;) {
         if (pauses(s))
             return false;
-        draw_stool(s, side);
-        advance(s, side, 0);
+        make_stool(s, side);
     }
     return true;
-}
-
-/* ---- what comes next ---- */
-
-/* The nearest of all streams but the stools'. */
-static void find_single(struct stems *s, struct stems_side *side)
-{
-    side->single_at = INFINITY;
-    s->effort += s->wood->strata / STEPS_OF_A_STEM;
-    for (size_t k = s->poisson ? 0 : 1; k < s->wood->strata; k++)
-        if (side->streams[k].at < side->single_at) {
-            side->single_at = side->streams[k].at;
-            side->single = k;
-        }
 }
 
 static void find_next(struct stems *s, int i)
@@ -229,33 +261,34 @@ static void find_next(struct stems *s, int i)
     struct stems_side *side = &s->side[i];
     for (;;) {
         bool any = side->first < side->end;
-        double waits = any ? side->waiting[side->first].along : INFINITY;
-        side->next_waits = any && waits <= side->single_at;
-        side->next = side->next_waits ? waits : side->single_at;
+        double waits = any ? side->waiting[side->first].along : INFINITY, single = side->single.along;
+        side->next_waits = any && waits <= single;
+        side->next = side->next_waits ? waits : single;
         side->next_known = true;
-        if (s->poisson || !(side->streams[0].at < INFINITY))
-            return;
-        double reach = side->streams[0].at - s->wood->reach; /* a stool reaches ahead of its centre */
-        if (reach > side->next)
+        double reach = s->poisson ? INFINITY : next_place(s, i, STREAM_STOOLS) - s->wood->reach;
+        side->sure = reach < single ? reach : single;
+        if (!(reach <= side->next) || reach == INFINITY)
             return;
         if (pauses(s)) {
             side->next = reach;
             side->next_known = false;
             return;
         }
-        draw_stool(s, i);
-        advance(s, i, 0);
+        make_stool(s, i);
     }
 }
 
 static void start_side(struct stems *s, int i, double from, double stools_from)
 {
     struct stems_side *side = &s->side[i];
-    for (size_t k = 0; k < s->wood->strata; k++) {
-        side->streams[k] = (struct stream){.at = k == 0 && !s->poisson ? stools_from : from};
-        advance(s, i, k);
+    for (int k = 0; k < STREAMS; k++) {
+        struct points *p = &side->streams[k];
+        p->next = p->count = 0;
+        p->drawn = 0;
+        p->end = k == STREAM_STOOLS ? stools_from : from;
+        p->end_belt = 0;
     }
-    find_single(s, side);
+    make_single(s, i);
 }
 
 void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b, double x)
@@ -274,13 +307,14 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     find_next(s, 0);
     bool any = s->wood->belts > 0 && s->wood->along[0][0].from < x + s->wood->reach;
     s->side[1].next = any ? -x : INFINITY;
+    s->side[1].next_known = false;
 }
 
 /* The strip behind the release is drawn only when a rock goes there. The stools around the release are those of the strip
  * ahead. */
 static void prepare_behind(struct stems *s)
 {
-    if (!s->poisson && !draw_stools_to(s, 0, s->start + s->wood->reach))
+    if (!s->poisson && !make_stools_to(s, 0, s->start + s->wood->reach))
         return;
     s->behind_ready = true;
     find_next(s, 0);
@@ -288,37 +322,22 @@ static void prepare_behind(struct stems *s)
     find_next(s, 1);
 }
 
-bool ceduo_stems_take(struct stems *s, int i, struct stem *stem)
+void ceduo_stems_look_on(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
     s->pause = s->effort + PAUSE_STEMS;
     if (i == 1 && !s->behind_ready) {
         prepare_behind(s);
-        return false;
+        return;
     }
-    if (!side->next_known) {
-        find_next(s, i);
-        return false;
-    }
-    if (side->next_waits) {
-        *stem = side->waiting[side->first++];
-    } else {
-        const struct stream *stream = &side->streams[side->single];
-        const struct wood_kind *k = s->wood->along[i][stream->belt].strata[side->single].kind;
-        uint64_t event = event_of(side->single, i, stream->drawn - 1);
-        double d = k->dbh;
-        if (k->shape > 0) { /* met with a chance that goes with b + d */
-            d = draw_dbh(s, k, event, RANDOM_DBH, stream->number * (s->b + d) >= s->b);
-        }
-        *stem = (struct stem){.along = stream->at, .dbh = d, .kind = k, .stool = event};
-        stem->y = s->poisson ? NAN : (stream->offset - 0.5) * (s->b + d);
+    if (side->next_known && side->next_waits) {
+        side->first++;
+    } else if (side->next_known) {
         s->drawn++;
         s->effort++;
-        advance(s, i, side->single);
-        find_single(s, side);
+        make_single(s, i);
     }
     find_next(s, i);
-    return true;
 }
 
 void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
@@ -330,13 +349,16 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
 
 /* ---- making and freeing ---- */
 
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson)
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel)
 {
-    *stems = (struct stems){.wood = wood, .poisson = poisson};
-    for (int i = 0; i < 2; i++)
-        stems->side[i].streams = calloc(wood->strata + 1, sizeof *stems->side[i].streams);
+    *stems = (struct stems){.wood = wood, .poisson = poisson, .fill = choose_fill(kernel)};
+    for (int i = 0; i < 2; i++) {
+        stems->side[i].streams[STREAM_STOOLS].size = POINTS;
+        stems->side[i].streams[STREAM_SINGLE].size = poisson ? POINTS : POINTS_FEW;
+    }
     stems->met = calloc(wood->places + 1, sizeof *stems->met);
-    if (stems->side[0].streams && stems->side[1].streams && stems->met)
+    stems->rates = calloc(wood->belts + 1, sizeof *stems->rates);
+    if (stems->met && stems->rates)
         return true;
     ceduo_stems_release(stems);
     return false;
@@ -344,10 +366,9 @@ bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson
 
 void ceduo_stems_release(struct stems *stems)
 {
-    for (int i = 0; i < 2; i++) {
-        free(stems->side[i].streams);
+    for (int i = 0; i < 2; i++)
         free(stems->side[i].waiting);
-    }
     free(stems->met);
+    free(stems->rates);
     *stems = (struct stems){0};
 }

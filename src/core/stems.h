@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "ceduo/rock.h"
+#include "ceduo/run.h"
 #include "ceduo/trajectory.h"
 #include "wood.h"
 
@@ -18,38 +19,61 @@
 struct stem {
     double along, y;  /* m: place along the strip, offset from its middle */
     double dbh;       /* m; NaN where contacts have no diameter */
+    double energy;    /* J that a hit takes; NaN: not computed yet */
     const struct wood_kind *kind;
-    uint64_t stool; /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
+    uint64_t stool;   /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
     bool shoot;
-    bool met;       /* it waits behind the release, and another shoot of its stool was hit ahead */
+    bool met;         /* it waits behind the release, and another shoot of its stool was hit ahead */
 };
 
-/* The next of one stratum. */
-struct stream {
-    double at; /* m along the strip, infinite behind the last */
-    size_t belt;
-    uint64_t drawn;
-    double offset;        /* uniform in [0, 1): how far from the middle of the strip */
-    double number, turn;  /* likewise: of a stool, what decides how many shoots it has and how its ring is turned */
+/* Two streams of places along a side: of stools, and of all else. */
+enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAMS };
+
+/* The next places of a stream, which are drawn many at a time. */
+#define POINTS     16
+#define POINTS_FEW 8 /* of trees among stools */
+struct points {
+    _Alignas(64) double at[POINTS]; /* m along the strip */
+    double offset[POINTS];          /* uniform in (-1/2, 1/2): how far from the middle of the strip */
+    double mark[POINTS];            /* uniform in (0, 1): which of those that the stream is made of */
+    double turn[POINTS];            /* likewise in (-1/2, 1/2) */
+    double sine[POINTS], cosine[POINTS]; /* of a stool's turn */
+    size_t belt[POINTS];
+    unsigned next, count;           /* of `size`, fewer only where the forest ends */
+    unsigned size;
+    uint64_t drawn;                 /* of the whole stream */
+    double end;                     /* m: where drawing goes on */
+    size_t end_belt;
 };
 
 struct stems_side {
-    struct stream *streams; /* one for each stratum; the first of `stems` is the stools */
+    struct points streams[STREAMS];
+    struct stem single;     /* the next of its stream; `along` infinite: none */
     struct stem *waiting;   /* shoots of drawn stools that the rock can hit, from `first` to before `end`, the nearest first */
     size_t first, end, room;
+    double sure;            /* m along the strip: a waiting shoot before that is next if it is the first of them */
     double next;            /* m along the strip: no stem before */
     bool next_known;        /* a stem stands there; otherwise stools up to there have not been drawn yet */
-    bool next_waits;        /* it is one of those waiting; otherwise the next of `single` */
-    size_t single;          /* the stream whose next is the nearest, but for stools */
-    double single_at;
+    bool next_waits;        /* it is one of those waiting; otherwise `single` */
 };
+
+/* Places of a belt for a rock of diameter b: so many per metre, and its inverse. */
+struct belt_rates {
+    double b, rate[STREAMS], metres[STREAMS];
+};
+
+struct stems;
+/* Draws the next places of a stream. */
+typedef void stems_fill_fn(struct stems *stems, int side, enum stem_stream stream);
 
 struct stems {
     const struct wood *wood;
     bool poisson;
+    stems_fill_fn *fill;
     uint64_t seed, number; /* of the rock */
     double b;              /* its mean diameter, m */
     double start;          /* x of its release */
+    struct belt_rates *rates; /* of the belts of wood->along[0] */
     struct stems_side side[2];
     bool behind_ready;
     uint64_t *met;         /* stools that were hit, each at the place of its number's last bits: those that the way is among
@@ -67,15 +91,32 @@ static inline bool ceduo_stems_too_many(const struct stems *stems)
 }
 
 /* False without memory. */
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson);
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel);
 void ceduo_stems_release(struct stems *stems);
 
 /* Begins the trajectory of rock `number`, of mean diameter b, released at x. */
 void ceduo_stems_begin(struct stems *stems, uint64_t seed, uint64_t number, double b, double x);
 
-/* Takes the next stem of a side and looks for the one after it. False: no stem is taken, because what stands at
- * side[].next was not known yet; side[].next has moved on. Each call does a bounded amount of work. */
-bool ceduo_stems_take(struct stems *stems, int side, struct stem *stem);
+/* The next stem of a side, where next_known. */
+static inline struct stem *ceduo_stems_next(struct stems_side *side)
+{
+    return side->next_waits ? &side->waiting[side->first] : &side->single;
+}
+
+/* Takes that stem away and looks for the one after it. Where it was not known, no stem is taken, and side[].next has moved
+ * on. Each call does a bounded amount of work. */
+void ceduo_stems_look_on(struct stems *stems, int side);
+
+/* The same; mostly the one after it waits already. */
+static inline void ceduo_stems_take(struct stems *stems, int i)
+{
+    struct stems_side *side = &stems->side[i];
+    if (side->next_known && side->next_waits && side->first + 1 < side->end &&
+        side->waiting[side->first + 1].along < side->sure)
+        side->next = side->waiting[++side->first].along;
+    else
+        ceduo_stems_look_on(stems, i);
+}
 
 /* A stool astride of the release was hit: its shoots that wait behind know of it, however late the rock comes to them. */
 void ceduo_stems_meet_behind(struct stems *stems, uint64_t stool);
@@ -94,10 +135,14 @@ static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem
 }
 
 /* Energy (J) that a hit of this stem takes from a rock of diameter b. */
-static inline double ceduo_stem_energy(const struct stem *stem, double b)
+static inline double ceduo_stem_energy(struct stem *stem, double b)
 {
-    const struct wood_kind *k = stem->kind;
-    return k->energy >= 0 ? k->energy : stem_energy_hit(&k->by_hit, stem->dbh, 2 * fabs(stem->y) / (b + stem->dbh));
+    if (isnan(stem->energy))
+        stem->energy = stem_energy_hit(&stem->kind->by_hit, stem->dbh, 2 * fabs(stem->y) / (b + stem->dbh));
+    return stem->energy;
 }
+
+/* Of a kind of registers; the scalar one for any machine. */
+stems_fill_fn ceduo_stems_fill_scalar, ceduo_stems_fill_avx2, ceduo_stems_fill_avx512;
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wide walk on AVX-512. The rest of the program is for any machine, so this file alone sets the target. */
+/* The wide walk and the drawing of stems on AVX-512. The rest of the program is for any machine, so this file alone sets the target. */
 #include "wide.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -13,11 +13,18 @@
 #endif
 
 #define WIDE_AVX512
+#define MANY 8
+#include "stems_fill.h"
 #include "wide_walk.h"
 
 void ceduo_wide_walk_avx512(const struct wide_job *job)
 {
     wide_walk(job);
+}
+
+void ceduo_stems_fill_avx512(struct stems *s, int side, enum stem_stream stream)
+{
+    fill_points(s, side, stream);
 }
 
 #ifdef __clang__

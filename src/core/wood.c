@@ -189,10 +189,6 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         return true;
     if (!allocate(wood, option))
         goto fail;
-    for (int i = 0; i <= WOOD_DIRECTIONS; i++) {
-        double angle = (i - WOOD_DIRECTIONS / 2) * (M_PI / WOOD_DIRECTIONS);
-        elementary_sincos(&angle, &wood->directions[i][1], &wood->directions[i][0]);
-    }
     size_t used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
@@ -207,7 +203,6 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         else if (!make_stems(wood, i, &belt->stand, &wood->kinds[used], &wood->strata_room[used], to))
             goto fail;
         used += kinds_in(belt) + 1;
-        wood->strata = to->strata_count > wood->strata ? to->strata_count : wood->strata;
     }
     for (size_t i = 0; i < wood->belts; i++) {
         const struct wood_belt *ahead = &wood->along[0][wood->belts - 1 - i];

@@ -48,36 +48,17 @@ struct wood_belt {
     const struct wood_stools *stools; /* NULL: none */
 };
 
-#ifndef WOOD_DIRECTIONS
-#define WOOD_DIRECTIONS 512 /* of a half circle */
-#endif
-
 struct wood {
     bool bare; /* nothing to be met */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
-    size_t strata;              /* the most of any belt */
     double reach;               /* m: the largest radius of any ring */
     size_t places;              /* 2^k - 1: far more stools than a rock can be among at a time */
     struct wood_kind *kinds;
     struct wood_stratum *strata_room;
     struct wood_stools *stools;
     double **rings;
-    double directions[WOOD_DIRECTIONS + 1][2]; /* cosine and sine of -pi/2 … pi/2 */
 };
-
-/* Cosine and sine of an angle in -pi/2 … pi/2, within 3e-16: from the nearest direction by a turn so small that a few
- * terms of their series do. */
-static inline void wood_direction(const struct wood *wood, double angle, double *cosine, double *sine)
-{
-    const double step = M_PI / WOOD_DIRECTIONS;
-    int i = (int)(angle * (1 / step) + (WOOD_DIRECTIONS / 2 + 0.5));
-    double d = angle - (i - WOOD_DIRECTIONS / 2) * step, d2 = d * d;
-    double c = 1 - d2 * (0.5 - d2 * (1.0 / 24)), s = d - d * d2 * (1.0 / 6 - d2 * (1.0 / 120));
-    const double *near = wood->directions[i];
-    *cosine = near[0] * c - near[1] * s;
-    *sine = near[1] * c + near[0] * s;
-}
 
 /* For the contact model of `simulation`; with `index`, or without an option, there is nothing to be met. `b`: mean
  * diameter of the mean rock, which decides the rule of `poisson`. False without memory. */

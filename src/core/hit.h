@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a hit of a stem does to a rock, in one text for the walk of one rock and for lanes: it is written with the
+ * operations of one_lane.h or lanes.h, one of which was included before. */
+#ifndef CEDUO_HIT_H
+#define CEDUO_HIT_H
+
+/* A hit as the rock comes: its kinetic energy, and what the stem takes of a rock that has as much (J). */
+struct hit {
+    reals energy, cost;
+};
+
+/* Kinetic energy (J) of a rock in flight. */
+LANE reals flying_energy(reals mass, reals moment, reals vx, reals vz, reals spin)
+{
+    reals translation = mul(mul(all(0.5), mass), add(mul(vx, vx), mul(vz, vz)));
+    return add(translation, mul(mul(all(0.5), moment), mul(spin, spin)));
+}
+
+/* The share of its speed that the rock keeps, 0 where the stem stops it. */
+LANE reals speed_kept(struct hit h)
+{
+    flags goes_on = less(h.cost, h.energy);
+    return pick(goes_on, root_of(sub(all(1), over(h.cost, h.energy))), all(0));
+}
+
+#endif
