@@ -122,13 +122,9 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
     w->watch->stem(w->watch->context, &p);
 }
 
-/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the trajectory is given
- * up. */
-static bool take_stem(struct walker *w, int side, struct stem *stem)
+/* Takes the next stem of a side away; sets gives_up where the rock is not to be followed further. */
+static inline void go_to_next_stem(struct walker *w, int side)
 {
-    bool taken = w->stems->side[side].next_known;
-    if (taken)
-        *stem = *ceduo_stems_next(&w->stems->side[side]);
     ceduo_stems_take(w->stems, side);
     set_next_stems(w);
     w->cancelled |= w->stems->no_memory;
@@ -137,15 +133,30 @@ static bool take_stem(struct walker *w, int side, struct stem *stem)
         w->cancelled |= is_cancelled(w);
     }
     w->gives_up = w->cancelled || ceduo_stems_too_many(w->stems);
+}
+
+/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the trajectory is given
+ * up. */
+static bool take_stem(struct walker *w, int side, struct stem *stem)
+{
+    bool taken = w->stems->side[side].next_known;
+    if (taken)
+        *stem = *ceduo_stems_next(&w->stems->side[side]);
+    go_to_next_stem(w, side);
     return taken && !w->gives_up;
+}
+
+static inline void count_hit(struct walker *w, const struct stem *stem)
+{
+    w->stems_hit++;
+    w->stools_met += ceduo_stems_meet(w->stems, stem);
 }
 
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
     double cost = ceduo_stem_energy(stem, w->rock.mean_diameter);
-    w->stems_hit++;
-    w->stools_met += ceduo_stems_meet(w->stems, stem);
+    count_hit(w, stem);
     double share = speed_kept((struct hit){.energy = energy, .cost = cost});
     if (w->watch && w->watch->stem)
         show_stem(w, stem, x, clearance, energy, share > 0 ? cost : energy);
@@ -158,14 +169,14 @@ static size_t segment_between(const struct ground *g, size_t a, size_t b, double
     return gsl_interp_bsearch(g->x, x, a < b ? a : b, (a < b ? b : a) + 1);
 }
 
-/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit. True where one stops the rock
- * (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
+/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit, and may not be known yet. True
+ * where one stops the rock (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
  * segment and the rock is still above the ground there: the parabola is concave, so there was no contact before. */
-static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l)
+static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l,
+                                                     bool knows_landing)
 {
     const struct ground *g = w->g;
     int side = at->vx > 0 ? 0 : 1;
-    bool knows_landing = true;
     while (at->vx != 0) {
         double x = side == 0 ? w->stem_ahead : w->stem_behind;
         size_t j = at->segment;

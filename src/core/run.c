@@ -55,12 +55,9 @@ static bool begin_part(struct ceduo_run *run)
     return ceduo_run_samples_fit(run, run->def.rocks_most) || ceduo_run_samples_bin(run);
 }
 
-/* Among stems the scalar walk is faster: nearly all is done for the stems, rock by rock, and those of one rock alone
- * fit the fastest cache. */
 static void choose_kernel(struct ceduo_run *run)
 {
-    bool stems = !run->ready.wood.bare && run->def.kernel == CEDUO_KERNEL_BEST;
-    run->wide_walk = ceduo_wide_walk(stems ? CEDUO_KERNEL_SCALAR : run->def.kernel, &run->lanes);
+    run->wide_walk = ceduo_wide_walk(run->def.kernel, &run->lanes);
 }
 
 static bool allocate(struct ceduo_run *run)

@@ -125,10 +125,10 @@ SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct lan
     return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
 }
 
-/* Lands at `l`, past the stems before it; false where that ends it. */
-HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, enum ceduo_end *end)
+/* Lands at `l`, which may not be known yet, past the stems before it; false where that ends it. */
+HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
 {
-    if (stem_on_way(w, l->x) && fly_past_stems(w, at, l)) {
+    if ((!knows_landing || stem_on_way(w, l->x)) && fly_past_stems(w, at, l, knows_landing)) {
         w->at = *at;
         *end = w->gives_up ? CEDUO_UNFINISHED : CEDUO_STOPPED_BY_STEMS;
         return false;
@@ -177,7 +177,7 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
     enum ceduo_end end;
     for (;;) {
         if (flies) {
-            if (!come_down(w, &at, &l, &end))
+            if (!come_down(w, &at, &l, true, &end))
                 return end;
             v = velocity_on(&w->g->segments[at.segment], &at);
         }
@@ -230,13 +230,27 @@ void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double 
     pass_in_flight(w, at, x, t);
 }
 
+bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t)
+{
+    const struct stem stem = *ceduo_stems_next(&w->stems->side[0]);
+    go_to_next_stem(w, 0);
+    if (w->gives_up)
+        return false;
+    if (hit) {
+        if (w->next_x <= stem.along)
+            pass_in_flight(w, at, stem.along, t);
+        count_hit(w, &stem);
+    }
+    return true;
+}
+
 bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)
 {
     if (c->flies) {
-        if (!come_down(w, &c->at, &c->l, end))
+        if (!come_down(w, &c->at, &c->l, !c->aloft, end))
             return false;
         c->v = velocity_on(&w->g->segments[c->at.segment], &c->at);
-        c->flies = false;
+        c->flies = c->aloft = false;
     }
     if (w->contacts >= w->pause && has_enough(w)) {
         w->at = c->at;

@@ -52,6 +52,7 @@ struct velocity {
 struct course {
     struct flight at;
     bool flies;
+    bool aloft;        /* and `l` is not known yet, behind a stem */
     struct velocity v; /* on the ground */
     struct landing l;  /* in flight */
 };

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lanes of the wide walk: what each holds of its rock, and how the scalar walk does for one lane what happens seldom. */
+#ifndef CEDUO_WIDE_LANE_H
+#define CEDUO_WIDE_LANE_H
+
+#include <math.h>
+
+#include "lanes.h"
+#include "wide.h"
+
+/* What is known before the first step, so that the steps are compiled for it. */
+struct form {
+    enum ceduo_law law;
+    bool small; /* the tables have 16 numbers */
+    bool wraps; /* and what is looked up beyond them does no harm */
+};
+
+/* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
+ * wide_ground do; 0 and n + 1 lie off the slope. */
+struct wide {
+    const struct wide_job *job;
+    const struct wide_ground *ground;
+    const struct ground *g;
+    uint64_t seed;
+    bool wood;   /* there are stems */
+    bool far;    /* the ground has blocks */
+    bool varies; /* the ground from rock to rock */
+    bool against, scale_rn;
+
+    _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
+    uint64_t segment[LANES];
+    /* the landing to come, with the ends, slope and largest facet angle of its segment */
+    double t[LANES], to_x[LANES], to_z[LANES];
+    uint64_t to[LANES];
+    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES], theta[LANES];
+    double along[LANES];   /* of those that roll */
+    double draw[3][LANES]; /* for the facets of the next contacts */
+    double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
+    double height[LANES], cost[LANES]; /* of the next stem ahead; J that a hit of it takes */
+    double radius[LANES], k[LANES], mass[LANES], moment[LANES];
+    double rn[LANES], rt[LANES]; /* where the ground varies */
+    uint64_t contacts[LANES], pause[LANES], number[LANES];
+
+    /* bit i is lane i */
+    unsigned live;  /* has a rock */
+    unsigned there; /* is at its next contact already */
+    unsigned rolls; /* of these: with speed `along` on the ground */
+    unsigned left;  /* lands off the slope */
+    unsigned fresh; /* has no draws yet */
+    unsigned aloft; /* behind a stem: where it lands is not known yet */
+    unsigned paused; /* what stands next is not known */
+    bool empty;     /* no rock waits */
+    bool same_start; /* every rock comes to its first contact as `start`, without passing a mark */
+    struct course start;
+};
+
+/* ---- one lane and its walker ---- */
+
+static void load_draws(struct wide *k, size_t i)
+{
+    const struct walker *w = &k->job->walkers[i];
+    struct random_pair pair = random_pair(w->seed, w->number, w->contacts >> 1, RANDOM_FACET);
+    k->draw[0][i] = pair.u[w->contacts & 1];
+    k->draw[1][i] = pair.u[1];
+}
+
+/* The next stem ahead. */
+static void load_stem(struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    unsigned bit = 1u << i;
+    k->stem_ahead[i] = w->stem_ahead;
+    k->paused &= ~bit;
+    if (!w->stems || w->stem_ahead == INFINITY)
+        return;
+    struct stems_side *side = &w->stems->side[0];
+    if (!side->next_known) {
+        k->paused |= bit;
+        return;
+    }
+    struct stem *stem = ceduo_stems_next(side);
+    k->height[i] = stem->kind->height;
+    k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
+}
+
+/* What the walker knows of itself and the scalar walk may have changed. */
+static void load_walker(struct wide *k, size_t i)
+{
+    const struct walker *w = &k->job->walkers[i];
+    k->spin[i] = w->spin;
+    k->next_x[i] = w->next_x;
+    k->stem_behind[i] = w->stem_behind;
+    load_stem(k, i);
+    k->contacts[i] = w->contacts;
+    k->pause[i] = w->pause;
+}
+
+static void load_course(struct wide *k, size_t i, const struct course *c)
+{
+    const struct wide_ground *ground = k->ground;
+    load_walker(k, i);
+    k->x[i] = c->at.x;
+    k->z[i] = c->at.z;
+    k->vx[i] = c->at.vx;
+    k->vz[i] = c->at.vz;
+    k->segment[i] = c->at.segment + 1;
+    k->t[i] = c->flies ? c->l.t : 0;
+    k->to_x[i] = c->flies ? c->l.x : c->at.x;
+    k->to_z[i] = c->flies ? c->l.z : c->at.z;
+    k->along[i] = c->v.along;
+    uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
+    k->to[i] = j;
+    k->x0[i] = ground->place.pairs[j][0];
+    k->z0[i] = ground->place.pairs[j][1];
+    k->x1[i] = ground->place.pairs[j + 1][0];
+    k->z1[i] = ground->place.pairs[j + 1][1];
+    k->m[i] = ground->slope.pairs[j][0];
+    k->theta[i] = ground->slope.pairs[j][1];
+}
+
+/* The walker brought up to date, and the lane's course. */
+static struct course course_of(struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    unsigned bit = 1u << i;
+    bool left = k->left & bit;
+    size_t to = left ? (k->to[i] == 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
+    w->spin = k->spin[i];
+    w->contacts = k->contacts[i];
+    return (struct course){.at = {.x = k->x[i],
+                                  .z = k->z[i],
+                                  .vx = k->vx[i],
+                                  .vz = k->vz[i],
+                                  .segment = k->segment[i] - 1,
+                                  .on_ground = !(k->aloft & bit)},
+                           .flies = !(k->there & bit),
+                           .aloft = k->aloft & bit,
+                           .v = {.along = k->along[i], .off = 0},
+                           .l = {.t = k->t[i],
+                                 .x = k->to_x[i],
+                                 .z = k->to_z[i],
+                                 .segment = to,
+                                 .left = left}};
+}
+
+/* An empty lane goes through the motions where it is, and is never looked at. */
+static void empty_lane(struct wide *k, size_t i)
+{
+    k->empty = true;
+    k->live &= ~(1u << i);
+    k->paused &= ~(1u << i);
+    k->segment[i] = k->to[i] = 1;
+    k->next_x[i] = k->stem_ahead[i] = INFINITY;
+    k->stem_behind[i] = -INFINITY;
+    k->contacts[i] = 0;
+    k->pause[i] = INT64_MAX;
+}
+
+/* The next rock, at its first contact. */
+static void refill(struct wide *k, size_t i)
+{
+    const struct wide_job *job = k->job;
+    struct walker *w = &job->walkers[i];
+    unsigned bit = 1u << i;
+    k->left &= ~bit;
+    k->rolls &= ~bit;
+    k->there |= bit;
+    while (job->next(job->context, i)) {
+        enum ceduo_end end;
+        size_t mark = w->next_mark;
+        bool known = k->same_start;
+        if (known || ceduo_walk_start(w, &k->start, &end)) {
+            load_course(k, i, &k->start);
+            k->radius[i] = w->rock.radius;
+            k->k[i] = w->k;
+            k->mass[i] = w->rock.mass;
+            k->moment[i] = w->rock.moment;
+            k->number[i] = w->number;
+            k->fresh |= bit;
+            k->same_start = known || (job->alike && w->next_mark == mark);
+            return;
+        }
+        job->ended(job->context, i, end);
+    }
+    empty_lane(k, i);
+}
+
+/* ---- what happens seldom ---- */
+
+/* A flight that comes to stems which are left to the scalar walk, or a rock of many contacts. */
+static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
+{
+    struct course c = course_of(k, i);
+    unsigned bit = 1u << i;
+    enum ceduo_end end;
+    if (!ceduo_walk_come_down(&k->job->walkers[i], &c, &end)) {
+        k->aloft &= ~bit;
+        k->job->ended(k->job->context, i, end);
+        refill(k, i);
+        return;
+    }
+    load_course(k, i, &c);
+    k->there |= bit;
+    k->aloft &= ~bit;
+    k->left &= ~bit;
+}
+
+/* A flight that ends where it is. */
+static __attribute__((noinline)) void stop_alone(struct wide *k, size_t i, enum ceduo_end end)
+{
+    struct walker *w = &k->job->walkers[i];
+    w->contacts = k->contacts[i];
+    w->at.x = k->x[i];
+    w->at.z = k->z[i];
+    k->job->ended(k->job->context, i, end);
+    refill(k, i);
+}
+
+/* A flight that leaves the slope. */
+static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    w->contacts = k->contacts[i];
+    w->at.x = k->to_x[i];
+    w->at.z = k->to_z[i];
+    k->job->ended(k->job->context, i, CEDUO_LEFT_SLOPE);
+    refill(k, i);
+}
+
+/* A flight that passes marks and goes on in its lane. */
+static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    w->spin = k->spin[i];
+    struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
+    ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
+    k->next_x[i] = w->next_x;
+    k->pause[i] = w->pause;
+}
+
+/* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
+static __attribute__((noinline)) void go_off_alone(struct wide *k, size_t i, double off)
+{
+    struct walker *w = &k->job->walkers[i];
+    struct course c = course_of(k, i);
+    unsigned bit = 1u << i;
+    uint64_t contacts = w->contacts;
+    enum ceduo_end end;
+    c.v.off = off;
+    if (!ceduo_walk_go_off(w, &c, &end)) {
+        k->job->ended(k->job->context, i, end);
+        refill(k, i);
+        return;
+    }
+    load_course(k, i, &c);
+    if (w->contacts != contacts)
+        load_draws(k, i);
+    k->left &= ~bit;
+    if (c.flies) {
+        k->left |= c.l.left ? bit : 0;
+    } else {
+        k->there |= bit;
+        k->rolls |= bit;
+    }
+}
+
+#endif

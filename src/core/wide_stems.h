@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flights of the wide walk among stems: the same operations in the same order as in flying.h. Behind a hit a lane is aloft:
+ * its landing is looked for when the next stem stands beyond its segment, together with those of the lanes that come from
+ * a contact. */
+#ifndef CEDUO_WIDE_STEMS_H
+#define CEDUO_WIDE_STEMS_H
+
+#include "hit.h"
+#include "wide_landing.h"
+
+#define STEMS_AT_ONCE 12 /* stems of a lane in one step; of more the scalar walk takes the rest */
+
+/* Flights on their way past stems, and over which segments. */
+struct passing {
+    reals x, z, vx, vz, spin;
+    ints segment, last;       /* under the rock; the last that its flight may come to */
+    ints here;                /* under the stem */
+    reals end;                /* x where `segment` ends */
+    reals x0, z0, x1, z1, m;  /* of `here` */
+    /* bit i is lane i */
+    unsigned under_way;
+    unsigned knows;   /* its landing */
+    unsigned moved;   /* was hit */
+    unsigned stopped; /* by a stem */
+    unsigned ended;   /* given up */
+};
+
+LANE void look_here(struct form form, const struct wide *k, struct passing *p)
+{
+    reals theta;
+    look_up(&k->ground->place, p->here, form.small, &p->x0, &p->z0);
+    look_up(&k->ground->place, add_ints(p->here, all_ints(1)), form.small, &p->x1, &p->z1);
+    look_up(&k->ground->slope, p->here, form.small, &p->m, &theta);
+}
+
+/* The segment under each stem at `to`, for flights that know where they land; as segment_between(). */
+LANE void go_to_segment(struct form form, const struct wide *k, struct passing *p, reals to)
+{
+    unsigned far = p->under_way & p->knows & ~bits_of(at_least(p->end, to));
+    unsigned on = far & bits_of(both(at_least(to, p->x1), more(p->last, p->here)));
+    while (on) {
+        p->here = pick_ints(flags_of(on), add_ints(p->here, all_ints(1)), p->here);
+        look_here(form, k, p);
+        on &= bits_of(both(at_least(to, p->x1), more(p->last, p->here)));
+    }
+}
+
+/* Each lane's walker takes the stem that is before it. */
+static __attribute__((noinline)) void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
+{
+    _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES], seconds[LANES];
+    bool marks = bits_of(at_least(load(k->stem_ahead), load(k->next_x))) & hit;
+    if (marks) {
+        store(x, p->x);
+        store(z, p->z);
+        store(vx, p->vx);
+        store(vz, p->vz);
+        store(spin, p->spin);
+        store(seconds, t);
+    }
+    for (unsigned left = p->under_way; left; left &= left - 1) {
+        size_t i = (size_t)__builtin_ctz(left);
+        struct walker *w = &k->job->walkers[i];
+        struct flight at = {.vx = 0};
+        double in = 0;
+        if (marks) {
+            w->spin = spin[i];
+            at = (struct flight){.x = x[i], .z = z[i], .vx = vx[i], .vz = vz[i]};
+            in = seconds[i];
+        }
+        if (!ceduo_walk_take_stem(w, hit >> i & 1, at, in))
+            p->ended |= 1u << i;
+        k->next_x[i] = w->next_x;
+        k->pause[i] = w->pause;
+        load_stem(k, i);
+    }
+}
+
+/* The next stem of each flight under way, whose landing comes behind it or is not known. */
+LANE void pass_stem(struct form form, struct wide *k, struct passing *p)
+{
+    reals zero = all(0), to = load(k->stem_ahead), height = load(k->height), cost = load(k->cost);
+    flags knows = flags_of(p->knows);
+    go_to_segment(form, k, p, to);
+    reals t = over(sub(to, p->x), p->vx), latest = load(k->t);
+    t = pick(less(t, zero), zero, pick(both(knows, less(latest, t)), latest, t));
+    reals z = add(p->z, mul(sub(p->vz, mul(all(k->g->half_g), t)), t));
+    reals ground = pick(at_least(to, p->x1), p->z1, add(p->z0, mul(p->m, sub(to, p->x0))));
+    reals clearance = sub(z, ground);
+    p->under_way &= p->knows | bits_of(at_least(clearance, zero));
+    unsigned hit = p->under_way & bits_of(less(most(clearance, zero), height));
+    if (!p->under_way)
+        return;
+    take_stems(k, p, hit, t);
+    hit &= ~p->ended;
+    p->under_way &= ~p->ended;
+    if (hit) {
+        flags h = flags_of(hit);
+        p->segment = pick_ints(h, p->here, p->segment);
+        p->end = pick(h, p->x1, p->end);
+        p->x = pick(h, to, p->x);
+        p->z = pick(h, z, p->z);
+        p->vz = pick(h, sub(p->vz, mul(all(k->g->gravity), t)), p->vz);
+        struct hit blow = {.energy = flying_energy(load(k->mass), load(k->moment), p->vx, p->vz, p->spin), .cost = cost};
+        reals share = speed_kept(blow);
+        p->vx = pick(h, mul(p->vx, share), p->vx);
+        p->vz = pick(h, mul(p->vz, share), p->vz);
+        p->spin = pick(h, mul(p->spin, share), p->spin);
+        p->stopped |= hit & ~bits_of(less(zero, share));
+        p->moved |= hit;
+        p->knows &= ~hit;
+    }
+    p->under_way &= ~p->stopped & bits_of(less(zero, p->vx));
+    p->under_way &= ~p->knows | bits_of(at_least(load(k->to_x), load(k->stem_ahead)));
+}
+
+/* Behind a hit a lane stands where it was hit, as if it had landed there. */
+LANE void store_passing(struct form form, struct wide *k, struct passing *p)
+{
+    flags moved = flags_of(p->moved);
+    reals theta;
+    p->here = p->segment;
+    look_here(form, k, p);
+    look_up(&k->ground->slope, p->segment, form.small, &p->m, &theta);
+    store(k->x, pick(moved, p->x, load(k->x)));
+    store(k->z, pick(moved, p->z, load(k->z)));
+    store(k->vx, pick(moved, p->vx, load(k->vx)));
+    store(k->vz, pick(moved, p->vz, load(k->vz)));
+    store(k->spin, pick(moved, p->spin, load(k->spin)));
+    store_ints(k->segment, pick_ints(moved, p->segment, load_ints(k->segment)));
+    store(k->t, pick(moved, all(0), load(k->t)));
+    store(k->to_x, pick(moved, p->x, load(k->to_x)));
+    store(k->to_z, pick(moved, p->z, load(k->to_z)));
+    store_ints(k->to, pick_ints(moved, p->segment, load_ints(k->to)));
+    store(k->x0, pick(moved, p->x0, load(k->x0)));
+    store(k->z0, pick(moved, p->z0, load(k->z0)));
+    store(k->x1, pick(moved, p->x1, load(k->x1)));
+    store(k->z1, pick(moved, p->z1, load(k->z1)));
+    store(k->m, pick(moved, p->m, load(k->m)));
+    k->left &= ~p->moved;
+}
+
+/* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known. Returns those
+ * of which the scalar walk does the rest. */
+LANE unsigned pass_stems(struct form form, struct wide *k)
+{
+    reals zero = all(0);
+    struct passing p = {.vx = load(k->vx)};
+    flags way = both(at_least(load(k->to_x), load(k->stem_ahead)), less(zero, p.vx));
+    unsigned begin = bits_of(way) & k->live & ~k->there, alone = begin & k->paused;
+    p.under_way = p.knows = begin & ~k->paused;
+    k->aloft = 0;
+    if (!p.under_way)
+        return alone;
+    p.x = load(k->x);
+    p.z = load(k->z);
+    p.vz = load(k->vz);
+    p.spin = load(k->spin);
+    p.here = p.segment = load_ints(k->segment);
+    ints n = all_ints(k->g->n), to = load_ints(k->to);
+    p.last = pick_ints(more(to, n), n, to);
+    look_here(form, k, &p);
+    p.end = p.x1;
+    for (int i = 0; p.under_way; i++) {
+        /* whose landing is not known goes on while the stem stands over the same segment */
+        p.under_way &= p.knows | bits_of(at_least(p.end, load(k->stem_ahead)));
+        unsigned stay = p.under_way & (i < STEMS_AT_ONCE ? k->paused : ALL_LANES);
+        alone |= stay;
+        p.under_way &= ~stay;
+        if (p.under_way)
+            pass_stem(form, k, &p);
+    }
+    store_passing(form, k, &p);
+    k->aloft = p.moved & ~p.stopped & ~p.ended;
+    for (unsigned done = p.stopped | p.ended; done; done &= done - 1) {
+        size_t i = (size_t)__builtin_ctz(done);
+        stop_alone(k, i, p.stopped >> i & 1 ? CEDUO_STOPPED_BY_STEMS : CEDUO_UNFINISHED);
+    }
+    return alone;
+}
+
+#endif
