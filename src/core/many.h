@@ -48,25 +48,30 @@ static inline void many_of_integers(const many_bits *p, many_reals *result)
     *result = (many_reals)(*p | 0x4330000000000000) - 0x1p52;
 }
 
-static inline void many_threefry_round(many_bits *p, many_bits *q, int turn)
-{
-    *p += *q;
-    *q = (*q << turn | *q >> (64 - turn)) ^ *p;
-}
-
 /* Threefry 2x64 of (*p, *q), keyed by seed and rock, as random.h has it for one. */
 static inline void many_threefry(uint64_t seed, uint64_t rock, many_bits *p, many_bits *q)
 {
-    static const int turns[2][4] = {{16, 42, 12, 31}, {16, 32, 24, 21}};
-    const uint64_t key[3] = {seed, rock, 0x1BD11BDAA9FC1A22 ^ seed ^ rock};
-    *p += key[0];
-    *q += key[1];
-    for (unsigned i = 1; i <= 5; i++) {
-        for (unsigned k = 0; k < 4; k++)
-            many_threefry_round(p, q, turns[(i + 1) % 2][k]);
-        *p += key[i % 3];
-        *q += key[(i + 1) % 3] + i;
-    }
+    const uint64_t a = seed, b = rock, c = 0x1BD11BDAA9FC1A22 ^ seed ^ rock;
+    many_bits x = *p + a, y = *q + b;
+#define ROUND(turn) \
+    x += y;         \
+    y = (y << turn | y >> (64 - turn)) ^ x
+#define FOUR(r1, r2, r3, r4, key, next, n) \
+    ROUND(r1);                             \
+    ROUND(r2);                             \
+    ROUND(r3);                             \
+    ROUND(r4);                             \
+    x += key;                              \
+    y += next + n
+    FOUR(16, 42, 12, 31, b, c, 1);
+    FOUR(16, 32, 24, 21, c, a, 2);
+    FOUR(16, 42, 12, 31, a, b, 3);
+    FOUR(16, 32, 24, 21, b, c, 4);
+    FOUR(16, 42, 12, 31, c, a, 5);
+#undef FOUR
+#undef ROUND
+    *p = x;
+    *q = y;
 }
 
 #endif

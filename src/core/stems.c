@@ -15,24 +15,21 @@
 
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
 
-void ceduo_stems_fill_scalar(struct stems *s, int side, enum stem_stream stream)
-{
-    fill_points(s, side, stream);
-}
+const struct stems_kernel ceduo_stems_scalar = {fill_points, make_stools};
 
-static stems_fill_fn *choose_fill(enum ceduo_kernel kernel)
+static const struct stems_kernel *choose_kernel(enum ceduo_kernel kernel)
 {
 #if defined(__x86_64__) && defined(__GNUC__)
     bool best = kernel == CEDUO_KERNEL_BEST;
     if ((best || kernel == CEDUO_KERNEL_AVX512) && __builtin_cpu_supports("avx512f") &&
         __builtin_cpu_supports("avx512dq"))
-        return ceduo_stems_fill_avx512;
+        return &ceduo_stems_avx512;
     if ((best || kernel == CEDUO_KERNEL_AVX2) && __builtin_cpu_supports("avx2"))
-        return ceduo_stems_fill_avx2;
+        return &ceduo_stems_avx2;
 #else
     (void)kernel;
 #endif
-    return ceduo_stems_fill_scalar;
+    return &ceduo_stems_scalar;
 }
 
 /* What belongs to shoot i of a stool. */
@@ -70,6 +67,8 @@ static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_
 /* Room for `more` stems behind those that wait. */
 static bool make_room(struct stems *s, struct stems_side *side, size_t more)
 {
+    if (side->first == side->end)
+        side->first = side->end = 0;
     if (side->end + more <= side->room)
         return true;
     size_t count = side->end - side->first;
@@ -137,7 +136,7 @@ static double next_place(struct stems *s, int i_side, enum stem_stream stream)
     if (p->next == p->count) {
         if (p->end_belt == s->wood->belts)
             return INFINITY;
-        s->fill(s, i_side, stream);
+        s->kernel->fill(s, i_side, stream);
         if (p->count == 0)
             return INFINITY;
     }
@@ -149,44 +148,41 @@ static uint64_t event_of_next(const struct points *p, enum stem_stream stream, i
     return stem_event(stream, side, p->drawn - p->count + p->next);
 }
 
-/* Makes the stool that the stream of side `side` has come to: its shoots, as far as the rock can hit them. */
-static void make_stool(struct stems *s, int i_side)
+/* Makes a stool whose shoots may differ, or stand on both sides of the release, one by one. */
+static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_side)
 {
-    struct stems_side *side = &s->side[i_side];
-    struct points *p = &side->streams[STREAM_STOOLS];
-    unsigned k = p->next;
-    const struct wood_stools *stools = s->wood->along[i_side][p->belt[k]].stools;
-    double centre = p->offset[k] * (2 * stools->reach + stools->most + s->b);
-    unsigned more = p->mark[k] < stools->more, n = stools->n + more;
-    if (!make_room(s, side, n))
-        return;
-    uint64_t event = event_of_next(p, STREAM_STOOLS, i_side);
-    p->next++;
-    s->drawn += n;
-    s->effort += 1 + n;
-    double sine = p->sine[k] * stools->radius[more], cosine = p->cosine[k] * stools->radius[more];
-    const double *ring = stools->ring[more];
-    for (unsigned i = 0; i < n; i++) {
-        double y = centre + (ring[2 * i] * sine + ring[2 * i + 1] * cosine);
-        if (fabs(y) > (s->b + stools->most) / 2)
+    struct stool t = next_stool(s, i_side);
+    for (unsigned i = 0; i < t.n; i++) {
+        struct stem stem = {.dbh = t.stools->kinds->dbh, .kind = t.stools->kinds, .shoot = true, .stool = t.event};
+        place_shoot(&t, i, &stem.along, &stem.y);
+        if (fabs(stem.y) > (s->b + t.stools->most) / 2)
             continue;
-        struct stem stem = {.along = p->at[k] + (ring[2 * i] * cosine - ring[2 * i + 1] * sine),
-                            .y = y,
-                            .dbh = stools->kinds->dbh,
-                            .kind = stools->kinds,
-                            .shoot = true,
-                            .stool = event};
-        if (stools->varied) {
-            stem.kind = draw_shoot(s, stools, event, i, &stem.dbh);
-            if (fabs(y) > (s->b + stem.dbh) / 2)
+        if (t.stools->varied) {
+            stem.kind = draw_shoot(s, t.stools, t.event, i, &stem.dbh);
+            if (fabs(stem.y) > (s->b + stem.dbh) / 2)
                 continue;
         }
         stem.energy = stem.kind->energy;
         if (i_side == 0 && stem.along < s->start)
             turn_behind(s, stem);
         else
-            put_in(s, side, &stem);
+            put_in(s, &s->side[i_side], &stem);
     }
+}
+
+/* Makes the next stool of a side, and perhaps some of those behind it. */
+static void make_stool(struct stems *s, int i_side)
+{
+    struct stems_side *side = &s->side[i_side];
+    const struct points *p = &side->streams[STREAM_STOOLS];
+    bool plain = is_plain_stool(s, i_side) && side->end - side->first < STOP_SHOOTS;
+    size_t n = plain ? SHOOTS_AT_ONCE : s->wood->along[i_side][p->belt[p->next]].stools->n + 1;
+    if (!make_room(s, side, n))
+        return;
+    if (plain)
+        s->kernel->make_stools(s, i_side);
+    else
+        make_other_stool(s, i_side);
 }
 
 /* ---- single trees, and contacts ---- */
@@ -351,7 +347,7 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
 
 bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel)
 {
-    *stems = (struct stems){.wood = wood, .poisson = poisson, .fill = choose_fill(kernel)};
+    *stems = (struct stems){.wood = wood, .poisson = poisson, .kernel = choose_kernel(kernel)};
     for (int i = 0; i < 2; i++) {
         stems->side[i].streams[STREAM_STOOLS].size = POINTS;
         stems->side[i].streams[STREAM_SINGLE].size = poisson ? POINTS : POINTS_FEW;

@@ -32,8 +32,11 @@ enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAMS };
 /* The next places of a stream, which are drawn many at a time. */
 #define POINTS     16
 #define POINTS_FEW 8 /* of trees among stools */
+#define SHOOTS_AT_ONCE 64 /* so many are put in order at once, more than STOP_SHOOTS and those of a last stool */
+#define STOP_SHOOTS    24
+#define SHOOTS_FEW     (SHOOTS_AT_ONCE - STOP_SHOOTS)
 struct points {
-    _Alignas(64) double at[POINTS]; /* m along the strip */
+    double at[POINTS];              /* m along the strip */
     double offset[POINTS];          /* uniform in (-1/2, 1/2): how far from the middle of the strip */
     double mark[POINTS];            /* uniform in (0, 1): which of those that the stream is made of */
     double turn[POINTS];            /* likewise in (-1/2, 1/2) */
@@ -57,19 +60,34 @@ struct stems_side {
     bool next_waits;        /* it is one of those waiting; otherwise `single` */
 };
 
+/* A stool that a stream has come to: where it stands, and its ring. */
+struct stool {
+    double at, centre, sine, cosine;
+    const struct wood_stools *stools;
+    const double *ring;
+    unsigned n;
+    uint64_t event;
+};
+
 /* Places of a belt for a rock of diameter b: so many per metre, and its inverse. */
 struct belt_rates {
     double b, rate[STREAMS], metres[STREAMS];
 };
 
+/* What is done for many stools at once, of a kind of registers. */
 struct stems;
-/* Draws the next places of a stream. */
-typedef void stems_fill_fn(struct stems *stems, int side, enum stem_stream stream);
+struct stems_kernel {
+    /* Draws the next places of a stream. */
+    void (*fill)(struct stems *stems, int side, enum stem_stream stream);
+    /* Makes some of the stools that come next on a side, of which the shoots are alike and stand ahead of the release; there
+     * is room for SHOOTS_AT_ONCE. */
+    void (*make_stools)(struct stems *stems, int side);
+};
 
 struct stems {
     const struct wood *wood;
     bool poisson;
-    stems_fill_fn *fill;
+    const struct stems_kernel *kernel;
     uint64_t seed, number; /* of the rock */
     double b;              /* its mean diameter, m */
     double start;          /* x of its release */
@@ -107,13 +125,23 @@ static inline struct stem *ceduo_stems_next(struct stems_side *side)
  * on. Each call does a bounded amount of work. */
 void ceduo_stems_look_on(struct stems *stems, int side);
 
-/* The same; mostly the one after it waits already. */
+/* Whether the next stem and the one after it both wait already, as mostly they do; and takes the first of them. */
+static inline bool ceduo_stems_next_waits(const struct stems_side *side)
+{
+    return side->next_known && side->next_waits && side->first + 1 < side->end &&
+           side->waiting[side->first + 1].along < side->sure;
+}
+
+static inline void ceduo_stems_take_waiting(struct stems_side *side)
+{
+    side->next = side->waiting[++side->first].along;
+}
+
 static inline void ceduo_stems_take(struct stems *stems, int i)
 {
     struct stems_side *side = &stems->side[i];
-    if (side->next_known && side->next_waits && side->first + 1 < side->end &&
-        side->waiting[side->first + 1].along < side->sure)
-        side->next = side->waiting[++side->first].along;
+    if (ceduo_stems_next_waits(side))
+        ceduo_stems_take_waiting(side);
     else
         ceduo_stems_look_on(stems, i);
 }
@@ -129,7 +157,7 @@ static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem
     uint64_t *place = &stems->met[stem->stool & stems->wood->places];
     bool first = *place != stem->stool && !stem->met;
     *place = stem->stool;
-    if (first && !(stem->stool & 1) && stem->along <= stems->start + 2 * stems->wood->reach)
+    if (stem->along <= stems->start + 2 * stems->wood->reach && first && !(stem->stool & 1))
         ceduo_stems_meet_behind(stems, stem->stool);
     return first;
 }
@@ -142,7 +170,7 @@ static inline double ceduo_stem_energy(struct stem *stem, double b)
     return stem->energy;
 }
 
-/* Of a kind of registers; the scalar one for any machine. */
-stems_fill_fn ceduo_stems_fill_scalar, ceduo_stems_fill_avx2, ceduo_stems_fill_avx512;
+/* The first is for any machine. */
+extern const struct stems_kernel ceduo_stems_scalar, ceduo_stems_avx2, ceduo_stems_avx512;
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The next places of a stream of stools or trees, many at once: see stems.h. This is compiled for each kind of registers. */
+/* The next places of streams of stools or trees, and the shoots of the next stools, many at once: see stems.h. This is compiled for each kind of registers. */
 #ifndef CEDUO_STEMS_FILL_H
 #define CEDUO_STEMS_FILL_H
 
@@ -26,7 +26,7 @@ static inline void draw_points(const struct stems *s, uint64_t event, struct poi
         many_bits p, q, low;
         many_reals u, log;
         many_from(event + 2 * i, 2, &p);
-        q = p - p + RANDOM_STEM;
+        many_from(RANDOM_STEM, 0, &q);
         many_threefry(s->seed, s->number, &p, &q);
         low = p >> 24;
         many_of_integers(&low, &u);
@@ -116,7 +116,7 @@ static inline void turn_points(const struct stems *s, int side, struct points *p
     }
 }
 
-static inline void fill_points(struct stems *s, int side, enum stem_stream stream)
+static void fill_points(struct stems *s, int side, enum stem_stream stream)
 {
     struct points *p = &s->side[side].streams[stream];
     _Alignas(64) double gaps[POINTS];
@@ -125,6 +125,122 @@ static inline void fill_points(struct stems *s, int side, enum stem_stream strea
     p->drawn += p->count;
     if (stream == STREAM_STOOLS)
         turn_points(s, side, p);
+}
+
+/* ---- stools ---- */
+
+/* Takes the next stool of a side from its stream, with its shoots yet to be made. */
+static inline struct stool next_stool(struct stems *s, int side)
+{
+    struct points *p = &s->side[side].streams[STREAM_STOOLS];
+    unsigned k = p->next++;
+    const struct wood_stools *stools = s->wood->along[side][p->belt[k]].stools;
+    unsigned more = p->mark[k] < stools->more, n = stools->n + more;
+    s->drawn += n;
+    s->effort += 1 + n;
+    return (struct stool){.at = p->at[k],
+                          .centre = p->offset[k] * (2 * stools->reach + stools->most + s->b),
+                          .sine = p->sine[k] * stools->radius[more],
+                          .cosine = p->cosine[k] * stools->radius[more],
+                          .stools = stools,
+                          .ring = stools->ring[more],
+                          .n = n,
+                          .event = stem_event(STREAM_STOOLS, side, p->drawn - p->count + k)};
+}
+
+/* Where shoot i of a stool stands. */
+static inline void place_shoot(const struct stool *t, unsigned i, double *along, double *y)
+{
+    double c = t->ring[2 * i], s = t->ring[2 * i + 1];
+    *along = t->at + (c * t->cosine - s * t->sine);
+    *y = t->centre + (c * t->sine + s * t->cosine);
+}
+
+/* Whether make_stools() can make the next stool. */
+static inline bool is_plain_stool(const struct stems *s, int side)
+{
+    const struct points *p = &s->side[side].streams[STREAM_STOOLS];
+    const struct wood_stools *stools = s->wood->along[side][p->belt[p->next]].stools;
+    return !stools->varied && stools->n + 1 < SHOOTS_FEW && (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
+}
+
+/* Shoots to be put in order: the last bits of `along` tell them apart. */
+struct shoots {
+    _Alignas(64) double along[SHOOTS_AT_ONCE + MANY];
+    double y[SHOOTS_AT_ONCE];
+    const struct wood_kind *kind[SHOOTS_AT_ONCE];
+    uint64_t stool[SHOOTS_AT_ONCE];
+    bool met[SHOOTS_AT_ONCE];
+    unsigned n;
+};
+
+/* The shoots of a stool that the rock can hit; as likely as not for each, so that no branch depends on it. */
+static inline void add_shoots(const struct stems *s, const struct stool *t, struct shoots *to)
+{
+    const struct wood_kind *kind = t->stools->kinds;
+    double most = (s->b + kind->dbh) / 2;
+    unsigned n = to->n;
+    for (unsigned i = 0; i < t->n; i++) {
+        double along, y;
+        place_shoot(t, i, &along, &y);
+        to->along[n] = along;
+        to->y[n] = y;
+        to->kind[n] = kind;
+        to->stool[n] = t->event;
+        to->met[n] = false;
+        n += fabs(y) <= most;
+    }
+    to->n = n;
+}
+
+/* The place of each among all. */
+static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
+{
+    for (unsigned i = 0; i < t->n; i++) {
+        uint64_t bits = (elementary_bits(t->along[i]) & ~(uint64_t)(SHOOTS_AT_ONCE - 1)) | i;
+        t->along[i] = elementary_real(bits);
+    }
+    for (unsigned i = 0; i < t->n; i += MANY) {
+        many_reals along;
+        many_bits before = {0};
+        memcpy(&along, &t->along[i], sizeof along);
+        for (unsigned j = 0; j < t->n; j++)
+            before -= (many_bits)(along > t->along[j]);
+        memcpy(&rank[i], &before, sizeof before);
+    }
+}
+
+static void make_stools(struct stems *s, int i_side)
+{
+    struct stems_side *side = &s->side[i_side];
+    struct points *p = &side->streams[STREAM_STOOLS];
+    struct shoots t; /* 2.5 kB: only what is used is set */
+    t.n = 0;
+    _Alignas(64) uint64_t rank[SHOOTS_AT_ONCE];
+    for (size_t i = side->first; i < side->end; i++, t.n++) {
+        const struct stem *stem = &side->waiting[i];
+        t.along[t.n] = stem->along;
+        t.y[t.n] = stem->y;
+        t.kind[t.n] = stem->kind;
+        t.stool[t.n] = stem->stool;
+        t.met[t.n] = stem->met;
+    }
+    do {
+        struct stool stool = next_stool(s, i_side);
+        add_shoots(s, &stool, &t);
+    } while (t.n < STOP_SHOOTS && p->next < p->count && is_plain_stool(s, i_side));
+    rank_shoots(&t, rank);
+    for (unsigned i = 0; i < t.n; i++)
+        side->waiting[rank[i]] = (struct stem){.along = t.along[i],
+                                               .y = t.y[i],
+                                               .dbh = t.kind[i]->dbh,
+                                               .energy = t.kind[i]->energy,
+                                               .kind = t.kind[i],
+                                               .stool = t.stool[i],
+                                               .shoot = true,
+                                               .met = t.met[i]};
+    side->first = 0;
+    side->end = t.n;
 }
 
 #endif

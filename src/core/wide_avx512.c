@@ -22,10 +22,7 @@ void ceduo_wide_walk_avx512(const struct wide_job *job)
     wide_walk(job);
 }
 
-void ceduo_stems_fill_avx512(struct stems *s, int side, enum stem_stream stream)
-{
-    fill_points(s, side, stream);
-}
+const struct stems_kernel ceduo_stems_avx512 = {fill_points, make_stools};
 
 #ifdef __clang__
 #pragma clang attribute pop

@@ -63,14 +63,14 @@ LANE void draw_ahead(struct wide *k)
     store(k->draw[2], u1);
 }
 
-/* Those aloft keep theirs. */
+/* Those in the air keep theirs. */
 LANE reals next_draw(struct wide *k)
 {
     reals u = load(k->draw[0]), v = load(k->draw[1]), w = load(k->draw[2]);
-    if (k->aloft) {
-        flags aloft = flags_of(k->aloft);
-        w = pick(aloft, v, w);
-        v = pick(aloft, u, v);
+    if (in_the_air(k)) {
+        flags air = flags_of(in_the_air(k));
+        w = pick(air, v, w);
+        v = pick(air, u, v);
     }
     store(k->draw[0], v);
     store(k->draw[1], w);
@@ -192,11 +192,11 @@ LANE unsigned disturbed(const struct wide *k, unsigned *pass, unsigned *leave)
     reals x = load(k->to_x);
     flags mark = both(at_least(x, load(k->next_x)), less(all(0), load(k->vx)));
     flags stem = either(at_least(x, load(k->stem_ahead)), at_least(load(k->stem_behind), x));
-    unsigned lands = k->live & ~k->aloft, flies = lands & ~k->there;
+    unsigned lands = k->live & ~in_the_air(k), flies = lands & ~k->there;
     unsigned many = ~bits_of(more(load_ints(k->pause), load_ints(k->contacts)));
     unsigned alone = (bits_of(stem) & flies) | (many & lands);
     *pass = bits_of(mark) & flies & ~alone;
-    *leave = k->left & ~alone;
+    *leave = k->left & lands & ~alone;
     return alone;
 }
 
@@ -233,7 +233,7 @@ LANE struct velocities velocities_on(const struct wide *k, const struct rocks *r
 static __attribute__((noinline)) void ground_alone(struct wide *k)
 {
     for (size_t i = 0; i < LANES; i++)
-        if (k->live >> i & 1)
+        if ((k->live & ~in_the_air(k)) >> i & 1)
             ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
 }
 
@@ -258,11 +258,11 @@ LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct
     v->off = pick(less(zero, v->off), v->off, zero);
     r->vx = sub(mul(v->along, r->c), mul(v->off, r->s));
     r->vz = add(mul(v->along, r->s), mul(v->off, r->c));
-    if (k->aloft) { /* they strike nothing */
-        flags aloft = flags_of(k->aloft);
-        r->vx = pick(aloft, load(k->vx), r->vx);
-        r->vz = pick(aloft, load(k->vz), r->vz);
-        out.spin = pick(aloft, load(k->spin), out.spin);
+    if (in_the_air(k)) { /* they strike nothing */
+        flags air = flags_of(in_the_air(k));
+        r->vx = pick(air, load(k->vx), r->vx);
+        r->vz = pick(air, load(k->vz), r->vz);
+        out.spin = pick(air, load(k->spin), out.spin);
     }
     store(k->spin, out.spin);
     store(k->vx, r->vx);

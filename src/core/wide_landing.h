@@ -144,7 +144,7 @@ LANE unsigned rolling(const struct wide *k, const struct rocks *r, reals off, co
                       unsigned *unsure)
 {
     reals radius = load(k->radius);
-    unsigned lands = k->live & ~k->aloft;
+    unsigned lands = k->live & ~in_the_air(k);
     flags near = but(less(size_of_each(sub(l->x, r->x)), radius), l->left);
     flags low = less(mul(off, off), mul(radius, mul(all(2 * k->g->gravity), r->c)));
     flags may = both(near, low), here = same(l->segment, r->segment), less_far, farther;

@@ -47,12 +47,20 @@ struct wide {
     unsigned rolls; /* of these: with speed `along` on the ground */
     unsigned left;  /* lands off the slope */
     unsigned fresh; /* has no draws yet */
-    unsigned aloft; /* behind a stem: where it lands is not known yet */
+    unsigned aloft; /* behind a stem: where it lands is looked for now */
+    unsigned waits; /* among stems: it stays as it is while others land */
+    unsigned lost;  /* of these: where it lands is not known */
     unsigned paused; /* what stands next is not known */
     bool empty;     /* no rock waits */
     bool same_start; /* every rock comes to its first contact as `start`, without passing a mark */
     struct course start;
 };
+
+/* Lanes that come to no contact in this step. */
+LANE unsigned in_the_air(const struct wide *k)
+{
+    return k->aloft | k->waits;
+}
 
 /* ---- one lane and its walker ---- */
 
@@ -64,23 +72,29 @@ static void load_draws(struct wide *k, size_t i)
     k->draw[1][i] = pair.u[1];
 }
 
-/* The next stem ahead. */
+/* The next stem ahead, which is known. */
+LANE void show_stem(struct wide *k, size_t i)
+{
+    const struct walker *w = &k->job->walkers[i];
+    struct stem *stem = ceduo_stems_next(&w->stems->side[0]);
+    k->stem_ahead[i] = w->stem_ahead;
+    k->height[i] = stem->kind->height;
+    k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
+}
+
+/* The next stem ahead, if there is one. */
 static void load_stem(struct wide *k, size_t i)
 {
-    struct walker *w = &k->job->walkers[i];
+    const struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
     k->stem_ahead[i] = w->stem_ahead;
     k->paused &= ~bit;
     if (!w->stems || w->stem_ahead == INFINITY)
         return;
-    struct stems_side *side = &w->stems->side[0];
-    if (!side->next_known) {
+    if (w->stems->side[0].next_known)
+        show_stem(k, i);
+    else
         k->paused |= bit;
-        return;
-    }
-    struct stem *stem = ceduo_stems_next(side);
-    k->height[i] = stem->kind->height;
-    k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
 }
 
 /* What the walker knows of itself and the scalar walk may have changed. */
@@ -132,9 +146,9 @@ static struct course course_of(struct wide *k, size_t i)
                                   .vx = k->vx[i],
                                   .vz = k->vz[i],
                                   .segment = k->segment[i] - 1,
-                                  .on_ground = !(k->aloft & bit)},
+                                  .on_ground = !((k->aloft | k->lost) & bit)},
                            .flies = !(k->there & bit),
-                           .aloft = k->aloft & bit,
+                           .aloft = (k->aloft | k->lost) & bit,
                            .v = {.along = k->along[i], .off = 0},
                            .l = {.t = k->t[i],
                                  .x = k->to_x[i],

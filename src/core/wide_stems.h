@@ -8,7 +8,9 @@
 #include "hit.h"
 #include "wide_landing.h"
 
-#define STEMS_AT_ONCE 12 /* stems of a lane in one step; of more the scalar walk takes the rest */
+#ifndef TOO_FEW
+#define TOO_FEW (LANES / 4) /* so few lanes among stems wait until there are more; only speed depends on it */
+#endif
 
 /* Flights on their way past stems, and over which segments. */
 struct passing {
@@ -45,35 +47,54 @@ LANE void go_to_segment(struct form form, const struct wide *k, struct passing *
     }
 }
 
-/* Each lane's walker takes the stem that is before it. */
-static __attribute__((noinline)) void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
+/* The scalar walk takes the stem that is before each of `lanes`, whose flights pass marks up to there if they hit it. */
+static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct passing *p, unsigned lanes, unsigned hit,
+                                                       reals t)
 {
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES], seconds[LANES];
-    bool marks = bits_of(at_least(load(k->stem_ahead), load(k->next_x))) & hit;
-    if (marks) {
-        store(x, p->x);
-        store(z, p->z);
-        store(vx, p->vx);
-        store(vz, p->vz);
-        store(spin, p->spin);
-        store(seconds, t);
-    }
-    for (unsigned left = p->under_way; left; left &= left - 1) {
-        size_t i = (size_t)__builtin_ctz(left);
+    store(x, p->x);
+    store(z, p->z);
+    store(vx, p->vx);
+    store(vz, p->vz);
+    store(spin, p->spin);
+    store(seconds, t);
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
         struct walker *w = &k->job->walkers[i];
-        struct flight at = {.vx = 0};
-        double in = 0;
-        if (marks) {
-            w->spin = spin[i];
-            at = (struct flight){.x = x[i], .z = z[i], .vx = vx[i], .vz = vz[i]};
-            in = seconds[i];
-        }
-        if (!ceduo_walk_take_stem(w, hit >> i & 1, at, in))
+        struct flight at = {.x = x[i], .z = z[i], .vx = vx[i], .vz = vz[i]};
+        w->spin = spin[i];
+        if (!ceduo_walk_take_stem(w, hit >> i & 1, at, seconds[i]))
             p->ended |= 1u << i;
         k->next_x[i] = w->next_x;
         k->pause[i] = w->pause;
         load_stem(k, i);
     }
+}
+
+/* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it waits
+ * already and no mark is passed. */
+LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
+{
+    unsigned at_once = p->under_way & ~(hit & bits_of(at_least(load(k->stem_ahead), load(k->next_x))));
+    for (unsigned left = at_once; left; left &= left - 1) {
+        size_t i = (size_t)__builtin_ctz(left);
+        if (!ceduo_stems_next_waits(&k->job->walkers[i].stems->side[0]))
+            at_once &= ~(1u << i);
+    }
+    for (unsigned left = hit & at_once; left; left &= left - 1) {
+        struct walker *w = &k->job->walkers[__builtin_ctz(left)];
+        w->stems_hit++;
+        w->stools_met += ceduo_stems_meet(w->stems, ceduo_stems_next(&w->stems->side[0]));
+    }
+    for (unsigned left = at_once; left; left &= left - 1) {
+        size_t i = (size_t)__builtin_ctz(left);
+        struct walker *w = &k->job->walkers[i];
+        ceduo_stems_take_waiting(&w->stems->side[0]);
+        w->stem_ahead = w->stems->side[0].next;
+        show_stem(k, i);
+    }
+    if (p->under_way & ~at_once)
+        take_stems_alone(k, p, p->under_way & ~at_once, hit, t);
 }
 
 /* The next stem of each flight under way, whose landing comes behind it or is not known. */
@@ -145,13 +166,16 @@ LANE void store_passing(struct form form, struct wide *k, struct passing *p)
 LANE unsigned pass_stems(struct form form, struct wide *k)
 {
     reals zero = all(0);
-    struct passing p = {.vx = load(k->vx)};
+    struct passing p;
+    p.vx = load(k->vx);
     flags way = both(at_least(load(k->to_x), load(k->stem_ahead)), less(zero, p.vx));
-    unsigned begin = bits_of(way) & k->live & ~k->there, alone = begin & k->paused;
-    p.under_way = p.knows = begin & ~k->paused;
-    k->aloft = 0;
+    unsigned begin = bits_of(way) & k->live & ~k->there, alone = 0;
+    p.knows = begin & ~k->lost;
+    p.under_way = begin | k->lost;
+    p.moved = p.stopped = p.ended = 0;
+    k->aloft = k->waits = k->lost = 0;
     if (!p.under_way)
-        return alone;
+        return 0;
     p.x = load(k->x);
     p.z = load(k->z);
     p.vz = load(k->vz);
@@ -161,17 +185,19 @@ LANE unsigned pass_stems(struct form form, struct wide *k)
     p.last = pick_ints(more(to, n), n, to);
     look_here(form, k, &p);
     p.end = p.x1;
-    for (int i = 0; p.under_way; i++) {
+    unsigned lost = p.under_way & ~p.knows;
+    do {
         /* whose landing is not known goes on while the stem stands over the same segment */
         p.under_way &= p.knows | bits_of(at_least(p.end, load(k->stem_ahead)));
-        unsigned stay = p.under_way & (i < STEMS_AT_ONCE ? k->paused : ALL_LANES);
-        alone |= stay;
-        p.under_way &= ~stay;
+        alone |= p.under_way & k->paused;
+        p.under_way &= ~k->paused;
         if (p.under_way)
             pass_stem(form, k, &p);
-    }
+    } while (__builtin_popcount(p.under_way) > TOO_FEW);
     store_passing(form, k, &p);
-    k->aloft = p.moved & ~p.stopped & ~p.ended;
+    k->waits = p.under_way;
+    k->lost = p.under_way & ~p.knows;
+    k->aloft = (p.moved | lost) & ~p.stopped & ~p.ended & ~k->waits;
     for (unsigned done = p.stopped | p.ended; done; done &= done - 1) {
         size_t i = (size_t)__builtin_ctz(done);
         stop_alone(k, i, p.stopped >> i & 1 ? CEDUO_STOPPED_BY_STEMS : CEDUO_UNFINISHED);

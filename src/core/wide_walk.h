@@ -10,8 +10,25 @@
 
 /* ---- all contacts ---- */
 
-LANE void store_lanes(struct wide *k, const struct rocks *r, const struct landings *l)
+/* Those that wait stay as they are. */
+LANE void store_lanes(struct wide *k, struct rocks *r, struct landings *l)
 {
+    if (k->waits) {
+        flags waits = flags_of(k->waits);
+        r->x = pick(waits, load(k->x), r->x);
+        r->z = pick(waits, load(k->z), r->z);
+        r->segment = pick_ints(waits, load_ints(k->segment), r->segment);
+        l->t = pick(waits, load(k->t), l->t);
+        l->x = pick(waits, load(k->to_x), l->x);
+        l->z = pick(waits, load(k->to_z), l->z);
+        l->segment = pick_ints(waits, load_ints(k->to), l->segment);
+        l->x0 = pick(waits, load(k->x0), l->x0);
+        l->z0 = pick(waits, load(k->z0), l->z0);
+        l->x1 = pick(waits, load(k->x1), l->x1);
+        l->z1 = pick(waits, load(k->z1), l->z1);
+        l->m = pick(waits, load(k->m), l->m);
+        l->theta = pick(waits, load(k->theta), l->theta);
+    }
     store(k->x, r->x);
     store(k->z, r->z);
     store_ints(k->segment, r->segment);
@@ -48,10 +65,11 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     struct rocks r = rocks_down(form, k);
     struct velocities v = velocities_on(k, &r);
     strike_lanes(form, k, &r, &v);
-    store_ints(k->contacts, add_ints(load_ints(k->contacts), pick_ints(flags_of(k->aloft), all_ints(0), all_ints(1))));
+    store_ints(k->contacts, add_ints(load_ints(k->contacts), pick_ints(flags_of(in_the_air(k)), all_ints(0), all_ints(1))));
     struct landings l = find_segments(form, k, &r);
     land_lanes(form, k, &r, &l);
-    k->left = bits_of(l.left) & k->live;
+    k->left = (bits_of(l.left) & k->live & ~k->waits) | (k->left & k->waits);
+    l.far &= ~k->waits;
     leave_lanes(k, &r, &l);
     flags steep = less(all(1), size_of_each(r.m));
     unsigned unsure, rolls = rolling(k, &r, v.off, &l, steep, &unsure) & ~l.far;
@@ -88,7 +106,10 @@ static void finish_alone(struct wide *k)
             const struct ground_segment *s = &k->g->segments[c.at.segment];
             c.v = (struct velocity){.along = c.at.vx * s->c + c.at.vz * s->s, .off = c.at.vz * s->c - c.at.vx * s->s};
         }
-        k->job->ended(k->job->context, i, ceduo_walk_on(w, &c, k->job->law));
+        enum ceduo_end end;
+        if (!c.aloft || ceduo_walk_come_down(w, &c, &end))
+            end = ceduo_walk_on(w, &c, k->job->law);
+        k->job->ended(k->job->context, i, end);
     }
 }
 
