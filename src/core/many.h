@@ -11,6 +11,7 @@
 #ifndef MANY
 #define MANY 8
 #endif
+#define MANY_INLINE static inline __attribute__((always_inline))
 typedef double many_reals __attribute__((vector_size(8 * MANY)));
 typedef uint64_t many_bits __attribute__((vector_size(8 * MANY)));
 
@@ -29,7 +30,7 @@ typedef uint64_t many_bits __attribute__((vector_size(8 * MANY)));
 #undef ELEMENTARY
 
 /* n, n + step, n + 2 step … */
-static inline void many_from(uint64_t n, uint64_t step, many_bits *result)
+MANY_INLINE void many_from(uint64_t n, uint64_t step, many_bits *result)
 {
     static const many_bits places = {0, 1,
 #if MANY > 2
@@ -43,13 +44,13 @@ static inline void many_from(uint64_t n, uint64_t step, many_bits *result)
 }
 
 /* As doubles; below 2^52. */
-static inline void many_of_integers(const many_bits *p, many_reals *result)
+MANY_INLINE void many_of_integers(const many_bits *p, many_reals *result)
 {
     *result = (many_reals)(*p | 0x4330000000000000) - 0x1p52;
 }
 
 /* Threefry 2x64 of (*p, *q), keyed by seed and rock, as random.h has it for one. */
-static inline void many_threefry(uint64_t seed, uint64_t rock, many_bits *p, many_bits *q)
+MANY_INLINE void many_threefry(uint64_t seed, uint64_t rock, many_bits *p, many_bits *q)
 {
     const uint64_t a = seed, b = rock, c = 0x1BD11BDAA9FC1A22 ^ seed ^ rock;
     many_bits x = *p + a, y = *q + b;

@@ -20,22 +20,31 @@ enum random_kind {
     RANDOM_ROCK,    /* events: diameter, height, volume, mass, density, axes */
     RANDOM_GROUND,  /* events: Rn, Rt */
     RANDOM_STEM,    /* of a stool or tree: its gap, offset, mark and turn; events: stream, side, number */
-    RANDOM_SHOOT,   /* a shoot's cohort; its number from bit 8 on */
-    RANDOM_DBH      /* a stem's diameter; likewise, and from bit 32 on how many were used */
+    RANDOM_SHOOT,   /* cohorts of four shoots of a stool; which four from bit 8 on */
+    RANDOM_DBH      /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
 };
 
 struct random_pair {
     double u[2];
 };
 
-/* Two uniform numbers in [0, 1): Threefry 2x64 keyed by seed and rock (Salmon et al. 2011). `kind`: an enum random_kind,
- * in some with a number above its low eight bits. */
-static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint64_t event, uint64_t kind)
+/* 2 x 64 bits: Threefry 2x64 keyed by seed and rock (Salmon et al. 2011). `kind`: an enum random_kind, in some with a
+ * number above its low eight bits. */
+static inline void random_bits(uint64_t seed, uint64_t rock, uint64_t event, uint64_t kind, uint64_t bits[2])
 {
     threefry2x64_ctr_t c = {{event, kind}};
     threefry2x64_key_t k = {{seed, rock}};
     threefry2x64_ctr_t r = threefry2x64(c, k);
-    return (struct random_pair){{(double)(r.v[0] >> 11) * 0x1p-53, (double)(r.v[1] >> 11) * 0x1p-53}};
+    bits[0] = r.v[0];
+    bits[1] = r.v[1];
+}
+
+/* Two uniform numbers in [0, 1). */
+static inline struct random_pair random_pair(uint64_t seed, uint64_t rock, uint64_t event, uint64_t kind)
+{
+    uint64_t bits[2];
+    random_bits(seed, rock, event, kind, bits);
+    return (struct random_pair){{(double)(bits[0] >> 11) * 0x1p-53, (double)(bits[1] >> 11) * 0x1p-53}};
 }
 
 /* One number of kind `kind`; never 0, so that every quantile of it is finite. */

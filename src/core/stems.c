@@ -32,12 +32,6 @@ static const struct stems_kernel *choose_kernel(enum ceduo_kernel kernel)
     return &ceduo_stems_scalar;
 }
 
-/* What belongs to shoot i of a stool. */
-static uint64_t kind_of_shoot(enum random_kind kind, unsigned i)
-{
-    return (uint64_t)kind | (uint64_t)i << 8;
-}
-
 /* ---- diameters ---- */
 
 /* A diameter by the gamma law, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter itself, as thick stems
@@ -98,18 +92,6 @@ static inline void put_in(struct stems *s, struct stems_side *side, const struct
     s->effort += (end - i) / STEPS_OF_A_STEM;
 }
 
-static const struct wood_kind *draw_cohort(const struct stems *s, const struct wood_stools *stools, uint64_t event,
-                                           unsigned i)
-{
-    const struct wood_kind *k = stools->kinds;
-    if (stools->cohorts == 1)
-        return k;
-    double u = random_pair(s->seed, s->number, event, kind_of_shoot(RANDOM_SHOOT, i)).u[0];
-    while (u >= k->share_to)
-        k++;
-    return k;
-}
-
 /* A shoot that stands behind the start of the strip ahead belongs to the strip behind, whose own stools begin beyond
  * those that reach over the start. */
 static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem stem)
@@ -117,16 +99,6 @@ static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem s
     stem.along = -stem.along;
     if (make_room(s, &s->side[1], 1))
         put_in(s, &s->side[1], &stem);
-}
-
-/* The kind and diameter of shoot i of a stool whose shoots differ. */
-static __attribute__((noinline)) const struct wood_kind *draw_shoot(const struct stems *s,
-                                                                   const struct wood_stools *stools, uint64_t event,
-                                                                   unsigned i, double *dbh)
-{
-    const struct wood_kind *k = draw_cohort(s, stools, event, i);
-    *dbh = k->shape > 0 ? draw_dbh(s, k, event, kind_of_shoot(RANDOM_DBH, i), 0) : k->dbh;
-    return k;
 }
 
 /* The next place of a stream, drawn if need be; infinite where there is none. */
@@ -148,20 +120,31 @@ static uint64_t event_of_next(const struct points *p, enum stem_stream stream, i
     return stem_event(stream, side, p->drawn - p->count + p->next);
 }
 
-/* Makes a stool whose shoots may differ, or stand on both sides of the release, one by one. */
+/* The kind of shoot i of a stool, and its diameter. */
+static const struct wood_kind *draw_shoot(const struct stems *s, const struct stool *t, unsigned i, double *dbh)
+{
+    const struct wood_kind *k = t->stools->kinds;
+    if (t->stools->cohorts > 1) {
+        uint64_t bits[2];
+        random_bits(s->seed, s->number, t->event, shoot_draw(RANDOM_SHOOT, i / 4), bits);
+        k = cohort_at(t->stools, bits[i / 2 % 2] >> i % 2 * 32);
+    }
+    *dbh = k->shape > 0 ? draw_dbh(s, k, t->event, shoot_draw(RANDOM_DBH, i), 0) : k->dbh;
+    return k;
+}
+
+/* Makes a stool whose shoots spread in diameter, or stand on both sides of the release, one by one. */
 static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_side)
 {
     struct stool t = next_stool(s, i_side);
     for (unsigned i = 0; i < t.n; i++) {
-        struct stem stem = {.dbh = t.stools->kinds->dbh, .kind = t.stools->kinds, .shoot = true, .stool = t.event};
+        struct stem stem = {.shoot = true, .stool = t.event};
         place_shoot(&t, i, &stem.along, &stem.y);
         if (fabs(stem.y) > (s->b + t.stools->most) / 2)
             continue;
-        if (t.stools->varied) {
-            stem.kind = draw_shoot(s, t.stools, t.event, i, &stem.dbh);
-            if (fabs(stem.y) > (s->b + stem.dbh) / 2)
-                continue;
-        }
+        stem.kind = draw_shoot(s, &t, i, &stem.dbh);
+        if (fabs(stem.y) > (s->b + stem.dbh) / 2)
+            continue;
         stem.energy = stem.kind->energy;
         if (i_side == 0 && stem.along < s->start)
             turn_behind(s, stem);

@@ -32,6 +32,7 @@ enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAMS };
 /* The next places of a stream, which are drawn many at a time. */
 #define POINTS     16
 #define POINTS_FEW 8 /* of trees among stools */
+#define COHORT_GROUPS 4 /* of four shoots: cohorts of so many are drawn together */
 #define SHOOTS_AT_ONCE 64 /* so many are put in order at once, more than STOP_SHOOTS and those of a last stool */
 #define STOP_SHOOTS    24
 #define SHOOTS_FEW     (SHOOTS_AT_ONCE - STOP_SHOOTS)
@@ -41,6 +42,7 @@ struct points {
     double mark[POINTS];            /* uniform in (0, 1): which of those that the stream is made of */
     double turn[POINTS];            /* likewise in (-1/2, 1/2) */
     double sine[POINTS], cosine[POINTS]; /* of a stool's turn */
+    uint64_t cohorts[COHORT_GROUPS][2][POINTS]; /* of the first shoots of a stool */
     size_t belt[POINTS];
     unsigned next, count;           /* of `size`, fewer only where the forest ends */
     unsigned size;
@@ -65,7 +67,8 @@ struct stool {
     double at, centre, sine, cosine;
     const struct wood_stools *stools;
     const double *ring;
-    unsigned n;
+    unsigned n, place;
+    uint64_t (*cohorts)[2][POINTS];
     uint64_t event;
 };
 

@@ -18,6 +18,12 @@ static inline uint64_t stem_event(enum stem_stream stream, int side, uint64_t n)
     return (uint64_t)stream << 41 | (n + 1) << 1 | (uint64_t)side;
 }
 
+/* What belongs to shoot i of a stool, or to its i-th draw. */
+static inline uint64_t shoot_draw(enum random_kind kind, unsigned i)
+{
+    return (uint64_t)kind | (uint64_t)i << 8;
+}
+
 /* What is drawn of each place: of the gap before it 40 bits, of the mark 38, of offset and turn 25 each. Gaps are in units
  * of their mean. */
 static inline void draw_points(const struct stems *s, uint64_t event, struct points *to, double gaps[POINTS])
@@ -116,15 +122,38 @@ static inline void turn_points(const struct stems *s, int side, struct points *p
     }
 }
 
+/* 32 bits for each shoot of those stools that have cohorts: four from one draw. */
+static inline void draw_cohorts(const struct stems *s, int side, struct points *p, uint64_t event)
+{
+    unsigned most = 0;
+    for (unsigned i = 0; i < p->count; i++) {
+        const struct wood_stools *stools = s->wood->along[side][p->belt[i]].stools;
+        if (stools->cohorts > 1 && stools->n + 1 > most)
+            most = stools->n + 1;
+    }
+    for (unsigned group = 0; group < COHORT_GROUPS && 4 * group < most; group++)
+        for (unsigned i = 0; i < p->size; i += MANY) {
+            many_bits a, b;
+            many_from(event + 2 * i, 2, &a);
+            many_from(shoot_draw(RANDOM_SHOOT, group), 0, &b);
+            many_threefry(s->seed, s->number, &a, &b);
+            memcpy(&p->cohorts[group][0][i], &a, sizeof a);
+            memcpy(&p->cohorts[group][1][i], &b, sizeof b);
+        }
+}
+
 static void fill_points(struct stems *s, int side, enum stem_stream stream)
 {
     struct points *p = &s->side[side].streams[stream];
     _Alignas(64) double gaps[POINTS];
-    draw_points(s, stem_event(stream, side, p->drawn), p, gaps);
+    uint64_t event = stem_event(stream, side, p->drawn);
+    draw_points(s, event, p, gaps);
     place_points(s, side, stream, gaps);
     p->drawn += p->count;
-    if (stream == STREAM_STOOLS)
+    if (stream == STREAM_STOOLS) {
         turn_points(s, side, p);
+        draw_cohorts(s, side, p, event);
+    }
 }
 
 /* ---- stools ---- */
@@ -145,6 +174,8 @@ static inline struct stool next_stool(struct stems *s, int side)
                           .stools = stools,
                           .ring = stools->ring[more],
                           .n = n,
+                          .place = k,
+                          .cohorts = p->cohorts,
                           .event = stem_event(STREAM_STOOLS, side, p->drawn - p->count + k)};
 }
 
@@ -161,7 +192,7 @@ static inline bool is_plain_stool(const struct stems *s, int side)
 {
     const struct points *p = &s->side[side].streams[STREAM_STOOLS];
     const struct wood_stools *stools = s->wood->along[side][p->belt[p->next]].stools;
-    return !stools->varied && stools->n + 1 < SHOOTS_FEW && (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
+    return !stools->spread && stools->n + 1 < (stools->cohorts > 1 ? 4 * COHORT_GROUPS : SHOOTS_FEW) && (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
 }
 
 /* Shoots to be put in order: the last bits of `along` tell them apart. */
@@ -174,21 +205,35 @@ struct shoots {
     unsigned n;
 };
 
-/* The shoots of a stool that the rock can hit; as likely as not for each, so that no branch depends on it. */
+/* The kind of a shoot by its 32 bits. */
+static inline const struct wood_kind *cohort_at(const struct wood_stools *stools, uint64_t bits)
+{
+    double u = ((double)(uint32_t)bits + 0.5) * 0x1p-32;
+    size_t found = 0;
+    for (size_t k = 0; k + 1 < stools->cohorts; k++)
+        found += u >= stools->kinds[k].share_to;
+    return &stools->kinds[found];
+}
+
+/* The shoots of a stool that the rock can hit; as likely as not for each, so that no branch depends on it,
+ * nor on whether it has one shoot more. */
 static inline void add_shoots(const struct stems *s, const struct stool *t, struct shoots *to)
 {
     const struct wood_kind *kind = t->stools->kinds;
-    double most = (s->b + kind->dbh) / 2;
-    unsigned n = to->n;
-    for (unsigned i = 0; i < t->n; i++) {
+    bool cohorts = t->stools->cohorts > 1;
+    unsigned n = to->n, most_shoots = t->stools->n + 1;
+    for (unsigned i = 0; i < most_shoots; i++) {
         double along, y;
         place_shoot(t, i, &along, &y);
+        if (cohorts)
+            kind = cohort_at(t->stools, t->cohorts[i / 4][i / 2 % 2][t->place] >> i % 2 * 32);
+        double most = (s->b + kind->dbh) / 2;
         to->along[n] = along;
         to->y[n] = y;
         to->kind[n] = kind;
         to->stool[n] = t->event;
         to->met[n] = false;
-        n += fabs(y) <= most;
+        n += (fabs(y) <= most) & (i < t->n);
     }
     to->n = n;
 }

@@ -64,11 +64,11 @@ LANE void draw_ahead(struct wide *k)
 }
 
 /* Those in the air keep theirs. */
-LANE reals next_draw(struct wide *k)
+LANE reals next_draw(struct form form, struct wide *k)
 {
     reals u = load(k->draw[0]), v = load(k->draw[1]), w = load(k->draw[2]);
-    if (in_the_air(k)) {
-        flags air = flags_of(in_the_air(k));
+    if (in_the_air(form, k)) {
+        flags air = flags_of(in_the_air(form, k));
         w = pick(air, v, w);
         v = pick(air, u, v);
     }
@@ -187,12 +187,12 @@ struct landings {
 };
 
 /* Those that the scalar walk brings to the next contact. Of the others: which pass a mark, which leave the slope. */
-LANE unsigned disturbed(const struct wide *k, unsigned *pass, unsigned *leave)
+LANE unsigned disturbed(struct form form, const struct wide *k, unsigned *pass, unsigned *leave)
 {
     reals x = load(k->to_x);
     flags mark = both(at_least(x, load(k->next_x)), less(all(0), load(k->vx)));
     flags stem = either(at_least(x, load(k->stem_ahead)), at_least(load(k->stem_behind), x));
-    unsigned lands = k->live & ~in_the_air(k), flies = lands & ~k->there;
+    unsigned lands = k->live & ~in_the_air(form, k), flies = lands & ~k->there;
     unsigned many = ~bits_of(more(load_ints(k->pause), load_ints(k->contacts)));
     unsigned alone = (bits_of(stem) & flies) | (many & lands);
     *pass = bits_of(mark) & flies & ~alone;
@@ -230,10 +230,10 @@ LANE struct velocities velocities_on(const struct wide *k, const struct rocks *r
 }
 
 /* The ground that each rock strikes, where that varies from rock to rock. */
-static __attribute__((noinline)) void ground_alone(struct wide *k)
+static __attribute__((noinline)) void ground_alone(struct form form, struct wide *k)
 {
     for (size_t i = 0; i < LANES; i++)
-        if ((k->live & ~in_the_air(k)) >> i & 1)
+        if ((k->live & ~in_the_air(form, k)) >> i & 1)
             ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
 }
 
@@ -241,13 +241,13 @@ LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct
 {
     reals rn, rt, sine, cosine, zero = all(0);
     if (k->varies) {
-        ground_alone(k);
+        ground_alone(form, k);
         rn = load(k->rn);
         rt = load(k->rt);
     } else {
         look_up(&k->ground->share, r->segment, form.small, &rn, &rt);
     }
-    facet_lanes(k, next_draw(k), load(k->theta), v->along, v->off, &sine, &cosine);
+    facet_lanes(k, next_draw(form, k), load(k->theta), v->along, v->off, &sine, &cosine);
     reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
     struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),
                               .vt = add(mul(v->along, cosine), mul(v->off, sine)),
@@ -258,8 +258,8 @@ LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct
     v->off = pick(less(zero, v->off), v->off, zero);
     r->vx = sub(mul(v->along, r->c), mul(v->off, r->s));
     r->vz = add(mul(v->along, r->s), mul(v->off, r->c));
-    if (in_the_air(k)) { /* they strike nothing */
-        flags air = flags_of(in_the_air(k));
+    if (in_the_air(form, k)) { /* they strike nothing */
+        flags air = flags_of(in_the_air(form, k));
         r->vx = pick(air, load(k->vx), r->vx);
         r->vz = pick(air, load(k->vz), r->vz);
         out.spin = pick(air, load(k->spin), out.spin);

@@ -46,7 +46,7 @@ LANE struct landings find_segments(struct form form, const struct wide *k, const
     flags forth = less(zero, r->vx);
     reals t = mul(sub(pick(forth, r->x1, r->x0), r->x), inv);
     flags clear = at_least(sub(r->vz, mul(r->m, r->vx)), mul(all(k->g->half_g), t));
-    if (k->aloft) {
+    if (form.wood && k->aloft) {
         flags above = at_least(sub(height_at(k, r, t), pick(forth, r->z1, r->z0)), zero);
         clear = pick_flags(flags_of(k->aloft), above, clear);
     }
@@ -93,7 +93,9 @@ LANE reals clamp_lanes(reals v, reals a, reals b)
 LANE void land_lanes(struct form form, const struct wide *k, const struct rocks *r, struct landings *l)
 {
     ints behind = add_ints(l->segment, all_ints(1));
-    flags here = but(same(l->segment, r->segment), flags_of(k->aloft));
+    flags here = same(l->segment, r->segment);
+    if (form.wood)
+        here = but(here, flags_of(k->aloft));
     look_up(&k->ground->slope, l->segment, form.small, &l->m, &l->theta);
     look_up(&k->ground->place, l->segment, form.small, &l->x0, &l->z0);
     look_up(&k->ground->place, behind, form.small, &l->x1, &l->z1);
@@ -140,11 +142,11 @@ LANE void is_within(const struct rocks *r, flags steep, reals x, reals z, reals 
 }
 
 /* Those that roll, as is_roll(); `unsure`: where the scalar walk looks again, as those that land on another segment. */
-LANE unsigned rolling(const struct wide *k, const struct rocks *r, reals off, const struct landings *l, flags steep,
+LANE unsigned rolling(struct form form, const struct wide *k, const struct rocks *r, reals off, const struct landings *l, flags steep,
                       unsigned *unsure)
 {
     reals radius = load(k->radius);
-    unsigned lands = k->live & ~in_the_air(k);
+    unsigned lands = k->live & ~in_the_air(form, k);
     flags near = but(less(size_of_each(sub(l->x, r->x)), radius), l->left);
     flags low = less(mul(off, off), mul(radius, mul(all(2 * k->g->gravity), r->c)));
     flags may = both(near, low), here = same(l->segment, r->segment), less_far, farther;

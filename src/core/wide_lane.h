@@ -13,6 +13,7 @@ struct form {
     enum ceduo_law law;
     bool small; /* the tables have 16 numbers */
     bool wraps; /* and what is looked up beyond them does no harm */
+    bool wood;  /* there are stems */
 };
 
 /* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
@@ -22,7 +23,6 @@ struct wide {
     const struct wide_ground *ground;
     const struct ground *g;
     uint64_t seed;
-    bool wood;   /* there are stems */
     bool far;    /* the ground has blocks */
     bool varies; /* the ground from rock to rock */
     bool against, scale_rn;
@@ -57,9 +57,9 @@ struct wide {
 };
 
 /* Lanes that come to no contact in this step. */
-LANE unsigned in_the_air(const struct wide *k)
+LANE unsigned in_the_air(struct form form, const struct wide *k)
 {
-    return k->aloft | k->waits;
+    return form.wood ? k->aloft | k->waits : 0;
 }
 
 /* ---- one lane and its walker ---- */

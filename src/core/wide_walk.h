@@ -11,9 +11,9 @@
 /* ---- all contacts ---- */
 
 /* Those that wait stay as they are. */
-LANE void store_lanes(struct wide *k, struct rocks *r, struct landings *l)
+LANE void store_lanes(struct form form, struct wide *k, struct rocks *r, struct landings *l)
 {
-    if (k->waits) {
+    if (form.wood && k->waits) {
         flags waits = flags_of(k->waits);
         r->x = pick(waits, load(k->x), r->x);
         r->z = pick(waits, load(k->z), r->z);
@@ -46,8 +46,8 @@ LANE void store_lanes(struct wide *k, struct rocks *r, struct landings *l)
 
 LANE void step_lanes(struct form form, struct wide *k, bool even)
 {
-    unsigned pass, leave, alone = k->wood ? pass_stems(form, k) : 0;
-    alone |= disturbed(k, &pass, &leave);
+    unsigned pass, leave, alone = form.wood ? pass_stems(form, k) : 0;
+    alone |= disturbed(form, k, &pass, &leave);
     pass &= ~alone;
     leave &= ~alone;
     for (; pass; pass &= pass - 1)
@@ -65,21 +65,25 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     struct rocks r = rocks_down(form, k);
     struct velocities v = velocities_on(k, &r);
     strike_lanes(form, k, &r, &v);
-    store_ints(k->contacts, add_ints(load_ints(k->contacts), pick_ints(flags_of(in_the_air(k)), all_ints(0), all_ints(1))));
+    ints one = all_ints(1);
+    if (form.wood)
+        one = pick_ints(flags_of(in_the_air(form, k)), all_ints(0), one);
+    store_ints(k->contacts, add_ints(load_ints(k->contacts), one));
     struct landings l = find_segments(form, k, &r);
     land_lanes(form, k, &r, &l);
-    k->left = (bits_of(l.left) & k->live & ~k->waits) | (k->left & k->waits);
-    l.far &= ~k->waits;
+    unsigned waits = form.wood ? k->waits : 0;
+    k->left = (bits_of(l.left) & k->live & ~waits) | (k->left & waits);
+    l.far &= ~waits;
     leave_lanes(k, &r, &l);
     flags steep = less(all(1), size_of_each(r.m));
-    unsigned unsure, rolls = rolling(k, &r, v.off, &l, steep, &unsure) & ~l.far;
+    unsigned unsure, rolls = rolling(form, k, &r, v.off, &l, steep, &unsure) & ~l.far;
     alone = l.far | unsure | rolls;
     k->rolls = rolls ? roll_lanes(form, k, &r, v.along, steep, rolls, &l) : 0;
     k->there = k->rolls;
     alone &= ~k->rolls;
-    store_lanes(k, &r, &l);
-    unsigned still_aloft = alone & k->aloft;
-    alone &= ~k->aloft;
+    store_lanes(form, k, &r, &l);
+    unsigned still_aloft = form.wood ? alone & k->aloft : 0;
+    alone &= ~still_aloft;
     k->aloft = still_aloft;
     for (; still_aloft; still_aloft &= still_aloft - 1)
         come_down_alone(k, (size_t)__builtin_ctz(still_aloft));
@@ -123,6 +127,19 @@ HOT void walk_lanes(struct form form, struct wide *k)
     finish_alone(k);
 }
 
+/* With what is known of the ground and the law compiled in. */
+HOT void walk_among(enum ceduo_law law, bool small, bool wood, struct wide *k)
+{
+    if (law == CEDUO_LAW_LUMPED && small)
+        walk_lanes((struct form){CEDUO_LAW_LUMPED, true, LOOK_UP_WRAPS, wood}, k);
+    else if (law == CEDUO_LAW_LUMPED)
+        walk_lanes((struct form){CEDUO_LAW_LUMPED, false, false, wood}, k);
+    else if (small)
+        walk_lanes((struct form){CEDUO_LAW_CRSP, true, LOOK_UP_WRAPS, wood}, k);
+    else
+        walk_lanes((struct form){CEDUO_LAW_CRSP, false, false, wood}, k);
+}
+
 static void wide_walk(const struct wide_job *job)
 {
     const struct walker *w = &job->walkers[0];
@@ -137,18 +154,13 @@ static void wide_walk(const struct wide_job *job)
     k.seed = w->seed;
     bool small = job->ground->small;
     k.far = k.g->top > 0;
-    k.wood = w->stems;
     k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
-    if (job->law == CEDUO_LAW_LUMPED && small)
-        walk_lanes((struct form){CEDUO_LAW_LUMPED, true, LOOK_UP_WRAPS}, &k);
-    else if (job->law == CEDUO_LAW_LUMPED)
-        walk_lanes((struct form){CEDUO_LAW_LUMPED, false, false}, &k);
-    else if (small)
-        walk_lanes((struct form){CEDUO_LAW_CRSP, true, LOOK_UP_WRAPS}, &k);
+    if (w->stems)
+        walk_among(job->law, small, true, &k);
     else
-        walk_lanes((struct form){CEDUO_LAW_CRSP, false, false}, &k);
+        walk_among(job->law, small, false, &k);
 }
 
 #endif

@@ -80,10 +80,10 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
 
 /* ---- stools ---- */
 
-/* Places of n shoots on a ring of radius 1, as cosine and sine. */
+/* Places of n shoots on a ring of radius 1, as cosine and sine; and room to read one more. */
 static double *ring_of(unsigned n)
 {
-    double *ring = malloc((2 * (size_t)n + 1) * sizeof *ring);
+    double *ring = calloc(2 * ((size_t)n + 1), sizeof *ring);
     for (unsigned i = 0; ring && i < n; i++)
         ceduo_direction(i, n, &ring[2 * i], &ring[2 * i + 1]);
     return ring;
@@ -97,7 +97,6 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
     s->more = per_stool - floor(per_stool);
     s->cohorts = stand->shoots_count;
     s->kinds = kinds;
-    s->varied = s->cohorts > 1 || kinds[0].shape > 0;
     for (unsigned i = 0; i < (s->more > 0 ? 2 : 1); i++) {
         double *ring = w->rings[2 * belt + i] = ring_of(s->n + i);
         if (!ring)
@@ -107,8 +106,10 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
         s->turn[i] = s->n + i > 1 ? 2 * M_PI / (s->n + i) : 0;
     }
     s->reach = fmax(s->radius[0], s->radius[1]);
-    for (size_t i = 0; i < s->cohorts; i++)
+    for (size_t i = 0; i < s->cohorts; i++) {
         s->most = fmax(s->most, kinds[i].most);
+        s->spread |= kinds[i].shape > 0;
+    }
     w->reach = fmax(w->reach, s->reach);
     return true;
 }

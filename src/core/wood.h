@@ -36,7 +36,7 @@ struct wood_stools {
     double turn[2];        /* by how much a ring is turned at random, 2 pi/n; 0 for one shoot */
     double reach;          /* m: the larger radius */
     double most;           /* m: no shoot is thicker */
-    bool varied;           /* shoots differ: several cohorts, or diameters that spread */
+    bool spread;           /* diameters do */
     size_t cohorts;
     const struct wood_kind *kinds;
 };
