@@ -9,101 +9,12 @@
 #include "ceduo/rock.h"
 #include "ceduo/run.h"
 #include "ceduo/trajectory.h"
-#include "wood.h"
+#include "stems_state.h"
 
 /* The stems in one rock's path, drawn as it reaches them. Stools and trees are Poisson processes in the plane, of which
  * the rock sweeps a strip as wide as itself: what stands beside the strip is never drawn, and what is drawn is distributed as
  * on a full map. Ahead of the release (side 0, along +x) and behind it (side 1) there is one such strip each; places along
  * side 1 are -x. Ground is covered once: a stem that was passed is gone. */
-
-struct stem {
-    double along, y;  /* m: place along the strip, offset from its middle */
-    double dbh;       /* m; NaN where contacts have no diameter */
-    double energy;    /* J that a hit takes; NaN: not computed yet */
-    const struct wood_kind *kind;
-    uint64_t stool;   /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
-    bool shoot;
-    bool met;         /* it waits behind the release, and another shoot of its stool was hit ahead */
-};
-
-/* Two streams of places along a side: of stools, and of all else. */
-enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAMS };
-
-/* The next places of a stream, which are drawn many at a time. */
-#define POINTS     16
-#define POINTS_FEW 8 /* of trees among stools */
-#define COHORT_GROUPS 4 /* of four shoots: cohorts of so many are drawn together */
-#define SHOOTS_AT_ONCE 64 /* so many are put in order at once, more than STOP_SHOOTS and those of a last stool */
-#define STOP_SHOOTS    24
-#define SHOOTS_FEW     (SHOOTS_AT_ONCE - STOP_SHOOTS)
-struct points {
-    double at[POINTS];              /* m along the strip */
-    double offset[POINTS];          /* uniform in (-1/2, 1/2): how far from the middle of the strip */
-    double mark[POINTS];            /* uniform in (0, 1): which of those that the stream is made of */
-    double turn[POINTS];            /* likewise in (-1/2, 1/2) */
-    double sine[POINTS], cosine[POINTS]; /* of a stool's turn */
-    uint64_t cohorts[COHORT_GROUPS][2][POINTS]; /* of the first shoots of a stool */
-    size_t belt[POINTS];
-    unsigned next, count;           /* of `size`, fewer only where the forest ends */
-    unsigned size;
-    uint64_t drawn;                 /* of the whole stream */
-    double end;                     /* m: where drawing goes on */
-    size_t end_belt;
-};
-
-struct stems_side {
-    struct points streams[STREAMS];
-    struct stem single;     /* the next of its stream; `along` infinite: none */
-    struct stem *waiting;   /* shoots of drawn stools that the rock can hit, from `first` to before `end`, the nearest first */
-    size_t first, end, room;
-    double sure;            /* m along the strip: a waiting shoot before that is next if it is the first of them */
-    double next;            /* m along the strip: no stem before */
-    bool next_known;        /* a stem stands there; otherwise stools up to there have not been drawn yet */
-    bool next_waits;        /* it is one of those waiting; otherwise `single` */
-};
-
-/* A stool that a stream has come to: where it stands, and its ring. */
-struct stool {
-    double at, centre, sine, cosine;
-    const struct wood_stools *stools;
-    const double *ring;
-    unsigned n, place;
-    uint64_t (*cohorts)[2][POINTS];
-    uint64_t event;
-};
-
-/* Places of a belt for a rock of diameter b: so many per metre, and its inverse. */
-struct belt_rates {
-    double b, rate[STREAMS], metres[STREAMS];
-};
-
-/* What is done for many stools at once, of a kind of registers. */
-struct stems;
-struct stems_kernel {
-    /* Draws the next places of a stream. */
-    void (*fill)(struct stems *stems, int side, enum stem_stream stream);
-    /* Makes some of the stools that come next on a side, of which the shoots are alike and stand ahead of the release; there
-     * is room for SHOOTS_AT_ONCE. */
-    void (*make_stools)(struct stems *stems, int side);
-};
-
-struct stems {
-    const struct wood *wood;
-    bool poisson;
-    const struct stems_kernel *kernel;
-    uint64_t seed, number; /* of the rock */
-    double b;              /* its mean diameter, m */
-    double start;          /* x of its release */
-    struct belt_rates *rates; /* of the belts of wood->along[0] */
-    struct stems_side side[2];
-    bool behind_ready;
-    uint64_t *met;         /* stools that were hit, each at the place of its number's last bits: those that the way is among
-                            * at a time are far fewer than the places */
-    bool no_memory;        /* the trajectory is not to be used */
-    uint64_t drawn;        /* stems drawn */
-    uint64_t effort;       /* the same, and what is done to keep them in order, in units of one stem */
-    uint64_t pause;        /* effort at which the drawing stops for a moment: the rock may be waited for no longer */
-};
 
 /* Whether a rock has met too many stems to be followed further. */
 static inline bool ceduo_stems_too_many(const struct stems *stems)
@@ -172,8 +83,5 @@ static inline double ceduo_stem_energy(struct stem *stem, double b)
         stem->energy = stem_energy_hit(&stem->kind->by_hit, stem->dbh, 2 * fabs(stem->y) / (b + stem->dbh));
     return stem->energy;
 }
-
-/* The first is for any machine. */
-extern const struct stems_kernel ceduo_stems_scalar, ceduo_stems_avx2, ceduo_stems_avx512;
 
 #endif

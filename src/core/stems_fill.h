@@ -5,7 +5,7 @@
 
 #include "many.h"
 #include "random.h"
-#include "stems.h"
+#include "stems_state.h"
 
 /* What costs little is counted as a part of a stem: steps over others in a list, belts that are passed over. */
 #define STEPS_OF_A_STEM 4
