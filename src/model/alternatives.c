@@ -7,49 +7,20 @@
 #include <string.h>
 
 #include "base/intl.h"
-
-#define CHANGES_MOST 8
-
-/* What is to be changed at once, and how that is said. */
-struct changes {
-    struct document *d;
-    const char *sets[CHANGES_MOST];
-    size_t n;
-    struct text taken, filled;
-    bool failed;
-};
-
-__attribute__((format(printf, 2, 3))) static void add(struct changes *c, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    const char *kept = ceduo_arena_vformat(&c->d->file.arena, format, args);
-    va_end(args);
-    if (kept && c->n < CHANGES_MOST)
-        c->sets[c->n++] = kept;
-    else
-        c->failed = true;
-}
+#include "changes.h"
 
 /* Takes an entry of a mapping out, if it is there. */
 static void take_out(struct changes *c, const char *map, const char *key)
 {
     if (!ceduo_node_get(ceduo_document_node(c->d, map), key))
         return;
-    add(c, "%s.%s", map, key);
+    ceduo_changes_add(c, "%s.%s", map, key);
     ceduo_text_format(&c->taken, "%s%s", c->taken.length ? ", " : "", key);
-}
-
-/* A number of so many digits as text. */
-static const char *rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
-{
-    snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
-    return ceduo_number_shortest(strtod(room, NULL), room);
 }
 
 static void fill_in(struct changes *c, const char *key, const char *value)
 {
-    add(c, "rock.%s=%s", key, value);
+    ceduo_changes_add(c, "rock.%s=%s", key, value);
     ceduo_text_format(&c->filled, "%s%s %s", c->filled.length ? ", " : "", key, value);
 }
 
@@ -81,13 +52,13 @@ static void fill_sizes(struct changes *c, enum ceduo_shape shape, const struct c
     double box = shape == CEDUO_BLOCK ? rock->volume : rock->volume * full[shape] / M_PI;
     double scale = cbrt(box / (s[0] * s[1] * s[2]));
     if (shape == CEDUO_SPHERE) {
-        fill_in(c, "diameter_m", rounded(cbrt(box), 3, a));
+        fill_in(c, "diameter_m", ceduo_changes_rounded(cbrt(box), 3, a));
     } else if (shape == CEDUO_CYLINDER) {
-        fill_in(c, "diameter_m", rounded(scale * sqrt(s[0] * s[1]), 3, a));
-        fill_in(c, "height_m", rounded(scale * s[2], 3, b));
+        fill_in(c, "diameter_m", ceduo_changes_rounded(scale * sqrt(s[0] * s[1]), 3, a));
+        fill_in(c, "height_m", ceduo_changes_rounded(scale * s[2], 3, b));
     } else {
-        snprintf(all, sizeof all, "[%s, %s, %s]", rounded(scale * s[0], 3, a), rounded(scale * s[1], 3, b),
-                 rounded(scale * s[2], 3, third));
+        snprintf(all, sizeof all, "[%s, %s, %s]", ceduo_changes_rounded(scale * s[0], 3, a), ceduo_changes_rounded(scale * s[1], 3, b),
+                 ceduo_changes_rounded(scale * s[2], 3, third));
         fill_in(c, "axes_m", all);
     }
 }
@@ -114,7 +85,7 @@ static void change_shape(struct changes *c, enum ceduo_shape shape)
     fill_sizes(c, shape, &rock);
     if (shape == CEDUO_SPHERE && mass) { /* where it would be a size */
         take_out(c, "rock", "mass_kg");
-        fill_in(c, "density_kg_m3", rounded(rock.mass / rock.volume, 4, room));
+        fill_in(c, "density_kg_m3", ceduo_changes_rounded(rock.mass / rock.volume, 4, room));
     } else if (mass) {
         take_out(c, "rock", "density_kg_m3");
     }
@@ -162,7 +133,8 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         change_shape(&c, shape_of(d, value));
     else
         keep_one_of_all(&c, path);
-    add(&c, "%s=%s", path, value);
+    if (ceduo_changes_follow(&c, path, value))
+        ceduo_changes_add(&c, "%s=%s", path, value);
     if (c.failed)
         ceduo_problem_memory(problems);
     bool good = !c.failed && ceduo_document_set_all(d, c.sets, c.n, path, problems);
@@ -170,6 +142,9 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
     if (good && c.taken.length)
         ceduo_text_format(said, _("%sremoved: %s"), said->length ? "; " : "", c.taken.bytes);
+    if (good && c.followed.length)
+        ceduo_text_format(said, "%s%s", said->length ? "; " : "", c.followed.bytes);
+    ceduo_text_free(&c.followed);
     ceduo_text_free(&c.taken);
     ceduo_text_free(&c.filled);
     return good;

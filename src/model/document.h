@@ -61,12 +61,16 @@ bool ceduo_document_set_all(struct document *document, const char *const *sets, 
 /* A copy of item `list[index]` after it, and a change (PATH=VALUE) to each of the two. */
 bool ceduo_document_split(struct document *document, const char *list, size_t index, const char *first,
                           const char *second, struct problems *problems);
-/* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. */
-bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex,
+/* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. `apart`: of a ground that was one for
+ * all segments each gets its own. */
+bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,
                                   struct problems *problems);
 
 /* Takes the vertex behind segment `index` out, or the one before the last segment: its ground goes. */
 bool ceduo_document_join_segments(struct document *document, size_t index, struct problems *problems);
+
+/* Takes a vertex out, and the ground of the segment that begins there, or of the last. */
+bool ceduo_document_remove_vertex(struct document *document, size_t vertex, struct problems *problems);
 
 bool ceduo_document_undo(struct document *document);
 bool ceduo_document_redo(struct document *document);

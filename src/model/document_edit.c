@@ -199,27 +199,53 @@ bool ceduo_document_split(struct document *d, const char *list, size_t index, co
     return ceduo_document_commit(d, root, list, problems);
 }
 
-bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, struct problems *problems)
+static const char vertices_list[] = "slope.vertices_m", ground_list[] = "slope.segments";
+
+/* root with the one ground of all segments as one for each of n. */
+static const struct node *with_grounds(struct document *d, const struct node *root, size_t n, struct problems *problems)
 {
-    const char *list = "slope.vertices_m", *ground = "slope.segments";
-    const struct node *root = with_item(d, d->file.root, list, index + 1, ceduo_document_parse(d, list, vertex, problems), problems);
-    const struct node *segments = ceduo_document_node(d, ground);
+    const struct node *item = node_at(root, ground_list)->items[0];
+    for (size_t i = 1; root && i < n; i++)
+        root = with_item(d, root, ground_list, i, item, problems);
+    return root;
+}
+
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart,
+                                  struct problems *problems)
+{
+    const struct node *item = ceduo_document_parse(d, vertices_list, vertex, problems);
+    const struct node *root = with_item(d, d->file.root, vertices_list, index + 1, item, problems);
+    const struct node *vertices = ceduo_document_node(d, vertices_list), *segments = ceduo_document_node(d, ground_list);
     if (root && segments && segments->n > 1)
-        root = with_item(d, root, ground, index + 1, segments->items[index], problems);
-    return ceduo_document_commit(d, root, list, problems);
+        root = with_item(d, root, ground_list, index + 1, segments->items[index], problems);
+    else if (root && segments && vertices && apart)
+        root = with_grounds(d, root, vertices->n, problems);
+    return ceduo_document_commit(d, root, vertices_list, problems);
+}
+
+/* Without a vertex, and without the ground of one of the segments beside it. */
+static bool remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
+{
+    const struct node *vertices = ceduo_document_node(d, vertices_list), *segments = ceduo_document_node(d, ground_list);
+    if (!vertices || vertices->n < 3 || vertex >= vertices->n)
+        return ceduo_document_commit(d, NULL, vertices_list, problems);
+    const struct node *less = ceduo_node_removed(&d->file.arena, vertices, vertex);
+    const struct node *root = put(d, d->file.root, vertices_list, less, problems);
+    if (root && segments && segments->n > 1)
+        root = put(d, root, ground_list, ceduo_node_removed(&d->file.arena, segments, segment), problems);
+    return ceduo_document_commit(d, root, vertices_list, problems);
 }
 
 bool ceduo_document_join_segments(struct document *d, size_t index, struct problems *problems)
 {
-    const char *list = "slope.vertices_m", *ground = "slope.segments";
-    const struct node *vertices = ceduo_document_node(d, list), *segments = ceduo_document_node(d, ground);
-    if (!vertices || !segments || vertices->n < 3)
-        return ceduo_document_commit(d, NULL, ground, problems);
-    size_t vertex = index + 2 < vertices->n ? index + 1 : index;
-    const struct node *root = put(d, d->file.root, list, ceduo_node_removed(&d->file.arena, vertices, vertex), problems);
-    if (root && segments->n > 1)
-        root = put(d, root, ground, ceduo_node_removed(&d->file.arena, segments, index), problems);
-    return ceduo_document_commit(d, root, ground, problems);
+    const struct node *vertices = ceduo_document_node(d, vertices_list);
+    return remove_vertex(d, vertices && index + 2 < vertices->n ? index + 1 : index, index, problems);
+}
+
+bool ceduo_document_remove_vertex(struct document *d, size_t vertex, struct problems *problems)
+{
+    const struct node *vertices = ceduo_document_node(d, vertices_list);
+    return remove_vertex(d, vertex, vertices && vertex + 1 < vertices->n ? vertex : vertex - (vertex > 0), problems);
 }
 
 /* A scene whose forest is the one option "current". */

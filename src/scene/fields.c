@@ -180,6 +180,10 @@ static const struct field stools_fields[] = {
         AT(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
            N_("distance between neighbouring shoots of a stool (dbh_int of the paper)")),
 };
+static const struct field per_stool_field =
+    NUMBER("per_stool", USUAL(N_("shoots per stool"), NULL, 1, 50),
+        NOWHERE, "", 1, 10000, FIELD_NOWHERE, NULL,
+           N_("shoots on each stool; stays as it is when the stools per ha are changed"));
 static const struct object stools_object = OBJECT(ceduo_stand, stools_fields, NULL);
 
 static const struct field energy_fields[] = {
@@ -398,6 +402,11 @@ static const struct field scene_fields[] = {
         SAME, 0, N_("what a forest must keep"), &minimum_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
+
+const struct field *ceduo_schema_per_stool(void)
+{
+    return &per_stool_field;
+}
 
 #define ROOT(name) \
     const struct object *ceduo_schema_##name(void) { return &name##_object; }

@@ -109,6 +109,9 @@ const struct object *ceduo_schema_segment(void);
 const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
+/* Shoots on a stool: a number that screens show and take, and no file has. */
+const struct field *ceduo_schema_per_stool(void);
+
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
 const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step);
 

@@ -126,6 +126,18 @@ void ceduo_form_field(struct form *form, const struct document *d, const struct 
     row->n = 1;
 }
 
+void ceduo_form_number(struct form *form, const struct field *field, const char *path, double value)
+{
+    struct form_row *row = add_row(form, FORM_FIELDS, _(field->shown.label));
+    struct form_cell *cell = &row->cells[0];
+    snprintf(cell->path, sizeof cell->path, "%s", path);
+    cell->field = field;
+    cell->given = true;
+    if (!isnan(value))
+        snprintf(cell->text, sizeof cell->text, "%.4g", value);
+    row->n = 1;
+}
+
 static bool has_path(const struct form *form, const char *path)
 {
     for (size_t i = 0; i < form->n; i++)

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Adds, deletes, duplicates and moves items of the list under the cursor: belts, controls, segments, cohorts, classes. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/intl.h"
+#include "ceduo/material.h"
 #include "edit.h"
 #include "view/typed.h"
 
@@ -29,39 +31,104 @@ static bool find_item(struct app *app, struct item *item)
     return true;
 }
 
+/* ---- splitting ---- */
+
+/* The number at `list[index].key`; NaN where there is none. */
+static double number_of(const struct app *app, const struct item *item, size_t index, const char *key)
+{
+    char path[FORM_PATH + 64];
+    double value;
+    snprintf(path, sizeof path, "%s[%zu].%s", item->list, index, key);
+    const struct node *node = ceduo_document_node(&app->document, path);
+    bool good = node && node->kind == NODE_SCALAR && ceduo_number_read(node->text, &value) == CEDUO_NUMBER_GOOD;
+    return good ? value : NAN;
+}
+
+/* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
+static bool split_stretch(struct app *app, const struct item *item)
+{
+    char first[FORM_PATH + 64], second[FORM_PATH + 64];
+    double middle = (number_of(app, item, item->index, "from_m") + number_of(app, item, item->index, "to_m")) / 2;
+    snprintf(first, sizeof first, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
+    snprintf(second, sizeof second, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
+    return ceduo_document_split(&app->document, item->list, item->index, first, second, &app->problems);
+}
+
+/* A point in the middle of a segment of the profile. */
+static bool split_at(struct app *app, size_t segment, bool apart)
+{
+    char vertex[96];
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    if (!vertices || segment + 1 >= vertices->n) {
+        ceduo_app_warn(app, "%s", _("the profile comes from a CSV file: its points are edited there"));
+        return false;
+    }
+    double x[2], z[2];
+    for (size_t i = 0; i < 2; i++) {
+        const struct node *point = vertices->items[segment + i];
+        bool pair = point->kind == NODE_LIST && point->n == 2 && ceduo_number_read(point->items[0]->text, &x[i]) == CEDUO_NUMBER_GOOD &&
+                    ceduo_number_read(point->items[1]->text, &z[i]) == CEDUO_NUMBER_GOOD;
+        if (!pair)
+            return false;
+    }
+    snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", (x[0] + x[1]) / 2, (z[0] + z[1]) / 2);
+    return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
+}
+
+/* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
+static bool split_segment(struct app *app, const struct item *item)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
+    bool all = segments && segments->n == 1;
+    return split_at(app, all ? ceduo_slope_segment(s, s->x[s->vertices - 1] / 2) : item->index, true);
+}
+
+/* A point between this one and the next, or before the last. */
+static bool split_point(struct app *app, const struct item *item)
+{
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    bool last = vertices && item->index + 1 == vertices->n;
+    return split_at(app, item->index - (last && item->index > 0), false);
+}
+
 /* ---- adding ---- */
 
-/* The first stretch without forest, and the belt that it lies before; false where the forest fills the slope. */
-static bool free_stretch(const struct app *app, double *from, double *to, size_t *index)
+/* The stretch without forest behind a belt; without belts the slope behind the release. */
+static bool stretch_behind(const struct app *app, const struct item *item, double *from, double *to)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
-    double origin = app->document.file.scene.slope.origin_x, end = s->slope.x[s->slope.vertices - 1];
-    double at = s->release.x.mean;
-    for (size_t i = 0; i <= o->belts_count; i++) {
-        double next = i < o->belts_count ? o->belts[i].from : end;
-        if (next - at > 0.5) {
-            *from = at + origin;
-            *to = next + origin;
-            *index = i;
-            return true;
-        }
-        at = i < o->belts_count ? o->belts[i].to : at;
-    }
-    return false;
+    double end = s->slope.x[s->slope.vertices - 1];
+    size_t next = item->there ? item->index + 1 : 0;
+    *from = (item->there ? o->belts[item->index].to : s->release.x.mean) + s->slope.origin_x;
+    *to = (next < o->belts_count ? o->belts[next].from : end) + s->slope.origin_x;
+    return *to - *from > 0.5;
 }
 
+/* A belt in two; where the cursor is on its end, a new one behind it, if there is room. */
 static bool add_belt(struct app *app, const struct item *item)
 {
     double from, to;
-    size_t index;
     char belt[256];
-    if (!free_stretch(app, &from, &to, &index)) {
-        ceduo_app_warn(app, "%s", _("the belts fill the slope; shorten one, or y splits one in two"));
-        return false;
-    }
+    bool behind = stretch_behind(app, item, &from, &to);
+    if (item->there && !(behind && ceduo_app_form(app)->column == 1))
+        return split_stretch(app, item);
     snprintf(belt, sizeof belt, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to);
+    size_t index = item->there ? item->index + 1 : 0;
     return ceduo_document_insert(&app->document, item->list, index, belt, &app->problems);
+}
+
+/* Ground of the library, where none is said yet: that which was assumed. */
+static bool add_ground(struct app *app, const struct item *item)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    char ground[128];
+    if (item->there)
+        return split_stretch(app, item);
+    snprintf(ground, sizeof ground, "{from_m: %.10g, to_m: %.10g, material: %s}", s->origin_x,
+             s->origin_x + s->x[s->vertices - 1], ceduo_material_talus()->name);
+    return ceduo_document_insert(&app->document, item->list, 0, ground, &app->problems);
 }
 
 static bool add_control(struct app *app, const struct item *item)
@@ -101,32 +168,6 @@ static bool add_trees(struct app *app, const struct item *item)
                                                &app->problems);
 }
 
-/* ---- duplicating ---- */
-
-/* A belt is duplicated by splitting it: two cannot stand in one place. */
-static bool split_belt(struct app *app, const struct item *item)
-{
-    const struct ceduo_belt *b = &ceduo_app_option(app)->belts[item->index];
-    char first[FORM_PATH + 64], second[FORM_PATH + 64];
-    double middle = (b->from_given + b->to_given) / 2;
-    snprintf(first, sizeof first, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
-    snprintf(second, sizeof second, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
-    return ceduo_document_split(&app->document, item->list, item->index, first, second, &app->problems);
-}
-
-/* A segment is split in two of the same ground. */
-static bool split_segment(struct app *app, const struct item *item)
-{
-    const struct ceduo_slope *s = &app->document.file.scene.slope;
-    size_t i = item->index;
-    char vertex[96];
-    if (!ceduo_document_node(&app->document, "slope.vertices_m"))
-        return false;
-    snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", (s->x[i] + s->x[i + 1]) / 2 + s->origin_x,
-             (s->z[i] + s->z[i + 1]) / 2 + s->origin_z);
-    return ceduo_document_split_segment(&app->document, i, vertex, &app->problems);
-}
-
 /* ---- deleting ---- */
 
 /* The stools go with their last shoots. */
@@ -139,11 +180,26 @@ static bool delete_shoots(struct app *app, const struct item *item)
     return ceduo_document_set_all(&app->document, sets, 2, stand, &app->problems);
 }
 
+/* The ground before it, or behind the first, takes its place. */
+static bool delete_ground(struct app *app, const struct item *item, const char *path)
+{
+    char border[FORM_PATH + 64];
+    bool first = item->index == 0;
+    double end = number_of(app, item, item->index, first ? "from_m" : "to_m");
+    snprintf(border, sizeof border, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, first ? "from_m" : "to_m", end);
+    const char *const sets[] = {border, path};
+    return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
+}
+
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
     if (strcmp(item->list, "slope.segments") == 0)
         return ceduo_document_join_segments(&app->document, item->index, &app->problems);
+    if (strcmp(item->list, "slope.vertices_m") == 0)
+        return ceduo_document_remove_vertex(&app->document, item->index, &app->problems);
+    if (strcmp(item->key, "materials") == 0 && list && list->n > 1)
+        return delete_ground(app, item, path);
     if (strcmp(item->key, "shoots") == 0 && list && list->n == 1)
         return delete_shoots(app, item);
     return ceduo_document_delete(&app->document, path, &app->problems);
@@ -165,9 +221,11 @@ typedef bool item_function(struct app *app, const struct item *item);
 static const struct {
     const char *key;
     item_function *add, *duplicate;
-} kinds[] = {{"forest", add_belt, split_belt},
+} kinds[] = {{"forest", add_belt, split_stretch},
              {"controls", add_control, add_control},
-             {"segments", copy_item, split_segment},
+             {"materials", add_ground, split_stretch},
+             {"segments", split_segment, split_segment},
+             {"vertices_m", split_point, split_point},
              {"shoots", add_shoots, copy_item},
              {"trees", add_trees, copy_item}};
 
@@ -179,6 +237,26 @@ static item_function *function_for(const struct item *item, bool add)
     return copy_item;
 }
 
+static void go_to(struct app *app, const char *list, size_t index)
+{
+    struct form *form = ceduo_app_form(app);
+    size_t last = form->row;
+    for (size_t i = 0; i < form->n; i++)
+        if (form->rows[i].kind == FORM_FIELDS && strcmp(form->rows[i].list, list) == 0 && form->rows[i].index <= index)
+            last = i;
+    form->row = last;
+    ceduo_form_settle(form);
+}
+
+/* The cursor goes to the new item, or the last where it was put before others. */
+static void put_item(struct app *app, const struct item *item, bool good)
+{
+    if (!good && app->problems.count == 0 && !app->problems.memory && app->message[0])
+        return; /* it is said already */
+    if (ceduo_app_edited(app, good))
+        go_to(app, item->list, item->there ? item->index + 1 : 0);
+}
+
 void ceduo_items_add(struct app *app)
 {
     struct item item;
@@ -186,11 +264,9 @@ void ceduo_items_add(struct app *app)
         ceduo_app_say(app, "%s", _("a adds to a list: put the cursor on one"));
         return;
     }
-    bool good = function_for(&item, true)(app, &item);
-    if (!good && app->problems.count == 0 && !app->problems.memory)
-        return; /* it is said already */
-    if (ceduo_app_edited(app, good))
-        ceduo_form_move(ceduo_app_form(app), 1, 0);
+    put_item(app, &item, function_for(&item, true)(app, &item));
+    if (item.key && strcmp(item.key, "forest") == 0 && !app->message[0])
+        ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
 }
 
 void ceduo_items_delete(struct app *app)
@@ -216,8 +292,8 @@ void ceduo_items_duplicate(struct app *app)
     struct item item;
     if (!find_item(app, &item) || !item.there)
         ceduo_app_say(app, "%s", _("y duplicates an item of a list: put the cursor on one"));
-    else if (ceduo_app_edited(app, function_for(&item, false)(app, &item)))
-        ceduo_form_move(ceduo_app_form(app), 1, 0);
+    else
+        put_item(app, &item, function_for(&item, false)(app, &item));
 }
 
 void ceduo_items_move(struct app *app, int by)

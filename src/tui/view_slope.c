@@ -14,7 +14,9 @@ static void build_ground(struct app *app, struct form *form)
     const struct node *segments = ceduo_document_node(d, "slope.segments");
     ceduo_form_heading(form, _("Ground"));
     ceduo_form_field(form, d, slope, "slope", "facets", NULL);
-    if (ceduo_document_node(d, "slope.materials"))
+    if (!segments && !ceduo_document_node(d, "slope.materials"))
+        ceduo_form_note(form, _("talus is assumed everywhere"));
+    if (!segments)
         ceduo_form_table(form, d, ceduo_schema_field(slope, "materials")->object, "slope.materials", materials, "");
     if (segments) {
         bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");

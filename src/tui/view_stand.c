@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "base/intl.h"
+#include "model/changes.h"
 #include "scene/words.h"
 
 static void build(struct app *app, struct form *form)
@@ -13,7 +14,7 @@ static void build(struct app *app, struct form *form)
     const struct document *d = &app->document;
     const struct object *stand = ceduo_schema_stand();
     const struct object *belt = ceduo_schema_field(ceduo_schema_scene(), "forest")->object;
-    char forest[64], path[FORM_PATH], list[FORM_PATH + 16];
+    char forest[64], path[FORM_PATH], list[FORM_PATH + 32];
     ceduo_app_forest(app, forest, sizeof forest);
     ceduo_form_table(form, d, belt, forest, belt_columns, "");
     if (ceduo_app_option(app)->belts_count == 0)
@@ -26,6 +27,8 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "system", NULL);
     ceduo_form_field(form, d, stand, path, "species", NULL);
     ceduo_form_field(form, d, stand, path, "stools.per_ha", NULL);
+    snprintf(list, sizeof list, "%s.stools.per_stool", path);
+    ceduo_form_number(form, ceduo_schema_per_stool(), list, ceduo_shoots_per_stool(d, path));
     ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
     ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));

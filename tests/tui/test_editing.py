@@ -193,6 +193,7 @@ def undo_and_redo(scene):
         dump
         key +
         key +
+        clear
         wait idle
         dump
         key u
@@ -280,7 +281,7 @@ def test_wrong_values():
     wrong(3, "rock.diameter_m", "0", "")
     wrong(3, "rock.diameter_m", "0x10", "not a number")
     wrong(3, "release.x_m", "-7", "")
-    wrong(1, "forest[1].from_m", "20", "")
+    wrong(1, "forest[1].from_m", "3", "")
     wrong(1, "forest[1].from_m", "1000", "")
     wrong(1, "controls[1].x_m", "60", "")
     wrong(1, "vertices_m[1]", "[0, 1]", "")

@@ -247,7 +247,7 @@ static void options_belts_and_segments(void **state)
     assert_true(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
                                      "options[1].forest[1].from_m=45", &problems));
     assert_int_equal(d.file.scene.options[1].belts_count, 2);
-    assert_true(ceduo_document_split_segment(&d, 0, "[20, 35]", &problems));
+    assert_true(ceduo_document_split_segment(&d, 0, "[20, 35]", false, &problems));
     assert_int_equal(d.file.scene.slope.vertices, 4);
     assert_true(d.file.scene.slope.segments[1].rn.mean == 0.3);
     assert_true(ceduo_document_delete(&d, "options[2]", &problems));

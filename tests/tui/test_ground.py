@@ -1,0 +1,183 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grounds, belts and the profile's points on the screen: a and y split, neighbours follow, nothing overlaps or gapes; and
+stools that keep their shoots."""
+import random
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import FAST, Place, check_good  # noqa: E402
+from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
+from test_editing import table  # noqa: E402
+
+# Belts that touch, grounds of the library, one profile.
+LAND = """\
+ceduo: scene/1
+title: land
+rock: {diameter_m: 0.8}
+slope:
+  vertices_m: [[0, 80], [60, 30], [100, 0]]
+  materials: [{from_m: 0, to_m: 100, material: talus}]
+controls: [{x_m: 90, accepted_kJ: 50}]
+forest:
+  - {from_m: 10, to_m: 45, stand: simple-coppice}
+  - {from_m: 45, to_m: 80, stand: large-reserves}
+simulation: {contact_model: index}
+"""
+ONE_GROUND = LAND.replace("  materials: [{from_m: 0, to_m: 100, material: talus}]\n", "  segments: [{rn: 0.3, rt: 0.8}]\n")
+CSV = LAND.replace("  vertices_m: [[0, 80], [60, 30], [100, 0]]\n  materials: [{from_m: 0, to_m: 100, material: talus}]\n",
+                   "  csv: line.csv\n")
+BELTS, GROUNDS = "from, m to, m stand", "from, m to, m ground"
+
+
+def land(script, text=LAND):
+    with Place() as place:
+        place.write("line.csv", "distance,elevation\n0,80\n60,30\n100,0\n")
+        place.write("land.yaml", text)
+        return place.play("resize 200 70\n" + script, "land.yaml")
+
+
+def points(screen):
+    return re.findall(r"^\d +(\S+) (\S+)$", screen.body.split("Vertices")[1], re.M)
+
+
+def stretches(screen, head):
+    plain = ([word.rstrip("*") for word in row] for row in table(screen, head))  # a star marks what is assumed
+    return [(float(r[1]), float(r[2]), " ".join(r[3:])) for r in plain]
+
+
+def test_split_ground():
+    """a and y on a ground make two of it; d gives its stretch to the neighbour; a face at the top takes few keys."""
+    for key in "ay":
+        split, first_gone, back, last_gone = land(f"find materials[0]\nkey {key}\ndump\nkey Up d\ndump\nkey u Down\ndump\nkey d\ndump")
+        expect_equal(stretches(split, GROUNDS), [(0, 50, "talus"), (50, 100, "talus")], f"after {key}")
+        expect_equal(stretches(first_gone, GROUNDS), [(0, 100, "talus")], "after d on the first")
+        expect_equal(len(table(back, GROUNDS)), 2, "after u")
+        expect_equal(stretches(last_gone, GROUNDS), [(0, 100, "talus")], "after d on the last")
+    with Place() as place:
+        place.write("land.yaml", LAND)
+        face = place.play("resize 200 70\nfind materials[0]\nkey a Enter\ntype 15\nkey Enter Up Right Right Enter\ntype cl\n"
+                          "dump\nkey Enter\nwait idle\ndump\nkey s", "land.yaml")
+        expect(re.search(r"Rn 0\.35, Rt 0\.85.*Contact \w+", face[0].popup), "what the ground is and does", face[0])
+        expect_equal(stretches(face[1], GROUNDS), [(0, 15, "cliff"), (15, 100, "talus")], "a face")
+        check_good(place.path, "land.yaml")
+
+
+def test_ground_of_csv():
+    """Where a file says no ground, a names what is assumed, and splits it from then on."""
+    none, named, split = land("find materials\nfind facets\nkey Down\ndump\nkey a\ndump\nkey a\ndump", CSV)
+    none.has("talus is assumed everywhere", "none; a adds one")
+    expect_equal(stretches(named, GROUNDS), [(0, 100, "talus")], "named")
+    expect_equal(stretches(split, GROUNDS), [(0, 50, "talus"), (50, 100, "talus")], "split")
+
+
+def test_one_ground_apart():
+    """One ground for all segments becomes one for each where it is split; a point of the profile leaves it one."""
+    split, point = land("find segments[0]\nkey a\ndump\nkey u\nfind vertices_m[0]\nkey a\ndump", ONE_GROUND)
+    expect_equal(len(points(split)), 4, "points after a on the ground")
+    expect_equal([r[1].rstrip("*") for r in table(split, "bounce Rn slide Rt")], ["0.3"] * 3, "grounds")
+    expect_equal(points(point), [("0", "80"), ("30", "55"), ("60", "30"), ("100", "0")], "a point in the middle")
+    expect_equal(len(table(point, "bounce Rn slide Rt")), 1, "still one ground")
+
+
+def test_points():
+    """a and y put a point between this one and the next, before the last one too; d takes one out, with its ground."""
+    for key in "ay":
+        first, last, gone = land(f"find vertices_m[0]\nkey {key}\ndump\nkey u\nfind vertices_m[2]\nkey {key}\ndump\nkey u\n"
+                                 "find vertices_m[1]\nkey d\ndump")
+        expect_equal(points(first), [("0", "80"), ("30", "55"), ("60", "30"), ("100", "0")], f"{key} on the first")
+        expect_equal(points(last), [("0", "80"), ("60", "30"), ("80", "15"), ("100", "0")], f"{key} on the last")
+        expect_equal(points(gone), [("0", "80"), ("100", "0")], "after d")
+    with Place() as place:
+        screens = place.play("resize 200 70\nfind vertices_m[1]\nkey a\ndump\nkey d\ndump", "fast.yaml")
+    rn = [[r[1] for r in table(s, "bounce Rn slide Rt")] for s in screens]
+    expect_equal(rn, [["0.3", "0.25", "0.25"], ["0.3", "0.25"]], "grounds of their segments")
+
+
+def test_split_belt():
+    """a and y on a belt split it; with the cursor on its end a fills what lies behind; without belts a plants the slope."""
+    for key in "ay":
+        split = land(f"find forest[1]\nkey {key}\ndump")[0]
+        expect_equal(stretches(split, BELTS)[1:], [(45, 62.5, "large reserves"), (62.5, 80, "large reserves")], key)
+    behind, again = land("find forest[1]\nkey Right a\ndump\nkey a\ndump")
+    expect_equal(stretches(behind, BELTS)[2][:2], (80, 100), "behind the last")
+    expect_in("c takes it from a sample plot", behind.note)
+    expect_equal(len(table(again, BELTS)), 4, "no room behind: split")
+    none, all_ = land("find forest\nkey d d\ndump\nkey a\ndump")
+    none.has("none; a adds one")
+    expect_equal(stretches(all_, BELTS)[0][:2], (0, 100), "the whole slope")
+
+
+def test_neighbours_follow():
+    """Where a border moves its neighbour moves with it, and that is said; u takes both back."""
+    moved, over, back = land("find forest[0].to_m\nset 50\ndump\nkey Down Left\nset 30\ndump\nkey u u\ndump")
+    expect_equal([s[:2] for s in stretches(moved, BELTS)], [(10, 50), (50, 80)], "to_m")
+    expect_in("what comes next begins at 50 m now", moved.note)
+    expect_equal([s[:2] for s in stretches(over, BELTS)], [(10, 30), (30, 80)], "from_m")
+    expect_equal([s[:2] for s in stretches(back, BELTS)], [(10, 45), (45, 80)], "after u u")
+    gap, into = land("find forest[1]\nset 60\ndump\nkey u\nfind forest[0]\nkey Right\nset 40\ndump",
+                     LAND.replace("from_m: 45, to_m: 80", "from_m: 55, to_m: 80"))
+    expect_equal([s[:2] for s in stretches(gap, BELTS)], [(10, 45), (60, 80)], "over a gap nothing follows")
+    expect_equal([s[:2] for s in stretches(into, BELTS)], [(10, 40), (55, 80)], "over a gap nothing follows")
+    into = land("find forest[0]\nkey Right\nset 60\ndump", LAND.replace("from_m: 45, to_m: 80", "from_m: 55, to_m: 80"))[0]
+    expect_equal([s[:2] for s in stretches(into, BELTS)], [(10, 60), (60, 80)], "over the gap and into the next: it gives way")
+    refused = land("wait idle\nfind forest[0]\nkey Right\nset 85\ndump")[0]
+    expect_in("Esc leaves it as it was", refused.bar, "a belt is not swallowed")
+    longer = land("find vertices_m[2]\nset 120 0\ndump\nset 110,5 -5\ndump")
+    expect_equal(stretches(longer[0], GROUNDS), [(0, 120, "talus")], "the ground goes with the profile")
+    expect_equal(stretches(longer[1], GROUNDS), [(0, 110.5, "talus")], "and back")
+
+
+def test_any_border():
+    """Whatever border is moved, grounds leave no gap and nothing overlaps."""
+    draw = random.Random(5)
+    script = "find materials[0]\nkey a a a\n"
+    for _ in range(40):
+        if draw.random() < 0.5:
+            script += f"find materials[{draw.randrange(4)}]\n" + "key Right\n" * draw.randrange(2)
+        else:
+            script += f"find forest[{draw.randrange(2)}].from_m\n" + "key Right\n" * draw.randrange(2)
+        script += f"set {draw.randrange(0, 1001) / 10}\nkey Esc\ndump\n"
+    for screen in land(script):
+        grounds, belts = stretches(screen, GROUNDS), stretches(screen, BELTS)
+        for rows, touch in ((grounds, True), (belts, False)):
+            for a, b in zip(rows, rows[1:]):
+                expect(a[0] < a[1] <= b[0] < b[1] and (not touch or a[1] == b[0]), "a gap or an overlap:", rows)
+        expect_equal((grounds[0][0], grounds[-1][1]), (0, 100), "the ground is that of the whole profile")
+
+
+def test_stools_keep_shoots():
+    """Stools that become more keep the shoots on each; shoots per stool is a field of its own."""
+    script = """key 2
+        find stools.per_ha
+        dump
+        set 1500
+        dump
+        key Down
+        set 4,5
+        dump
+        key u u
+        dump
+        find stools.per_ha
+        set 0
+        dump"""
+    with Place() as place:
+        start, fewer, more, back, none = place.play(script, "fast.yaml")
+        shoots = [[float(x) for x in re.findall(r"^\d +(\S+)", s.body.split("\n    per ha")[1], re.M)] for s in (start, fewer, more, back)]
+        expect_near(float(start.row("^shoots per stool")[-1]), 9500 / 3000, 0.001, "shoots per stool")
+        expect_equal(shoots[1], [4500, 250], "half the stools, half the shoots")
+        expect_in("3.17 shoots on each stool stay", fewer.note)
+        expect_equal(float(fewer.row("^shoots per stool")[-1]), float(start.row("^shoots per stool")[-1]))
+        expect_near(sum(shoots[2]), 4.5 * 1500, 0.1, "shoots of 4.5 on each")
+        expect_near(shoots[2][0] / shoots[2][1], 18, 0.01, "the cohorts stay in proportion")
+        expect_equal((back.row("^stools per ha")[-1], shoots[3]), ("3000", shoots[0]), "after u u")
+        expect_in("shoots without stools", none.note)
+        place.play("key 2\nfind stools.per_ha\nset 1500\nkey s", "fast.yaml")
+        wanted = FAST.replace("per_ha: 3000", "per_ha: 1500").replace("per_ha: 9000", "per_ha: 4500").replace("per_ha: 500,", "per_ha: 250,")
+        expect_equal(place.text("fast.yaml"), wanted, "the file")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
