@@ -309,6 +309,7 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 # Writes the tables of parameters, keys, goals and figures into the manual pages.
 man: $(TABLES)
 	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
+	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in keys goals search figures; do $(TABLES) $$table man/ceduo.1; done
 
 # ---- installing ----

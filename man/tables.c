@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a table into a manual page, between its two marks: tables scene|slope|stand PAGE that of the parameters,
- * keys that of the keys of the terminal program, goals and search those of a search, figures those of JSON. */
+ * keys that of the keys of the terminal program, goals and search those of a search, ranges those of doubt, figures those of JSON. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/ranges.h"
 #include "scene/schema.h"
 #include "study/goal.h"
 #include "tui/keys.h"
@@ -103,6 +104,34 @@ static void put_goals(FILE *out)
     fputs(".El\n", out);
 }
 
+/* 2400 to 2750; 0.85 to 1.15 times its value; brauner, dorren. */
+static void put_range(FILE *out, const struct range *r)
+{
+    if (r->kind == CEDUO_INPUT_WORDS)
+        for (size_t i = 0; r->words[i]; i++)
+            fprintf(out, "%s%s", i > 0 ? " or " : "", r->words[i]);
+    else
+        fprintf(out, "%g to %g%s", r->lo, r->hi, r->kind == CEDUO_INPUT_FACTOR ? " times the value" : "");
+    fputs(" (", out);
+    put(out, r->source);
+    fputs(").\n", out);
+}
+
+static void put_ranges(FILE *out)
+{
+    size_t n;
+    const struct range *ranges = ceduo_ranges(&n);
+    fputs(".Bl -tag -width Ds -compact\n", out);
+    for (size_t i = 0; i < n; i++) {
+        const char *end = strrchr(ranges[i].path, '.');
+        fputs(".It Va ", out);
+        put(out, end + 1);
+        fputs(strstr(ranges[i].path, "stools") ? " of stools\n" : strstr(ranges[i].path, "trees") ? " of shoots and trees\n" : "\n", out);
+        put_range(out, &ranges[i]);
+    }
+    fputs(".El\n", out);
+}
+
 static bool is_listed(const struct ceduo_figure *figures)
 {
     const struct ceduo_figure_list *list = ceduo_figure_lists;
@@ -155,7 +184,7 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*put)(FILE *out);
-    } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"search", put_search}, {"figures", put_figure_lists}};
+    } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"ranges", put_ranges}, {"search", put_search}, {"figures", put_figure_lists}};
     if (argc != 3)
         return 2;
     size_t table = 0;

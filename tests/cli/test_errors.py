@@ -392,7 +392,7 @@ CASES = {
     "the first line must name the columns 'distance' and 'elevation'": csv("0,64\n100,0\n", "line.csv:1:1: "),
     "too few columns": csv("distance,elevation\n0,64\n50\n100,0\n", "line.csv:3:1: "),
     "a value is missing; remove the line": csv("distance,elevation\n0,64\n50,\n100,0\n", "line.csv:3:4: "),
-    "'100,5' is not a number; write a dot for the decimals": csv("distance;elevation\n0;64\n100,5;0\n", "line.csv:3:1: "),
+    "'1.000,5': decimals stand after a comma or after a dot, not both": csv("distance;elevation\n0;64\n1.000,5;0\n", "line.csv:3:1: "),
     "distance 0 does not lie beyond 0; distances must rise": csv("distance,elevation\n0,64\n0,0\n", "line.csv:3:1: "),
     "beyond 1e+09 m": csv("distance,elevation\n0,64\n100,-1e10\n", "line.csv:3:5: "),
     "the file is empty": csv("", "line.csv: "),

@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--sensitivity: what is in doubt, what it does to the answer, and what is refused."""
+import csv
+import io
+import json
+
+from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, expect_equal, expect_in, run_all, scene, stand
+
+LAW = {"path": "forest[*].stand.energy.model", "one_of": ["brauner", "dorren"]}
+DENSITY = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2750}
+POINTS = 16
+ENERGY = {"model": "brauner", "u_J_m3": 102800}
+TREES = [{"per_ha": 500, "dbh_m": 0.12, "height_m": 9, "volume_m3": 0.05}]
+
+
+def wood(**changes):
+    return stand(**{"stools": None, "shoots": None, "trees": TREES, "energy": ENERGY, **changes})
+
+
+def measured(**changes):
+    """A scene of which every value is given and measured."""
+    return scene(**{"rock": {"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2600},
+                    "controls": [{"x_m": 90, "accepted_kJ": 20}],
+                    "forest": [{"from_m": 0, "to_m": 80, "stand": wood()}],
+                    "release": {"vx_m_s": 5, "height_m": 1},
+                    "slope": {"vertices_m": [[0, 70], [100, 0]],
+                              "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]},
+                    **changes})
+
+
+def answer(what, *arguments):
+    with Folder() as f:
+        path = f.write("s.yaml", what)
+        r = ceduo(f"--sensitivity={POINTS}", "-f", "json", "-n", 200, *arguments, path)
+        expect_equal(r.status, DONE, r)
+        return json.loads(r.out)
+
+
+def paths(result):
+    return sorted(i["path"] for i in result["figures"][0]["inputs"])
+
+
+def figure(result, name, option=0):
+    rows = [f for f in result["figures"] if f["figure"] == name and f["against"] is None]
+    return rows[option]
+
+
+def test_nothing():
+    """Where nothing is in doubt it is said, and nothing is computed"""
+    for what in (measured(), measured(doubt="none"), measured(doubt=[])):
+        result = answer(what)
+        expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
+    with Folder() as f:
+        page = ceduo("--sensitivity", f.write("s.yaml", measured())).out
+        expect_in("nothing was computed", page)
+
+
+def test_named():
+    """What a scene names is varied within its range, and nothing else"""
+    result = answer(measured(doubt=[LAW, DENSITY]))
+    expect_equal(result["format"], "ceduo-sensitivity-1")
+    expect_equal(paths(result), ["forest[*].stand.energy.model", "rock.density_kg_m3"])
+    expect_equal(result["evaluations"], POINTS * (2 + 2) + 2 * 2)
+    by_path = {i["path"]: i for i in figure(result, "exceed_probability")["inputs"]}
+    law, density = by_path["forest[*].stand.energy.model"], by_path["rock.density_kg_m3"]
+    expect_equal((law["lo"], law["hi"]), ("brauner", "dorren"))
+    expect_equal((density["lo"], density["hi"]), (2400, 2750))
+
+
+def test_ends_are_runs():
+    """The figure with one input at either end is that of the scene with that value"""
+    what = measured(doubt=[LAW, DENSITY])
+    result = answer(what)
+    with Folder() as f:
+        path = f.write("s.yaml", what)
+        for key, values in (("forest[*].stand.energy.model", ("brauner", "dorren")), ("rock.density_kg_m3", (2400, 2750))):
+            for end, value in zip(("at_lo", "at_hi"), values):
+                run = json.loads(ceduo("--batch", "-f", "json", "-n", 200, "-s", f"{key.replace('*', '0')}={value}", path).out)
+                wooded = run["options"][0]["controls"][0]["wooded"]
+                for name, known in (("reach_probability", wooded["reach_probability"]),
+                                    ("exceed_probability", wooded["exceed_probability"]),
+                                    ("energy_per_released_kJ", wooded["energy_per_released_kJ"]["mean"])):
+                    found = [i for i in figure(result, name)["inputs"] if i["path"] == key][0][end]
+                    expect(abs(found - known) <= 1e-9 * abs(known), f"{key}={value}, {name}: {found} instead of {known}")
+
+
+def test_value_is_the_run():
+    """The figures of the scene as it is are those of a run, with its intervals"""
+    what = measured(doubt=[LAW])
+    result = answer(what)
+    with Folder() as f:
+        run = json.loads(ceduo("--batch", "-f", "json", "-n", 200, f.write("s.yaml", what)).out)
+    wooded, found = run["options"][0]["controls"][0]["wooded"], figure(result, "exceed_probability")
+    expect_equal((found["value"], found["sampling_lo"], found["sampling_hi"]),
+                 tuple(wooded[f"exceed_{k}"] for k in ("probability", "lo", "hi")))
+    expect(found["doubt_p5"] <= found["doubt_p50"] <= found["doubt_p95"], found)
+
+
+def test_assumed():
+    """Values that are marked as assumed have ranges of their own; a range of the scene goes before them"""
+    assumed = {"kind": "assumed", "text": "a guess"}
+    trees = [{"per_ha": 400, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2, "source": assumed}]
+    forest = [{"from_m": 0, "to_m": 80, "stand": wood(trees=trees)}]
+    result = answer(measured(forest=forest))
+    place = "forest[0].stand.trees[0]."
+    expect_equal(paths(result), [place + key for key in ("dbh_m", "per_ha", "volume_m3")])
+    dbh = [i for i in result["figures"][0]["inputs"] if i["path"] == place + "dbh_m"][0]
+    expect(abs(dbh["lo"] - 0.18) < 1e-12 and abs(dbh["hi"] - 0.22) < 1e-12, dbh)
+    named = {"path": place + "dbh_m", "lo": 0.19, "hi": 0.25}
+    dbh = [i for i in answer(measured(forest=forest, doubt=[named]))["figures"][0]["inputs"] if i["path"] == named["path"]][0]
+    expect_equal((dbh["lo"], dbh["hi"]), (0.19, 0.25))
+
+
+def test_energy_law_of_nobody():
+    """An energy law that nobody chose is in doubt, once for all stands"""
+    belts = [{"from_m": a, "to_m": a + 40, "stand": {k: v for k, v in wood().items() if k != "energy"}} for a in (0, 40)]
+    result = answer(measured(forest=belts))
+    laws = [i for i in result["figures"][0]["inputs"] if i["path"].endswith("energy.model")]
+    expect_equal([(i["places"], i["lo"], i["hi"]) for i in laws], [(2, "brauner", "dorren")])
+
+
+def test_ground_of_the_library():
+    """A ground of the library has its published range, wherever it is"""
+    slope = {"vertices_m": [[0, 60], [50, 30], [100, 0]], "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}
+    result = answer(measured(slope=slope))
+    inputs = {i["path"]: i for i in result["figures"][0]["inputs"]}
+    expect_equal(sorted(inputs), [f"slope.materials[talus].{k}" for k in ("friction", "rn", "roughness_rad", "rt")])
+    rn = inputs["slope.materials[talus].rn"]
+    expect_equal((rn["lo"], rn["hi"], rn["places"]), (0.30, 0.33, 2))  # Pfeiffer et al. 1993
+    named = {"path": "slope.materials[talus].rn", "lo": 0.2, "hi": 0.5}
+    rn = {i["path"]: i for i in answer(measured(slope=slope, doubt=[named]))["figures"][0]["inputs"]}["slope.materials[talus].rn"]
+    expect_equal((rn["lo"], rn["hi"]), (0.2, 0.5))
+
+
+def test_threads():
+    """The answer does not depend on the number of threads"""
+    with Folder() as f:
+        path = f.write("s.yaml", measured(doubt=[LAW, DENSITY]))
+        one, two, three = (ceduo("--sensitivity=8", "-f", "csv", "-n", 100, "-j", j, path).out for j in (1, 2, 3))
+    expect(one == two == three, "other bits")
+    rows = list(csv.DictReader(io.StringIO(one)))
+    expect_equal(len(rows), 3 * 2, "figures x inputs")
+    expect_equal({r["path"] for r in rows}, {LAW["path"], DENSITY["path"]})
+
+
+def test_no_effect():
+    """What has no effect on a figure has no share of it: with the law lumped mass moves no trajectory"""
+    slope = {"vertices_m": [[0, 50], [60, 8], [160, 0]],
+             "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]}
+    result = answer(measured(forest=[], slope=slope, controls=[{"x_m": 100}],
+                             doubt=[{"path": "release.height_m", "lo": 0, "hi": 6},
+                                    {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]))
+    density = [i for i in figure(result, "reach_probability")["inputs"] if i["path"] == "rock.density_kg_m3"][0]
+    expect_equal((density["total"], density["total_se"]), (0, 0), "of the share that arrives")
+    energy = [i for i in figure(result, "energy_per_released_kJ")["inputs"] if i["path"] == "rock.density_kg_m3"][0]
+    expect(energy["total"] > 0, "of the energy")
+
+
+def test_many():
+    """Sixty inputs: the least move together, and it is said how many"""
+    belts = [{"from_m": 4 * i, "to_m": 4 * i + 4, "stand": wood()} for i in range(20)]
+    doubt = [{"path": f"forest[{i}].stand.{key}", "lo": lo, "hi": hi} for i in range(20)
+             for key, lo, hi in (("trees[0].dbh_m", 0.1, 0.14), ("trees[0].height_m", 7, 10), ("energy.u_J_m3", 8e4, 12e4))]
+    with Folder() as f:
+        path = f.write("s.yaml", measured(forest=belts, doubt=doubt))
+        r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, path, timeout=120)
+        expect_equal(r.status, DONE, r)
+        inputs = json.loads(r.out)["figures"][0]["inputs"]
+        expect_equal(len(inputs), 20)
+        together = [i for i in inputs if i["path"] == "41 inputs together"]
+        expect_equal([i["places"] for i in together], [41])
+
+
+def test_ranking():
+    """Options: each pair of neighbours in rank with the probability of its order; two alike are even"""
+    belts = [{"from_m": 0, "to_m": 80, "stand": wood()}]
+    options = [{"name": "a", "forest": belts}, {"name": "b", "forest": belts}, {"name": "none", "forest": []}]
+    what = measured(options=options, doubt=[DENSITY])
+    del what["forest"]
+    result = answer(what)
+    expect_equal(len(result["figures"]), 3 * 3 + 2 * 3)
+    pairs = {(r["better"], r["than"]): r["probability"] for r in result["ranking"]}
+    expect_equal(len(pairs), 2)
+    same = pairs.get(("a", "b"), pairs.get(("b", "a")))
+    expect_equal(same, 0.5, "the same forest twice")
+    expect(any(than == "none" and p == 1 for (_, than), p in pairs.items()), pairs)
+    difference = [f for f in result["figures"] if f["against"] == "a" and f["option"] == "b"]
+    expect_equal([(f["value"], f["doubt_p5"], f["doubt_p95"]) for f in difference], [(0, 0, 0)] * 3)
+
+
+REFUSED = {
+    "doubt[0].path: 'rock.colour' is not a number or a word of this scene": {"path": "rock.colour", "lo": 1, "hi": 2},
+    "doubt[0].path: 'forest[7].from_m' is not a number": {"path": "forest[7].from_m", "lo": 1, "hi": 2},
+    "doubt[0].hi: the range is empty; hi must be above lo": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
+    "doubt[0].sd: the range is empty; sd must be above 0": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
+    "doubt[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},
+    "doubt[0].mean: -0.125 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "mean": 0.25, "sd": 0.125},
+    "doubt[0].one_of[1]: 'dorian' is unknown; one of: brauner, dorren": {**LAW, "one_of": ["brauner", "dorian"]},
+    "doubt[0].one_of: name at least two words": {**LAW, "one_of": ["brauner"]},
+    "doubt[0]: give lo and hi, or mean and sd": {"path": "rock.density_kg_m3", "lo": 2500},
+    "doubt[0]: 'density_kg_m3' is a number; give lo and hi": {"path": "rock.density_kg_m3", "one_of": ["a", "b"]},
+    "doubt[0]: 'model' is a word; give one_of": {"path": LAW["path"], "lo": 0, "hi": 1},
+    "doubt[0]: 'path' is missing": {"lo": 0, "hi": 1},
+}
+
+
+def test_refused():
+    """A range that is empty or impossible, an unknown path or word: named, with line and column"""
+    for told, row in REFUSED.items():
+        with Folder() as f:
+            r = ceduo("--sensitivity", f.write("s.yaml", measured(doubt=[row])))
+            expect_equal((r.status, r.out), (INPUT, ""), told)
+            expect_in(told, r.err, row)
+    with Folder() as f:
+        r = ceduo("--check", f.write("s.yaml", measured(doubt=[DENSITY, DENSITY])))
+        expect_in("doubt[1].path: 'rock.density_kg_m3' is given twice", r.err)
+    for n in ("0", "1", "x", "1e9"):
+        expect_equal(ceduo(f"--sensitivity={n}", "paper-site").status, USAGE, n)
+    for others in (("--plot", "energy"), ("--years", "0:3"), ("-e", "0.1"), ("--rows", "stands")):
+        expect_equal(ceduo("--sensitivity=4", *others, "paper-site").status, USAGE, others)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
