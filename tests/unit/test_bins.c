@@ -71,6 +71,17 @@ static void a_cell_reads_the_rock_of_the_rank(void **state)
     EXPECT(e.speed.p95, ==, ldexp(65. / 64, 19));
 }
 
+/* Speeds have 40 octaves from 2^-10 on: what is beyond them is in the last bin, from 2^29 63/32 to 2^30. */
+static void a_cell_has_an_end(void **state)
+{
+    (void)state;
+    const double values[] = {0x1p40};
+    struct ceduo_envelope e = cell_of(values, 1);
+    EXPECT(e.speed.p50, ==, 0x1p29 * (127. / 64));
+    EXPECT(e.speed.max, ==, 0x1p40);
+    EXPECT(e.passed, ==, 1);
+}
+
 /* ---- histograms of long runs: 16384 bins an octave ---- */
 
 /* The middle of the bin of a power of two, one of itself. */
@@ -85,6 +96,21 @@ static void a_histogram_reads_the_middle_of_a_bin(void **state)
     assert_true(ceduo_histogram_add(&h, 3));
     EXPECT(ceduo_histogram_value(&h, 1), ==, MIDDLE);
     EXPECT(ceduo_histogram_value(&h, 2), ==, 2 * (1.5 + 1. / 32768));
+    ceduo_histogram_clear(&h);
+}
+
+/* What lies below the smallest octave counts as 0. */
+static void a_histogram_has_a_beginning(void **state)
+{
+    (void)state;
+    struct histogram h = {0};
+    assert_true(ceduo_histogram_add(&h, nextafter(0x1p-64, 0)));
+    EXPECT(h.zeros, ==, 1);
+    assert_true(ceduo_histogram_add(&h, 0x1p-64));
+    EXPECT(h.zeros, ==, 1);
+    EXPECT(h.n, ==, 2);
+    EXPECT(ceduo_histogram_value(&h, 1), ==, 0);
+    EXPECT(ceduo_histogram_value(&h, 2), ==, 0x1p-64 * MIDDLE);
     ceduo_histogram_clear(&h);
 }
 
@@ -131,7 +157,9 @@ int main(void)
         cmocka_unit_test(a_cell_reads_the_middle_of_a_bin),
         cmocka_unit_test(a_cell_reads_no_more_than_the_largest),
         cmocka_unit_test(a_cell_reads_the_rock_of_the_rank),
+        cmocka_unit_test(a_cell_has_an_end),
         cmocka_unit_test(a_histogram_reads_the_middle_of_a_bin),
+        cmocka_unit_test(a_histogram_has_a_beginning),
         cmocka_unit_test(a_distribution_of_bins_has_no_more_than_the_largest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
