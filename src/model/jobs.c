@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "ceduo/key.h"
 
-enum kind { SEEK, FIGURES, YEARS, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
+enum kind { SEEK, FORESEE, FIGURES, YEARS, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
 
 struct job {
     bool wanted;     /* not done */
@@ -24,8 +24,8 @@ struct job {
     size_t option;
     struct ceduo_scene scene;
     struct seek seek;
-    struct scene_file file; /* that the search changes */
-    char path[1024];
+    struct scene_file file; /* that the search changes, or that a change is foreseen of */
+    char path[1024];        /* of the search; the change that is foreseen */
 };
 
 struct jobs {
@@ -148,6 +148,19 @@ static enum ceduo_status step_seek(struct jobs *q, struct job *job)
     return CEDUO_OK;
 }
 
+static enum ceduo_status step_foresee(struct jobs *q, struct job *job)
+{
+    struct foreseen foreseen;
+    enum ceduo_status status = ceduo_foresee(&job->file, job->path, job->option, q->threads, &q->cancel, &foreseen);
+    job->wanted = false;
+    if (status != CEDUO_OK || !lock_result(q, FORESEE, job->number))
+        return status;
+    q->news.foresaw = true;
+    q->news.foreseen = foreseen;
+    unlock_result(q);
+    return CEDUO_OK;
+}
+
 /* ---- the thread ---- */
 
 static enum kind next_kind(const struct jobs *q)
@@ -172,8 +185,8 @@ static void end_step(struct jobs *q, enum kind kind, const struct job *done, enu
 
 static void *work(void *argument)
 {
-    static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {step_seek, step_figures,
-                                                                                         step_years};
+    static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {step_seek, step_foresee,
+                                                                                         step_figures, step_years};
     struct jobs *q = argument;
     pthread_mutex_lock(&q->lock);
     while (!q->quit) {
@@ -190,7 +203,7 @@ static void *work(void *argument)
         enum ceduo_status status = steps[kind](q, &job);
         pthread_mutex_lock(&q->lock);
         end_step(q, kind, &job, status);
-        if (kind == SEEK)
+        if (kind == SEEK || kind == FORESEE)
             pthread_cond_broadcast(&q->changed);
     }
     pthread_mutex_unlock(&q->lock);
@@ -317,6 +330,17 @@ void ceduo_jobs_seek(struct jobs *q, const struct seek *seek)
     pthread_mutex_unlock(&q->lock);
 }
 
+void ceduo_jobs_foresee(struct jobs *q, const struct scene_file *file, const char *set, size_t option)
+{
+    struct job job = {.file = *file, .option = option};
+    snprintf(job.path, sizeof job.path, "%s", set);
+    job.file.arena = (struct arena){.shelf = file->arena.shelf};
+    pthread_mutex_lock(&q->lock);
+    q->news.foresaw = false;
+    ask(q, FORESEE, &job);
+    pthread_mutex_unlock(&q->lock);
+}
+
 void ceduo_jobs_stop_seek(struct jobs *q)
 {
     pthread_mutex_lock(&q->lock);
@@ -344,6 +368,7 @@ struct jobs_news ceduo_jobs_news(struct jobs *q)
     q->news.outlook = NULL;
     q->news.years = NULL;
     q->news.sought = NULL;
+    q->news.foresaw = false;
     pthread_mutex_unlock(&q->lock);
     return news;
 }
@@ -359,9 +384,9 @@ void ceduo_jobs_wait(struct jobs *q)
 bool ceduo_jobs_wait_seek(struct jobs *q)
 {
     pthread_mutex_lock(&q->lock);
-    while (q->jobs[SEEK].wanted)
+    while (q->jobs[SEEK].wanted || q->jobs[FORESEE].wanted)
         pthread_cond_wait(&q->changed, &q->lock);
-    bool news = q->news.sought != NULL;
+    bool news = q->news.sought || q->news.foresaw;
     pthread_mutex_unlock(&q->lock);
     return news;
 }

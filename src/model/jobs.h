@@ -3,6 +3,7 @@
 #define CEDUO_JOBS_H
 
 #include "flights.h"
+#include "foresee.h"
 #include "seek.h"
 
 /* The queue of jobs of the live program: one thread in the background simulates rocks on a snapshot of the scene. A job goes
@@ -28,6 +29,10 @@ bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, uint64_
 void ceduo_jobs_seek(struct jobs *jobs, const struct seek *seek);
 void ceduo_jobs_stop_seek(struct jobs *jobs);
 
+/* Asks what a change (PATH=VALUE, shorter than 1024 bytes) would do to the lights of an option. The scene is copied as it is
+ * now. */
+void ceduo_jobs_foresee(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
+
 /* What a search came to. */
 struct sought {
     enum ceduo_status status;
@@ -47,6 +52,8 @@ struct jobs_news {
     struct ceduo_years *years;     /* newest, NULL where none are new; the caller's from now on */
     size_t years_option;           /* which option they are of */
     struct sought *sought;         /* NULL: none is done; the caller's from now on */
+    bool foresaw;                  /* what a change would do is known: */
+    struct foreseen foreseen;
     bool busy;                     /* some job is not done */
     bool failed;                   /* out of memory */
 };
@@ -54,7 +61,7 @@ struct jobs_news ceduo_jobs_news(struct jobs *jobs);
 
 /* Waits until no job is left. */
 void ceduo_jobs_wait(struct jobs *jobs);
-/* Waits until no search is left; true where there is news of one. */
+/* Waits until no search and nothing to foresee is left; true where there is news of one. */
 bool ceduo_jobs_wait_seek(struct jobs *jobs);
 
 #endif

@@ -89,7 +89,7 @@ void ceduo_figures_follow(struct figures *f, const struct ceduo_scene *scene, si
 bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool *failed)
 {
     struct jobs_news news = ceduo_jobs_news(f->jobs);
-    bool changed = news.busy != f->busy || news.outlook || news.years || news.sought || news.failed;
+    bool changed = news.busy != f->busy || news.outlook || news.years || news.sought || news.foresaw || news.failed;
     f->busy = news.busy;
     *failed = news.failed;
     if (news.outlook) {
@@ -102,6 +102,10 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
         ceduo_years_free(f->years);
         f->years = news.years;
         f->years_option = news.years_option;
+    }
+    if (news.foresaw) {
+        f->foresaw = true;
+        f->foreseen = news.foreseen;
     }
     if (news.sought) {
         ceduo_sought_free(f->sought);

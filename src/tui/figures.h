@@ -13,6 +13,8 @@ struct figures {
     struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
     struct ceduo_years *years;     /* to come, of option `years_option`; NULL: not computed */
     size_t years_option;
+    bool foresaw;              /* what a change would do is known, until somebody takes it: */
+    struct foreseen foreseen;
     struct sought *sought;         /* what a search came to, until it is taken; NULL: nothing new */
     uint64_t asked, shown;         /* keys of the runs that were asked for last, and of the outlook */
     bool busy;

@@ -390,8 +390,6 @@ static const struct {
 
 void ceduo_popup_key(struct app *app, int key)
 {
-    if (!app->popup->ready)
-        offer(app, app->popup);
     kinds[app->popup->kind].key(app, app->popup, key);
 }
 
@@ -400,23 +398,33 @@ const char *ceduo_popup_bar(const struct app *app)
     return _(kinds[app->popup->kind].bar);
 }
 
-/* The note over a list follows the item under the cursor; that of a text is put anew at every look. */
-static void look_ahead(struct app *app, struct popup *p)
+void ceduo_popup_look(struct app *app)
 {
+    struct popup *p = app->popup;
+    if (!p->ready)
+        offer(app, p);
     const struct pick *pick = ceduo_picker_at(&p->picker);
-    const char *value = pick ? pick->value : "";
-    if (p->kind != POPUP_TEXT && (!pick || strcmp(p->previewed, value) == 0))
+    if (p->kind == POPUP_TEXT || !p->preview || !pick || strcmp(p->previewed, pick->value) == 0)
         return;
-    snprintf(p->previewed, sizeof p->previewed, "%s", value);
-    p->preview(app, p, value);
+    snprintf(p->previewed, sizeof p->previewed, "%s", pick->value);
+    p->ahead_known = false;
+    p->preview(app, p, pick->value);
+}
+
+void ceduo_popup_foreseen(struct app *app, const struct foreseen *foreseen)
+{
+    struct popup *p = app->popup;
+    if (!p || p->kind == POPUP_TEXT || !p->preview || !p->previewed[0])
+        return;
+    p->ahead = *foreseen;
+    p->ahead_known = true;
+    p->preview(app, p, p->previewed);
 }
 
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    if (!p->ready)
-        offer(app, p);
-    if (p->preview)
-        look_ahead(app, p);
+    if (p->kind == POPUP_TEXT && p->preview)
+        p->preview(app, p, "");
     kinds[p->kind].draw(app, p);
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "app.h"
+#include "model/foresee.h"
 #include "picker.h"
 
 enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
@@ -43,6 +44,8 @@ struct popup {
     popup_chosen *chosen;
     popup_chosen *preview; /* puts `text` anew for the item under the cursor; NULL: it stays */
     char previewed[256];   /* the item that `text` is about */
+    struct foreseen ahead; /* what it would do to the lights, once that is computed */
+    bool ahead_known;
     popup_filled *filled;
     bool (*check)(struct app *app, struct popup *popup, size_t field); /* as a field is left; false: it is said why */
     void (*then)(struct app *app); /* what goes on once unsaved work is saved or given up */
@@ -68,6 +71,11 @@ bool ceduo_popup_may_write(struct app *app, struct popup *popup);
 /* ---- the one that is open ---- */
 
 void ceduo_popup_draw(struct app *app);
+
+/* After a key: the note over a list is about the item under the cursor. */
+void ceduo_popup_look(struct app *app);
+/* What that item would do to the lights is known. */
+void ceduo_popup_foreseen(struct app *app, const struct foreseen *foreseen);
 const char *ceduo_popup_bar(const struct app *app); /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 void ceduo_popup_close(struct app *app);

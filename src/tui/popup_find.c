@@ -229,7 +229,7 @@ void ceduo_popup_found(struct app *app, struct sought *sought)
 static bool fits(const struct app *app, const char *path, double value)
 {
     char room[CEDUO_NUMBER_ROOM];
-    return ceduo_foresee_fits(&app->document, path, ceduo_number_shortest(value, room));
+    return ceduo_foresee_fits(&app->document.file, path, ceduo_number_shortest(value, room));
 }
 
 /* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */

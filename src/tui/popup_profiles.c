@@ -114,6 +114,23 @@ static void add_profiles(struct popup *p, const char *kind, const char *now)
 
 /* ---- what a choice would do ---- */
 
+#define CHANGE_MOST 1024 /* bytes that a job takes */
+
+static popup_chosen chose_new_option;
+
+/* The forest of the option that is shown with a stand in every belt, as one change. */
+static void put_all_belts(struct app *app, const char *stand, struct text *set)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    char forest[64];
+    ceduo_app_forest(app, forest, sizeof forest);
+    ceduo_text_format(set, "%s=[", forest);
+    for (size_t i = 0; i < o->belts_count; i++)
+        ceduo_text_format(set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
+                          o->belts[i].to_given, stand);
+    ceduo_text_put(set, "]");
+}
+
 static void put_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
 {
     ceduo_text_format(text, "%s %s", name, ceduo_words_verdict(light));
@@ -137,15 +154,22 @@ static void put_lights(struct app *app, struct text *text, const struct foreseen
     ceduo_text_put(text, "\n");
 }
 
-/* What the lights would be with a value at the popup's path. */
+/* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
 static void put_change(struct app *app, struct popup *p, const char *value)
 {
-    struct foreseen foreseen;
     struct text set = {0};
-    ceduo_text_format(&set, "%s=%s", p->path, value);
-    const char *const sets[] = {ceduo_text_string(&set)};
-    if (set.bytes && ceduo_foresee(&app->document, sets, 1, app->option, ceduo_jobs_threads(app->figures.jobs), &foreseen))
-        put_lights(app, &p->text, &foreseen);
+    if (p->ahead_known) {
+        if (p->ahead.known)
+            put_lights(app, &p->text, &p->ahead);
+        return;
+    }
+    ceduo_text_put(&p->text, _("the lights: computing …\n"));
+    if (p->chosen == chose_new_option)
+        put_all_belts(app, value, &set);
+    else
+        ceduo_text_format(&set, "%s=%s", p->path, value);
+    if (set.bytes && set.length < CHANGE_MOST)
+        ceduo_jobs_foresee(app->figures.jobs, &app->document.file, set.bytes, app->option);
     ceduo_text_free(&set);
 }
 
@@ -205,6 +229,10 @@ static void put_stand(struct app *app, struct text *text, const char *value)
 static void preview_stand(struct app *app, struct popup *p, const char *value)
 {
     ceduo_text_free(&p->text);
+    if (strcmp(value, STAND_COUNTED) == 0) {
+        ceduo_text_put(&p->text, _("asks for the plot's size, what was counted there, diameters and heights"));
+        return;
+    }
     put_stand(app, &p->text, value);
     put_change(app, p, value);
 }

@@ -151,6 +151,8 @@ static void settle(struct app *app)
     if (app->opened && !app->no_recovery)
         ceduo_popup_recover(app);
     app->opened = false;
+    if (app->popup)
+        ceduo_popup_look(app);
     if (!app->quit && ceduo_views[app->view]->follow)
         ceduo_views[app->view]->follow(app);
 }
@@ -196,9 +198,10 @@ void ceduo_program_click(struct app *app, int x, int y)
 
 void ceduo_program_wheel(struct app *app, int lines)
 {
-    if (app->popup)
+    if (app->popup) {
         ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
-    else if (!app->editing)
+        settle(app);
+    } else if (!app->editing)
         move_cursor(app, lines, 0);
 }
 
@@ -221,6 +224,9 @@ bool ceduo_program_news(struct app *app)
 {
     bool changed = ceduo_app_news(app);
     struct sought *sought = app->figures.sought;
+    if (app->figures.foresaw)
+        ceduo_popup_foreseen(app, &app->figures.foreseen);
+    app->figures.foresaw = false;
     app->figures.sought = NULL;
     if (sought)
         ceduo_popup_found(app, sought);
