@@ -19,13 +19,23 @@ struct ceduo_stand_result {
     enum ceduo_rule rule;   /* the one that was applied; without meaning where bare */
     struct ceduo_adc adc;   /* infinite where bare */
     double adc_m;           /* of that rule */
-    bool passes_threshold;
-    double free_run_probability; /* no contact over the threshold: exp(-T/crofton) */
+    bool passes_threshold;       /* counting stems from simulation.contact_dbh on */
+    double free_run_probability; /* no contact over the threshold: exp(-T/crofton); counting likewise */
     double contacts;             /* L/ADC (Eq. 2) */
     double energy_per_contact;   /* J; NaN where bare */
     double dissipated;           /* J over the belt (Eq. 4) */
     double per_100m;             /* J: of that */
     unsigned warnings;           /* enum ceduo_stand_warning */
+};
+
+#define CEDUO_THICK_DBH 0.08 /* m: thinner shoots are met, but hardly stop anything; assumed */
+
+/* What the lights of contact and free run say where stems count from some dbh on. Contact passes where every belt is under
+ * the threshold and no gap longer than it. */
+struct ceduo_meeting {
+    double worst_adc;      /* m, the largest of the belts; infinite where no belt is, or one without stems that count */
+    double worst_free_run; /* the largest of the belts; 1 where no belt is */
+    enum ceduo_light contact, free_run;
 };
 
 /* The belts between the release and one control, as the index sees them. */
@@ -34,14 +44,16 @@ struct ceduo_index {
     double longest_gap;     /* m without forest, from the release to the control */
     double contacts, dissipated, meet_nothing_probability;
     double per_100m;        /* J: of that, over what is wooded; 0 without forest */
-    double worst_adc;       /* m, the largest of the belts; infinite where no belt is, or one without stems */
-    double worst_free_run;  /* the largest of the belts; 1 where no belt is */
-    bool contact_passes;    /* every belt under the threshold and no gap longer than it, over what is wooded */
     double residual;        /* Eq. 5: max(0, bare mean - dissipated); NaN where no rock reaches */
     bool exhausted;         /* it was cut at 0 */
     double measured;        /* J: half M v2 of the measured speed; NaN without one */
+    double worst_adc, worst_free_run;        /* as in struct ceduo_meeting, of stems from simulation.contact_dbh on */
     enum ceduo_light contact, free_run, energy;
+    struct ceduo_meeting thick; /* of stems from CEDUO_THICK_DBH on, or from contact_dbh if that is more */
 };
+
+/* Whether the lights of contact and free run would say anything else of the thick stems alone. */
+bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
 
 /* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, where it is not said what
  * is too much, and where it hangs on rocks that never came to an end. */

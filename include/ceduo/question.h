@@ -20,7 +20,9 @@ struct ceduo_question {
     size_t only;              /* the run of this option alone: through its forest, by the index without forest. Of what
                                * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
     bool years;               /* each option year by year, with as many rocks */
-    unsigned year_first, year_last, year_step;
+    struct ceduo_window window; /* those years; step 0: of each option those of ceduo_window_in() */
+    uint64_t year_rocks;  /* > 0: in each year at the most so many */
+    unsigned years_most;  /* > 0: at the most so many years, evenly spread over those */
     uint64_t block_rocks; /* > 0: blocks of other sizes to the last control, at the most so many of each */
 };
 #define CEDUO_ALL_OPTIONS SIZE_MAX
@@ -31,7 +33,8 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene);
 struct ceduo_answer {
     struct ceduo_result *result;
     bool tolerance_met;
-    struct ceduo_years **years; /* one for each option; NULL: not asked for */
+    size_t years_count;         /* options */
+    struct ceduo_years **years; /* one for each option, NULL of those that `only` leaves out; NULL: not asked for */
     struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: not asked for, or the rock has no other sizes */
     struct ceduo_work work;     /* of all runs of the pool; without the blocks */
 };

@@ -23,6 +23,9 @@
  *     d(t) = D(1 - exp(-kt)), h(t) = H(1 - exp(-mt)), n(t) = n_old + (n_young - n_old)exp(-t/5)
  * are assumed, as are all their constants.
  *
+ * An inventory that has one cohort of shoots less than its stools have after a cut was cut just before year 0: from year 1
+ * on its new shoots are there, n(t)/K on each stool.
+ *
  * In computed years (all but year 0 as filed) the shoots, and only they, are thinned by one factor to
  * growth.sdi_most, never below one a stool. Trees are not: a stand of many large trees stays above it. */
 
@@ -42,6 +45,15 @@ struct ceduo_grown_stand {
 enum ceduo_status ceduo_stand_at(const struct ceduo_stand *stand, double first_cut, unsigned year,
                                  struct ceduo_grown_stand *out);
 void ceduo_grown_stand_release(struct ceduo_grown_stand *grown);
+
+/* What stands at the end of a year of a cut before it is felled; after the first cut a stand that is a whole rotation
+ * old. As ceduo_stand_at(). */
+enum ceduo_status ceduo_stand_before_cut(const struct ceduo_stand *stand, double first_cut, unsigned year,
+                                         struct ceduo_grown_stand *out);
+
+/* Whether its stools were cut just before year 0, and whether anything in it changes but by cuts. */
+bool ceduo_stand_sprouts(const struct ceduo_stand *stand);
+bool ceduo_stand_grows(const struct ceduo_stand *stand);
 
 /* The year, from 0 on, of the first cut that the inventory sees, CEDUO_NEVER where there is none: without a rotation,
  * or where the growth of what comes after a cut (shoots if there are stools, trees if any stay) is unknown.

@@ -63,6 +63,8 @@ struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);
 /* What arrives at a control. Means and percentiles are over the rocks that reached it. */
 struct ceduo_arrivals {
     uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
+    uint64_t ended[CEDUO_ENDS];                       /* that did not reach it, by how they ended: with those that
+                                                       * reached it, all released */
     double reach_probability, reach_lo, reach_hi;     /* hi counts the unfinished as reached */
     double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
@@ -86,13 +88,17 @@ struct ceduo_difference {
     struct ceduo_paired energy_per_released; /* J */
 };
 
-/* `run` less `baseline`: two runs of one scene, of equal length (all NaN where one is longer or NULL). Both simulate the same
- * rocks, so the more alike the forests, the smaller the error of the difference. In runs too long to keep their samples
+/* `run` less `baseline`: two runs of one scene (all NaN where one is NULL). Where one is longer, of the rocks that both
+ * have, if their samples are kept, otherwise all NaN. Both simulate the same rocks, so the more alike the forests, the smaller the error of the difference. In runs too long to keep their samples
  * the standard error comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes
  * goes. */
 #define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control);
+
+/* Adds 1 to the mark of each rock that reaches a control with more than is accepted there, or reaches it where that is not
+ * said. Returns how many rocks were looked at, at most `most`: fewer than all where samples are kept of the first only. */
+uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t most);
 
 /* How the trajectories ended, and where the rocks lie that came to rest or were stopped by stems. */
 struct ceduo_ends {

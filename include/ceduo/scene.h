@@ -70,6 +70,7 @@ struct ceduo_simulation {
     enum ceduo_contact_model contact_model;
     enum ceduo_rule rule;
     double threshold; /* m */
+    double contact_dbh; /* m: the lights of contact and free run count stems from this dbh on */
     double gravity;   /* m/s2 */
     bool scale_rn;    /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
 };
@@ -86,6 +87,7 @@ struct ceduo_scene {
     struct ceduo_option *options;   /* the first is the baseline */
     struct ceduo_simulation simulation;
     double rocks_per_year;          /* that come down; NaN: not said */
+    double year_first, year_last;   /* of the years to come that are looked at; NaN: one whole rotation of each option */
     double reserves_minimum;        /* single trees per ha that a forest must keep; NaN: not said */
 };
 
@@ -95,5 +97,8 @@ struct ceduo_scene ceduo_scene_default(void);
 /* Checks that the parts fit together: rock, slope, release on it, controls beyond the release and on the slope. `where`
  * (may be NULL) is set to the index of the offending control. */
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where);
+
+/* The control farthest along x; 0 where there is none. */
+size_t ceduo_scene_last_control(const struct ceduo_scene *scene);
 
 #endif

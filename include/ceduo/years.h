@@ -18,26 +18,55 @@ struct ceduo_year {
     struct ceduo_flown wooded;        /* rocks 0: not simulated; with the contact model index never */
 };
 
-struct ceduo_years {
-    struct ceduo_scene scene; /* what it points to must outlive the years */
-    size_t count;
-    struct ceduo_year *years; /* rising */
+/* Why these years of an option and no others. */
+enum ceduo_window_kind {
+    CEDUO_WINDOW_GIVEN,    /* they were asked for */
+    CEDUO_WINDOW_ROTATION, /* one whole rotation, from the year on in which every belt that is ever cut has been cut */
+    CEDUO_WINDOW_UNCUT,    /* the stands grow but are never cut: the next years */
+    CEDUO_WINDOW_ALIKE     /* nothing grows and nothing is cut: year 0 stands for all */
 };
 
-/* The last year of a picture that shows what is to come: one year beyond the first cut and the rotation after it of the
- * stand that is slowest, at least 10, at most 120. */
-unsigned ceduo_years_usual(const struct ceduo_scene *scene);
+/* The years first, first + step … last; step >= 1. */
+struct ceduo_window {
+    enum ceduo_window_kind kind;
+    unsigned first, last, step;
+};
 
-#define CEDUO_YEARS_MOST 1000 /* computed at a time */
+#define CEDUO_YEARS_MOST  1000 /* computed at a time */
+#define CEDUO_YEARS_UNCUT 25   /* of a forest that grows and is never cut */
+#define CEDUO_PERIOD_MOST 120  /* years: beyond it belts of several rotations count as repeating with the longest */
 
-/* Grows the stands of an option to the years first, first + step … last (step >= 1); nothing is simulated and nothing assessed
- * yet. What the option points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option, unsigned first,
-                                     unsigned last, unsigned step, struct ceduo_years **years);
+/* The years of an option that stand for all to come: after its first cut a forest repeats itself, so one whole rotation has
+ * each of its states once. Where its belts have several rotations, all of them must have ended together. */
+struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
+
+/* The same, with the first and the last year that the scene names instead. */
+struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option);
+
+/* Whether the stand of a belt is the same in all years. */
+bool ceduo_belt_is_alike(const struct ceduo_belt *belt);
+
+struct ceduo_years {
+    struct ceduo_scene scene; /* what it points to must outlive the years */
+    struct ceduo_window window;
+    uint64_t key;             /* for the caller, to tell what they were made of; 0 at first */
+    size_t count;
+    struct ceduo_year *years; /* rising */
+    size_t last_control;      /* the one farthest along x */
+    uint64_t rocks;           /* simulated in every year; 0: not in all of them yet */
+    uint64_t marked;          /* rocks that have a mark: all, or the first if there are very many */
+    uint16_t *marks;          /* of each rock the years in which it reaches the last control with more than is accepted, or
+                               * reaches it where that is not said */
+};
+
+/* Grows the stands of an option to the years of a window; nothing is simulated and nothing assessed yet. What the option
+ * points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                     struct ceduo_window window, struct ceduo_years **years);
 void ceduo_years_free(struct ceduo_years *years);
 
 /* Has the pool make the runs of all years, as long as `rocks`, those of years with the same forest once; then assesses
- * every year, `bare` being what arrives without forest. With the contact model index no rock is simulated. CEDUO_CANCELLED,
+ * every year, `bare` being what arrives without forest. With the contact model index, or 0 rocks, no rock is simulated. CEDUO_CANCELLED,
  * CEDUO_NO_MEMORY: the years before are assessed. */
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks);
@@ -48,7 +77,7 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
 
 /* The years together, at one control. Every figure is a plain mean over the years computed. Because all years simulate the same
  * rocks, their errors go together: the standard error of a mean is at most the mean of the standard errors, and that is
- * given. NaN where a figure does not exist. */
+ * given; of the share that is marked the error itself, from each rock's own mean over the years. NaN where a figure does not exist. */
 struct ceduo_years_summary {
     size_t years, flown;
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
@@ -60,6 +89,10 @@ struct ceduo_years_summary {
     double passes_per_year, exceeds_per_year; /* expected, where the scene says how many rocks come down a year */
 };
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
+
+/* The mean share of the released that is marked, of one option less that of another, rock by rock over the rocks that both
+ * have. NaN where it is not known. */
+struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
 
 /* Metres of belts that are felled in the years computed, each time they are: square metres for each metre of width. */
 double ceduo_years_felled(const struct ceduo_years *years);

@@ -36,7 +36,7 @@ struct arguments {
     size_t scenes_count;
     char seed[64];
     bool years;         /* every option year by year */
-    unsigned year_first, year_last, year_step;
+    struct ceduo_window window; /* those years; step 0: one whole rotation of each */
     const char *find;   /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
     enum ceduo_goal goal;

@@ -57,7 +57,7 @@ void ceduo_arguments_help(struct text *text)
     for (size_t i = 0; i < n; i++) {
         char head[64];
         int width = snprintf(head, sizeof head, rows[i].letter ? "  -%c, --%s%s%s" : "    %c --%s%s%s",
-                             rows[i].letter ? rows[i].letter : ' ', rows[i].name, takes(&rows[i]) == required_argument ? " " : "",
+                             rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].value && rows[i].value[1] != '=' ? " " : "",
                              rows[i].value ? rows[i].value : "");
         ceduo_text_format(text, "%-30s%s", head, width >= 30 ? "\n                              " : "");
         put_help(text, _(rows[i].help));
@@ -100,8 +100,8 @@ static enum exit_status check_unused(const struct arguments *a)
         return ceduo_usage(NULL, _("--charset requires --plot or the terminal program"));
     if (a->script && a->mode != MODE_TERMINAL)
         return ceduo_usage(NULL, _("--script is for the terminal program; it cannot be used with --batch"));
-    if (a->years && a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_ROTATION)
-        return ceduo_usage(NULL, _("--years cannot be used with --plot, except --plot rotation"));
+    if (a->years && a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_ROTATION && a->plot != CEDUO_PLOT_TRADEOFF)
+        return ceduo_usage(NULL, _("--years cannot be used with --plot, except --plot rotation and --plot tradeoff"));
     return EXIT_DONE;
 }
 
@@ -123,8 +123,8 @@ static enum exit_status check_arguments(struct arguments *a)
         return ceduo_usage(NULL, a->goal == CEDUO_GOAL_ENERGY
                                      ? _("--goal energy needs the mean energy in kJ, such as energy=50")
                                      : _("--goal arrive needs the share of the rocks, such as arrive=0.5"));
-    if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0))
-        return ceduo_usage(NULL, _("--find cannot be used with --plot, --years or --tolerance"));
+    if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->window.step > 0 || a->tolerance > 0))
+        return ceduo_usage(NULL, _("--find cannot be used with --plot, a range of --years or --tolerance"));
     if (a->mode == MODE_SENSITIVITY && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands))
         return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
     if (wants_scene && a->scenes_count == 0)
@@ -171,6 +171,17 @@ static void fill_getopt(const struct option_row *rows, size_t n, struct option *
     *shorts = '\0';
 }
 
+/* The value of an option that may be without one, where it is a word of its own: one with a colon, or that begins as a
+ * number does, unless it is a file. */
+static char *word_of_its_own(int argc, char **argv)
+{
+    char *word = optind < argc ? argv[optind] : NULL;
+    bool number = word && strcspn(word, "0123456789") <= (size_t)(word[0] == '-');
+    bool is_value = word && (number || strchr(word, ':')) && access(word, F_OK) != 0;
+    optind += is_value;
+    return is_value ? word : NULL;
+}
+
 static unsigned cores(void)
 {
     long n = sysconf(_SC_NPROCESSORS_ONLN);
@@ -205,6 +216,8 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
         size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
         while (letter < LONG && rows[i].letter != letter)
             i++;
+        if (!optarg && rows[i].value && rows[i].value[1] != '=')
+            optarg = word_of_its_own(argc, argv);
         enum exit_status status = ceduo_option_set(a, &rows[i], optarg);
         if (status != EXIT_DONE)
             return status;

@@ -144,9 +144,12 @@ static enum exit_status set_seed(struct arguments *a, const struct option_row *r
     return EXIT_DONE;
 }
 
-/* "A:B" or "A:B:STEP", whole years. */
+/* "A:B" or "A:B:STEP", whole years; without a value one whole rotation of each option. */
 static enum exit_status set_years(struct arguments *a, const struct option_row *row, char *value)
 {
+    a->years = true;
+    if (!value)
+        return EXIT_DONE;
     double parts[3] = {0, 0, 1};
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
@@ -157,10 +160,9 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
         return ceduo_usage(row->name, _("%s ends before it begins, or after year 100000"), value);
     if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
         return ceduo_usage(row->name, _("%s is more than %d years"), value, CEDUO_YEARS_MOST);
-    a->years = true;
-    a->year_first = (unsigned)parts[0];
-    a->year_last = (unsigned)parts[1];
-    a->year_step = parts[2] > 100000 ? 100000 : (unsigned)parts[2];
+    a->window = (struct ceduo_window){.first = (unsigned)parts[0],
+                                      .last = (unsigned)parts[1],
+                                      .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
     return EXIT_DONE;
 }
 
@@ -262,8 +264,9 @@ static const struct option_row rows[] = {
     {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0,
      N_("number of threads; it does not change the result (all cores)")},
     {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE, N_("compute only this option of the scene; may be repeated")},
-    {"years", 0, "A:B[:STEP]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
-     N_("compute every option year by year; the stands as filed are year 0")},
+    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
+     N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
+        "filed are year 0")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, NOT_PART | NOT_CHECK,
      N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, NOT_CHECK,
@@ -274,7 +277,7 @@ static const struct option_row rows[] = {
      N_("compute part I of N of each scene and write it for --merge")},
     {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
-     N_("print a picture: profile, energy, height, histogram, adc, rotation, stand or compare")},
+     N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare or tradeoff")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, NOT_CHECK,
      N_("characters that pictures are made of (from the locale)")},

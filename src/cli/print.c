@@ -35,6 +35,8 @@ static void write_report(const struct arguments *a, const struct ceduo_report *r
 }
 
 #define BLOCK_ROCKS 2000 /* of each size at the most: a page shows no more digits */
+#define YEAR_ROCKS  1024 /* of each year at the most, where options stand side by side and --years is not given */
+#define YEARS_MOST  50   /* of each option then; of a longer rotation some */
 
 /* Of 1000 rocks at most one may be unfinished. */
 static enum exit_status finished(const struct ceduo_result *result)
@@ -52,14 +54,27 @@ enum exit_status ceduo_print_report(const struct arguments *a, const struct scen
     q->rocks = stands ? 0 : rocks;
     q->run.progress = ceduo_progress_show;
     q->run.context = &progress;
+    bool side_by_side = a->format == CEDUO_TABLE && file->scene.options_count > 1 && !a->years;
+    if (side_by_side) {
+        q->years = true;
+        q->year_rocks = YEAR_ROCKS;
+        q->years_most = YEARS_MOST;
+    }
     q->block_rocks = a->format == CEDUO_TABLE && !a->years ? BLOCK_ROCKS : 0;
     enum ceduo_status status = ceduo_ask(q, stands ? NULL : pool, &answer);
     ceduo_progress_end(&progress);
     if (status != CEDUO_OK)
         return ceduo_batch_failed(file, status);
+    struct ceduo_verdict verdict;
+    status = ceduo_verdict_make(answer.result, answer.years, &verdict);
+    if (status != CEDUO_OK) {
+        ceduo_answer_release(&answer);
+        return ceduo_batch_failed(file, status);
+    }
     const struct ceduo_report report = {.file = file,
                                         .result = answer.result,
-                                        .years = answer.years,
+                                        .years = side_by_side ? NULL : answer.years,
+                                        .verdict = &verdict,
                                         .blocks = answer.blocks,
                                         .work = answer.work,
                                         .seconds = seconds < 0 ? ceduo_clock() - progress.start : seconds,
@@ -67,6 +82,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, const struct scen
                                         .remarks = {q->tolerance, answer.tolerance_met, file->ground_assumed}};
     write_report(a, &report, out);
     enum exit_status done = finished(answer.result);
+    ceduo_verdict_release(&verdict);
     ceduo_answer_release(&answer);
     return done;
 }
@@ -102,9 +118,10 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
 
 /* One picture for each option, belt or control that it depends on. */
 static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_outlook *outlook,
-                      struct ceduo_years *const *years, struct text *out)
+                      struct ceduo_years *const *years, const struct ceduo_verdict *verdict, struct text *out)
 {
-    struct ceduo_picture picture = {.scene = scene, .outlook = outlook, .control = ceduo_plot_last_control(scene)};
+    struct ceduo_picture picture = {
+        .scene = scene, .outlook = outlook, .verdict = verdict, .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_kinds[a->plot].by_option ? scene->options_count : 1;
     for (size_t o = 0; o < options; o++) {
@@ -134,13 +151,17 @@ static enum ceduo_status add_flown_plots(const struct arguments *a, const struct
                                           .cell_x = q->run.cell_x,
                                           .trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAJECTORIES : 0,
                                           .cancel = q->run.cancel};
+    struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
         status = ceduo_outlook_create(&def, &outlook);
+    if (status == CEDUO_OK)
+        status = ceduo_verdict_make(answer.result, answer.years, &verdict);
     if (status == CEDUO_OK) {
-        add_plots(a, q->run.scene, outlook, answer.years, out);
+        add_plots(a, q->run.scene, outlook, answer.years, &verdict, out);
         *done = finished(answer.result);
     }
     ceduo_outlook_free(outlook);
+    ceduo_verdict_release(&verdict);
     ceduo_answer_release(&answer);
     return status;
 }
@@ -148,7 +169,7 @@ static enum ceduo_status add_flown_plots(const struct arguments *a, const struct
 enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene_file *file, struct text *out)
 {
     if (!ceduo_plot_kinds[a->plot].needs_run) {
-        add_plots(a, &file->scene, NULL, NULL, out);
+        add_plots(a, &file->scene, NULL, NULL, NULL, out);
         return EXIT_DONE;
     }
     struct progress progress = ceduo_progress_begin(a);
@@ -158,11 +179,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene
     enum exit_status done = EXIT_DONE;
     q.run.cells = ceduo_plot_kinds[a->plot].needs_cells ? ceduo_outlook_places(&file->scene, cell_x) : 0;
     q.run.cell_x = cell_x;
-    if (a->plot == CEDUO_PLOT_ROTATION && !a->years) {
-        q.years = true;
-        q.year_last = ceduo_years_usual(&file->scene);
-        q.year_step = 1;
-    }
+    q.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
     enum ceduo_status status = add_flown_plots(a, &q, &pool, out, &done);
     ceduo_progress_end(&progress);
     ceduo_pool_free(pool);

@@ -134,9 +134,7 @@ struct ceduo_question ceduo_batch_question(const struct arguments *a, const stru
     q.run.progress = progress ? ceduo_progress_show : NULL;
     q.run.context = progress;
     q.years = a->years;
-    q.year_first = a->year_first;
-    q.year_last = a->year_last;
-    q.year_step = a->year_step;
+    q.window = a->window;
     return q;
 }
 

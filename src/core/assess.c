@@ -3,6 +3,92 @@
 
 #include <math.h>
 
+/* ---- stems that count ---- */
+
+/* Stems of a stand from some dbh on. Every form of the ADC depends on numbers and mean diameters alone, so shoots and trees
+ * may be one kind each. */
+struct counted {
+    struct ceduo_stand stand;
+    struct ceduo_stems shoots, trees;
+};
+
+static size_t merge_thick(const struct ceduo_stems *stems, size_t n, double dbh, struct ceduo_stems *one)
+{
+    double per_ha = 0, width = 0;
+    for (size_t i = 0; i < n; i++)
+        if (stems[i].dbh >= dbh) {
+            per_ha += stems[i].per_ha;
+            width += stems[i].per_ha * stems[i].dbh;
+        }
+    *one = (struct ceduo_stems){.per_ha = per_ha, .dbh = width / per_ha};
+    return per_ha > 0;
+}
+
+static bool all_count(const struct ceduo_stems *stems, size_t n, double dbh)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(stems[i].dbh >= dbh))
+            return false;
+    return true;
+}
+
+static const struct ceduo_stand *count(const struct ceduo_stand *stand, double dbh, struct counted *c)
+{
+    if (all_count(stand->shoots, stand->shoots_count, dbh) && all_count(stand->trees, stand->trees_count, dbh))
+        return stand;
+    c->stand = *stand;
+    c->stand.shoots = &c->shoots;
+    c->stand.trees = &c->trees;
+    c->stand.shoots_count = merge_thick(stand->shoots, stand->shoots_count, dbh, &c->shoots);
+    c->stand.trees_count = merge_thick(stand->trees, stand->trees_count, dbh, &c->trees);
+    c->stand.stools_per_ha = fmin(stand->stools_per_ha, c->shoots.per_ha); /* a stool has one shoot at least */
+    return &c->stand;
+}
+
+/* How often a rock meets the stems that count. */
+struct met {
+    double adc, free_run;
+};
+
+static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
+{
+    double b = ceduo_rock_mean(&scene->rock).mean_diameter;
+    struct counted c;
+    stand = count(stand, dbh, &c);
+    if (ceduo_stand_is_bare(stand))
+        return (struct met){INFINITY, 1};
+    struct ceduo_adc adc = ceduo_adc(stand, b);
+    return (struct met){ceduo_adc_value(&adc, ceduo_adc_rule(stand, b, scene->simulation.rule)),
+                        exp(-scene->simulation.threshold / adc.crofton)};
+}
+
+static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh,
+                        struct ceduo_meeting *meeting)
+{
+    struct met met = meet(scene, stand, dbh);
+    meeting->worst_adc = fmax(meeting->worst_adc, met.adc);
+    meeting->worst_free_run = fmax(meeting->worst_free_run, met.free_run);
+    if (!(met.adc < scene->simulation.threshold)) /* NaN is none */
+        meeting->contact = CEDUO_FAIL;
+}
+
+static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_meeting *meeting)
+{
+    if (!forest)
+        *meeting = (struct ceduo_meeting){.worst_adc = INFINITY, .worst_free_run = 1};
+    double threshold = scene->simulation.threshold;
+    if (!forest || longest_gap > threshold)
+        meeting->contact = CEDUO_FAIL;
+    meeting->free_run = meeting->worst_free_run <= CEDUO_FREE_RUN_MOST ? CEDUO_PASS : CEDUO_FAIL;
+}
+
+bool ceduo_index_hangs_on_thin(const struct ceduo_index *index)
+{
+    return index->contact != index->thick.contact || index->free_run != index->thick.free_run;
+}
+
+/* ---- belts ---- */
+
 /* The figures that need only stand and rock; per metre of belt. */
 static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *scene, const struct ceduo_stand *stand,
                                                    double length)
@@ -11,6 +97,7 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
     bool bare = ceduo_stand_is_bare(stand);
     enum ceduo_rule rule = ceduo_adc_rule(stand, b, scene->simulation.rule);
     struct ceduo_adc adc = bare ? (struct ceduo_adc){INFINITY, INFINITY, INFINITY, INFINITY} : ceduo_adc(stand, b);
+    struct met met = meet(scene, stand, scene->simulation.contact_dbh);
     double trees = ceduo_stand_trees(stand);
     struct ceduo_stand_result r = {.length = length,
                                    .stems_per_ha = ceduo_stand_shoots(stand) + trees,
@@ -21,8 +108,8 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
                                    .rule = rule,
                                    .adc = adc,
                                    .adc_m = bare ? INFINITY : ceduo_adc_value(&adc, rule)};
-    r.passes_threshold = r.adc_m < scene->simulation.threshold;
-    r.free_run_probability = exp(-scene->simulation.threshold / adc.crofton);
+    r.passes_threshold = met.adc < scene->simulation.threshold;
+    r.free_run_probability = met.free_run;
     r.contacts = length / r.adc_m;
     r.dissipated = bare ? 0 : length * ceduo_energy_per_metre(stand, b, rule);
     r.per_100m = r.dissipated / length * 100;
@@ -50,30 +137,31 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
 
 /* Adds the part of a belt between a and b to an index. */
 static void add_belt(const struct ceduo_scene *scene, const struct ceduo_belt *belt, double a, double b,
-                     struct ceduo_index *index)
+                     struct ceduo_index *index, struct ceduo_meeting *counted)
 {
     struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, b - a);
+    double least = scene->simulation.contact_dbh;
     index->length += r.bare ? 0 : b - a;
-    index->worst_adc = fmax(index->worst_adc, r.adc_m);
     index->contacts += r.contacts;
     index->dissipated += r.dissipated;
     index->meet_nothing_probability *= exp(-(b - a) / r.adc.crofton);
-    index->worst_free_run = fmax(index->worst_free_run, r.free_run_probability);
-    index->contact_passes &= r.passes_threshold;
+    add_meeting(scene, &belt->stand, least, counted);
+    add_meeting(scene, &belt->stand, fmax(least, CEDUO_THICK_DBH), &index->thick);
 }
 
 struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                       const struct ceduo_control *control, double bare_mean)
 {
     double start = scene->release.x.mean, at = start;
-    struct ceduo_index index = {.meet_nothing_probability = 1, .contact_passes = true};
+    struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
+    struct ceduo_meeting counted = {.contact = CEDUO_PASS};
     size_t belts = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         double a = fmax(belt->from, start), b = fmin(belt->to, control->x);
         if (!(b > a))
             continue;
-        add_belt(scene, belt, a, b, &index);
+        add_belt(scene, belt, a, b, &index, &counted);
         belts++;
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
@@ -81,15 +169,13 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
         at = b;
     }
     index.longest_gap = fmax(index.longest_gap, control->x - at);
-    if (belts == 0) {
-        index.contact_passes = false;
-        index.worst_free_run = 1;
-        index.worst_adc = INFINITY;
-    }
+    judge_meeting(scene, belts > 0, index.longest_gap, &counted);
+    judge_meeting(scene, belts > 0, index.longest_gap, &index.thick);
     index.per_100m = index.length > 0 ? index.dissipated / index.length * 100 : 0;
-    index.contact_passes &= !(index.longest_gap > scene->simulation.threshold);
-    index.contact = index.contact_passes ? CEDUO_PASS : CEDUO_FAIL;
-    index.free_run = index.worst_free_run <= CEDUO_FREE_RUN_MOST ? CEDUO_PASS : CEDUO_FAIL;
+    index.worst_adc = counted.worst_adc;
+    index.worst_free_run = counted.worst_free_run;
+    index.contact = counted.contact;
+    index.free_run = counted.free_run;
     index.energy = CEDUO_UNKNOWN;
     index.exhausted = bare_mean < index.dissipated;
     index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);

@@ -32,12 +32,22 @@ static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_
 {
     const struct ceduo_scene *scene = q->run.scene;
     const struct ceduo_flown *bare = &a->result->bare;
+    uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
+    rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
     a->years = calloc(scene->options_count + 1, sizeof *a->years);
     enum ceduo_status status = a->years ? CEDUO_OK : CEDUO_NO_MEMORY;
+    a->years_count = scene->options_count;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
-        status = ceduo_years_create(scene, &scene->options[i], q->year_first, q->year_last, q->year_step, &a->years[i]);
+        const struct ceduo_option *option = &scene->options[i];
+        if (q->only != CEDUO_ALL_OPTIONS && q->only != i)
+            continue;
+        struct ceduo_window window = q->window.step > 0 ? q->window : ceduo_window_in(scene, option);
+        unsigned count = (window.last - window.first) / window.step + 1;
+        if (q->years_most > 0 && count > q->years_most)
+            window.step *= (count + q->years_most - 1) / q->years_most;
+        status = ceduo_years_create(scene, option, window, &a->years[i]);
         if (status == CEDUO_OK)
-            status = ceduo_years_fly(a->years[i], pool, bare, bare->rocks);
+            status = ceduo_years_fly(a->years[i], pool, bare, rocks);
     }
     return status;
 }
@@ -87,7 +97,7 @@ enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **
 
 void ceduo_answer_release(struct ceduo_answer *a)
 {
-    for (size_t i = 0; a->years && a->years[i]; i++)
+    for (size_t i = 0; a->years && i < a->years_count; i++)
         ceduo_years_free(a->years[i]);
     free(a->years);
     free(a->blocks);

@@ -110,9 +110,7 @@ static struct ceduo_result *allocate(const struct ceduo_scene *scene)
     bool good = r->options != NULL;
     for (size_t i = 0; i < scene->options_count && good; i++)
         good = allocate_option(scene, i, &r->options[i]);
-    for (size_t c = 1; c < scene->controls_count; c++)
-        if (scene->controls[c].x > scene->controls[r->last_control].x)
-            r->last_control = c;
+    r->last_control = ceduo_scene_last_control(scene);
     if (good)
         return r;
     ceduo_result_free(r);

@@ -112,6 +112,18 @@ static size_t oldest_to_stay(const struct ceduo_cutting *cutting)
     return n;
 }
 
+bool ceduo_stand_sprouts(const struct ceduo_stand *stand)
+{
+    return stand->stools_per_ha > 0 && stand->shoots_count + 1 == cohorts(stand) && known(&stand->growth.shoots) &&
+           stand->growth.shoots_old > 0;
+}
+
+bool ceduo_stand_grows(const struct ceduo_stand *stand)
+{
+    return (stand->shoots_count > 0 && known(&stand->growth.shoots)) || ceduo_stand_sprouts(stand) ||
+           (stand->trees_count > 0 && known(&stand->growth.trees));
+}
+
 static bool regrowth_is_known(const struct ceduo_stand *stand)
 {
     const struct ceduo_growth *g = &stand->growth;
@@ -130,10 +142,12 @@ static double oldest(const struct ceduo_stems *stems, size_t n, const struct ced
 
 static double default_first_cut(const struct ceduo_stand *stand)
 {
-    bool coppice = ceduo_stand_has_shoots(stand);
+    bool sprouts = ceduo_stand_sprouts(stand), coppice = ceduo_stand_has_shoots(stand) || sprouts;
     double rotation = stand->cutting.rotation;
     double age = coppice ? oldest(stand->shoots, stand->shoots_count, &stand->growth.shoots)
                          : oldest(stand->trees, stand->trees_count, &stand->growth.trees);
+    if (sprouts)
+        age = fmax(age, (cohorts(stand) - 1) * rotation); /* it was cut when the oldest were as old as that */
     double rotations = coppice ? cohorts(stand) : 1 + (double)oldest_to_stay(&stand->cutting);
     return isnan(age) ? INFINITY : fmax(1, rotation * rotations - age - AGE_GRAIN);
 }
@@ -207,10 +221,15 @@ static void grow_stems(struct ceduo_stems *stems, const struct ceduo_curve *curv
     stems->age = age + years;
 }
 
-static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *growth, double years)
+/* `young`: the first cohort came up after a cut just before year 0; otherwise 0. */
+static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *growth, double years, size_t young)
 {
+    if (young > 0) /* as many cohorts as each stool has */
+        stand->shoots[0] =
+            stems_of_age(&growth->shoots,
+                         stand->stools_per_ha * shoots_on_stool(growth, years) / (double)stand->shoots_count, years);
     double least = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
-    for (size_t i = 0; i < stand->shoots_count; i++) {
+    for (size_t i = young; i < stand->shoots_count; i++) {
         struct ceduo_stems *s = &stand->shoots[i];
         double age = age_of(s, &growth->shoots);
         s->per_ha *= fmin(1, shoots_on_stool(growth, age + years) / shoots_on_stool(growth, age)); /* 1 for 0/0 */
@@ -222,11 +241,12 @@ static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *gr
 
 static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned year, struct ceduo_grown_stand *out)
 {
-    enum ceduo_status status = make(stand, stand->shoots_count, stand->trees_count, out);
+    size_t young = year > 0 && ceduo_stand_sprouts(stand);
+    enum ceduo_status status = make(stand, young + stand->shoots_count, stand->trees_count, out);
     if (status != CEDUO_OK)
         return status;
     for (size_t i = 0; i < stand->shoots_count; i++)
-        out->stand.shoots[i] = stand->shoots[i];
+        out->stand.shoots[young + i] = stand->shoots[i];
     for (size_t i = 0; i < stand->trees_count; i++)
         out->stand.trees[i] = stand->trees[i];
     if (year == 0)
@@ -235,7 +255,7 @@ static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned ye
     for (size_t i = 0; i < stand->trees_count && known(&g->trees); i++)
         grow_stems(&out->stand.trees[i], &g->trees, age_of(&stand->trees[i], &g->trees), year);
     if (known(&g->shoots)) /* after the trees: the shoots make room for them */
-        grow_shoots(&out->stand, g, year);
+        grow_shoots(&out->stand, g, year, young);
     return CEDUO_OK;
 }
 
@@ -271,6 +291,14 @@ static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned sin
     keep_shoots(&out->stand, out->stand.stools_per_ha);
     thin(&out->stand, g->sdi_most, out->stand.stools_per_ha);
     return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_stand_before_cut(const struct ceduo_stand *stand, double first_cut, unsigned year,
+                                         struct ceduo_grown_stand *out)
+{
+    if (year == ceduo_first_cut(stand, first_cut))
+        return before_cut(stand, year, out);
+    return after_cut(stand, stand->cutting.rotation, out);
 }
 
 enum ceduo_status ceduo_stand_at(const struct ceduo_stand *stand, double first_cut, unsigned year,

@@ -71,13 +71,13 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     keep_sample(w, walker->number, what, a->values);
 }
 
-/* An unfinished rock counts at each control that it did not reach. */
-static void note_unfinished(struct worker *w, const struct walker *walker)
+/* A rock counts at each control that it did not reach. */
+static void note_missed(struct worker *w, const struct walker *walker, enum ceduo_end end)
 {
     const struct marks *marks = &w->run->ready.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++)
         if (marks->at[m].what < w->run->controls)
-            w->block->controls[marks->at[m].what].unfinished++;
+            w->block->controls[marks->at[m].what].ended[end]++;
 }
 
 static void clear_samples(struct ceduo_run *run, uint64_t rock)
@@ -114,8 +114,7 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     }
     w->block->contacts += walker->contacts;
     w->block->ends[end]++;
-    if (end == CEDUO_UNFINISHED)
-        note_unfinished(w, walker);
+    note_missed(w, walker, end);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         note_stop(w, walker->number, walker->at.x);
     if (walker->cancelled)
@@ -155,7 +154,7 @@ static void note_undrawn(struct worker *w)
 {
     w->block->ends[CEDUO_UNFINISHED]++;
     for (size_t c = 0; c < w->run->controls; c++)
-        w->block->controls[c].unfinished++;
+        w->block->controls[c].ended[CEDUO_UNFINISHED]++;
 }
 
 /* The next rock of the block at its release; false where none is left. */

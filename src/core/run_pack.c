@@ -32,7 +32,8 @@ static void pack_block(struct bytes *b, struct block *block, size_t controls)
             pack_moments(b, &s->of[q]);
         pack_moments(b, &s->contacts);
         ceduo_bytes_count(b, &s->exceeded);
-        ceduo_bytes_count(b, &s->unfinished);
+        for (int e = 0; e < CEDUO_ENDS; e++)
+            ceduo_bytes_count(b, &s->ended[e]);
     }
 }
 
@@ -49,21 +50,28 @@ static bool good_moments(const struct ceduo_moments *m, uint64_t n)
     return m->n == n && isfinite(m->mean) && isfinite(m->m2) && isfinite(m->max) && m->m2 >= 0;
 }
 
+/* Whether so many rocks ended in one of these ways each. */
+static bool good_ends(const uint64_t ends[CEDUO_ENDS], uint64_t rocks)
+{
+    uint64_t sum = 0;
+    for (int e = 0; e < CEDUO_ENDS; e++) {
+        if (ends[e] > rocks)
+            return false;
+        sum += ends[e];
+    }
+    return sum == rocks;
+}
+
 /* Whether the counts of a block agree with each other: of so many rocks, and so many that hit stems where there are. */
 static bool good_block(const struct ceduo_run *run, const struct block *block, uint64_t rocks)
 {
-    uint64_t ends = 0, stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
-    for (int e = 0; e < CEDUO_ENDS; e++) {
-        if (block->ends[e] > rocks)
-            return false;
-        ends += block->ends[e];
-    }
-    if (ends != rocks || !good_moments(&block->stop_x, stops))
+    uint64_t stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
+    if (!good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops))
         return false;
     for (size_t c = 0; c < run->controls; c++) {
         const struct sums *s = &block->controls[c];
         uint64_t reached = s->of[SPEED].n;
-        if (reached > rocks || s->unfinished > rocks - reached || s->exceeded > reached ||
+        if (reached > rocks || !good_ends(s->ended, rocks - reached) || s->exceeded > reached ||
             !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached))
             return false;
         for (int q = 0; q < QUANTITIES; q++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "run_state.h"
 
@@ -63,12 +64,13 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     *a = (struct ceduo_arrivals){.released = run->rocks,
                                  .reached = s.of[SPEED].n,
                                  .exceeded = s.exceeded,
-                                 .unfinished = s.unfinished,
+                                 .unfinished = s.ended[CEDUO_UNFINISHED],
                                  .exact = run->exact};
-    a->reach_probability = share(a->reached, s.unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
+    memcpy(a->ended, s.ended, sizeof a->ended);
+    a->reach_probability = share(a->reached, a->unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
     a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
     if (!isnan(run->ready.scene.controls[control].accepted))
-        a->exceed_probability = share(a->exceeded, s.unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
+        a->exceed_probability = share(a->exceeded, a->unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
     per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
     a->contacts = !run->ready.wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
     a->contacts_se = run->ready.wood.bare ? NAN : ceduo_moments_se(&s.contacts);
@@ -114,30 +116,60 @@ static struct ceduo_paired paired(double mean, const struct ceduo_moments *m, ui
     return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks)};
 }
 
+/* The rocks that both runs have, moments of their differences. */
+struct pairs {
+    uint64_t rocks;
+    struct ceduo_moments reach, exceed, energy;
+};
+
+static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
+{
+    double accepted = run->ready.scene.controls[control].accepted;
+    uint64_t a = paired_rocks(run), b = paired_rocks(baseline);
+    struct pairs p = {.rocks = a < b ? a : b};
+    for (uint64_t r = 0; r < p.rocks; r++) {
+        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
+        ceduo_moments_add(&p.reach, (double)!isnan(e) - (double)!isnan(f));
+        ceduo_moments_add(&p.exceed, (double)(e > accepted) - (double)(f > accepted));
+        ceduo_moments_add(&p.energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
+    }
+    return p;
+}
+
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control)
 {
     const struct ceduo_paired unknown = {NAN, NAN};
-    if (!run || !baseline || run->rocks != baseline->rocks)
+    bool alike = run && baseline && run->rocks == baseline->rocks;
+    if (!alike && !(run && baseline && run->exact && baseline->exact && run->rocks > 0 && baseline->rocks > 0))
         return (struct ceduo_difference){unknown, unknown, unknown};
-    struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};
-    double accepted = run->ready.scene.controls[control].accepted, n = (double)run->rocks;
-    uint64_t a = paired_rocks(run), b = paired_rocks(baseline), rocks = a < b ? a : b;
-    for (uint64_t r = 0; r < rocks; r++) {
-        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
-        ceduo_moments_add(&reach, (double)!isnan(e) - (double)!isnan(f));
-        ceduo_moments_add(&exceed, (double)(e > accepted) - (double)(f > accepted));
-        ceduo_moments_add(&energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
-    }
+    double n = (double)run->rocks;
+    struct pairs p = pair(run, baseline, control);
     struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
     const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
-    struct ceduo_difference d = {
-        .reach_probability = paired(((double)e->n - (double)f->n) / n, &reach, run->rocks),
-        .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &exceed, run->rocks),
-        .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &energy, run->rocks)};
-    if (isnan(accepted))
+    struct ceduo_difference d = {.reach_probability = paired(p.reach.mean, &p.reach, p.rocks),
+                                 .exceed_probability = paired(p.exceed.mean, &p.exceed, p.rocks),
+                                 .energy_per_released = paired(p.energy.mean, &p.energy, p.rocks)};
+    if (alike)
+        d = (struct ceduo_difference){
+            .reach_probability = paired(((double)e->n - (double)f->n) / n, &p.reach, run->rocks),
+            .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &p.exceed, run->rocks),
+            .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &p.energy, run->rocks)};
+    if (isnan(run->ready.scene.controls[control].accepted))
         d.exceed_probability = unknown;
     return d;
+}
+
+uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t most)
+{
+    double accepted = run->ready.scene.controls[control].accepted;
+    uint64_t rocks = paired_rocks(run);
+    rocks = rocks < most ? rocks : most;
+    for (uint64_t r = 0; r < rocks; r++) {
+        double energy = paired_energy(run, control, r);
+        marks[r] = (uint16_t)(marks[r] + (isnan(accepted) ? !isnan(energy) : energy > accepted));
+    }
+    return rocks;
 }
 
 /* ---- ends, envelopes, energies ---- */

@@ -26,7 +26,8 @@ static void merge_sums(struct sums *into, const struct sums *from)
         ceduo_moments_merge(&into->of[q], &from->of[q]);
     ceduo_moments_merge(&into->contacts, &from->contacts);
     into->exceeded += from->exceeded;
-    into->unfinished += from->unfinished;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        into->ended[e] += from->ended[e];
 }
 
 void ceduo_run_block_merge(struct block *into, const struct block *from, size_t controls)

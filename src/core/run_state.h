@@ -26,7 +26,7 @@ enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 /* What is summed at one control. Released rocks that do not arrive are known from the counts. */
 struct sums {
     struct ceduo_moments of[QUANTITIES], contacts; /* contacts: stems hit before */
-    uint64_t exceeded, unfinished;
+    uint64_t exceeded, ended[CEDUO_ENDS]; /* ended: rocks that did not arrive, by how they ended */
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */

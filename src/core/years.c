@@ -5,17 +5,63 @@
 #include <stdlib.h>
 #include <string.h>
 
-unsigned ceduo_years_usual(const struct ceduo_scene *scene)
+/* ---- windows ---- */
+
+bool ceduo_belt_is_alike(const struct ceduo_belt *belt)
 {
-    unsigned last = 10;
-    for (size_t i = 0; i < scene->options_count; i++)
-        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
-            const struct ceduo_belt *belt = &scene->options[i].belts[k];
-            unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year), rotation = belt->stand.cutting.rotation;
-            if (first != CEDUO_NEVER && first < 120 && first + rotation + 1 > last)
-                last = first + rotation + 1;
+    return ceduo_first_cut(&belt->stand, belt->cut_year) == CEDUO_NEVER && !ceduo_stand_grows(&belt->stand);
+}
+
+static unsigned greatest_divisor(unsigned a, unsigned b)
+{
+    while (b > 0) {
+        unsigned rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
+/* After how many years two rhythms begin together again. */
+static unsigned period_of(unsigned a, unsigned b)
+{
+    unsigned together = a / greatest_divisor(a, b) * b;
+    return together <= CEDUO_PERIOD_MOST ? together : a > b ? a : b;
+}
+
+struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
+{
+    struct ceduo_window w = {.kind = CEDUO_WINDOW_ALIKE, .step = 1};
+    unsigned period = 1;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year);
+        if (first == CEDUO_NEVER) {
+            if (w.kind == CEDUO_WINDOW_ALIKE && ceduo_stand_grows(&belt->stand))
+                w.kind = CEDUO_WINDOW_UNCUT;
+            continue;
         }
-    return last < 120 ? last : 120;
+        w.kind = CEDUO_WINDOW_ROTATION;
+        w.first = first > w.first ? first : w.first;
+        period = period_of(period, belt->stand.cutting.rotation);
+    }
+    period = w.kind == CEDUO_WINDOW_UNCUT ? CEDUO_YEARS_UNCUT : period;
+    w.last = w.first + period - 1;
+    return w;
+}
+
+struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option)
+{
+    struct ceduo_window w = ceduo_window_of(option);
+    double first = scene->year_first, last = scene->year_last;
+    if (isnan(first) && isnan(last))
+        return w;
+    unsigned period = w.last - w.first;
+    w.kind = CEDUO_WINDOW_GIVEN;
+    w.first = isnan(first) ? 0 : (unsigned)first;
+    w.last = isnan(last) ? w.first + period : (unsigned)last;
+    w.last = w.last < w.first ? w.first : w.last;
+    return w;
 }
 
 /* ---- growing ---- */
@@ -55,19 +101,22 @@ static enum ceduo_status grow(const struct ceduo_option *option, size_t controls
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option, unsigned first,
-                                     unsigned last, unsigned step, struct ceduo_years **out)
+enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                     struct ceduo_window window, struct ceduo_years **out)
 {
     *out = NULL;
     struct ceduo_years *years = calloc(1, sizeof *years);
-    size_t n = (last - first) / step + 1;
+    size_t n = (window.last - window.first) / window.step + 1;
     if (years)
         years->years = calloc(n, sizeof *years->years);
     enum ceduo_status status = years && years->years ? CEDUO_OK : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK)
+    if (status == CEDUO_OK) {
         years->scene = *scene;
+        years->window = window;
+        years->last_control = ceduo_scene_last_control(scene);
+    }
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        years->years[i].year = first + (unsigned)i * step;
+        years->years[i].year = window.first + (unsigned)i * window.step;
         years->count = i + 1;
         status = grow(option, scene->controls_count, &years->years[i]);
     }
@@ -85,6 +134,7 @@ void ceduo_years_free(struct ceduo_years *years)
     for (size_t i = 0; i < years->count; i++)
         free_year(&years->years[i]);
     free(years->years);
+    free(years->marks);
     free(years);
 }
 
@@ -99,26 +149,48 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
     }
 }
 
+/* Simulates a year and reads it; rocks that bring too much get a mark. */
+static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *y, struct ceduo_pool *pool, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    enum ceduo_status status = ceduo_pool_fly(pool, &y->option, rocks, &run);
+    if (status != CEDUO_OK)
+        return status;
+    ceduo_flown_free(&y->wooded);
+    status = ceduo_flown_read(run, years->scene.controls_count, &y->wooded);
+    if (status != CEDUO_OK)
+        return status;
+    ceduo_flown_meets_nothing(&y->wooded);
+    if (years->scene.controls_count > 0)
+        years->marked = ceduo_run_mark(run, years->last_control, years->marks, years->marked);
+    return CEDUO_OK;
+}
+
+static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
+{
+    free(years->marks);
+    years->rocks = 0;
+    years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
+    years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
+    return years->marks;
+}
+
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks)
 {
     const struct ceduo_scene *scene = &years->scene;
-    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
+    bool flies = scene->simulation.contact_model != CEDUO_INDEX && rocks > 0;
+    if (flies && !clear_marks(years, rocks))
+        return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < years->count; i++) {
         struct ceduo_year *y = &years->years[i];
-        struct ceduo_run *run;
-        enum ceduo_status status = flies ? ceduo_pool_fly(pool, &y->option, rocks, &run) : CEDUO_OK;
-        if (flies && status == CEDUO_OK) {
-            ceduo_flown_free(&y->wooded);
-            status = ceduo_flown_read(run, scene->controls_count, &y->wooded);
-            if (status == CEDUO_OK)
-                ceduo_flown_meets_nothing(&y->wooded);
-        }
+        enum ceduo_status status = flies ? fly_year(years, y, pool, rocks) : CEDUO_OK;
         if (status != CEDUO_OK)
             return status;
         ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
         ceduo_pool_trim(pool);
     }
+    years->rocks = flies ? rocks : 0;
     return CEDUO_OK;
 }
 
@@ -127,6 +199,21 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
 static double share_se(double p, double n)
 {
     return sqrt(p * (1 - p) / n);
+}
+
+/* Of the years the share in which a rock is marked. */
+static double share_of_years(const struct ceduo_years *years, uint64_t rock)
+{
+    return (double)years->marks[rock] / (double)years->count;
+}
+
+/* Every rock goes through all years, so its own mean is one sample. */
+static double marks_se(const struct ceduo_years *years)
+{
+    struct ceduo_moments m = {0};
+    for (uint64_t r = 0; r < years->marked; r++)
+        ceduo_moments_add(&m, share_of_years(years, r));
+    return ceduo_moments_sd(&m) / sqrt((double)years->rocks);
 }
 
 static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a, struct ceduo_years_summary *s)
@@ -172,9 +259,22 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     divide(&s.reach, s.flown);
     divide(&s.exceed, s.flown);
     divide(&s.energy_per_released, s.flown);
+    if (years->rocks > 0 && control == years->last_control)
+        (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = marks_se(years);
     s.passes_per_year = s.reach.mean * years->scene.rocks_per_year;
     s.exceeds_per_year = s.exceed.mean * years->scene.rocks_per_year;
     return s;
+}
+
+struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
+{
+    if (years->rocks == 0 || less->rocks == 0 || years->scene.controls_count == 0)
+        return (struct ceduo_paired){NAN, NAN};
+    uint64_t rocks = less->marked < years->marked ? less->marked : years->marked;
+    struct ceduo_moments m = {0};
+    for (uint64_t r = 0; r < rocks; r++)
+        ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));
+    return (struct ceduo_paired){m.mean, ceduo_moments_se(&m)};
 }
 
 double ceduo_years_felled(const struct ceduo_years *years)

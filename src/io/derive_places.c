@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The places of a scene: release, controls, belts and their stands, relative to the first vertex of the slope, and
  * whether they fit together. Lists that are made here lie in the arena of the deriver. */
+#include "ceduo/rotation.h"
 #include "derive.h"
 
 #include <math.h>
@@ -137,8 +138,10 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
         ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0,
                             0);
-    else if (s->shoots_count == 0 && s->stools_per_ha > 0)
-        ceduo_derive_refuse(d, path, ".stools", _("stools without shoots; add 'shoots', or remove the stools"), 0, 0);
+    else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
+        ceduo_derive_refuse(d, path, ".stools",
+                            _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the stools"),
+                            0, 0);
     else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha)
         ceduo_derive_refuse(d, path, ".stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
                             ceduo_stand_shoots(s), s->stools_per_ha);
@@ -163,6 +166,33 @@ static void check_belt(struct deriver *d, const char *path, const struct ceduo_b
         ceduo_derive_refuse(d, path, ".to_m", _("%s lies beyond the slope, which ends at %s m"), f->to_given, end);
 }
 
+/* Whether two stands say the same but for name and source. */
+static bool says_the_same(struct deriver *d, const struct node *a, const struct node *b)
+{
+    static const char *const beside[] = {"name", "source"};
+    for (size_t i = 0; a && b && i < 2; i++) {
+        a = ceduo_node_get(a, beside[i]) ? ceduo_node_without(d->arena, a, beside[i]) : a;
+        b = ceduo_node_get(b, beside[i]) ? ceduo_node_without(d->arena, b, beside[i]) : b;
+    }
+    return a && b && ceduo_node_equal(a, b);
+}
+
+/* Whether numbers of a stand from a file were changed, and it still has the name of that file. */
+static bool has_name_of_another(struct deriver *d, const struct node *stand)
+{
+    const struct node *written = stand->written, *followed = stand->followed;
+    if (!written || !followed || stand->kind != NODE_MAP || followed->kind != NODE_MAP)
+        return false;
+    const char *name = ceduo_node_text(stand, "name"), *before = ceduo_node_text(followed, "name");
+    bool renamed = !name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name");
+    if (renamed)
+        return false;
+    size_t changes = 0;
+    for (size_t i = 0; written->kind == NODE_MAP && i < written->n; i++)
+        changes += strcmp(written->items[i]->key, "base") != 0 && strcmp(written->items[i]->key, "source") != 0;
+    return changes > 0 || !says_the_same(d, stand, followed);
+}
+
 /* What the stand calls itself, or else its file. */
 static const char *stand_name(struct deriver *d, const char *path, const struct ceduo_stand *stand)
 {
@@ -172,6 +202,8 @@ static const char *stand_name(struct deriver *d, const char *path, const struct 
     const char *name = ceduo_node_text(node, "name");
     if (!name && node->written && node->written->kind == NODE_SCALAR)
         name = node->written->text;
+    if (name && has_name_of_another(d, node))
+        return ceduo_derive_text(d, "%s (changed)", name);
     return name ? name : ceduo_stand_is_bare(stand) ? _("bare") : _("stand");
 }
 

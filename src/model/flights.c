@@ -110,6 +110,7 @@ static enum ceduo_status fly_forest(struct flights *f, const struct ceduo_option
     return status == CEDUO_OK ? ceduo_pool_fly(pool, option, rocks, &run) : status;
 }
 
+/* Hands over after each forest: once something is known it is shown with its own error until better is known. */
 enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_scene *scene, size_t shown,
                                         uint64_t rocks, flights_publish *publish, void *context, bool *enough)
 {
@@ -117,12 +118,12 @@ enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_sc
     enum ceduo_status status = turn(f, scene);
     if (status == CEDUO_OK)
         status = fly_forest(f, NULL, rocks);
-    if (status == CEDUO_OK && wooded)
-        status = fly_forest(f, &scene->options[shown], rocks);
-    if (status == CEDUO_OK && wooded && scene->options_count > 1)
-        status = hand_over(f, scene, publish, context);
-    for (size_t i = 0; wooded && i < scene->options_count && status == CEDUO_OK; i++)
-        status = fly_forest(f, &scene->options[i], rocks);
+    for (size_t k = 0, n = scene->options_count; wooded && k < n && status == CEDUO_OK; k++) {
+        status = fly_forest(f, &scene->options[(shown + k) % n], rocks);
+        bool says = k + 1 < n && (k == 0 || rocks >= FLIGHTS_MOST);
+        if (status == CEDUO_OK && says)
+            status = hand_over(f, scene, publish, context);
+    }
     if (status == CEDUO_OK)
         status = hand_over(f, scene, publish, context);
     if (status == CEDUO_OK)
@@ -132,17 +133,30 @@ enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_sc
 
 /* ---- years ---- */
 
+uint64_t ceduo_flights_years_key(const struct ceduo_scene *scene, size_t option)
+{
+    struct ceduo_window w = ceduo_window_in(scene, &scene->options[option]);
+    uint64_t key = ceduo_scene_key(scene);
+    const uint64_t more[] = {ceduo_years_key(&scene->options[option]), w.kind, w.first, w.last,
+                             (uint64_t)scene->simulation.contact_model};
+    for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
+        key = key * 1099511628211u ^ more[i];
+    return key;
+}
+
 enum ceduo_status ceduo_flights_years(struct flights *f, const struct ceduo_scene *scene, size_t option, uint64_t rocks,
                                       struct ceduo_years **years)
 {
     *years = NULL;
+    const struct ceduo_option *o = &scene->options[option];
     enum ceduo_status status = turn(f, scene);
     if (status == CEDUO_OK)
-        status = f->last && f->last->bare
-                     ? ceduo_years_create(scene, &scene->options[option], 0, ceduo_years_usual(scene), 1, years)
-                     : CEDUO_NO_MEMORY;
+        status = f->last && f->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene, o), years)
+                                          : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_years_fly(*years, f->years, &f->last->bare->flown, rocks);
+    if (status == CEDUO_OK)
+        (*years)->key = ceduo_flights_years_key(scene, option);
     if (status != CEDUO_OK) {
         ceduo_years_free(*years);
         *years = NULL;

@@ -26,7 +26,10 @@ typedef void flights_publish(void *context, struct ceduo_outlook *outlook);
 enum ceduo_status ceduo_flights_figures(struct flights *flights, const struct ceduo_scene *scene, size_t shown,
                                         uint64_t rocks, flights_publish *publish, void *context, bool *enough);
 
-/* One step of the years to come of an option. A step of the figures goes before it. */
+/* A number for all that decides about the years of an option. */
+uint64_t ceduo_flights_years_key(const struct ceduo_scene *scene, size_t option);
+
+/* One step of the years of an option, which keep that number. A step of the figures goes before it. */
 enum ceduo_status ceduo_flights_years(struct flights *flights, const struct ceduo_scene *scene, size_t option,
                                       uint64_t rocks, struct ceduo_years **years);
 

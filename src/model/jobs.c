@@ -99,22 +99,58 @@ static enum ceduo_status step_figures(struct jobs *q, struct job *job)
     return status;
 }
 
+void ceduo_jobs_free_years(struct ceduo_years **years, size_t n)
+{
+    for (size_t i = 0; years && i < n; i++)
+        ceduo_years_free(years[i]);
+    free(years);
+}
+
+static void drop_years(struct jobs_news *news)
+{
+    ceduo_jobs_free_years(news->years, news->years_count);
+    news->years = NULL;
+    news->years_count = news->done = news->all = 0;
+}
+
+/* Puts the years of an option in the place of its older ones. */
+static bool keep_years(struct jobs_news *news, size_t options, size_t option, struct ceduo_years *years)
+{
+    if (!news->years)
+        news->years = calloc(options + 1, sizeof *news->years);
+    if (!news->years)
+        return false;
+    news->years_count = options;
+    ceduo_years_free(news->years[option]);
+    news->years[option] = years;
+    return true;
+}
+
 static enum ceduo_status step_years(struct jobs *q, struct job *job)
 {
-    struct ceduo_years *years;
-    enum ceduo_status status = ceduo_flights_years(q->flights, &job->scene, job->option, job->rocks, &years);
+    size_t n = job->scene.options_count;
+    enum ceduo_status status = CEDUO_OK;
     job->wanted = job->rocks < FLIGHTS_YEAR;
-    if (status != CEDUO_OK)
-        return status;
-    if (!lock_result(q, YEARS, job->number)) {
-        ceduo_years_free(years);
-        return CEDUO_OK;
+    for (size_t k = 0; k < n && status == CEDUO_OK; k++) {
+        size_t option = (job->option + k) % n;
+        struct ceduo_years *years;
+        status = ceduo_flights_years(q->flights, &job->scene, option, job->rocks, &years);
+        if (status != CEDUO_OK)
+            break;
+        if (!lock_result(q, YEARS, job->number)) {
+            ceduo_years_free(years);
+            return CEDUO_OK;
+        }
+        if (!keep_years(&q->news, n, option, years)) {
+            ceduo_years_free(years);
+            status = CEDUO_NO_MEMORY;
+        }
+        q->news.done = k + 1;
+        q->news.all = n;
+        q->news.rocks = job->rocks;
+        unlock_result(q);
     }
-    ceduo_years_free(q->news.years);
-    q->news.years = years;
-    q->news.years_option = job->option;
-    unlock_result(q);
-    return CEDUO_OK;
+    return status;
 }
 
 void ceduo_sought_free(struct sought *sought)
@@ -136,6 +172,8 @@ static enum ceduo_status step_seek(struct jobs *q, struct job *job)
     job->seek.cancel = &q->cancel;
     sought->status = ceduo_seek(&job->seek, &sought->found, &sought->problems);
     sought->target = job->seek.search.target;
+    sought->rotation = job->seek.search.rotation;
+    sought->yield = job->seek.yield;
     ceduo_arena_free(&job->file.arena);
     job->wanted = false;
     if (sought->status == CEDUO_CANCELLED || !lock_result(q, SEEK, job->number)) {
@@ -216,7 +254,7 @@ static void release(struct jobs *q)
 {
     ceduo_flights_free(q->flights);
     ceduo_outlook_free(q->news.outlook);
-    ceduo_years_free(q->news.years);
+    drop_years(&q->news);
     ceduo_sought_free(q->news.sought);
     if (q->pipe[0] >= 0) {
         close(q->pipe[0]);
@@ -298,8 +336,8 @@ static void drop(struct jobs *q, enum kind kind)
 bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, uint64_t key, size_t shown, bool years)
 {
     struct job figures = {.key = key, .rocks = FLIGHTS_FIRST, .option = shown, .scene = *scene}, coming = figures;
-    if (years)
-        coming.key = key * 1099511628211u ^ ceduo_years_key(&scene->options[shown]) ^ shown;
+    for (size_t i = 0; years && i < scene->options_count; i++)
+        coming.key = coming.key * 1099511628211u ^ ceduo_flights_years_key(scene, i);
     pthread_mutex_lock(&q->lock);
     uint64_t before = q->requests;
     if (q->jobs[FIGURES].number == 0 || q->jobs[FIGURES].key != key) { /* otherwise the rocks meet the same */
@@ -312,10 +350,8 @@ bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, uint64_t k
     else if (q->jobs[YEARS].number == 0 || q->jobs[YEARS].key != coming.key)
         ask(q, YEARS, &coming);
     bool asked = q->requests != before;
-    if (asked) {
-        ceduo_years_free(q->news.years);
-        q->news.years = NULL;
-    }
+    if (asked)
+        drop_years(&q->news);
     pthread_mutex_unlock(&q->lock);
     return asked;
 }
@@ -367,6 +403,7 @@ struct jobs_news ceduo_jobs_news(struct jobs *q)
     struct jobs_news news = q->news;
     q->news.outlook = NULL;
     q->news.years = NULL;
+    q->news.years_count = 0;
     q->news.sought = NULL;
     q->news.foresaw = false;
     pthread_mutex_unlock(&q->lock);

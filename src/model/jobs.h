@@ -21,7 +21,7 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
 /* Asks for the figures of a scene, those of option `shown` and without forest first. `key`: its ceduo_jobs_key(). Runs of
  * forests that have not changed since the last request are kept; what asks for the same runs changes nothing. `years`: the
- * years to come of that option as well. What the scene points to must stay until the jobs are freed (an arena that is never
+ * years of all options as well, those of `shown` first. What the scene points to must stay until the jobs are freed (an arena that is never
  * emptied); the struct itself is copied. True where something is to be done. */
 bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, uint64_t key, size_t shown, bool years);
 
@@ -37,6 +37,8 @@ void ceduo_jobs_foresee(struct jobs *jobs, const struct scene_file *file, const 
 struct sought {
     enum ceduo_status status;
     double target; /* that was looked for */
+    bool rotation; /* it looked at one whole rotation */
+    struct ceduo_yield yield; /* at that value */
     struct ceduo_found found;
     struct problems problems;
 };
@@ -49,8 +51,11 @@ struct jobs_news {
     struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
     uint64_t key;                  /* of its scene: ceduo_jobs_key() */
     double seconds;                /* from the request to it */
-    struct ceduo_years *years;     /* newest, NULL where none are new; the caller's from now on */
-    size_t years_option;           /* which option they are of */
+    struct ceduo_years **years;    /* newest of each option, as far as there are new ones; NULL: there are none. The
+                                    * caller's from now on */
+    size_t years_count;            /* options */
+    size_t done, all;              /* of the step under way in the years: options, of so many; all 0: none is */
+    uint64_t rocks;                /* of each run of that step, or of the figures' */
     struct sought *sought;         /* NULL: none is done; the caller's from now on */
     bool foresaw;                  /* what a change would do is known: */
     struct foreseen foreseen;
@@ -58,6 +63,7 @@ struct jobs_news {
     bool failed;                   /* out of memory */
 };
 struct jobs_news ceduo_jobs_news(struct jobs *jobs);
+void ceduo_jobs_free_years(struct ceduo_years **years, size_t n);
 
 /* Waits until no job is left. */
 void ceduo_jobs_wait(struct jobs *jobs);

@@ -19,6 +19,20 @@ struct search {
 
 /* ---- what kind of number it is ---- */
 
+/* The row of a parameter; of a number in a list that of the list. */
+static const struct field *field_at(const char *path)
+{
+    const struct field *field = ceduo_schema_at(path);
+    char list[512];
+    const char *bracket = strrchr(path, '[');
+    if (field || !bracket || (size_t)(bracket - path) >= sizeof list)
+        return field;
+    memcpy(list, path, (size_t)(bracket - path));
+    list[bracket - path] = '\0';
+    field = ceduo_schema_at(list);
+    return field && field->type == FIELD_NUMBERS ? field : NULL;
+}
+
 /* Counts and years are whole numbers; so are densities, which a forester counts. */
 static bool is_whole(const struct field *field)
 {
@@ -60,11 +74,31 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     q.run.threads = s->seek->threads;
     q.run.cancel = s->seek->cancel;
     q.run.arrivals_only = true;
+    q.years = search->rotation;
     enum ceduo_status status = ceduo_ask(&q, &s->pool, &answer);
     if (status == CEDUO_OK)
-        *goal = ceduo_goal_reached(search->goal, answer.result, search->option);
+        *goal = search->rotation ? ceduo_goal_over_years(search->goal, answer.years[search->option], &answer.result->bare)
+                                 : ceduo_goal_reached(search->goal, answer.result, search->option);
     ceduo_answer_release(&answer);
     return status;
+}
+
+/* What the option yields at a value. */
+static void read_yield(struct search *s, double value, enum ceduo_status status)
+{
+    struct ceduo_yield *yield = &s->seek->yield;
+    bool known = status == CEDUO_OK && !isnan(value) && set_value(s, value) &&
+                 ceduo_yield_of(&s->seek->file->scene.options[s->seek->search.option], 1, 0, yield) == CEDUO_OK;
+    if (!known)
+        *yield = (struct ceduo_yield){.cut_per_year = NAN, .died_per_year = NAN, .standing = NAN, .volume_today = NAN};
+    free(yield->fellings);
+    yield->fellings = NULL;
+}
+
+/* Whether a parameter decides about the years to come alone: then the answer is one of a whole rotation. */
+static bool is_of_years(const struct field *field)
+{
+    return field && field->flags & FIELD_YEARS;
 }
 
 /* ---- the search ---- */
@@ -101,11 +135,12 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
     struct ceduo_search *search = &seek->search;
     if (isnan(search->target))
         search->target = ceduo_goal_limit(search->goal, &seek->file->scene.simulation);
+    search->rotation |= is_of_years(field_at(search->path));
     if (!is_askable(seek, problems))
         return CEDUO_BAD_SLOPE;
     struct ceduo_find_def def = {.lo = search->lo,
                                  .hi = search->hi,
-                                 .whole = is_whole(ceduo_schema_at(search->path)),
+                                 .whole = is_whole(field_at(search->path)),
                                  .target =
                                      ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
                                  .goal = goal_at,
@@ -114,5 +149,6 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
                                  .cancel = seek->cancel};
     enum ceduo_status status = ceduo_find(&def, found);
     ceduo_pool_free(s.pool);
+    read_yield(&s, found->found ? found->value : found->nearest, status);
     return status;
 }

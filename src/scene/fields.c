@@ -333,6 +333,9 @@ static const struct field simulation_fields[] = {
     NUMBER("threshold_m", NAMED(N_("threshold, m"), NULL),
         AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | UNFLOWN, STRING(CEDUO_THRESHOLD_M),
            N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
+    NUMBER("contact_dbh_m", CENTIMETRES(N_("stems count from, cm"), NULL, 0, 0.5),
+        AT(ceduo_simulation, contact_dbh), "m", 0, 10, UNFLOWN, "0",
+           N_("diameter from which on a stem counts for the lights of contact and free run; 0, as in the paper: every stem")),
     NUMBER("gravity_m_s2", USUAL(N_("gravity, m/s2"), NULL, 9.7, 9.9),
         AT(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE, STRING(CEDUO_GRAVITY),
            N_("acceleration of gravity")),
@@ -365,6 +368,15 @@ static const struct field doubt_fields[] = {
         N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
 };
 static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
+
+static const struct field window_fields[] = {
+    NUMBER("first", NAMED(N_("first year shown"), NULL),
+        AT(scene_draft, scene.year_first), "y", 0, 100000, UNFLOWN, NULL,
+           N_("first year to look at; 0 is the stand as filed")),
+    NUMBER("last", NAMED(N_("last year shown"), NULL),
+        AT(scene_draft, scene.year_last), "y", 0, 100000, UNFLOWN, NULL, N_("last year to look at")),
+};
+static const struct object window_object = OBJECT(scene_draft, window_fields, NULL);
 
 static const struct field scene_fields[] = {
     TAG("scene/1"),
@@ -400,6 +412,9 @@ static const struct field scene_fields[] = {
         &doubt_object),
     GROUP("minimum", NAMED(N_("minimum"), NULL),
         SAME, 0, N_("what a forest must keep"), &minimum_object),
+    GROUP("years", NAMED(N_("years"), NULL),
+        SAME, 0, N_("years to look at; the default is one whole rotation of each option after its first cut"),
+          &window_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
 

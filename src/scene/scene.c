@@ -27,3 +27,12 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
     }
     return CEDUO_OK;
 }
+
+size_t ceduo_scene_last_control(const struct ceduo_scene *scene)
+{
+    size_t last = 0;
+    for (size_t c = 1; c < scene->controls_count; c++)
+        if (scene->controls[c].x > scene->controls[last].x)
+            last = c;
+    return last;
+}

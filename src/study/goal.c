@@ -43,19 +43,50 @@ static double mean_kJ(const struct ceduo_arrivals *a, bool wooded, const struct 
     return a->reached == 0 ? 0 : (wooded ? a->energy.mean : index->residual) * 1e-3;
 }
 
+/* At one control; `wooded` NULL: nothing was simulated through the forest. */
+static double value_at(enum ceduo_goal goal, const struct ceduo_index *index, const struct ceduo_arrivals *wooded,
+                       const struct ceduo_arrivals *bare)
+{
+    const struct ceduo_arrivals *arrivals = wooded ? wooded : bare;
+    return goal == CEDUO_GOAL_ADC        ? index->worst_adc
+           : goal == CEDUO_GOAL_FREE_RUN ? index->worst_free_run
+           : goal == CEDUO_GOAL_EXCEED   ? arrivals->exceed_probability
+           : goal == CEDUO_GOAL_ARRIVE   ? arrivals->reach_probability
+                                         : mean_kJ(arrivals, wooded != NULL, index);
+}
+
+static double worse_of(double a, double b)
+{
+    return isnan(b) || b > a ? b : a;
+}
+
 double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option)
 {
     double worst = -INFINITY;
-    for (size_t c = 0; c < result->scene->controls_count; c++) {
-        const struct ceduo_index *index = &result->options[option].controls[c];
-        const struct ceduo_arrivals *wooded = ceduo_result_wooded(result, option, c);
-        const struct ceduo_arrivals *arrivals = wooded ? wooded : &result->bare.arrivals[c];
-        double value = goal == CEDUO_GOAL_ADC        ? index->worst_adc
-                       : goal == CEDUO_GOAL_FREE_RUN ? index->worst_free_run
-                       : goal == CEDUO_GOAL_EXCEED   ? arrivals->exceed_probability
-                       : goal == CEDUO_GOAL_ARRIVE   ? arrivals->reach_probability
-                                                     : mean_kJ(arrivals, wooded != NULL, index);
-        worst = isnan(value) || value > worst ? value : worst;
+    for (size_t c = 0; c < result->scene->controls_count; c++)
+        worst = worse_of(worst, value_at(goal, &result->options[option].controls[c], ceduo_result_wooded(result, option, c),
+                                         &result->bare.arrivals[c]));
+    return worst;
+}
+
+bool ceduo_goal_is_mean(enum ceduo_goal goal)
+{
+    return goal == CEDUO_GOAL_EXCEED || goal == CEDUO_GOAL_ARRIVE;
+}
+
+double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_flown *bare)
+{
+    double worst = -INFINITY;
+    for (size_t c = 0; c < years->scene.controls_count; c++) {
+        double worst_year = -INFINITY, sum = 0;
+        for (size_t i = 0; i < years->count; i++) {
+            const struct ceduo_year *y = &years->years[i];
+            double value = value_at(goal, &y->controls[c], y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL,
+                                    &bare->arrivals[c]);
+            worst_year = worse_of(worst_year, value);
+            sum += value;
+        }
+        worst = worse_of(worst, ceduo_goal_is_mean(goal) ? sum / (double)years->count : worst_year);
     }
     return worst;
 }

@@ -3,7 +3,7 @@
 #define CEDUO_GOAL_H
 
 #include "base/text.h"
-#include "ceduo/result.h"
+#include "ceduo/years.h"
 
 /* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
  * value in ceduo_goal_reached(). */
@@ -40,6 +40,10 @@ double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *sim
 /* What an option reaches at its worst control, in the goal's unit; NaN where that is not known. */
 double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option);
 
+/* The same over years: of shares of the rocks the mean at the worst control, of the others the worst year. */
+bool ceduo_goal_is_mean(enum ceduo_goal goal);
+double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_flown *bare);
+
 enum ceduo_goal_reading { CEDUO_GOAL_GOOD, CEDUO_GOAL_UNKNOWN, CEDUO_GOAL_NO_NUMBER, CEDUO_GOAL_NEGATIVE, CEDUO_GOAL_NO_SHARE };
 
 /* Reads "energy=50": `*value` is NaN without a value. `text` is cut at the sign. */
@@ -53,6 +57,7 @@ struct ceduo_search {
     double target; /* in the goal's unit; NaN: the light's limit, and set to it */
     double lo, hi; /* in the file's units */
     uint64_t rocks;
+    bool rotation; /* over one whole rotation, not today: set where the parameter decides about the years alone */
 };
 
 #endif

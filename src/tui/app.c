@@ -112,11 +112,12 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
                                   .outlook = ceduo_figures_outlook(&app->figures, scene),
                                   .option = app->option,
                                   .belt = app->belt,
-                                  .control = ceduo_plot_last_control(scene),
+                                  .control = ceduo_scene_last_control(scene),
                                   .selected = app->way.line.n > 0 ? &app->way.line : NULL,
                                   .stems = stems > 0 ? app->way.stems : NULL,
                                   .stems_count = stems,
                                   .years = ceduo_figures_years(&app->figures, scene, app->option),
+                                  .verdict = app->figures.verdict.n > 0 ? &app->figures.verdict : NULL,
                                   .year = app->year};
 }
 
@@ -124,6 +125,7 @@ struct ceduo_report ceduo_app_report(const struct app *app)
 {
     return (struct ceduo_report){.file = &app->document.file,
                                  .result = app->figures.result,
+                                 .verdict = app->figures.verdict.n > 0 ? &app->figures.verdict : NULL,
                                  .remarks = {.ground_assumed = app->document.file.ground_assumed},
                                  .seconds = app->figures.seconds};
 }
@@ -175,7 +177,8 @@ void ceduo_app_follow_belt(struct app *app)
 bool ceduo_app_news(struct app *app)
 {
     bool failed, changed = ceduo_figures_news(&app->figures, &app->document.file.scene, &failed);
-    if (app->figures.years && app->year >= app->figures.years->count)
+    const struct ceduo_years *years = ceduo_figures_years(&app->figures, &app->document.file.scene, app->option);
+    if (years && app->year >= years->count)
         app->year = 0;
     if (failed)
         ceduo_app_warn(app, "%s", _("out of memory: the figures are not up to date"));
@@ -364,6 +367,14 @@ static int draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role
             ceduo_app_label(app, area.left, area.top + lines - skip, role, "%.*s", (int)n, text);
     }
     return lines;
+}
+
+int ceduo_app_text_lines(const char *text, int width)
+{
+    int n = 0;
+    for (const char *next; *text; text = next, n++)
+        ceduo_utf8_wrap(text, (size_t)width, &next);
+    return n;
 }
 
 bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top)

@@ -8,6 +8,8 @@
 
 #include "base/intl.h"
 
+#define HEIGHT_FOR_ALL 24 /* lines with room for everything and some warnings */
+
 struct pen {
     struct app *app;
     struct ceduo_area area;
@@ -59,12 +61,12 @@ static void figure(char *to, size_t size, double value)
     snprintf(to, size, isnan(value) ? "-" : "%.3g", value);
 }
 
-/* A line of the figures, those of the forest first: the column of the bare slope stands beside it. */
+/* A line of the figures, those of the forest first: the column without forest stands beside it. */
 static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, const char *wood, const char *bare)
 {
-    int column = pen->area.width >= 34 ? 15 : 8;
+    int column = pen->area.width >= 34 ? 15 : 7;
     int wider = strstr(wood, "\xc2\xb1") ? 1 : 0; /* a byte more than columns */
-    line(pen, role, "%-9s%*s %*s", name, column + wider, wood, 6, bare);
+    line(pen, role, "%-11s%*s%*s", name, column + wider, wood, 8, bare);
 }
 
 static void put_figures(struct pen *pen, const char *name, double wood, double bare)
@@ -75,66 +77,113 @@ static void put_figures(struct pen *pen, const char *name, double wood, double b
     put_pair(pen, CEDUO_ROLE_TEXT, name, a, b);
 }
 
+/* Rocks that end before the control. */
+static void put_missed(struct pen *pen, const char *name, enum ceduo_end end, const struct ceduo_arrivals *wood,
+                       const struct ceduo_arrivals *bare, bool always)
+{
+    char a[32] = "-", b[32];
+    if (!always && wood->ended[end] == 0 && bare->ended[end] == 0)
+        return;
+    if (wood->released > 0)
+        share(a, sizeof a, (double)wood->ended[end] / (double)wood->released, 0, 0, false);
+    share(b, sizeof b, (double)bare->ended[end] / (double)bare->released, 0, 0, false);
+    put_pair(pen, CEDUO_ROLE_TEXT, name, a, b);
+}
+
+/* Where all released end: on the way, or here. */
+static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+{
+    char a[32], b[32];
+    share(a, sizeof a, wood->reach_probability, wood->reach_lo, wood->reach_hi, pen->area.width >= 34);
+    share(b, sizeof b, bare->reach_probability, 0, 0, false);
+    put_pair(pen, CEDUO_ROLE_TEXT, _(" arrive"), a, b);
+    put_missed(pen, _(" stems stop"), CEDUO_STOPPED_BY_STEMS, wood, bare, true);
+    put_missed(pen, _(" at rest"), CEDUO_AT_REST, wood, bare, true);
+    put_missed(pen, _(" left"), CEDUO_LEFT_SLOPE, wood, bare, false);
+    put_missed(pen, _(" unfinished"), CEDUO_UNFINISHED, wood, bare, false);
+}
+
 /* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). */
 static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
                          const struct ceduo_arrivals *bare)
 {
-    bool wide = pen->area.width >= 34;
     const struct ceduo_distribution none = ceduo_distribution_none();
-    const struct ceduo_arrivals nothing = {.reach_probability = NAN, .exceed_probability = NAN, .energy = none,
-                                           .height = none};
+    const struct ceduo_arrivals nothing = {
+        .reach_probability = NAN, .exceed_probability = NAN, .energy_per_released = NAN, .energy = none, .height = none};
     wood = wood ? wood : &nothing;
     char a[32], b[32], limit[32];
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
-    put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("wood"), _("bare"));
-    share(a, sizeof a, wood->reach_probability, wood->reach_lo, wood->reach_hi, wide);
-    share(b, sizeof b, bare->reach_probability, 0, 0, false);
-    put_pair(pen, CEDUO_ROLE_TEXT, _(" arrive"), a, b);
+    put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
+    put_released(pen, wood, bare);
     if (!isnan(c->accepted)) {
-        share(a, sizeof a, wood->exceed_probability, wood->exceed_lo, wood->exceed_hi, wide);
+        share(a, sizeof a, wood->exceed_probability, wood->exceed_lo, wood->exceed_hi, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
         snprintf(limit, sizeof limit, _(" >%.4g kJ"), c->accepted * KILO);
         put_pair(pen, CEDUO_ROLE_TEXT, limit, a, b);
     }
-    put_figures(pen, _(" kJ mean"), wood->energy.mean * KILO, bare->energy.mean * KILO);
-    put_figures(pen, _(" kJ 95 %"), wood->energy.p95 * KILO, bare->energy.p95 * KILO);
-    put_figures(pen, _(" m  95 %"), wood->height.p95, bare->height.p95);
+    put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
+    put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
+    put_figures(pen, _("  95 % kJ"), wood->energy.p95 * KILO, bare->energy.p95 * KILO);
+    if (pen->area.height >= HEIGHT_FOR_ALL)
+        put_figures(pen, _("  95 % m"), wood->height.p95, bare->height.p95);
 }
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
 {
-    line(pen, ceduo_plot_light_role(light), "%s %-8s %s %s", ceduo_plot_light_mark(light), name,
+    line(pen, ceduo_plot_light_role(light), "%s %-9s%s %s", ceduo_plot_light_mark(light), name,
          ceduo_words_verdict(light), what);
+}
+
+static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold, bool forest)
+{
+    char what[64];
+    if (isinf(adc))
+        snprintf(what, sizeof what, "%s", forest ? _("no stems") : _("no forest"));
+    else
+        snprintf(what, sizeof what, pen->area.width >= 30 ? "%.3g m (<%g)" : "%.3g m", adc, threshold);
+    put_light(pen, name, what, light);
+}
+
+static void put_free_run(struct pen *pen, const char *name, double free_run, enum ceduo_light light)
+{
+    char what[64];
+    snprintf(what, sizeof what, pen->area.width >= 30 ? "%.1f %% (\xe2\x89\xa4" "10)" : "%.1f %%", free_run * 100);
+    put_light(pen, name, what, light);
+}
+
+/* Where thin shoots alone decide: the same of stems from 8 cm on; in few columns in one line. */
+static void put_thick(struct pen *pen, const struct ceduo_index *index, double threshold)
+{
+    const struct ceduo_meeting *thick = &index->thick;
+    bool contact = thick->contact != index->contact, free_run = thick->free_run != index->free_run;
+    if (contact && pen->area.width >= 30)
+        put_contact(pen, _(" \xe2\x89\xa5" "8 cm"), thick->worst_adc, thick->contact, threshold, index->length > 0);
+    if (free_run && pen->area.width >= 30)
+        put_free_run(pen, _(" \xe2\x89\xa5" "8 cm"), thick->worst_free_run, thick->free_run);
+    if ((contact || free_run) && pen->area.width < 30)
+        line(pen, CEDUO_ROLE_BAD, "%s %s", ceduo_plot_light_mark(CEDUO_FAIL),
+             contact && free_run ? _("\xe2\x89\xa5" "8 cm alone: both FAIL")
+             : contact           ? _("\xe2\x89\xa5" "8 cm: contact FAILS")
+                                 : _("\xe2\x89\xa5" "8 cm: free run FAILS"));
 }
 
 static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood,
                        double threshold)
 {
-    char what[64];
+    char what[64] = "";
     bool wide = pen->area.width >= 30;
-    if (index->length > 0 && index->longest_gap > threshold) /* the reason in the page, too */
+    if (index->length > 0 && index->longest_gap > threshold) { /* the reason in the page, too */
         snprintf(what, sizeof what, wide ? _("gap %.3g m (>%g)") : _("gap %.3g m"), index->longest_gap, threshold);
-    else if (isinf(index->worst_adc))
-        snprintf(what, sizeof what, "%s", _("no forest"));
-    else
-        snprintf(what, sizeof what, wide ? "%.3g m (<%g)" : "%.3g m", index->worst_adc, threshold);
-    put_light(pen, _("Contact"), what, index->contact);
-    snprintf(what, sizeof what, wide ? "%.1f %% (\xe2\x89\xa4" "10)" : "%.1f %%", index->worst_free_run * 100);
-    put_light(pen, _("Free run"), what, index->free_run);
+        put_light(pen, _("Contact"), what, index->contact);
+    } else {
+        put_contact(pen, _("Contact"), index->worst_adc, index->contact, threshold, index->length > 0);
+    }
+    put_free_run(pen, _("Free run"), index->worst_free_run, index->free_run);
+    put_thick(pen, index, threshold);
     what[0] = '\0';
     if (index->energy != CEDUO_UNKNOWN && wood)
         snprintf(what, sizeof what, wide ? "%.1f %% (\xe2\x89\xa4" "5)" : "%.1f %%", wood->exceed_probability * 100);
     put_light(pen, _("Energy"), what, index->energy);
-}
-
-/* How the rocks end in the forest. */
-static void put_ends(struct pen *pen, const struct ceduo_flown *f)
-{
-    double n = (double)f->rocks;
-    if (f->rocks == 0)
-        return;
-    line(pen, CEDUO_ROLE_TEXT, _("stopped by stems %3.0f"), (double)f->ends.count[CEDUO_STOPPED_BY_STEMS] / n * 1000);
-    line(pen, CEDUO_ROLE_TEXT, _("at rest          %3.0f"), (double)f->ends.count[CEDUO_AT_REST] / n * 1000);
 }
 
 static void put_index(struct pen *pen, const struct ceduo_index *index)
@@ -174,12 +223,34 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
 {
     struct app *app = pen->app;
     struct text text = {0};
-    ceduo_text_format(&text, "%s ", app->figures.busy ? "\xe2\x80\xa6" : "=");
-    if (a->reached > 0)
-        ceduo_text_format(&text, "\xc2\xb1%.2g %% ", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
-    ceduo_text_format(&text, _("%llu rocks"), (unsigned long long)a->released);
+    ceduo_text_format(&text, app->figures.busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+                      (unsigned long long)a->released);
+    if (a->reached > 0 && pen->area.width >= 34)
+        ceduo_text_format(&text, ", \xc2\xb1%.2g %%", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
     line(pen, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&text));
     ceduo_text_free(&text);
+}
+
+/* The forest that the column is of: of view 6 in the year under its cursor, otherwise as it is today. */
+struct forest {
+    const struct ceduo_year *year; /* NULL: today */
+    const struct ceduo_index *index;
+    const struct ceduo_arrivals *wood; /* NULL: not known, or never */
+};
+
+static struct forest forest_shown(const struct app *app)
+{
+    const struct ceduo_result *r = app->figures.result;
+    size_t c = r->last_control;
+    struct forest f = {.index = &ceduo_app_found(app)->controls[c], .wood = ceduo_result_wooded(r, app->option, c)};
+    const struct ceduo_years *years =
+        app->view == VIEW_ROTATION ? ceduo_figures_years(&app->figures, r->scene, app->option) : NULL;
+    if (!years || app->year >= years->count)
+        return f;
+    f.year = &years->years[app->year];
+    f.index = &f.year->controls[c];
+    f.wood = f.year->wooded.rocks > 0 ? &f.year->wooded.arrivals[c] : NULL;
+    return f;
 }
 
 void ceduo_column_draw(struct app *app, struct ceduo_area area)
@@ -192,13 +263,12 @@ void ceduo_column_draw(struct app *app, struct ceduo_area area)
     }
     const struct ceduo_result *r = app->figures.result;
     size_t c = r->last_control;
-    const struct ceduo_option_result *found = ceduo_app_found(app);
-    const struct ceduo_arrivals *wood = ceduo_result_wooded(r, app->option, c), *bare = &r->bare.arrivals[c];
-    put_arrivals(&pen, &r->scene->controls[c], wood, bare);
-    put_lights(&pen, &found->controls[c], wood, r->scene->simulation.threshold);
-    if (wood)
-        put_ends(&pen, &found->wooded);
-    put_index(&pen, &found->controls[c]);
-    put_mark(&pen, ceduo_app_shown(app));
+    const struct forest f = forest_shown(app);
+    if (f.year)
+        line(&pen, CEDUO_ROLE_TITLE, f.year->cut ? _("Year %u, just cut") : _("Year %u"), f.year->year);
+    put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c]);
+    put_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);
+    put_mark(&pen, f.wood ? f.wood : ceduo_app_shown(app));
+    put_index(&pen, f.index);
     put_warnings(&pen);
 }

@@ -15,7 +15,8 @@ void ceduo_figures_free(struct figures *f)
     ceduo_jobs_free(f->jobs);
     ceduo_result_free(f->result);
     ceduo_outlook_free(f->outlook);
-    ceduo_years_free(f->years);
+    ceduo_jobs_free_years(f->years, f->years_count);
+    ceduo_verdict_release(&f->verdict);
     ceduo_sought_free(f->sought);
     *f = (struct figures){0};
 }
@@ -35,14 +36,10 @@ const struct ceduo_outlook *ceduo_figures_outlook(const struct figures *f, const
     return f->outlook && f->outlook->controls == scene->controls_count ? f->outlook : NULL;
 }
 
-static bool years_fit(const struct figures *f, const struct ceduo_scene *scene)
+struct ceduo_years *ceduo_figures_years(const struct figures *f, const struct ceduo_scene *scene, size_t option)
 {
-    return f->years && f->years->scene.controls_count == scene->controls_count;
-}
-
-const struct ceduo_years *ceduo_figures_years(const struct figures *f, const struct ceduo_scene *scene, size_t option)
-{
-    return years_fit(f, scene) && f->years_option == option ? f->years : NULL;
+    struct ceduo_years *years = option < f->years_count ? f->years[option] : NULL;
+    return years && years->scene.controls_count == scene->controls_count ? years : NULL;
 }
 
 /* Assesses the scene by what was flown through the forests of each option. */
@@ -67,6 +64,20 @@ static void assess(struct figures *f, const struct ceduo_scene *scene, const str
     free(wooded);
 }
 
+/* Judges by the years of the scene as it is now: those of an earlier one do not count. */
+static void judge(struct figures *f, const struct ceduo_scene *scene)
+{
+    ceduo_verdict_release(&f->verdict);
+    struct ceduo_years **fit = calloc(scene->options_count + 1, sizeof *fit);
+    for (size_t i = 0; fit && i < scene->options_count; i++) {
+        struct ceduo_years *years = ceduo_figures_years(f, scene, i);
+        fit[i] = years && years->key == ceduo_flights_years_key(scene, i) ? years : NULL;
+    }
+    if (!fit || ceduo_verdict_make(f->result, fit, &f->verdict) != CEDUO_OK)
+        f->verdict = (struct ceduo_verdict){0};
+    free(fit);
+}
+
 static void refresh(struct figures *f, const struct ceduo_scene *scene)
 {
     const struct ceduo_outlook *o = ceduo_figures_outlook(f, scene);
@@ -75,8 +86,30 @@ static void refresh(struct figures *f, const struct ceduo_scene *scene)
     if (!o || !o->bare)
         return;
     assess(f, scene, o);
-    if (years_fit(f, scene))
-        ceduo_years_assess(f->years, scene, &o->bare->flown);
+    for (size_t i = 0; i < scene->options_count; i++) {
+        struct ceduo_years *years = ceduo_figures_years(f, scene, i);
+        if (years)
+            ceduo_years_assess(years, scene, &o->bare->flown);
+    }
+    if (f->result)
+        judge(f, scene);
+}
+
+/* Takes what is new; the years of other options stay. */
+static void take_years(struct figures *f, struct jobs_news *news)
+{
+    if (f->years_count != news->years_count) {
+        ceduo_jobs_free_years(f->years, f->years_count);
+        f->years = news->years;
+        f->years_count = news->years_count;
+        return;
+    }
+    for (size_t i = 0; i < news->years_count; i++)
+        if (news->years[i]) {
+            ceduo_years_free(f->years[i]);
+            f->years[i] = news->years[i];
+        }
+    free(news->years);
 }
 
 void ceduo_figures_follow(struct figures *f, const struct ceduo_scene *scene, size_t option, bool years)
@@ -98,11 +131,12 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
         f->shown = news.key;
         f->seconds = news.seconds;
     }
-    if (news.years) {
-        ceduo_years_free(f->years);
-        f->years = news.years;
-        f->years_option = news.years_option;
-    }
+    f->done = news.done;
+    f->all = news.all;
+    f->rocks = news.rocks;
+    bool years = news.years != NULL;
+    if (years)
+        take_years(f, &news);
     if (news.foresaw) {
         f->foresaw = true;
         f->foreseen = news.foreseen;
@@ -111,7 +145,7 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
         ceduo_sought_free(f->sought);
         f->sought = news.sought;
     }
-    if (news.outlook || news.years)
+    if (news.outlook || years)
         refresh(f, scene);
     return changed;
 }

@@ -3,7 +3,7 @@
 #define CEDUO_FIGURES_H
 
 #include "model/jobs.h"
-#include "ceduo/result.h"
+#include "study/verdict.h"
 
 /* The figures of the scene. After an edit they are assessed again at once; runs are asked for only where the edit changes
  * what the rocks meet. */
@@ -11,8 +11,11 @@ struct figures {
     struct jobs *jobs;
     struct ceduo_outlook *outlook; /* newest; NULL before the first */
     struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
-    struct ceduo_years *years;     /* to come, of option `years_option`; NULL: not computed */
-    size_t years_option;
+    struct ceduo_years **years;    /* newest of each option, NULL: not computed */
+    size_t years_count;            /* options that there is room for */
+    struct ceduo_verdict verdict;  /* of the result and of the years that fit the scene; n 0: none */
+    size_t done, all;              /* of the step under way in the years: options; all 0: none */
+    uint64_t rocks;                /* of that step */
     bool foresaw;              /* what a change would do is known, until somebody takes it: */
     struct foreseen foreseen;
     struct sought *sought;         /* what a search came to, until it is taken; NULL: nothing new */
@@ -37,7 +40,6 @@ bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene
 
 /* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
 const struct ceduo_outlook *ceduo_figures_outlook(const struct figures *figures, const struct ceduo_scene *scene);
-const struct ceduo_years *ceduo_figures_years(const struct figures *figures, const struct ceduo_scene *scene,
-                                              size_t option);
+struct ceduo_years *ceduo_figures_years(const struct figures *figures, const struct ceduo_scene *scene, size_t option);
 
 #endif

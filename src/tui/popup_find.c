@@ -186,6 +186,15 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
         ceduo_text_put(text, _("; not monotone: there may be other values"));
 }
 
+/* What a rotation was looked at for: its yield beside the answer. */
+static void put_yield(const struct ceduo_search *s, const struct ceduo_yield *yield, struct text *text)
+{
+    if (s->rotation)
+        ceduo_text_put(text, _("; over one whole rotation"));
+    if (s->rotation && !isnan(yield->cut_per_year))
+        ceduo_text_format(text, _(", yielding %.3g m\xc2\xb3 per ha and year"), yield->cut_per_year);
+}
+
 /* Puts the value that was found into the field, and says it. */
 static bool take(struct app *app, struct popup *p, struct sought *sought)
 {
@@ -196,9 +205,11 @@ static bool take(struct app *app, struct popup *p, struct sought *sought)
     if (sought->status != CEDUO_OK || !read_fields(app, p, &seek))
         return ceduo_app_edited(app, false);
     seek.search.target = sought->target;
+    seek.search.rotation = sought->rotation;
     struct text words = {0};
     bool set = true;
     put_words(app, p, &seek.search, found, &words);
+    put_yield(&seek.search, &sought->yield, &words);
     if (found->found && !found->whole_range) {
         char room[CEDUO_NUMBER_ROOM];
         set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 5: the silvicultural options side by side. */
+/* View 5: the silvicultural options side by side, today and over one whole rotation of each. View 6 shows the same options
+ * year by year. */
 #include <math.h>
 #include <stdio.h>
 
@@ -7,7 +8,6 @@
 #include "io/emit.h"
 #include "popup.h"
 #include "popups.h"
-#include "study/compare.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -20,200 +20,308 @@ static void build(struct app *app, struct form *form)
     form->row = app->option + 1; /* below the names of the columns */
 }
 
-#define FIGURES 43 /* columns of the figures and the lights */
+/* ---- the table ---- */
 
-/* What is compared; by the index what the stems take and what is left, otherwise what comes through the forest. */
-enum column { ADC, FREE_RUN, TAKEN, LEFT, INDEX_COLUMNS, SHARE = TAKEN, DIFFERENCE = LEFT };
-#define COLUMNS INDEX_COLUMNS
+/* Columns behind the names, as they stand from left to right. */
+enum column { TODAY, WORST, MEAN, MARK, FAILS, YIELD, LIGHTS, COLUMNS };
+static const int widths[COLUMNS] = {
+    [TODAY] = 8, [WORST] = 11, [MEAN] = 9, [MARK] = 6, [FAILS] = 7, [YIELD] = 8, [LIGHTS] = 5};
 
-static bool wooded(const struct app *app)
+#define NAME_LEAST  22 /* columns that tell the names of most options apart */
+#define SPARK_LEAST 12
+#define SPARK_MOST  60
+
+/* How the table fits its place: names beside the figures or above them, and which columns have room. */
+struct layout {
+    int lines;  /* that an option takes */
+    int name;   /* columns of a name */
+    int left;   /* where the first figure stands */
+    int spark;  /* columns of the years at a glance; 0: none */
+    int spark_left;
+    bool has[COLUMNS];
+};
+
+static int width_of(const struct layout *l)
 {
-    return app->figures.result->wooded;
+    int width = 0;
+    for (int c = 0; c < COLUMNS; c++)
+        width += l->has[c] ? widths[c] : 0;
+    return width;
 }
 
-static double share_of(const struct app *app, size_t i)
-{
-    double half;
-    return 1000 * ceduo_compare_share(app->figures.result, i, &half);
-}
+/* What goes first where there is little room. */
+static const enum column dispensable[] = {LIGHTS, YIELD, WORST, MARK, FAILS};
 
-static double difference_of(const struct app *app, size_t i, double *half)
+static struct layout lay_out(const struct app *app, struct ceduo_area area)
 {
-    double difference = 1000 * ceduo_compare_difference(app->figures.result, i, half);
-    *half *= 1000;
-    return difference;
-}
-
-static double figure(const struct app *app, size_t i, enum column column)
-{
-    const struct ceduo_result *r = app->figures.result;
-    const struct ceduo_index *s = ceduo_result_last_index(r, i);
-    double half;
-    switch (column) {
-    case ADC:
-        return s->worst_adc;
-    case FREE_RUN:
-        return s->worst_free_run;
-    case TAKEN:
-        return wooded(app) ? share_of(app, i) : s->per_100m * KILO;
-    default:
-        return wooded(app) ? difference_of(app, i, &half) : s->residual * KILO;
+    struct layout l = {.lines = 1};
+    const struct ceduo_verdict *v = &app->figures.verdict;
+    for (int c = 0; c < COLUMNS; c++)
+        l.has[c] = true;
+    int all = width_of(&l), rest = area.width - all;
+    bool two_fit = 2 * (int)v->n + 8 <= area.height;
+    if (rest < NAME_LEAST + SPARK_LEAST + 4 && two_fit)
+        l.lines = 2;
+    for (size_t k = 0; k < sizeof dispensable / sizeof dispensable[0]; k++)
+        if (area.width - width_of(&l) < (l.lines == 2 ? 0 : NAME_LEAST))
+            l.has[dispensable[k]] = false;
+    rest = area.width - width_of(&l);
+    l.left = area.left + (l.lines == 2 ? 0 : rest);
+    if (l.lines == 2) {
+        l.name = area.width * 3 / 5 < 34 ? area.width - 29 : 34;
+        l.spark = area.width - l.name - 1 > SPARK_MOST ? SPARK_MOST : area.width - l.name - 1;
+        l.spark_left = area.left + l.name + 1;
+    } else if (rest >= NAME_LEAST + SPARK_LEAST + 4) {
+        l.name = (rest - 2) / 2 > 34 ? 34 : (rest - 2) / 2;
+        l.spark = rest - l.name - 2 > SPARK_MOST ? SPARK_MOST : rest - l.name - 2;
+        l.spark_left = area.left + l.name + 1;
+    } else {
+        l.name = rest - 1;
     }
+    return l;
 }
 
-/* '*' for the best of a column, '!' for the worst. Figures of the stand itself have no error: where they differ, they
- * differ. Shares of rocks differ where they are more than two standard errors apart. */
-static char mark_of(const struct app *app, size_t i, enum column column)
-{
-    size_t n = app->figures.result->options_count, best = i, worst = i;
-    if (isnan(figure(app, i, column)) || (wooded(app) && column == DIFFERENCE))
-        return ' ';
-    bool more_is_better = column == TAKEN && !wooded(app);
-    for (size_t k = 0; k < n; k++) {
-        double value = figure(app, k, column);
-        if (isnan(value))
-            return ' ';
-        if (more_is_better ? value > figure(app, best, column) : value < figure(app, best, column))
-            best = k;
-        if (more_is_better ? value < figure(app, worst, column) : value > figure(app, worst, column))
-            worst = k;
-    }
-    double lowest = figure(app, best, column), highest = figure(app, worst, column), here = figure(app, i, column);
-    bool apart = wooded(app) && column == SHARE ? ceduo_compare_worse(app->figures.result, worst, best) : lowest != highest;
-    return !apart ? ' ' : here == lowest ? '*' : here == highest ? '!' : ' ';
-}
-
-/* Columns of the names, and lines that an option takes: where there is no room beside the figures, its name stands above
- * them. */
-static int name_columns(struct ceduo_area area)
-{
-    if (area.width < FIGURES + 8)
-        return 2;
-    return area.width - FIGURES >= 20 ? area.width - FIGURES : 8;
-}
-
-/* In a very narrow window two of the figures have to do. */
-static bool has_room(struct ceduo_area area, int column)
-{
-    return area.width >= FIGURES + 2 || column == ADC || column == LEFT;
-}
-
-static int lines_of(struct ceduo_area area)
-{
-    return area.width - FIGURES >= 20 ? 1 : 2;
-}
-
-static void draw_name(struct app *app, struct ceduo_area area, int y, size_t i)
+/* A name that is too long loses its middle: names often differ at their ends. */
+static void draw_name(struct app *app, int left, int y, int width, size_t i)
 {
     enum ceduo_role role = i == app->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT;
-    int width = lines_of(area) == 1 ? name_columns(area) - 1 : area.width;
     struct text safe = {0};
     ceduo_text_safe(&safe, app->figures.result->scene->options[i].name);
+    const char *name = ceduo_text_string(&safe);
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
-        ceduo_cells_label(app->cells, area.left + x, y, role, " ");
-    ceduo_canvas_put(&app->cells->canvas, area.left, y, width, role, ceduo_text_string(&safe));
+        ceduo_cells_label(app->cells, left + x, y, role, " ");
+    ceduo_canvas_put(&app->cells->canvas, left, y, width, role, name);
+    int end = width * 2 / 5;
+    if (ceduo_cells_label_width(app->charset, name) > width && end > 2) {
+        ceduo_canvas_put(&app->cells->canvas, left, y, width - end, role, name);
+        ceduo_cells_put_end(app->cells, left + width - end, y, end, role, name);
+    }
     ceduo_text_free(&safe);
+}
+
+static void put_share(struct text *text, struct ceduo_portion share)
+{
+    if (isnan(share.mean))
+        ceduo_text_put(text, "\xe2\x80\xa6");
+    else if (isnan(share.half))
+        ceduo_text_format(text, "%.0f", share.mean * 1000);
+    else
+        ceduo_text_format(text, "%.0f\xc2\xb1%.0f", share.mean * 1000, ceil(share.half * 1000));
+}
+
+static void put_worst(struct text *text, const struct ceduo_choice *c, bool wooded)
+{
+    if (c->years == 0)
+        ceduo_text_put(text, "\xe2\x80\xa6");
+    else if (wooded)
+        ceduo_text_format(text, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
+    else
+        ceduo_words_number(text, c->worst.mean, 3);
+}
+
+static void put_figure(struct text *text, const struct app *app, size_t i, enum column column)
+{
+    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_choice *c = &v->choices[i];
+    const struct ceduo_index *index = ceduo_result_last_index(app->figures.result, i);
+    switch (column) {
+    case TODAY:
+        if (v->wooded)
+            put_share(text, c->today);
+        else
+            ceduo_words_number(text, index->worst_adc, 3);
+        break;
+    case WORST:
+        put_worst(text, c, v->wooded);
+        break;
+    case MEAN:
+        if (v->wooded)
+            put_share(text, c->mean);
+        else
+            ceduo_words_number(text, index->per_100m * KILO, 3);
+        break;
+    case FAILS:
+        if (c->years == 0)
+            ceduo_text_put(text, "\xe2\x80\xa6");
+        else if (!v->wooded || c->energy_known)
+            ceduo_text_format(text, "%zu/%zu", v->wooded ? c->too_much : c->no_contact, c->years);
+        else
+            ceduo_text_char(text, '-');
+        break;
+    default:
+        ceduo_words_number(text, c->yield.cut_per_year, 2);
+    }
+}
+
+/* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all. */
+static const char *mark_of(const struct ceduo_verdict *v, size_t i)
+{
+    if (!v->rotation.known || v->rotation.rivals + 1 == v->n)
+        return "";
+    if (i == v->rotation.best)
+        return v->rotation.rivals == 0 ? _("best") : "";
+    for (size_t k = 0; k < v->n; k++)
+        if (k != i && v->choices[k].mean.mean + v->choices[k].mean.half >= v->choices[i].mean.mean - v->choices[i].mean.half)
+            return "";
+    return _("worst");
+}
+
+static void draw_lights(struct app *app, int x, int y, size_t i)
+{
+    const struct ceduo_index *s = ceduo_result_last_index(app->figures.result, i);
+    const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
+    for (int k = 0; k < 3; k++)
+        ceduo_cells_label(app->cells, x + k, y, ceduo_plot_light_role(lights[k]), ceduo_plot_light_mark(lights[k]));
 }
 
 static void draw_figure(struct app *app, int x, int y, size_t i, enum column column)
 {
-    const struct ceduo_result *r = app->figures.result;
+    const char *mark = mark_of(&app->figures.verdict, i);
+    if (column == LIGHTS) {
+        draw_lights(app, x + 2, y, i);
+        return;
+    }
+    if (column == MARK) {
+        ceduo_cells_label(app->cells, x + 1, y, i == app->figures.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
+                          mark);
+        return;
+    }
     struct text text = {0};
-    double half, value = figure(app, i, column);
-    if (column == FREE_RUN)
-        ceduo_text_format(&text, "%.1f %%", value * 100);
-    else if (wooded(app) && column == SHARE)
-        ceduo_text_format(&text, isnan(value) ? "\xe2\x80\xa6" : "%.0f", value);
-    else if (wooded(app) && column == DIFFERENCE && i == 0)
-        ceduo_text_put(&text, _("first"));
-    else if (wooded(app) && column == DIFFERENCE && !isnan(difference_of(app, i, &half)))
-        ceduo_text_format(&text, "%+.0f\xc2\xb1%.0f", value, ceil(half));
-    else if (wooded(app) && column == DIFFERENCE)
-        ceduo_text_put(&text, "\xe2\x80\xa6");
-    else if (column == LEFT && ceduo_result_last_index(r, i)->exhausted)
-        ceduo_text_put(&text, _("used up"));
-    else
-        ceduo_words_number(&text, value, 3);
-    if (text.bytes)
-        ceduo_canvas_label_right(&app->cells->canvas, x + 7, y, CEDUO_ROLE_TEXT, text.bytes);
-    char mark[2] = {mark_of(app, i, column), '\0'};
-    ceduo_cells_label(app->cells, x + 8, y, mark[0] == '!' ? CEDUO_ROLE_BAD : CEDUO_ROLE_GOOD, mark);
+    put_figure(&text, app, i, column);
+    ceduo_canvas_label_right(&app->cells->canvas, x + widths[column] - 1, y, CEDUO_ROLE_TEXT, ceduo_text_string(&text));
     ceduo_text_free(&text);
 }
 
-static void draw_row(struct app *app, struct ceduo_area area, int y, size_t i)
+/* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
+static void draw_spark(struct app *app, const struct layout *l, int y, size_t i)
 {
-    const struct ceduo_index *s = ceduo_result_last_index(app->figures.result, i);
-    draw_name(app, area, y, i);
-    y += lines_of(area) - 1;
-    int x = area.left + name_columns(area);
-    for (int c = 0; c < COLUMNS; c++)
-        if (has_room(area, c)) {
-            draw_figure(app, x, y, i, (enum column)c);
-            x += 9;
-        }
-    const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
-    for (int k = 0; k < 3; k++)
-        ceduo_cells_label(app->cells, x + 1 + k, y, ceduo_plot_light_role(lights[k]), ceduo_plot_light_mark(lights[k]));
-}
-
-static void draw_head(struct app *app, struct ceduo_area area)
-{
-    static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("free run"), N_("kJ/100m"), N_("left kJ")};
-    static const char *const simulated[COLUMNS] = {N_("ADC m"), N_("free run"), N_("too much"), N_("to first")};
-    static const char *const arriving[COLUMNS] = {N_("ADC m"), N_("free run"), N_("arrive"), N_("to first")};
-    const struct ceduo_result *r = app->figures.result;
-    const char *const *words = !wooded(app)                                           ? by_index
-                               : isnan(r->scene->controls[r->last_control].accepted) ? arriving
-                                                                                      : simulated;
-    int x = area.left + name_columns(area);
-    if (lines_of(area) == 1 || area.width >= FIGURES + 8)
-        ceduo_canvas_put(&app->cells->canvas, area.left, area.top, name_columns(area), CEDUO_ROLE_TITLE, _("option"));
-    for (int c = 0; c < COLUMNS; c++)
-        if (has_room(area, c)) {
-            ceduo_canvas_label_right(&app->cells->canvas, x + 7, area.top, CEDUO_ROLE_TITLE, _(words[c]));
-            x += 9;
-        }
-    ceduo_cells_label(app->cells, x + 1, area.top, CEDUO_ROLE_TITLE, "CFE");
-}
-
-static void put_foot(const struct app *app, size_t options, struct text *words)
-{
-    const struct ceduo_result *r = app->figures.result;
-    if (options < 2) {
-        ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
+    static const char *const levels[2][9] = {
+        {" ", "\xe2\x96\x81", "\xe2\x96\x82", "\xe2\x96\x83", "\xe2\x96\x84", "\xe2\x96\x85", "\xe2\x96\x86",
+         "\xe2\x96\x87", "\xe2\x96\x88"},
+        {"0", "1", "2", "3", "4", "5", "6", "7", "8"}};
+    const struct ceduo_years *years = ceduo_figures_years(&app->figures, app->figures.result->scene, i);
+    if (!years || l->spark == 0 || !app->figures.verdict.wooded)
         return;
+    int n = (int)years->count, columns = n < l->spark ? n : l->spark;
+    for (int x = 0; x < columns; x++) {
+        double most = 0;
+        for (int k = x * n / columns; k < (x + 1) * n / columns; k++)
+            if (years->years[k].wooded.rocks > 0)
+                most = fmax(most, ceduo_share_of(&years->years[k].wooded.arrivals[years->last_control]));
+        int level = (int)fmin(8, ceil(most * 8));
+        ceduo_cells_label(app->cells, l->spark_left + x, y, CEDUO_ROLE_MEAN,
+                          levels[app->charset == CEDUO_CHARSET_ASCII][level]);
     }
-    ceduo_text_put(words, _("* best, ! worst; C contact, F free run, E energy. "));
-    size_t before = words->length;
-    ceduo_words_best(words, r);
-    if (words->length > before)
-        ceduo_text_char(words, ' ');
-    double accepted = r->scene->controls_count > 0 ? r->scene->controls[r->last_control].accepted * KILO : NAN;
-    if (r->wooded && !isnan(accepted))
-        ceduo_text_format(words, _("Too much: of 1000 released, through the wood, with more than %g kJ; \xc2\xb1 95 %%. "),
-                          accepted);
-    else if (!r->wooded)
-        ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
-                                "not what a rock loses. "));
-    ceduo_text_put(words, _("a adds from a preset, y copies, Enter "
-                            "renames, d deletes, < > reorder, p and 2 its stand."));
 }
+
+static void draw_row(struct app *app, const struct layout *l, struct ceduo_area area, int y, size_t i)
+{
+    draw_name(app, area.left, y, l->name, i);
+    draw_spark(app, l, y, i);
+    int x = l->left;
+    for (int c = 0; c < COLUMNS; c++)
+        if (l->has[c]) {
+            draw_figure(app, x, y + l->lines - 1, i, (enum column)c);
+            x += widths[c];
+        }
+}
+
+static void draw_head(struct app *app, const struct layout *l, struct ceduo_area area)
+{
+    static const char *const simulated[COLUMNS] = {N_("today"),        N_("worst year"), N_("rotation"), "",
+                                                   N_("fail"), N_("m\xc2\xb3/ha y"),  N_("CFE")};
+    static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("worst"),       N_("kJ/100m"), "",
+                                                  N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE")};
+    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_control *control = &r->scene->controls[r->last_control];
+    struct text text = {0};
+    if (r->scene->controls_count > 0) {
+        ceduo_text_format(&text, _("At %.6g m"), control->x_given);
+        if (control->name)
+            ceduo_text_format(&text, " (%s)", control->name);
+        if (r->wooded && !isnan(control->accepted))
+            ceduo_text_format(&text, _(", of 1000 rocks with more than %g kJ:"), control->accepted * KILO);
+        else if (r->wooded)
+            ceduo_text_put(&text, _(", of 1000 rocks that arrive:"));
+    }
+    struct ceduo_area line = {area.left, area.top, area.width, 1};
+    ceduo_app_put(app, line, CEDUO_ROLE_TITLE, &text);
+    int x = l->left;
+    for (int c = 0; c < COLUMNS; c++)
+        if (l->has[c]) {
+            const char *head = _((r->wooded ? simulated : by_index)[c]);
+            ceduo_canvas_label_right(&app->cells->canvas, x + widths[c] - 1, area.top + 1, CEDUO_ROLE_TITLE,
+                                     head);
+            x += widths[c];
+        }
+}
+
+/* ---- what it says ---- */
+
+static void add_sentence(void *context, const char *sentence)
+{
+    ceduo_text_format(context, "%s\n", sentence);
+}
+
+static void say_progress(const struct app *app, struct text *words)
+{
+    const struct figures *f = &app->figures;
+    if (f->busy && f->all > 0 && f->done < f->all)
+        ceduo_text_format(words, _("Computing: %llu rocks in each year, %zu of %zu options done.\n"),
+                          (unsigned long long)f->rocks, f->done, f->all);
+    else if (f->busy)
+        ceduo_text_put(words, _("Computing: the figures become finer.\n"));
+}
+
+static void say_verdict(struct app *app, struct text *words)
+{
+    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_verdict *v = &app->figures.verdict;
+    if (v->n < 2) {
+        ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one.\n"));
+    } else {
+        ceduo_words_best(words, r->scene, v);
+        if (words->length > 0)
+            ceduo_text_char(words, '\n');
+        if (!v->rotation.known && v->wooded)
+            ceduo_text_put(words, _("The years of the rotation are being computed.\n"));
+    }
+    ceduo_words_windows(r->scene, v, add_sentence, words);
+    if (v->wooded && !v->accepted)
+        ceduo_text_put(words, _("What the place withstands is not given (view 3): energy is not judged.\n"));
+    if (!r->wooded)
+        ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
+                                "not what a rock loses.\n"));
+    say_progress(app, words);
+    if (v->n > 1 && r->wooded && v->accepted)
+        ceduo_text_format(words, _("fail: years in which more than %.0f of 1000 bring too much."),
+                          CEDUO_EXCEED_MOST * 1000);
+}
+
+#define PICTURE_LEAST 11 /* lines of the picture of protection against yield */
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    size_t n = app->figures.result->options_count;
-    draw_head(app, area);
-    int lines = lines_of(area), foot_lines = area.height >= 26 ? 6 : area.height - 1 - lines * (int)n;
-    foot_lines = foot_lines < 2 ? 2 : foot_lines > 6 ? 6 : foot_lines;
-    int room = (area.height - 1 - foot_lines) / lines;
-    int top = (int)app->option >= room ? (int)app->option - room + 1 : 0;
-    for (int i = 0; i < room && (size_t)(top + i) < n; i++)
-        draw_row(app, area, area.top + 1 + lines * i, (size_t)(top + i));
-    struct ceduo_area foot = {area.left, area.top + area.height - foot_lines, area.width, foot_lines};
+    size_t n = app->figures.verdict.n;
+    struct layout l = lay_out(app, area);
     struct text words = {0};
-    put_foot(app, n, &words);
-    ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &words);
+    say_verdict(app, &words);
+    int said = ceduo_app_text_lines(ceduo_text_string(&words), area.width), least = said < area.height / 3 ? said : area.height / 3;
+    draw_head(app, &l, area);
+    int room = (area.height - 2 - least) / l.lines;
+    int top = (int)app->option >= room ? (int)app->option - room + 1 : 0;
+    int y = area.top + 2;
+    for (int i = 0; i < room && (size_t)(top + i) < n; i++, y += l.lines)
+        draw_row(app, &l, area, y, (size_t)(top + i));
+    int rest = area.top + area.height - y;
+    bool gap = rest > said;
+    struct ceduo_area below = {area.left, y + gap, area.width, rest - gap};
+    ceduo_app_put(app, below, CEDUO_ROLE_TEXT, &words);
+    struct ceduo_area picture = {area.left, y + gap + said + 1, area.width, rest - gap - said - 1};
+    if (n > 1 && picture.height >= PICTURE_LEAST) {
+        struct ceduo_picture p = ceduo_app_picture(app);
+        ceduo_plot_draw(CEDUO_PLOT_TRADEOFF, &app->cells->canvas, &picture, &p);
+    }
 }
 
 static void choose(struct app *app, long i)
@@ -291,4 +399,4 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_compare = {
-    .title = N_("compare"), .panes = 1, .result = true, .build = build, .draw = draw, .act = act};
+    .title = N_("compare"), .panes = 1, .years = true, .result = true, .build = build, .draw = draw, .act = act};

@@ -41,6 +41,9 @@ static void build(struct app *app, struct form *form)
         for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
             ceduo_form_rest(form, d, ceduo_schema_stand(), stand, groups[i]);
     }
+    ceduo_form_heading(form, _("Years shown (empty: one whole rotation after the first cut)"));
+    ceduo_form_field(form, d, scene, "", "years.first", _("first year"));
+    ceduo_form_field(form, d, scene, "", "years.last", _("last year"));
     ceduo_form_heading(form, _("What comes down, what must stay"));
     ceduo_form_field(form, d, scene, "", "rocks_per_year", _("rocks a year"));
     ceduo_form_field(form, d, scene, "", "minimum.reserves_per_ha", _("trees per ha at least"));
@@ -67,26 +70,40 @@ static void say_belt(struct text *text, const struct ceduo_belt *belt)
     ceduo_text_put(text, ". ");
 }
 
+/* What a cut of this year fells. */
+static void say_felled(const struct app *app, unsigned year, struct text *text)
+{
+    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_yield *yield = app->option < v->n ? &v->choices[app->option].yield : NULL;
+    for (size_t i = 0; yield && i < yield->fellings_count; i++)
+        if (yield->fellings[i].year == year)
+            ceduo_text_format(text, _("Felled: %.0f m\xc2\xb3 per ha, %.0f stems. "), yield->fellings[i].volume,
+                              yield->fellings[i].stems_per_ha);
+}
+
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     size_t c = app->figures.result->last_control;
     const struct ceduo_control *control = &app->figures.result->scene->controls[c];
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
     ceduo_text_format(text, y->cut ? _("Year %u, cut: ") : _("Year %u: "), y->year);
-    ceduo_text_format(text, _("ADC "));
-    ceduo_words_number(text, y->controls[c].worst_adc, 3);
-    ceduo_text_put(text, " m");
     if (y->wooded.rocks > 0) {
         const struct ceduo_arrivals *a = &y->wooded.arrivals[c];
-        bool says = !isnan(a->exceed_probability);
-        double share = says ? a->exceed_probability : a->reach_probability;
-        ceduo_text_format(text, says ? _("; of 1000 %.0f \xc2\xb1%.0f with more than %g kJ")
-                                     : _("; of 1000 %.0f \xc2\xb1%.0f arrive"),
-                          share * 1000,
-                          ceil(1000 * ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released)),
-                          control->accepted * KILO);
+        struct ceduo_portion share = ceduo_share_at(a);
+        ceduo_text_format(text, isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive; ")
+                                                             : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ; "),
+                          share.mean * 1000, ceil(1000 * share.half), control->accepted * KILO);
+    }
+    ceduo_text_put(text, _("mean distance between stem hits (ADC) "));
+    ceduo_words_number(text, y->controls[c].worst_adc, 3);
+    ceduo_text_put(text, " m");
+    if (ceduo_index_hangs_on_thin(&y->controls[c])) {
+        ceduo_text_put(text, _(", of stems from 8 cm on "));
+        ceduo_words_number(text, y->controls[c].thick.worst_adc, 3);
+        ceduo_text_put(text, isinf(y->controls[c].thick.worst_adc) ? "" : " m");
     }
     ceduo_text_put(text, ". ");
+    say_felled(app, y->year, text);
     for (size_t i = 0; i < y->option.belts_count; i++)
         say_belt(text, &y->option.belts[i]);
 }
@@ -94,45 +111,65 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     struct ceduo_years_summary s = ceduo_years_sum(years, app->figures.result->last_control);
-    ceduo_text_format(text, _("%zu years: %zu without contact, %zu with too much energy"), s.years,
-                      s.unprotected_contact, s.unprotected_energy);
-    if (!isnan(s.exceed.mean))
-        ceduo_text_format(text, _("; mean %.0f \xc2\xb1%.0f, worst %.0f in year %u"), s.exceed.mean * 1000,
-                          ceil(s.exceed.se * 1960), s.worst * 1000, s.worst_year);
+    const struct ceduo_window *w = &years->window;
+    bool says = !isnan(s.exceed.mean);
+    struct ceduo_paired mean = says ? s.exceed : s.reach;
+    ceduo_words_window(text, ceduo_app_option(app), w);
+    if (w->kind == CEDUO_WINDOW_ALIKE)
+        ceduo_text_put(text, _(" Each: "));
+    else
+        ceduo_text_format(text, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u: ")
+                                                                 : _("Years %u to %u: "), w->first, w->last);
+    if (s.flown > 0)
+        ceduo_text_format(text, _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u). "), mean.mean * 1000,
+                          ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
+    ceduo_text_put(text, _("Years that fail: "));
+    if (s.flown > 0 && says)
+        ceduo_text_format(text, _("energy %zu, "), s.unprotected_energy);
+    ceduo_text_format(text, _("contact %zu, free run %zu of %zu. "), s.unprotected_contact, s.unprotected_free_run, s.years);
     if (!isnan(s.passes_per_year))
-        ceduo_text_format(text, _("; expected a year: %.3g pass"), s.passes_per_year);
+        ceduo_text_format(text, _("Expected a year: %.3g pass"), s.passes_per_year);
     if (!isnan(s.exceeds_per_year))
         ceduo_text_format(text, _(", %.3g with too much"), s.exceeds_per_year);
-    ceduo_text_char(text, '.');
+    ceduo_text_put(text, isnan(s.passes_per_year) ? "" : ". ");
+    const struct ceduo_verdict *v = &app->figures.verdict;
+    if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
+        ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
 }
+
+#define PICTURE_LEAST 9 /* lines of the picture with one strip */
+#define FORM_LEAST    3
 
 static void draw(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool alone = ceduo_app_state(app)->pane == 1;
-    int words = area.height >= 30 ? 6 : 4, form = alone ? 0 : area.height / 3;
-    if (!alone && area.height < 16) /* a small window: the picture first */
-        form = words = 3;
+    struct text text = {0};
+    if (picture.years && app->figures.result && picture.years->count > 0) {
+        say_all(app, picture.years, &text);
+        ceduo_text_char(&text, '\n');
+        say_year(app, picture.years, &text);
+    }
+    int words = ceduo_app_text_lines(ceduo_text_string(&text), area.width);
+    int least = PICTURE_LEAST + (alone ? 0 : FORM_LEAST);
+    words = words > area.height - least ? area.height - least : words;
+    int form = alone ? 0 : (area.height - words) / 3;
+    form = form > area.height - words - PICTURE_LEAST ? area.height - words - PICTURE_LEAST : form;
+    form = alone || form >= FORM_LEAST ? form : FORM_LEAST;
     int height = area.height - form - words;
     struct ceduo_area top = {area.left, area.top, area.width, height};
     struct ceduo_area text_area = {area.left, area.top + height, area.width, words};
     if (alone && !app->message[0])
         ceduo_app_say(app, "%s", _("left, right: another year; Tab: back to the form"));
     ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
-    if (picture.years && app->figures.result && picture.years->count > 0) {
-        struct text text = {0};
-        say_all(app, picture.years, &text);
-        ceduo_text_char(&text, '\n');
-        say_year(app, picture.years, &text);
-        ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
-    }
+    ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
     ceduo_app_draw_form(app, below, true);
 }
 
 static bool go_to_year(struct app *app, long year)
 {
-    const struct ceduo_years *years = app->figures.years;
+    const struct ceduo_years *years = ceduo_figures_years(&app->figures, &app->document.file.scene, app->option);
     long n = years ? (long)years->count : 0;
     if (n > 0)
         app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);

@@ -91,6 +91,14 @@ static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p
     return p->year->wooded.rocks > 0 ? &p->year->wooded.arrivals[p->control] : NULL;
 }
 
+/* NULL where growth or cuts are not known. */
+static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
+{
+    const struct ceduo_verdict *v = p->report->verdict;
+    const struct ceduo_yield *yield = v ? &v->choices[p->option].yield : NULL;
+    return yield && !isnan(yield->cut_per_year) ? yield : NULL;
+}
+
 /* For `from`: p is the place, r its result. */
 #define OBJECT(name, object)                                \
     static const void *name(const void *place)              \
@@ -116,11 +124,21 @@ OBJECT(wooded_of, through_the_wood(p))
 OBJECT(flown_of, wood_of(p))
 OBJECT(stops_of, wood_of(p)->ends.stop_x.n > 0 ? p : NULL)
 OBJECT(difference_of, p->option > 0 && !p->year ? &r->options[p->option].differences[p->control] : NULL)
+OBJECT(yield_of, yield_at(p))
+OBJECT(place_of_yield, yield_at(p) ? p : NULL)
+OBJECT(felling_of, &yield_at(p)->fellings[p->felling])
+OBJECT(felled_belt_of, &r->scene->options[p->option].belts[yield_at(p)->fellings[p->felling].belt])
 OBJECT(rotation_of, p->report->years ? p : NULL)
 
 static const void *search_of(const void *find)
 {
     return ((const struct ceduo_find_report *)find)->search;
+}
+
+static const void *found_yield_of(const void *find)
+{
+    const struct ceduo_yield *yield = ((const struct ceduo_find_report *)find)->yield;
+    return yield && !isnan(yield->cut_per_year) ? yield : NULL;
 }
 
 static const void *found_of(const void *find)
@@ -156,6 +174,12 @@ static bool enter_year(struct ceduo_place *p, size_t i)
     const struct ceduo_years *years = p->report->years ? p->report->years[p->option] : NULL;
     p->year = years && i < years->count ? &years->years[i] : NULL;
     return p->year != NULL;
+}
+
+static bool enter_felling(struct ceduo_place *p, size_t i)
+{
+    p->felling = i;
+    return yield_at(p) && i < yield_at(p)->fellings_count;
 }
 
 static bool enter_difference(struct ceduo_place *p, size_t i)
@@ -209,12 +233,14 @@ VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
 VALUE(share_at, flown, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
+VALUE(missed_at, arrivals, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->released))
 VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
 VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, WORD("ceduo-find-1"))
 VALUE(find_path, find_report, WORD(o->file->path))
 VALUE(find_option, find_report, WORD(o->file->scene.options[o->search->option].name))
 VALUE(goal_of, search, WORD(ceduo_goals[o->goal].word))
+VALUE(over_of, search, WORD(o->rotation ? "rotation" : "today"))
 VALUE(side_of, found, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
 VALUE(nearest_of, found, NUMBER(o->found ? NAN : o->nearest))
 VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
@@ -251,6 +277,17 @@ static const struct ceduo_figure paired[] = {
 IS_PAIRED(energy_per_released);
 IS_PAIRED(contacts);
 
+static const struct ceduo_figure missed[] = {
+    {"stopped_by_stems", "", "share of the released that stems stop before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_STOPPED_BY_STEMS])},
+    {"came_to_rest", "", "share that comes to rest before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_AT_REST])},
+    {"left_slope", "", "share that leaves the profile before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_LEFT_SLOPE])},
+    {"unfinished", "", "share that was still moving before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_UNFINISHED])},
+    END};
+
 static const struct ceduo_figure arrivals[] = {
     {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
     {"reach_probability", "", "share of all released that reach it; an unfinished rock counts as not reached",
@@ -267,6 +304,7 @@ static const struct ceduo_figure arrivals[] = {
     {"height_m", "m", "height of their underside above the ground", IN(arrivals, height, distribution)},
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
      IN(arrivals, energy_per_released, paired), .scale = KILO},
+    {"missed", "", "how the released end that do not reach it; with reach_probability these make 1", .of = missed},
     END};
 
 static const struct ceduo_figure wooded[] = {
@@ -337,6 +375,9 @@ static const struct ceduo_figure lights[] = {
     {"free_run", "", "whether long runs without contact are rare enough", LIGHT_AT(free_run)},
     {"energy", "", "whether few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
      "contact_model: index", LIGHT_AT(energy)},
+    {"contact_8cm", "", "contact, counting only stems from 8 cm on (from contact_dbh_m if that is more)",
+     LIGHT_AT(thick.contact)},
+    {"free_run_8cm", "", "free_run, counting likewise", LIGHT_AT(thick.free_run)},
     END};
 
 static const struct ceduo_figure control[] = {
@@ -380,6 +421,25 @@ static const struct ceduo_figure stops[] = {
     {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)}, \
     {"cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)}
 
+static const struct ceduo_figure felling[] = {
+    {"year", "", "year, counted from the stands as filed", .from = felling_of, AT(felling, year)},
+    {"from_m", "m", "where the belt begins", .from = felled_belt_of, AT(belt, from_given)},
+    {"to_m", "m", "where it ends", .from = felled_belt_of, AT(belt, to_given)},
+    {"stems_per_ha", "1/ha", "stems felled", .from = felling_of, AT(felling, stems_per_ha)},
+    {"volume_m3_ha", "m3/ha", "their volume", .from = felling_of, AT(felling, volume)},
+    END};
+
+#define YIELD \
+    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation", .from = yield_of, \
+     AT(yield, cut_per_year), .null = "a stand says nothing of growth or cutting"}, \
+    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", .from = yield_of, \
+     AT(yield, standing), .null = "a stand says nothing of growth or cutting"}, \
+    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", .from = yield_of, \
+     AT(yield, died_per_year), .null = "a stand says nothing of growth or cutting"}
+static const struct ceduo_figure yield[] = {
+    YIELD, {"cuts", "", "an object for each cut, up to the end of the years", .of = felling, .enter = enter_felling}, END};
+static const struct ceduo_figure yield_columns[] = {YIELD, END};
+
 static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};
 
 static const struct ceduo_figure rotation[] = {
@@ -409,6 +469,8 @@ static const struct ceduo_figure option[] = {
     {"years", "", "with --years: an object for each year", .of = year, .enter = enter_year, .optional = true},
     {"rotation", "", "with --years: the years together, at the last control", .from = rotation_of, .of = rotation,
      .optional = true},
+    {"yield", "", "stem wood that the option yields", .from = place_of_yield, .of = yield,
+     .null = "a stand says nothing of growth or cutting"},
     END};
 
 static const struct ceduo_figure differences[] = {
@@ -489,18 +551,28 @@ const struct ceduo_figure ceduo_result_figures[] = {
     {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)}, \
     {"rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)}
 
+#define OVER {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting", \
+              .from = search_of, .value = over_of}
+static const struct ceduo_figure found_yield[] = {
+    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation", AT(yield, cut_per_year)},
+    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", AT(yield, standing)},
+    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", AT(yield, died_per_year)},
+    END};
+#define FOUND_YIELD {"yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = found_yield, \
+                     .null = "a stand says nothing of growth or cutting"}
+
 const struct ceduo_figure ceduo_find_figures[] = {
     {"format", "", "always ceduo-find-1", .value = find_format},
     {"version", "", "version of the program", .value = version_of},
-    SOUGHT, FOUND, REACHED, SIDE, GOALS, COST, END};
-const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND, SIDE, COST, END};
+    SOUGHT, FOUND, REACHED, SIDE, GOALS, COST, OVER, FOUND_YIELD, END};
+const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND, SIDE, COST, OVER, FOUND_YIELD, END};
 
 /* ---- rows of CSV ---- */
 
 #define OPTION {"option", "", "", .from = option_of, AT(option, name)}
 #define REST \
     SUMMARY, {.of = control}, ENDS, {"difference", "", "", .from = difference_of, .of = differences}, \
-    {"warnings", "", "", .say = say_of_all}
+    {"yield", "", "", .of = yield_columns}, {"warnings", "", "", .say = say_of_all}
 
 const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
 const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};

@@ -22,7 +22,7 @@ struct ceduo_value {
 /* A place in a report. The figures of an option, a belt, a control or a year are read from it. */
 struct ceduo_place {
     const struct ceduo_report *report;
-    size_t option, belt, control;
+    size_t option, belt, control, felling;
     const struct ceduo_year *year;     /* NULL: the stands as filed */
     struct ceduo_years_summary sum;    /* of the option's years, where they are asked for */
 };

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options side by side at the last control. */
 #include <math.h>
+#include <string.h>
 
 #include "base/intl.h"
 #include "page_parts.h"
-#include "study/compare.h"
+#include "study/verdict.h"
 
 static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
-    double half, half_of_difference, difference = ceduo_compare_difference(r, i, &half_of_difference);
-    double share = ceduo_compare_share(r, i, &half);
-    ceduo_page_per_1000(page, share, half, false);
-    ceduo_page_per_1000(page, i == 0 ? NAN : difference, half_of_difference, true);
+    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
+    struct ceduo_portion share = ceduo_share_at(a), to_first = ceduo_share_to_first(r, i);
+    ceduo_page_per_1000(page, share.mean, share.half, false);
+    ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, to_first.half, true);
     ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
 }
 
@@ -68,36 +69,111 @@ static void say_separation(struct ceduo_page *page, const struct ceduo_result *r
     }
     if (pass == n)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                          _("All options pass the test of %s: it does not separate them."), test);
+                          _("Today all options pass the test of %s: it does not separate them."), test);
     else if (pass == 0)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                          _("No option passes the test of %s: it does not separate them."), test);
+                          _("Today no option passes the test of %s: it does not separate them."), test);
 }
 
-static void say_best(struct ceduo_page *page, const struct ceduo_result *r)
+/* ---- over the years ---- */
+
+static void add_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
+{
+    struct text *text = ceduo_page_text(page);
+    if (known)
+        ceduo_text_format(text, "%zu/%zu", fails, c->years);
+    else
+        ceduo_text_char(text, '-');
+}
+
+static void add_choice(struct ceduo_page *page, const char *name, const struct ceduo_choice *c)
+{
+    ceduo_text_put(ceduo_page_text(page), name);
+    if (c->flown > 0) {
+        ceduo_page_per_1000(page, c->mean.mean, c->mean.half, false);
+        ceduo_text_format(ceduo_page_text(page), "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
+    } else {
+        struct text *worst = ceduo_page_text(page);
+        ceduo_words_number(worst, c->worst.mean, 3);
+        ceduo_text_format(worst, " (%u)", c->worst_year);
+    }
+    add_fails(page, c, c->no_contact, true);
+    add_fails(page, c, c->free_runs, true);
+    if (c->flown > 0)
+        add_fails(page, c, c->too_much, c->energy_known);
+    ceduo_page_number(page, c->yield.cut_per_year, 2);
+    ceduo_page_number(page, c->yield.standing, 3);
+}
+
+static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
+{
+    static const struct ceduo_page_column flown[] = {
+        {N_("option"), 23, 2, 0},   {NULL, -9, 0, 0},      {N_("worst year"), -11, 0, 0}, {N_("contact"), -8, 0, 0},
+        {N_("free run"), -9, 0, 0}, {N_("energy"), -7, 0, 0}, {N_("m3/y"), -5, 0, 0},        {N_("m3"), -6, 0, 0}};
+    static const struct ceduo_page_column by_index[] = {
+        {N_("option"), 23, 2, 0},  {N_("ADC m, worst"), -14, 0, 0}, {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
+        {N_("m3/y"), -6, 0, 0}, {N_("m3"), -7, 0, 0}};
+    struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
+    ceduo_text_put(caption, _("Over "));
+    ceduo_words_span(caption, v);
+    ceduo_text_put(caption, v->wooded ? _(": of 1000 released, in the mean and in the worst year; years in which a test "
+                                          "fails; wood felled per hectare and year, and standing:")
+                                      : _(": the worst year; years in which a test fails; wood felled per hectare and year, "
+                                          "and standing:"));
+    if (v->choices[0].flown > 0) {
+        ceduo_page_table(page, flown, sizeof flown / sizeof flown[0]);
+        ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));
+    } else {
+        ceduo_page_table(page, by_index, sizeof by_index / sizeof by_index[0]);
+    }
+    for (size_t i = 0; i < v->n; i++)
+        add_choice(page, r->scene->options[i].name, &v->choices[i]);
+}
+
+static void add_note(void *page, const char *sentence)
+{
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), sentence);
+}
+
+static void say_best(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     struct text best = {0};
-    ceduo_words_best(&best, r);
+    ceduo_words_best(&best, r->scene, v);
+    char *second = best.bytes ? strchr(best.bytes, '\n') : NULL;
+    if (second)
+        *second++ = '\0';
     if (best.length > 0)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), best.bytes);
+        add_note(page, best.bytes);
+    if (second)
+        add_note(page, second);
     page->failed |= best.failed;
     ceduo_text_free(&best);
+    if (v->choices[0].years > 0)
+        ceduo_words_windows(r->scene, v, add_note, page);
+    if (v->wooded && !v->accepted)
+        add_note(page, _("What the place withstands is not given (accepted_kJ): energy is not judged."));
 }
 
-void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_result *r)
+void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
 {
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SECTION),
                       r->wooded ? _("Side by side, up to %s m: the same rocks through each wood, of 1000 released")
                                 : _("Side by side, up to %s m (kJ per 100 m and left: by the rule named above)"),
                       ceduo_number_shortest(c->x_given, room));
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Today:"));
     add_table(page, r);
     say_separation(page, r, _("contact"), 0);
     say_separation(page, r, _("free run"), 1);
     if (r->wooded && !isnan(c->accepted))
         say_separation(page, r, _("energy"), 2);
-    say_best(page, r);
+    if (v && v->choices[0].years > 0)
+        add_years_table(page, r, v);
+    if (v)
+        say_best(page, r, v);
     if (!r->wooded)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                        _("Without forest every option sees the same rocks: what arrives does not separate them. The index "

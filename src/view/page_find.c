@@ -62,7 +62,12 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     ceduo_text_format(text, "%g %s", ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, goal->unit);
     ceduo_text_put(text, _(" is wanted), option '"));
     ceduo_text_safe(text, report->file->scene.options[s->option].name);
-    ceduo_text_put(text, _("', worst control\n"));
+    ceduo_text_put(text, !s->rotation                  ? _("', worst control\n")
+                         : ceduo_goal_is_mean(s->goal) ? _("', worst control, in the mean of one whole rotation\n")
+                                                        : _("', worst control, in the worst year of one whole rotation\n"));
+    if (report->yield && !isnan(report->yield->cut_per_year))
+        ceduo_text_format(text, _("  yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare\n"),
+                          report->yield->cut_per_year, report->yield->standing);
     if (!report->found->monotone)
         ceduo_text_put(text, _("  ! The goal does not only rise or only fall over this range: there may be other values.\n"));
 }

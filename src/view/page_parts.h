@@ -18,10 +18,9 @@ void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *res
 /* Blocks of other sizes; CEDUO_BLOCKS of them. */
 void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_block *blocks);
 
-/* An option year by year; all options side by side, over the years and as filed. */
+/* An option year by year; all options side by side, as filed and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
-void ceduo_page_rotations(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_result *result);
+void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* Warnings of the whole run, and assumptions. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);

@@ -100,7 +100,7 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
                                const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {N_("mean kJ"), -12, 0, 0},
+        {N_("of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {N_("arriving kJ"), -12, 0, 0},
         {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0},     {N_("m up"), -5, 0, 0}};
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_page_limit(page, c, "");
@@ -122,7 +122,7 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
         ceduo_text_put(line, _(" with more than it bears"));
     }
     if (a->reached > 0) {
-        ceduo_text_put(line, _("; mean "));
+        ceduo_text_put(line, _("; of those that arrive the mean is "));
         ceduo_words_number(line, a->energy.mean * KILO, 4);
         ceduo_text_put(line, " \xc2\xb1 ");
         ceduo_words_number(line, ceduo_half_width(a->energy.se, a->reached) * KILO, 2);
@@ -132,21 +132,45 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
     ceduo_text_char(line, '.');
 }
 
-/* How the rocks end in the forest. */
-static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, const struct ceduo_arrivals *a)
+static double of_1000(uint64_t count, uint64_t rocks)
 {
-    const struct ceduo_ends *e = &f->ends;
-    double n = (double)f->rocks;
+    return (double)count / (double)rocks * 1000;
+}
+
+/* How the rocks end in the forest: up to a control, and on the whole profile. */
+static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, const struct ceduo_arrivals *a, bool last)
+{
+    const uint64_t *e = a->ended, *all = f->ends.count;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("Of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave the slope"),
-                      (double)e->count[CEDUO_STOPPED_BY_STEMS] / n * 1000, (double)e->count[CEDUO_AT_REST] / n * 1000,
-                      (double)e->count[CEDUO_LEFT_SLOPE] / n * 1000);
-    if (e->count[CEDUO_UNFINISHED] > 0)
-        ceduo_text_format(line, _("; %llu of %llu never come to an end"),
-                          (unsigned long long)e->count[CEDUO_UNFINISHED], (unsigned long long)f->rocks);
+    ceduo_text_format(line, _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
+                              "slope"),
+                      a->reach_probability * 1000, of_1000(e[CEDUO_STOPPED_BY_STEMS], f->rocks),
+                      of_1000(e[CEDUO_AT_REST], f->rocks), of_1000(e[CEDUO_LEFT_SLOPE], f->rocks));
+    if (e[CEDUO_UNFINISHED] > 0)
+        ceduo_text_format(line, _("; %llu of %llu never come to an end"), (unsigned long long)e[CEDUO_UNFINISHED],
+                          (unsigned long long)f->rocks);
     if (a->reached > 0)
         ceduo_text_format(line, _("; one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
+    if (last)
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
+                          of_1000(all[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(all[CEDUO_AT_REST], f->rocks),
+                          of_1000(all[CEDUO_LEFT_SLOPE], f->rocks));
+}
+
+/* What cannot mislead: the mean of those that arrive may be higher through the forest, as the slow ones are stopped. */
+static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
+{
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_put(line, _("Energy per released rock: "));
+    for (int k = wooded ? 0 : 1; k < 2; k++) {
+        const struct ceduo_arrivals *a = k == 0 ? wooded : bare;
+        ceduo_words_number(line, a->energy_per_released * KILO, 3);
+        ceduo_text_put(line, " \xc2\xb1");
+        ceduo_words_number(line, ceduo_half_width(a->energy_per_released_se, a->released) * KILO, 2);
+        ceduo_text_put(line, k == 1 ? wooded ? _(" without it.") : _(" kJ.") : _(" kJ through the wood, "));
+    }
 }
 
 static bool none_arrives(const struct ceduo_arrivals *a)
@@ -157,6 +181,7 @@ static bool none_arrives(const struct ceduo_arrivals *a)
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    say_energy_of_all(page, wooded, bare);
     if (page->width >= CEDUO_PAGE_WIDTH) {
         add_arrivals_table(page, &r->scene->controls[control], wooded, bare);
     } else {
@@ -165,7 +190,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
         say_arrivals(page, _("Without forest"), bare);
     }
     if (wooded)
-        say_fates(page, &r->options[option].wooded, wooded);
+        say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
     if (none_arrives(bare))
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
                           _("Without forest no rock arrives (of 1000, below %.1f with 95 %%)."), bare->reach_hi * 1000);
@@ -231,10 +256,8 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     add_head(&page, report);
     for (size_t i = 0; i < scene->options_count; i++)
         ceduo_page_option(&page, report, i);
-    if (scene->options_count > 1 && scene->controls_count > 0 && report->years)
-        ceduo_page_rotations(&page, report);
-    else if (scene->options_count > 1 && scene->controls_count > 0)
-        ceduo_page_comparison(&page, report->result);
+    if (scene->options_count > 1 && scene->controls_count > 0)
+        ceduo_page_comparison(&page, report);
     ceduo_page_notes(&page, report);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);

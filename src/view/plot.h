@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "ceduo/years.h"
 #include "study/outlook.h"
+#include "study/verdict.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
  * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
@@ -28,6 +29,7 @@ struct ceduo_picture {
     size_t stems_count;
     const struct ceduo_years *years; /* of the option; NULL: not computed */
     size_t year;                     /* index of the one under the cursor; beyond them all: none */
+    const struct ceduo_verdict *verdict; /* of all options; NULL: not computed */
     struct ceduo_span *span; /* where the slope stands: a profile writes it, strips stand in it; NULL: the area's own */
     bool no_x_axis;          /* of a strip that another one stands below */
 };
@@ -50,7 +52,9 @@ struct ceduo_picture {
  *   the trajectory, stretched across it by the factor that is written.
  * compare: the options side by side, up to the control: ADC of the worst belt, how many of 1000 arrive with too much
  *   energy (or at all, where no accepted energy is given), the mean energy of those that arrive; with the contact model
- *   index ADC, kJ taken per 100 m, kJ left. */
+ *   index ADC, kJ taken per 100 m, kJ left.
+ * tradeoff: what the options yield against what they let through, over one whole rotation of each: a point with its error
+ *   for each option, marked where another is better in both. */
 #define CEDUO_PLOT_LIST(X)                                                                                             \
     X(PROFILE, profile, true, false, true)                                                                             \
     X(ENERGY, energy, true, true, true)                                                                                \
@@ -59,7 +63,8 @@ struct ceduo_picture {
     X(ADC, adc, false, false, true)                                                                                    \
     X(ROTATION, rotation, true, false, true)                                                                           \
     X(STAND, stand, false, false, true)                                                                                \
-    X(COMPARE, compare, true, false, false)
+    X(COMPARE, compare, true, false, false)                                                                            \
+    X(TRADEOFF, tradeoff, true, false, false)
 
 enum ceduo_plot {
     CEDUO_PLOT_NONE,
@@ -92,8 +97,5 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
 /* The colour and the sign of a light. */
 enum ceduo_role ceduo_plot_light_role(enum ceduo_light light);
 const char *ceduo_plot_light_mark(enum ceduo_light light);
-
-/* The control farthest along the slope; 0 where there is none. */
-size_t ceduo_plot_last_control(const struct ceduo_scene *scene);
 
 #endif

@@ -4,7 +4,7 @@
 #include "ceduo/assess.h"
 #include "base/intl.h"
 #include "plot_parts.h"
-#include "study/compare.h"
+#include "study/verdict.h"
 
 /* The options side by side. */
 
@@ -51,7 +51,7 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(&picture, picture.control);
     m.exhausted = false;
     m.awaited = !a;
-    m.middle = a ? 1000 * ceduo_compare_share_of(a) : NAN;
+    m.middle = a ? 1000 * ceduo_share_of(a) : NAN;
     m.last = a ? a->energy.mean * KILO : NAN;
     m.energy = ceduo_energy_light(a);
     return m;

@@ -188,12 +188,3 @@ double ceduo_plot_tallest(const struct ceduo_stand *stand)
         tallest = fmax(tallest, stand->trees[i].per_ha > 0 ? stand->trees[i].height : 0);
     return tallest;
 }
-
-size_t ceduo_plot_last_control(const struct ceduo_scene *scene)
-{
-    size_t last = 0;
-    for (size_t c = 1; c < scene->controls_count; c++)
-        if (scene->controls[c].x > scene->controls[last].x)
-            last = c;
-    return last;
-}

@@ -5,7 +5,7 @@
 #include "base/intl.h"
 #include "base/utf8.h"
 #include "plot_parts.h"
-#include "study/compare.h"
+#include "study/verdict.h"
 
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on
  * one axis. */
@@ -39,7 +39,7 @@ static double share_of(const struct rotation *r, const struct ceduo_year *year)
         return index->per_100m * KILO;
     if (year->wooded.rocks == 0)
         return NAN;
-    return 1000 * ceduo_compare_share_of(&year->wooded.arrivals[r->c]);
+    return 1000 * ceduo_share_of(&year->wooded.arrivals[r->c]);
 }
 
 static void draw_strip(struct rotation *r, int top, int height, double most, double limit, const char *caption,

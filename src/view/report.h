@@ -7,6 +7,7 @@
 #include "ceduo/years.h"
 #include "io/scene_file.h"
 #include "study/goal.h"
+#include "study/verdict.h"
 #include "words.h"
 
 enum ceduo_format { CEDUO_TABLE, CEDUO_CSV, CEDUO_JSON };
@@ -21,6 +22,7 @@ struct ceduo_report {
     double seconds; /* that the runs took */
     uint64_t rocks_asked; /* where rows of stands are wanted and none is flown; otherwise 0 */
     struct ceduo_years *const *years; /* one for each option; NULL: not asked for */
+    const struct ceduo_verdict *verdict; /* of all options; NULL: not known */
 };
 
 /* The page that a forester reads first; 80 columns. `plain`: ASCII alone. */
@@ -42,6 +44,7 @@ struct ceduo_find_report {
     const struct scene_file *file;
     const struct ceduo_search *search;
     const struct ceduo_found *found;
+    const struct ceduo_yield *yield; /* at that value; NaN where it is not known; NULL: none */
 };
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
 void ceduo_find_json(struct text *text, const struct ceduo_find_report *report); /* one line, "ceduo-find-1" */

@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/intl.h"
-#include "study/compare.h"
 
 const char *ceduo_words_light(enum ceduo_light light)
 {
@@ -196,6 +195,18 @@ static const struct ceduo_index *index_at(const struct ceduo_result *result, siz
     return &result->options[option].controls[control];
 }
 
+/* From which diameter on stems are thick. */
+static double thick_cm(const struct ceduo_scene *scene)
+{
+    return fmax(scene->simulation.contact_dbh, CEDUO_THICK_DBH) * 100;
+}
+
+static void say_what_counts(struct text *text, const struct ceduo_scene *scene)
+{
+    if (scene->simulation.contact_dbh > 0)
+        ceduo_text_format(text, _(" Stems below %g cm do not count."), scene->simulation.contact_dbh * 100);
+}
+
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
     const struct ceduo_index *s = index_at(result, option, control);
@@ -214,6 +225,12 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
     else
         ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc,
                           limit);
+    say_what_counts(text, result->scene);
+    if (s->thick.contact != s->contact && isinf(s->thick.worst_adc))
+        ceduo_text_format(text, _(" Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
+    else if (s->thick.contact != s->contact)
+        ceduo_text_format(text, _(" Counting only stems from %g cm on it fails: %.3g m."), thick_cm(result->scene),
+                          s->thick.worst_adc);
 }
 
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
@@ -225,6 +242,9 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
                           result->scene->simulation.threshold, s->worst_free_run * 100);
     else
         ceduo_text_put(text, _("No stem stands on the way."));
+    if (s->thick.free_run != s->free_run)
+        ceduo_text_format(text, _(" Counting only stems from %g cm on it fails: %.1f %%."), thick_cm(result->scene),
+                          s->thick.worst_free_run * 100);
 }
 
 void ceduo_words_of_1000(struct text *text, double p, double lo, double hi)
@@ -252,28 +272,4 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
         else if (is_close(a))
             ceduo_text_put(text, _(" Too close to call with so few rocks."));
     }
-}
-
-/* ---- which is best ---- */
-
-void ceduo_words_best(struct text *text, const struct ceduo_result *result)
-{
-    const struct ceduo_best best = ceduo_compare_best(result);
-    const char *a = result->scene->options[best.contact].name, *b = result->scene->options[best.energy].name;
-    if (!best.known)
-        return;
-    if (best.apart && best.contact == best.energy && best.before_all)
-        ceduo_text_format(text, _("By contact and by energy '%s' is best."), a);
-    else if (best.apart && !ceduo_compare_worse(result, best.contact, best.energy))
-        ceduo_text_format(text, _("By contact '%s' is best, and none is clearly better by energy."), a);
-    else if (best.apart)
-        ceduo_text_format(text, best.before_all
-                                    ? _("By contact '%s' is best, by energy '%s'; neither alone decides.")
-                                    : _("By contact '%s' is best, by energy '%s', though not clearly before all others; neither "
-                                        "alone decides."), a, b);
-    else if (best.before_some)
-        ceduo_text_format(text, best.before_all
-                                    ? _("By energy '%s' is best; contact does not tell the options apart.")
-                                    : _("By energy '%s' is best, though not clearly before all others; contact does not tell "
-                                        "the options apart."), b);
 }

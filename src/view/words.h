@@ -4,6 +4,7 @@
 
 #include "ceduo/result.h"
 #include "base/text.h"
+#include "study/verdict.h"
 
 #define KILO 1e-3 /* J in kJ */
 
@@ -30,8 +31,17 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 
-/* Which option is best by contact and which by energy at the last control, where that can be said; nothing otherwise. */
-void ceduo_words_best(struct text *text, const struct ceduo_result *result);
+/* Which option is best over the years and which today, at the last control, in one or two sentences, each in a line of its
+ * own; nothing of what is not known. Then which options have no rotation, and why. */
+void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *verdict);
+void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *verdict, ceduo_words_say *say,
+                         void *context);
+
+/* Why an option has no rotation; nothing where it has one. */
+void ceduo_words_window(struct text *text, const struct ceduo_option *option, const struct ceduo_window *window);
+
+/* Years of a verdict in a few words: "one whole rotation", "years 0 to 30". */
+void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
 
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
 const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */

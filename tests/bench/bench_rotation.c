@@ -36,7 +36,8 @@ static void fly(const struct ceduo_scene *scene, unsigned threads, uint64_t rock
         exit(1);
     for (size_t i = 0; i < scene->options_count; i++) {
         struct ceduo_years *years;
-        if (ceduo_years_create(scene, &scene->options[i], FIRST, LAST, 1, &years) != CEDUO_OK ||
+        if (ceduo_years_create(scene, &scene->options[i],
+                               (struct ceduo_window){.first = FIRST, .last = LAST, .step = 1}, &years) != CEDUO_OK ||
             ceduo_years_fly(years, pool, &bare, rocks) != CEDUO_OK)
             exit(1);
         ceduo_years_free(years);

@@ -115,8 +115,18 @@ def expect_option(text, option):
         if not wooded:
             continue
         expect_arrivals(wooded[i], control["wooded"])
-        shares = [f"{option['ends'][k] * 1000:.0f}" for k in ("stopped_by_stems", "came_to_rest", "left_slope")]
-        expect_in("Of 1000, {} are stopped by stems, {} come to rest, {} leave the slope".format(*shares), flat_text, "ends")
+        ways = ("stopped_by_stems", "came_to_rest", "left_slope")
+        missed, reach = control["wooded"]["missed"], control["wooded"]["reach_probability"]
+        expect_near(reach + sum(missed.values()), 1, 1e-12, "all released end somewhere")
+        shares = [f"{share * 1000:.0f}" for share in (reach, *(missed[k] for k in ways))]
+        expect_in("Of 1000, {} arrive; before that {} are stopped by stems, {} come to rest, {} leave the slope".format(*shares),
+                  flat_text, "ends before the control")
+        shares = [f"{option['ends'][k] * 1000:.0f}" for k in ways]
+        expect_in("On the whole profile: of 1000, {} are stopped by stems, {} come to rest, {} leave it".format(*shares),
+                  flat_text, "ends")
+        energies = [digits(control[k]["energy_per_released_kJ"]["mean"], 3) for k in ("wooded", "bare")]
+        expect(re.search(r"Energy per released rock: {} ±\S+ kJ through the wood, {} ±\S+ without it\.".format(*map(re.escape, energies)), flat_text),
+               energies, text)
         if control["wooded"]["rocks_reached"] > 0:
             hit = f"{control['wooded']['contacts']['mean']:.3g}"
             expect(re.search(rf"\b{re.escape(hit)} stems?\b", flat_text), f"'{hit} stems' is missing in:", text)

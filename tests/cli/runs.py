@@ -14,13 +14,14 @@ NUMBER, MAYBE, TEXT, TEXT_OR_NULL, FLAG, FLAG_OR_NULL, COUNT, NULL, LIGHT = (
     "number", "number or null", "text", "text or null", "flag", "flag or null", "count", "null", "light")
 SPREAD = {k: MAYBE for k in ("mean", "se", "sd", "p50", "p95", "p95_lo", "p95_hi", "p99", "max")}
 PAIR = {"mean": MAYBE, "se": MAYBE}
+MISSED = {k: NUMBER for k in ("stopped_by_stems", "came_to_rest", "left_slope", "unfinished")}
 ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
-            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR}
+            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED}
 INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
-           "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT}}
+           "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT}}
 STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
          "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
          "adc": {"rule": TEXT_OR_NULL, "adc_m": MAYBE, "gsteiger_stools_m": MAYBE, "gsteiger_stems_m": MAYBE,
@@ -30,6 +31,8 @@ STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "st
 SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contacts": NUMBER,
            "meet_nothing_probability": NUMBER, "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": MAYBE,
            "passes_threshold": FLAG}
+YIELD = {**{k: NUMBER for k in ("cut_m3_ha_per_year", "standing_m3_ha_mean", "died_m3_ha_per_year")},
+         "cuts": [{k: NUMBER for k in ("year", "from_m", "to_m", "stems_per_ha", "volume_m3_ha")}]}  # null without growth
 STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
 DIFFERENCES = ("reach_probability", "exceed_probability", "energy_per_released_kJ")
 DIFFERENCE = {"option": TEXT, "against": TEXT, "x_m": NUMBER, **{name: PAIR for name in DIFFERENCES}}
@@ -39,7 +42,7 @@ RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed":
           "options": [{"name": TEXT, "stands": [STAND], "summary": SUMMARY, "controls": [CONTROL],
                        "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
                                 "unfinished": COUNT},
-                       "stop_x_m": STOPS}],
+                       "stop_x_m": STOPS, "yield": YIELD}],
           "differences": [DIFFERENCE],
           "work": {"rocks_flown": COUNT, "contacts": COUNT, "stems_drawn": COUNT, "runs": COUNT, "runs_reused": COUNT,
                    "seconds": NUMBER}}
@@ -65,7 +68,7 @@ def expect_shape(value, shape, path="$"):
         expect(shape or not value, f"{path}: {value!r} is not empty")
         for i, item in enumerate(value):
             expect_shape(item, shape[0], f"{path}[{i}]")
-    elif shape is STOPS and value is None:
+    elif shape in (STOPS, YIELD) and value is None:
         return
     else:
         expect(isinstance(value, dict), f"{path}: {value!r} is no object")
@@ -168,9 +171,10 @@ SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.m
                "threshold_m", "option"]
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
                  flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) +
-                 ["lights.contact", "lights.free_run", "lights.energy",
+                 ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
                   "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
-                 flat("stop_x_m.", STOPS) + flat("difference.", {k: PAIR for k in DIFFERENCES}) + ["warnings"])
+                 flat("stop_x_m.", STOPS) + flat("difference.", {k: PAIR for k in DIFFERENCES}) +
+                 [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])
 STAND_CELLS = SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"]
 
 
@@ -216,7 +220,7 @@ def expect_rows(rows, runs, inner):
             elif name.startswith("difference."):
                 found = [d for d in run["differences"] if (d["option"], d["x_m"]) == (option["name"], item["x_m"])]
                 value = look_up(found[0], name.removeprefix("difference.")) if found else None
-            elif name.split(".")[0] in ("summary", "ends", "stop_x_m"):
+            elif name.split(".")[0] in ("summary", "ends", "stop_x_m", "yield"):
                 value = look_up(option, name)
             else:
                 value = look_up(item, name)

@@ -473,7 +473,7 @@ CASES = {
         Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
-    "--find cannot be used with --plot, --years or --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
+    "--find cannot be used with --plot, a range of --years or --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
     "--size requires --plot": Words("--batch", "--size", "80x24", "@"),
     "--plot prints a picture; it cannot be used with --format csv or json": Words("--plot", "adc", "-f", "csv", "@"),
     "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
@@ -520,7 +520,7 @@ CASES = {
         Words("--batch", "--rows", "stands", *words, "@")(row) for words in ((), ("-f", "json"))],
     "--charset requires --plot or the terminal program": Words("--batch", "--charset", "ascii", "@"),
     "--script is for the terminal program; it cannot be used with --batch": Words("--batch", "--script", "x", "@"),
-    "--years cannot be used with --plot, except --plot rotation": Words("--years", "0:5", "--plot", "profile", "@"),
+    "--years cannot be used with --plot, except --plot rotation and --plot tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
     "--shard: '0/3' is not a part; write I/N ...": Words("--shard", "0/3", "@"),
 }
 

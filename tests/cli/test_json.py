@@ -23,13 +23,15 @@ def test_json_shape():
                  ("Test site of Ciabocco et al. 2009", 1, 999, "lumped", 30))
     control = run["options"][0]["controls"][0]
     expect_equal((control["x_m"], control["name"], control["accepted_kJ"]), (135, "end of the forest", 50))
-    expect_equal(control["lights"], {"contact": "pass", "free_run": "pass", "energy": "fail"})
+    expect_equal(control["lights"], {"contact": "pass", "free_run": "pass", "energy": "fail",
+                                     "contact_8cm": "fail", "free_run_8cm": "fail"})
     expect("measured_kJ" in control["index"], control["index"])
     expect_equal([s["name"] for s in run["options"][0]["stands"]], ["ADS 1", "ADS 2"])
     bare = result(PAPER, *through("index"))
     expect_run(bare, "index")
     other = bare["options"][0]["controls"][0]
-    expect_equal(other["lights"], {"contact": "pass", "free_run": "pass", "energy": "unknown"}, "lights by the index")
+    expect_equal(other["lights"], {"contact": "pass", "free_run": "pass", "energy": "unknown",
+                                   "contact_8cm": "fail", "free_run_8cm": "fail"}, "lights by the index")
     for name in ("bare", "index"):
         expect_equal(other[name], control[name], f"{name} does not depend on the contact model")
     expect_equal(result(PAPER, *through("stems"))["options"], run["options"], "stems is the default")

@@ -106,7 +106,7 @@ def test_set_base():
         path = f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 60, "stand": built}]))
         def one(*sets):
             return result(path, "-n", 1, *[a for s in sets for a in ("-s", s)])["options"][0]["stands"][0]
-        expect_equal((one()["stools_per_ha"], one()["stems_per_ha"], one()["name"]), (1500, 5100, "base"))
+        expect_equal((one()["stools_per_ha"], one()["stems_per_ha"], one()["name"]), (1500, 5100, "base (changed)"))
         expect_equal(one("forest[0].stand.stools.per_ha=1800")["stools_per_ha"], 1800)
         expect_equal(one("forest[base].stand.shoots[0].per_ha=4000")["stems_per_ha"], 4100)
         expect_equal(one("forest[0].stand.trees=[]")["trees_per_ha"], 0)

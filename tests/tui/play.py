@@ -146,7 +146,7 @@ class Screen:
 
     def pair(self, name):
         """What stands in the column on the right through the wood and without forest: numbers, None for a dash."""
-        found = re.search(rf"^ {re.escape(name)} +(\S+|\d+ \(\d+-\d+\)) +(\S+)$", self.now, re.M)
+        found = re.search(rf"^ *{re.escape(name)} +(\S+|\d+ \(\d+-\d+\)) +(\S+)$", self.now, re.M)
         expect(found, f"no '{name}' with two figures in the column on the right:", self.now)
         numbers = [re.match(r"[\d.]+", word) for word in found.groups()]
         return tuple(float(n.group()) if n else None for n in numbers)

@@ -96,47 +96,41 @@ def test_rename_refused():
 
 
 def test_compare_marks():
-    """Best and worst of each column are marked, with signs; figures are those of each option."""
-    screen = fast("resize 120 40\nkey 5\nwait idle\ndump", "options.yaml", charset="ascii")[0]
+    """The option that is clearly best over the rotation is named so, and the worst: in words, only where that is clear."""
+    screen = fast("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml", charset="ascii")[0]
     rows = dict(compared(screen))
-    expect_equal(list(rows), ["thick", "thin", "none left"], "options")
-    for c, best, worst in ((0, "thick", "none left"), (1, "thick", "none left"), (2, "thick", "none left")):
-        expect(rows[best][c][1] == "*", f"column {c}: '{best}' is best", rows)
-        expect(rows[worst][c][1] == "!", f"column {c}: '{worst}' is worst", rows)
-    by_index, in_wood = [(0, 1), (0, 1), (6, 1), (6, 1)], [(0, 1), (0, 1), (0, 1), (None, None)]
-    for scene, marked in (("four-systems" + BY_INDEX, by_index), ("four-systems", in_wood)):
-        for size in SIZES:
-            screen = views_of(scene, "ascii")[size, "compare"]
-            for c, (best, worst) in enumerate(marked):
-                marks = "".join(figures[c][1] for _, figures in compared(screen))
-                wanted = "".join("*" if i == best else "!" if i == worst else " " for i in range(8))
-                expect_equal(marks, wanted, f"{scene}: marks of column {c} at {size[0]} columns")
+    expect_equal({name: cells["best"] for name, cells in rows.items()}, {"thick": "best", "thin": "", "none left": "worst"})
+    for size in SIZES:
+        rows = compared(views_of("four-systems", "ascii")[size, "compare"])
+        expect("best" not in [cells["best"] for _, cells in rows], "one of two that are the same is best", rows)
+    rows = compared(fast("resize 120 40\nkey 5\nwait idle\ndump", "options.yaml")[0])
+    expect_equal([cells["best"] for _, cells in rows], [""] * 3, "by the index no option is best")
 
 
 def test_compare_wood():
-    """View 5 through the wood: shares with too much energy, differences to the first with their error, as in the JSON."""
-    script = "wait idle\nkey 5\n" + "".join(f"resize {w} {h}\ndump\n" for w, h in SIZES)
+    """View 5: shares with too much energy today and in each year, with their errors, as in the JSON"""
+    script = "wait idle\nkey 5\nwait idle\n" + "".join(f"resize {w} {h}\ndump\n" for w, h in SIZES)
     with Place() as place:
         screens = place.play(script, "cuts.yaml")
-        rocks = re.search(r"(\d+) rocks$", screens[0].now, re.M).group(1)
+        rocks = re.search(r"(\d+) rocks", screens[0].now, re.M).group(1)
         run = results("-n", rocks, place.path / "cuts.yaml")[0]
-    differences = {d["option"]: d["exceed_probability"] for d in run["differences"] if d["x_m"] == 80}
+        years = results("--years", "-n", 10240, place.path / "cuts.yaml")[0]
     for screen in screens:
         rows = dict(compared(screen))
         expect_equal(list(rows), [o["name"] for o in run["options"]], "options")
-        for option, signs in zip(run["options"], compared_lights(screen), strict=True):
-            name, control = option["name"], option["controls"][1]
-            share, difference = rows[name][2][0], rows[name][3][0]
-            expect_equal(share, f"{control['wooded']['exceed_probability'] * 1000:.0f}", f"{name}: too much")
-            d = differences.get(name)
-            wanted = "first" if d is None else f"{d['mean'] * 1000:+.0f}±{math.ceil(d['se'] * 1959.963984540054)}"
-            expect_equal(difference, wanted, f"{name}: to first")
-            wanted = "".join(SIGNS[{"pass": "passes", "fail": "FAILS"}[control["lights"][k]]]["braille"]
-                             for k in ("contact", "free_run", "energy"))
-            expect_equal(signs, wanted, f"{name}: lights")
-        expect_equal([figures[2][1] for figures in rows.values()], ["*", " ", "!"], "marks of too much")
-        expect(all(figures[3][1] == " " for figures in rows.values()), "marks of differences", rows)
-        expect_in("By contact and by energy 'thick' is best", " ".join(screen.body.split()), screen)
+        for option, year, cells in zip(run["options"], years["options"], rows.values(), strict=True):
+            control, rotation = option["controls"][1]["wooded"], year["rotation"]
+            p, n = control["exceed_probability"], int(rocks)
+            half = math.ceil(1959.963984540054 * math.sqrt(p * (1 - p) / n)) or math.ceil(1000 * 3.8415 / (n + 3.8415))
+            expect_equal(cells["today"], f"{p * 1000:.0f}±{half}", f"{option['name']}: today")
+            mean = rotation["exceed_probability"]["mean"]
+            expect(cells["rotation"].startswith(f"{mean * 1000:.0f}±"), option["name"], cells, mean)
+            expect_equal(cells["fail"], f"{rotation['unprotected_energy']}/{rotation['years']}", option["name"])
+            if "worst year" in cells:
+                expect_equal(cells["worst year"], f"{mean * 1000:.0f} ({rotation['worst_year']})", f"{option['name']}: of one year")
+        said = " ".join(screen.body.split())
+        expect_in("Today 'thick' lets the fewest dangerous rocks through", said)
+        expect_in("All years of 'thick' are alike: the file of 'many' has no growth", said)
 
 
 def test_reorder_at_once():
@@ -155,14 +149,12 @@ def test_reorder_at_once():
         key d
         dump""", "cuts.yaml")
     known = dict(compared(before))
-    after = dict(compared(later))
-    expect_equal(list(after), ["thin", "thick", "none left"], "options")
-    for name, figures in compared(moved):
-        for c in (0, 1, 2):
-            expect(figures[c][0] in (known[name][c][0], "…"), f"'{name}' has figures of another option", moved)
-        expect(figures[3][0] in (after[name][3][0], "…"), f"'{name}' has a difference of another option", moved)
+    expect_equal([name for name, _ in compared(later)], ["thin", "thick", "none left"], "options")
+    for name, cells in compared(moved):
+        for head in ("today", "rotation"):
+            expect(cells[head] in (known[name][head], "…"), f"'{name}' has figures of another option", moved)
     for screen, what in ((moved, "moved"), (copied, "copied"), (gone, "deleted")):
-        found = {name: figures[2][0] for name, figures in compared(screen)}
+        found = {name: cells["today"] for name, cells in compared(screen)}
         expect("thin" in found and "thick" in found, f"nothing is compared once one is {what}", screen)
 
 
@@ -171,11 +163,13 @@ def test_compare_arrive():
     with Place() as place:
         place.write("cuts.yaml", play.CUTS.replace(", accepted_kJ: 250", ""))
         screen = place.play("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml")[0]
-        rocks = re.search(r"(\d+) rocks$", screen.now, re.M).group(1)
+        rocks = re.search(r"(\d+) rocks", screen.now, re.M).group(1)
         run = results("-n", rocks, place.path / "cuts.yaml")[0]
-    expect(re.search("free run +arrive +to first", screen.body), screen)
-    for (name, figures), option in zip(compared(screen), run["options"], strict=True):
-        expect_equal(figures[2][0], f"{option['controls'][1]['wooded']['reach_probability'] * 1000:.0f}", f"{name}: arrive")
+    screen.has("of 1000 rocks that arrive", "energy is not judged").lacks("dangerous")
+    for (name, cells), option in zip(compared(screen), run["options"], strict=True):
+        share = f"{option['controls'][1]['wooded']['reach_probability'] * 1000:.0f}"
+        expect(re.match(share + "(±|$)", cells["today"]), f"{name}: arrive {share}", cells)
+        expect_equal(cells["fail"], "-", "years in which a test fails that is not known")
     expect(all(signs[2] == "?" for signs in compared_lights(screen)), screen)
 
 
@@ -184,11 +178,11 @@ def test_now_wood():
     script = "wait idle\nkey 1\n" + "clear\nresize 80 24\ndump\nresize 200 50\ndump\nkey ]\n" * 3
     with Place() as place:
         screens = place.play(script, "cuts.yaml")
-        rocks = re.search(r"(\d+) rocks$", screens[0].now, re.M).group(1)
+        rocks = re.search(r"(\d+) rocks", screens[0].now, re.M).group(1)
         run = results("-n", rocks, place.path / "cuts.yaml")[0]
     for i, screen in enumerate(screens):
         option = run["options"][i // 2]
-        control, ends = option["controls"][1], option["ends"]
+        control = option["controls"][1]
         bare, wooded = control["bare"], control["wooded"]
         expect_in(f"Wood  {option['name']}", screen.now)
         for name, key in (("arrive", "reach"), (">250 kJ", "exceed")):
@@ -196,22 +190,23 @@ def test_now_wood():
         lo, hi = (wooded[f"exceed_{k}"] * 1000 for k in ("lo", "hi"))
         if screen.width == 200:
             expect_in(f"({math.floor(lo)}-{math.ceil(hi)})", screen.now, "the interval")
-        for name, values in (("kJ mean", [a["energy_kJ"]["mean"] for a in (wooded, bare)]),
-                             ("kJ 95 %", [a["energy_kJ"]["p95"] for a in (wooded, bare)]),
-                             ("m  95 %", [a["height_m"]["p95"] for a in (wooded, bare)])):
+        for name, values in (("arriving kJ", [a["energy_kJ"]["mean"] for a in (wooded, bare)]),
+                             ("kJ a rock", [a["energy_per_released_kJ"]["mean"] for a in (wooded, bare)]),
+                             ("95 % kJ", [a["energy_kJ"]["p95"] for a in (wooded, bare)]),
+                             *[("95 % m", [a["height_m"]["p95"] for a in (wooded, bare)])] * (screen.width == 200)):
             expect_equal(screen.pair(name), tuple(float(f"{v:.3g}") for v in values), name)
-        for name, key in (("stopped by stems", "stopped_by_stems"), ("at rest", "came_to_rest")):
-            expect_equal(screen.figure(f"\n{name}"), round(ends[key] * 1000), name)
+        for name, key in (("stems stop", "stopped_by_stems"), ("at rest", "came_to_rest")):
+            expect_equal(screen.pair(name), tuple(round(a["missed"][key] * 1000) for a in (wooded, bare)), name)
         words = {"pass": "passes", "fail": "FAILS"}
         expect_equal(lights(screen, "braille"), {name: words[control["lights"][key]] for name, key in (
             ("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy"))}, "lights")
         expect_in(f"{wooded['exceed_probability'] * 100:.1f} %", screen.now, "share beside the energy light")
         half = 195.9963984540054 * wooded["energy_kJ"]["se"] / wooded["energy_kJ"]["mean"]
-        expect_in(f"= ±{half:.2g} % {rocks} rocks", screen.now, "the mark")
+        expect_in(f"finished, {rocks} rocks" + f", ±{half:.2g} %" * (screen.width == 200), screen.now, "the mark")
 
 
 def test_compare_one():
-    """With one option no mark is set; a adds one from a preset and both are compared."""
+    """With one option none is best; a adds one from a preset and both are compared."""
     one, two = fast("""key 5
         wait idle
         dump
@@ -221,10 +216,10 @@ def test_compare_one():
         wait idle
         clear
         dump""")
-    expect(not re.search(r"\d[*!]", one.body), one)
-    one.has("One way to treat this wood so far")
+    expect_equal([cells["best"] for _, cells in compared(one)], [""], "one alone")
+    expect_in("One way to treat this wood so far", " ".join(one.body.split()))
     expect_equal(len(compared(two)), 2, "options")
-    expect(re.search(r"\d\*", two.body) and re.search(r"\d!", two.body), two)
+    expect_in("Without forest every option sees the same rocks", " ".join(two.body.split()))
 
 
 def test_next_option():

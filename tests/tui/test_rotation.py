@@ -42,8 +42,10 @@ forest:
         shoots_old: 3
       cutting: {rotation_years: 8, stay_per_ha: [30, 30]}
 rocks_per_year: 2
+years: {first: 0, last: 12}
 simulation: {rocks: 1000, contact_model: stems}
 """
+ROTATION = WOOD.replace("years: {first: 0, last: 12}\n", "")  # the years that are shown without being asked for
 INDEX = WOOD.replace("contact_model: stems", "contact_model: index")
 # 60 reserves of 20 cm and nothing else, and another way to treat it.
 RESERVES = WOOD[:WOOD.index("forest:")] + """\
@@ -65,6 +67,7 @@ options:
           growth: {trees: {dbh_most_m: 0.45, dbh_rate_1_y: 0.014, height_most_m: 20, height_rate_1_y: 0.03},
                    shoots_young: 16, shoots_old: 3}
           cutting: {rotation_years: 20, stay_per_ha: [100]}
+years: {first: 0, last: 26}
 simulation: {rocks: 1000, contact_model: index}
 """
 
@@ -74,7 +77,7 @@ class Place(Folder):
 
     def __enter__(self):
         super().__enter__()
-        for name, text in (("wood", WOOD), ("index", INDEX), ("reserves", RESERVES)):
+        for name, text in (("wood", WOOD), ("index", INDEX), ("reserves", RESERVES), ("rotation", ROTATION)):
             self.write(f"{name}.yaml", text)
         return self
 
@@ -109,7 +112,7 @@ def flat(screen):
 
 def year_said(screen):
     """(year, cut, ADC) of the sentence about the year under the cursor."""
-    found = re.search(r"Year (\d+)(, cut)?: ADC (\S+) m", flat(screen))
+    found = re.search(r"Year (\d+)(, cut)?: .*?mean distance between stem hits \(ADC\) ([\d.]+) m", flat(screen))
     expect(found, "no sentence about the year in the", screen)
     return int(found.group(1)), bool(found.group(2)), found.group(3)
 
@@ -140,18 +143,70 @@ def test_strips():
         for screen in (form, alone):
             screen.whole()
             expect_in("6 rotation", screen.title, "title")
-        expect_equal(strips(alone)[0], height > 20, f"{width}x{height}: the strip of the ADC in the picture alone")
+        expect_equal(strips(alone)[0], height > 24, f"{width}x{height}: the strip of the ADC in the picture alone")
         expect("of 1000 released with" in alone.body, f"{width}x{height}: the strip of the rocks", alone)
-        expect_in("fro", form.body, f"{width}x{height}: form")
-        expect("fro" not in alone.body, "the form beside the picture alone", alone)
+        expect(re.search(r"^ +fro", form.body, re.M), f"{width}x{height}: form", form)
+        expect(not re.search(r"^ +fro", alone.body, re.M), "the form beside the picture alone", alone)
         for screen in [alone] + [form] * (height > 20):
             expect_in("years", screen.body, "axis")
             expect(len(columns_of_cuts(screen)) == 2 and "▼cut" in screen.body, "two cuts", screen)
             for light in "CFE":
                 expect_equal(sum(c == "✘" for _, c in marks(screen, light)), fails[light], f"{width}x{height} {light}")
-        expect_in(f"13 years: {fails['C']} without contact, {fails['E']} with too much energy", flat(alone))
+        expect_in(f"Years that fail: energy {fails['E']}, contact {fails['C']}, free run {fails['F']} of 13.", flat(alone))
     expect_equal(strips(screens[0]), [False, True], "80x24 with the form: one strip")
     expect_equal(strips(screens[2]), [True, True], "200x50 with the form: both")
+
+
+def test_window():
+    """View 6 shows one whole rotation after the first cut; the window is a field, and the column on the right follows the year"""
+    screens = shown("""wait idle
+        resize 200 50
+        key 6
+        wait idle
+        dump
+        key Tab l l l
+        dump
+        key Tab
+        find last year
+        set 4
+        find first year
+        set 2
+        wait idle
+        dump
+        key u u
+        wait idle
+        dump""", "rotation.yaml")
+    with Place() as place:
+        option = result("--years", "-n", ROCKS, place.path / "rotation.yaml")["options"][0]
+    expect_equal([y["year"] for y in option["years"]], list(range(3, 11)), "the years of --years")
+    for screen, count in zip(screens, (8, 8, 3, 8)):
+        expect_equal(len(marks(screen, "C")), count, "years")
+    expect_in("One whole rotation, years 3 to 10: mean", flat(screens[0]))
+    expect_in("Years 2 to 4: mean", flat(screens[2]))
+    expect_equal(len(columns_of_cuts(screens[0])), 1, "one cut in a rotation")
+    for screen, year in ((screens[0], option["years"][0]), (screens[1], option["years"][3])):
+        wooded = year["controls"][0]["wooded"]
+        expect(re.search(rf"^Year {year['year']}(, just cut)?$", screen.now, re.M), f"the year in the column {year['year']}", screen)
+        expect_equal(screen.pair("arrive")[0], round(1000 * wooded["reach_probability"]), "what arrives in that year")
+        expect_equal(screen.pair("stems stop")[0], round(1000 * wooded["missed"]["stopped_by_stems"]), "what stems stop in it")
+    felled = option["yield"]["cuts"][0]
+    expect_in(f"Felled: {felled['volume_m3_ha']:.0f} m³ per ha, {felled['stems_per_ha']:.0f} stems.", flat(screens[0]))
+
+
+def test_thin_shoots():
+    """Just after a cut thin shoots pass the test of contact alone: from 8 cm on it fails, and both are said"""
+    screens = shown("wait idle\nresize 120 40\nkey 6\nwait idle\nkey Tab l\ndump\nresize 80 24\ndump", "rotation.yaml")
+    with Place() as place:
+        year = result("--years", "-n", 100, place.path / "rotation.yaml")["options"][0]["years"][1]
+    expect_equal([year["controls"][0]["lights"][k] for k in ("contact", "contact_8cm")], ["pass", "fail"], "the scene tells nothing")
+    expect(re.search(r"✔ Contact +passes", screens[0].now) and re.search(r"✘ +≥8 cm +FAILS", screens[0].now), screens[0])
+    expect_in("of stems from 8 cm on", flat(screens[0]))
+    expect(re.search(r"✘ ≥8 cm", screens[1].now), screens[1])
+    counted = result("-s", "simulation.contact_dbh_m=0.08", "--years", "-n", 100, "rotation")["options"][0]["years"][2]
+    lights = counted["controls"][0]["lights"]
+    expect_equal((lights["contact"], lights["free_run"]), ("fail", "fail"), "only stems from contact_dbh_m on count")
+    paper = result("-s", "simulation.contact_dbh_m=0.08", "-n", 10, "paper-site")["options"][0]["stands"][0]
+    expect_equal((f"{paper['adc']['adc_m']:.3f}", paper["passes_threshold"]), ("1.948", False), "the paper's figure stays")
 
 
 def test_small_window():
@@ -173,16 +228,17 @@ def test_figures():
     expect_equal([at.index(c) for c in columns_of_cuts(screens[0])], [y["year"] for y in years if y["cut"]], "cuts")
     text = flat(screens[0])
     expect_in(f"worst {1000 * max(y['controls'][0]['wooded']['exceed_probability'] for y in years):.0f} "
-              f"in year {rotation['worst_year']};", text)
+              f"(year {rotation['worst_year']}).", text)
+    expect_in(f"Yield {option['yield']['cut_m3_ha_per_year']:.2g} m³ per ha and year.", text)
     expect_in(f"mean {1000 * rotation['exceed_probability']['mean']:.0f} ±", text)
-    expect_in(f"expected a year: {rotation['passes_per_year']:.3g} pass, {rotation['exceeds_per_year']:.3g} with too much",
+    expect_in(f"Expected a year: {rotation['passes_per_year']:.3g} pass, {rotation['exceeds_per_year']:.3g} with too much",
               text)
     for screen, year in ((screens[0], years[0]), (screens[1], years[3])):
         number, cut, adc = year_said(screen)
         stand, wooded = year["stands"][0], year["controls"][0]["wooded"]
         expect_equal((number, cut), (year["year"], year["cut"]))
         expect_equal(adc, f"{stand['adc']['adc_m']:.3g}", "ADC")
-        expect_in(f"; of 1000 {1000 * wooded['exceed_probability']:.0f} ±", flat(screen))
+        expect_in(f": of 1000 {1000 * wooded['exceed_probability']:.0f} ±", flat(screen))
         expect_in("2–38 m: " + (f"{stand['stools_per_ha']:.0f} stools" if stand["stools_per_ha"] else "30 trees of"),
                   flat(screen), "the stems")
 
@@ -238,9 +294,9 @@ def test_edits():
     for screen in screens[:5]:
         at = [column for column, _ in marks(screen, "C")]
         cuts.append([at.index(c) for c in columns_of_cuts(screen)])
-        years.append(int(re.search(r"(\d+) years: ", flat(screen)).group(1)))
-    expect_equal(cuts, [[3, 11], [5, 13], [5, 8], [5, 13], [3, 11]], "cuts")
-    expect_equal(years, [13, 15, 11, 15, 13], "years")
+        years.append(len(at))
+    expect_equal(cuts, [[3, 11], [5], [5, 8, 11], [5], [3, 11]], "cuts")
+    expect_equal(years, [13] * 5, "years")
     expect_equal(screens[0].body.split("\n")[:20], screens[4].body.split("\n")[:20], "the picture after two undos")
     expect("cut_year: 5   # kept\n" in text and "rotation_years: 3" in text, text)
 
@@ -276,7 +332,7 @@ def test_live_rate():
         set 200
         wait idle
         dump""", "wood.yaml")
-    passes = [float(re.search(r"expected a year: (\S+) pass", flat(s)).group(1)) for s in screens]
+    passes = [float(re.search(r"Expected a year: (\S+) pass", flat(s)).group(1)) for s in screens]
     expect(abs(passes[1] - 100 * passes[0]) <= 0.01 * passes[1], f"{passes}: 100 times the rocks")
 
 
@@ -358,8 +414,8 @@ def test_no_forest():
         screens = place.play("wait idle\nkey 6\nwait idle\ndump\nkey Tab\nkey l l\ndump\nresize 200 50\ndump", "none.yaml")
     for screen in screens:
         screen.whole()
-    expect_equal([c for _, c in marks(screens[2], "C")], ["✘"] * 11, "contact")
-    expect_in("Year 2:", flat(screens[2]))
+    expect_equal([c for _, c in marks(screens[2], "C")], ["✘"], "contact")
+    expect_in("All years of 'current' are alike: no stem stands in it.", flat(screens[2]))
 
 
 def test_index_view():

@@ -349,7 +349,7 @@ def test_export_command():
         control = batch["options"][0]["controls"][0]
         arrivals = control["wooded"], control["bare"]
         expect_equal(screen.pair("arrive"), tuple(round(a["reach_probability"] * 1000) for a in arrivals), "arrive")
-        expect_equal(screen.pair("kJ mean"), tuple(float(f"{a['energy_kJ']['mean']:.3g}") for a in arrivals), "energy")
+        expect_equal(screen.pair("arriving kJ"), tuple(float(f"{a['energy_kJ']['mean']:.3g}") for a in arrivals), "energy")
         expect_near(control["index"]["residual_kJ"], index_of(screen)[1], 0.06, "left")
 
 
@@ -357,7 +357,7 @@ def test_export_rocks():
     """w: the command follows the figures on the screen: none yet, then as many rocks as they have."""
     none, last, screen = fast("key w End Enter\ndump\nwait idle\ndump\nkey Esc\ndump", "wood.yaml")
     none.has("ceduo --batch -n 1000 ", "no figures yet", "what the scene says")
-    rocks = int(screen.figure("= .* %"))
+    rocks = int(screen.figure("finished,"))
     last.has(f"ceduo --batch -n {rocks} ", f"The figures on the screen are of {rocks} rocks").lacks("no figures yet")
 
 

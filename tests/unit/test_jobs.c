@@ -34,7 +34,7 @@ static bool show(bool years)
 static void release(struct jobs_news *news)
 {
     ceduo_outlook_free(news->outlook);
-    ceduo_years_free(news->years);
+    ceduo_jobs_free_years(news->years, news->years_count);
     ceduo_sought_free(news->sought);
 }
 
@@ -65,7 +65,11 @@ static void figures_and_years_come_to_an_end(void **state)
     assert_int_equal(news.outlook->bare->flown.rocks, FLIGHTS_MOST);
     assert_int_equal(news.outlook->wooded[0]->flown.rocks, FLIGHTS_MOST);
     assert_non_null(news.years);
-    assert_int_equal(news.years->years[0].wooded.rocks, FLIGHTS_YEAR);
+    assert_int_equal(news.years_count, 1);
+    assert_int_equal(news.years[0]->years[0].wooded.rocks, FLIGHTS_YEAR);
+    assert_true(news.years[0]->key == ceduo_flights_years_key(&file.scene, 0));
+    assert_int_equal(news.done, 1);
+    assert_int_equal(news.all, 1);
     release(&news);
     assert_false(show(false));
     assert_false(show(true)); /* they are known */

@@ -7,6 +7,7 @@
 #include "core/run_pack.h"
 #include "physics/paper_site.h"
 #include "study/outlook.h"
+#include "study/verdict.h"
 
 /* ---- runs ---- */
 
@@ -247,12 +248,15 @@ static bool question(void)
     q.rocks = 30;
     q.tolerance = 1;
     q.years = true;
-    q.year_last = 4;
-    q.year_step = 2;
+    q.window = (struct ceduo_window){.last = 4, .step = 2};
     q.block_rocks = 20;
     enum ceduo_status status = ceduo_ask(&q, &pool, &answer);
+    struct ceduo_verdict verdict = {0};
+    if (status == CEDUO_OK)
+        status = ceduo_verdict_make(answer.result, answer.years, &verdict);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
+        add(&verdict.choices[0].yield.volume_today, sizeof verdict.choices[0].yield.volume_today);
         add(ceduo_result_wooded(answer.result, 0, 0), offsetof(struct ceduo_arrivals, exact));
         add(&s.reach, sizeof s.reach);
         add(&s.worst, sizeof s.worst);
@@ -261,6 +265,7 @@ static bool question(void)
             add(&answer.blocks[i].arrivals.exceed_hi, sizeof answer.blocks[i].arrivals.exceed_hi);
         }
     }
+    ceduo_verdict_release(&verdict);
     ceduo_answer_release(&answer);
     ceduo_pool_free(pool);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);

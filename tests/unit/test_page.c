@@ -146,10 +146,11 @@ static void every_figure_says_what_it_is(void **state)
 
 static struct scene_file file;
 static struct ceduo_answer answer;
+static struct ceduo_verdict verdict;
 static struct ceduo_report report;
 static const struct ceduo_search search = {.path = "forest[0].from_m", .goal = CEDUO_GOAL_ENERGY, .target = 50, .hi = 9, .rocks = 7};
 static const struct ceduo_found found_none = {.nearest = 3, .goal_at_nearest = 60, .value = NAN, .goal_at_value = NAN};
-static const struct ceduo_find_report find = {&file, &search, &found_none};
+static const struct ceduo_find_report find = {&file, &search, &found_none, NULL};
 
 static int set_up(void **state)
 {
@@ -160,12 +161,12 @@ static int set_up(void **state)
     ceduo_problems_free(&problems);
     struct ceduo_question question = ceduo_question_default(&file.scene);
     question.years = true;
-    question.year_step = 1;
-    question.year_last = 1;
+    question.window = (struct ceduo_window){.last = 1, .step = 1};
     question.block_rocks = 20;
-    if (!good || ceduo_ask(&question, NULL, &answer) != CEDUO_OK)
+    if (!good || ceduo_ask(&question, NULL, &answer) != CEDUO_OK ||
+        ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
         return 1;
-    report = (struct ceduo_report){.file = &file, .result = answer.result, .years = answer.years, .blocks = answer.blocks,
+    report = (struct ceduo_report){.file = &file, .result = answer.result, .years = answer.years, .blocks = answer.blocks, .verdict = &verdict,
                                    .work = answer.work};
     return 0;
 }
@@ -173,6 +174,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
+    ceduo_verdict_release(&verdict);
     ceduo_answer_release(&answer);
     ceduo_scene_release(&file);
     return 0;

@@ -1147,17 +1147,58 @@ static void pictures_draw_on_another_surface(void **state)
         ceduo_plot_draw(plot, &canvas, &area, &p);
         if (page.labels == 0 || page.strayed)
             fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
-        if (plot != CEDUO_PLOT_ROTATION && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
+        if (plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
             fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
         if (plot == CEDUO_PLOT_PROFILE && page.ways == 0)
             fail_msg("profile: no ways");
     }
 }
 
+/* Three options: one between the others, one that yields less and lets more through, one of which no yield is known. */
+static void a_point_for_each_option(void **state)
+{
+    (void)state;
+    static struct site s;
+    wooded_site_init(&s);
+    static struct ceduo_option options[3];
+    static char names[3][8] = {"good", "beaten", "unknown"};
+    struct ceduo_choice choices[3] = {{.mean = {.25, .0625}, .yield = {.cut_per_year = 4}},
+                                      {.mean = {.5, .0625}, .yield = {.cut_per_year = 2}, .beaten = true},
+                                      {.mean = {.125, .0625}, .yield = {.cut_per_year = NAN}}};
+    for (int i = 0; i < 3; i++)
+        options[i].name = names[i];
+    s.scene.options = options;
+    s.scene.options_count = 3;
+    const struct ceduo_verdict verdict = {.wooded = true, .accepted = true, .n = 3, .choices = choices};
+    struct ceduo_picture p = picture_of(&s);
+    p.verdict = &verdict;
+    expect(CEDUO_PLOT_TRADEOFF, &p, 60, 16, ASCII, "dangerous of 1000, against m3 per ha and year\n"
+           "  600+\n"
+           "     |                       :(2)\n"
+           "     |                       :\n"
+           "  400+\n"
+           "     |                                             :\n"
+           "     |                                             :1\n"
+           "  200+                                             '\n"
+           "     |\n"
+           "    0+\n"
+           "     ++----------+-----------+----------+----------+-------\n"
+           "      0          1           2          3          4 m3\n"
+           "1 good\n"
+           "(2) beaten\n"
+           "- unknown: no yield known\n"
+           "( ) another is better in both\n");
+    choices[0].yield.cut_per_year = choices[1].yield.cut_per_year = NAN;
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 60, 16, "no option says how it grows and is cut"));
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 20, 16, "too narrow"));
+    p.verdict = NULL;
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 60, 16, "not computed yet"));
+}
+
 static void names_are_found(void **state)
 {
     (void)state;
-    const char *names[] = {"profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"};
+    const char *names[] = {"profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare", "tradeoff"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         enum ceduo_plot plot = ceduo_plot_find(names[i]);
         assert_int_not_equal(plot, CEDUO_PLOT_NONE);
@@ -1184,6 +1225,7 @@ static void titles_name_what_is_shown(void **state)
             "kept: year by year, up to path (40 m)",
             "kept: coppice, from above",
             "Options side by side, up to path (40 m)",
+            "Protection and yield of the options, up to path (40 m)",
         },
         {
             "",
@@ -1195,6 +1237,7 @@ static void titles_name_what_is_shown(void **state)
             "kept: year by year, up to path (40 m)",
             "kept: coppice, from above",
             "Options side by side, up to path (40 m)",
+            "Protection and yield of the options, up to path (40 m)",
         },
     };
     for (int i = 0; i < 2 * (CEDUO_PLOTS - 1); i++) {
@@ -1205,7 +1248,7 @@ static void titles_name_what_is_shown(void **state)
         assert_string_equal(ceduo_text_string(&title), expected[i % 2][plot]);
         ceduo_text_free(&title);
     }
-    assert_int_equal(ceduo_plot_last_control(&s.scene), 1);
+    assert_int_equal(ceduo_scene_last_control(&s.scene), 1);
 }
 
 /* What was not flown yet is named. */
@@ -1319,6 +1362,7 @@ int main(void)
         cmocka_unit_test(a_dense_stand_is_drawn_in_time),
         cmocka_unit_test(nothing_is_drawn_beside_the_area),
         cmocka_unit_test(pictures_draw_on_another_surface),
+        cmocka_unit_test(a_point_for_each_option),
         cmocka_unit_test(names_are_found),
         cmocka_unit_test(titles_name_what_is_shown),
         cmocka_unit_test(pictures_name_what_is_not_known),

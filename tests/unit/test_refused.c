@@ -296,14 +296,6 @@ static void growth_is_known_or_not(void **state)
         if (i < 4)
             *numbers[i] = was;
     }
-    site.scene.options = &site.option; /* what is shown of it: up to a rotation after the cut, where that is not too far */
-    site.scene.options_count = 1;
-    site.belts[1].stand.cutting.rotation = 0;
-    const unsigned usual[][2] = {{3, 29}, {100, 120}, {119, 120}, {130, 10}};
-    for (size_t i = 0; i < 4; i++) {
-        site.belts[0].cut_year = usual[i][0];
-        assert_int_equal(ceduo_years_usual(&site.scene), usual[i][1]);
-    }
     stand->growth.shoots_old = 0;
     assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
     stand->shoots_count = 0; /* trees alone: cut when they are old enough, if that is known */

@@ -306,7 +306,8 @@ static void years_before_they_are_flown(void **state)
     struct ceduo_flown bare;
     struct ceduo_years *years;
     assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
-    assert_int_equal(ceduo_years_create(&site.scene, &site.option, 0, 3, 1, &years), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1},
+                                        &years), CEDUO_OK);
     ceduo_years_assess(years, &site.scene, &bare);
     struct ceduo_years_summary s = ceduo_years_sum(years, 0);
     EXPECT(s.years, ==, 4);

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is said of figures: an interval holds all that lies in it once it is rounded, and an option is worse than another
- * only where they are more than two standard errors apart; what was not simulated is not compared. */
+/* What is said of figures: an interval holds all that lies in it once it is rounded, and an option is called the
+ * best only where it is more than three standard errors before the others. */
 #include "expect.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "physics/line_scene.h"
-#include "study/compare.h"
 #include "view/words.h"
 
 #define OPTIONS 3
@@ -38,24 +37,17 @@ static void open_scene(double accepted)
     }
 }
 
-/* Of the first `known` options something is known. */
-static struct ceduo_result *assess_first(size_t known)
+static struct ceduo_result *assess(void)
 {
     struct ceduo_flown flown[OPTIONS];
     const struct ceduo_flown *wooded[OPTIONS];
     struct ceduo_result *result;
-    for (size_t i = 0; i < OPTIONS; i++) {
-        flown[i] =
-            (struct ceduo_flown){.rocks = 1000, .controls = scene.scene.controls_count, .arrivals = &arrivals[i]};
-        wooded[i] = i < known ? &flown[i] : NULL;
+    for (int i = 0; i < OPTIONS; i++) {
+        flown[i] = (struct ceduo_flown){.rocks = 1000, .controls = 1, .arrivals = &arrivals[i]};
+        wooded[i] = &flown[i];
     }
     assert_int_equal(ceduo_result_assess(&scene.scene, &flown[0], wooded, differences, &result), CEDUO_OK);
     return result;
-}
-
-static struct ceduo_result *assess(void)
-{
-    return assess_first(OPTIONS);
 }
 
 /* ---- intervals ---- */
@@ -96,148 +88,168 @@ static void an_interval_is_rounded_outward(void **state)
                 "750) of 1000 ");
 }
 
-/* ---- which is worse ---- */
-
-static bool is_worse(size_t option, size_t than)
-{
-    struct ceduo_result *result = assess();
-    bool worse = ceduo_compare_worse(result, option, than);
-    ceduo_result_free(result);
-    return worse;
-}
+/* ---- which is best ---- */
 
 static void expect_best(const char *wanted)
 {
     struct text text = {0};
     struct ceduo_result *result = assess();
-    ceduo_words_best(&text, result);
+    struct ceduo_verdict verdict;
+    assert_int_equal(ceduo_verdict_make(result, NULL, &verdict), CEDUO_OK);
+    ceduo_words_best(&text, result->scene, &verdict);
     assert_string_equal(ceduo_text_string(&text), wanted);
     ceduo_text_free(&text);
+    ceduo_verdict_release(&verdict);
     ceduo_result_free(result);
 }
 
-/* The figure of an option by energy, and the error of its difference to the first: shares where it is said what a place
- * bears, otherwise energies. */
-static void set(size_t option, bool shares, double value, double se)
+/* Of 1000 released so many with too much energy, or where it is not said what is too much so many that arrive; the error
+ * of their difference to the first. */
+static void set(size_t option, bool accepted, double share, double se)
 {
-    *(shares ? &arrivals[option].exceed_probability : &arrivals[option].energy_per_released) = value;
-    *(shares ? &differences[option].exceed_probability.se : &differences[option].energy_per_released.se) = se;
+    *(accepted ? &arrivals[option].exceed_probability : &arrivals[option].reach_probability) = share;
+    struct ceduo_paired *d = accepted ? &differences[option].exceed_probability : &differences[option].reach_probability;
+    double first = accepted ? arrivals[0].exceed_probability : arrivals[0].reach_probability;
+    *d = (struct ceduo_paired){share - first, se};
 }
 
-/* Errors of 3 and 4 to the first make 5 of one to the other: 10 apart is not worse, and the next double is. All are
- * multiples of the same power of two, so that no rounding is in it. */
-static void two_standard_errors_apart_is_not_worse(void **state)
+/* All shares and errors are multiples of the same power of two, so that no rounding is in it. Errors of 3 and 4 to the first
+ * make 5 of one to the other: 15 apart is not clear, and the next double is. */
+static void three_standard_errors_apart_is_not_clear(void **state)
 {
     (void)state;
-    for (int shares = 0; shares < 2; shares++) {
-        const double unit = shares ? 1. / 64 : 1024, base = 20 * unit;
-        open_scene(shares ? 50e3 : NAN);
-        EXPECT(hypot(3 * unit, 4 * unit), ==, 5 * unit);
-        set(0, shares, base, 0);
-        set(1, shares, base, 3 * unit);
-        set(2, shares, base + 10 * unit, 4 * unit);
-        assert_false(is_worse(2, 1) || is_worse(1, 2));
-        set(2, shares, nextafter(base + 10 * unit, INFINITY), 4 * unit);
-        assert_true(is_worse(2, 1));
-        assert_false(is_worse(1, 2));
-        set(2, shares, nextafter(base + 10 * unit, 0), 4 * unit);
-        assert_false(is_worse(2, 1) || is_worse(1, 2));
-        set(2, shares, base + 8 * unit, 4 * unit); /* beside the first its own error counts alone */
-        assert_false(is_worse(2, 0) || is_worse(0, 2));
-        set(2, shares, nextafter(base + 8 * unit, INFINITY), 4 * unit);
-        assert_true(is_worse(2, 0));
-        assert_false(is_worse(2, 1));
-    }
+    const double unit = 1. / 128;
+    open_scene(50e3);
+    EXPECT(hypot(3 * unit, 4 * unit), ==, 5 * unit);
+    set(0, true, .5, 0);
+    set(1, true, .25, 3 * unit);
+    set(2, true, .25 + 15 * unit, 4 * unit);
+    expect_best("Today 'b' and 'c' let the fewest dangerous rocks through and cannot be told apart: 250 and 367 of 1000.");
+    set(2, true, nextafter(.25 + 15 * unit, 1), 4 * unit);
+    expect_best("Today 'b' lets the fewest dangerous rocks through: 250 of 1000.");
+    set(0, true, .25 + 9 * unit, 0);
+    set(1, true, .25, 3 * unit);
+    set(2, true, .5, 4 * unit);
+    expect_best("Today 'a' and 'b' let the fewest dangerous rocks through and cannot be told apart: 320 and 250 of 1000.");
+    set(2, true, .25 + 9 * unit, 4 * unit);
+    expect_best("Today no option is clearly better than the others.");
 }
 
-static void nothing_is_best_within_two_standard_errors(void **state)
+/* Without an accepted energy nothing is said of danger, and energies decide nothing. */
+static void what_is_not_accepted_is_not_judged(void **state)
+{
+    (void)state;
+    open_scene(NAN);
+    arrivals[1].energy_per_released = -1000;
+    set(0, false, .5, 0);
+    set(1, false, .75, .015625);
+    set(2, false, .25, .015625);
+    expect_best("Today 'c' lets the fewest rocks through: 250 of 1000.");
+}
+
+/* What is not known of one option is not known of all. */
+static void unknown_is_never_best(void **state)
 {
     (void)state;
     open_scene(50e3);
-    set(0, true, .25 + .0625, 0);
-    set(1, true, .25, .03125);
-    set(2, true, .25 + .0625, .03125);
+    set(0, true, .5, 0);
+    set(1, true, .25, .015625);
+    differences[2].exceed_probability = (struct ceduo_paired){NAN, NAN};
     expect_best("");
-    set(0, true, nextafter(.25 + .0625, 1), 0);
-    expect_best(
-        "By energy 'b' is best, though not clearly before all others; contact does not tell the options apart.");
-    set(2, true, .5, .03125);
-    expect_best("By energy 'b' is best; contact does not tell the options apart.");
-    set(0, true, .25 + .0625, 0);
-    expect_best(
-        "By energy 'b' is best, though not clearly before all others; contact does not tell the options apart.");
 }
 
-/* ---- what is compared ---- */
+/* ---- over a whole rotation ---- */
 
-/* The difference of two shares has a margin of 1.96 standard errors; of two that are both 0, whose error is 0, it has
- * Wilson's: none of n is at most z2/(n + z2). */
-static void a_difference_of_nothing_has_the_margin_of_a_share(void **state)
+static struct ceduo_choice choices[OPTIONS];
+static bool rivals[2][OPTIONS];
+static struct ceduo_verdict made;
+
+static void make_verdict(const double mean[OPTIONS], const double today[OPTIONS], size_t best, size_t best_today)
+{
+    open_scene(50e3);
+    memset(rivals, 0, sizeof rivals);
+    made = (struct ceduo_verdict){.wooded = true,
+                                  .accepted = true,
+                                  .n = OPTIONS,
+                                  .choices = choices,
+                                  .today = {.known = true, .best = best_today, .rival = rivals[0]},
+                                  .rotation = {.known = true, .best = best, .rival = rivals[1]}};
+    for (size_t i = 0; i < OPTIONS; i++)
+        choices[i] = (struct ceduo_choice){.mean = {mean[i], .01},
+                                           .today = {today[i], .01},
+                                           .years = 25,
+                                           .flown = 25,
+                                           .window = {CEDUO_WINDOW_ROTATION, 1, 25, 1}};
+}
+
+static void expect_made(const char *wanted)
+{
+    struct text text = {0};
+    ceduo_words_best(&text, &scene.scene, &made);
+    assert_string_equal(ceduo_text_string(&text), wanted);
+    ceduo_text_free(&text);
+}
+
+static void a_sentence_for_the_rotation_and_one_for_today(void **state)
 {
     (void)state;
-    double half;
-    open_scene(50e3);
-    set(0, true, 0, 0);
-    set(1, true, 0, 0);
-    set(2, true, .25, .03125);
-    differences[2].exceed_probability.mean = .25;
-    struct ceduo_result *result = assess();
-    EXPECT(ceduo_compare_difference(result, 1, &half), ==, 0);
-    EXPECT_NEAR(half, CEDUO_Z95 * CEDUO_Z95 / (1000 + CEDUO_Z95 * CEDUO_Z95), 1e-15);
-    EXPECT(ceduo_compare_difference(result, 2, &half), ==, .25);
-    EXPECT(half, ==, CEDUO_Z95 * .03125);
-    EXPECT(ceduo_compare_share(result, 2, &half), ==, .25);
-    EXPECT_NEAR(half, CEDUO_Z95 * sqrt(.25 * .75 / 1000), 1e-15);
-    ceduo_result_free(result);
+    static const double mean[OPTIONS] = {.564, .352, .277}, today[OPTIONS] = {.127, .28, .224};
+    make_verdict(mean, today, 2, 0);
+    expect_made("Over a whole rotation 'c' lets the fewest dangerous rocks through: 277 of 1000.\n"
+                "Today 'a' lets the fewest dangerous rocks through: 127 of 1000.");
+    make_verdict(mean, mean, 2, 2);
+    expect_made("Over a whole rotation 'c' lets the fewest dangerous rocks through, as it does today: 277 and 277 of 1000.");
+    rivals[1][1] = true;
+    made.rotation.rivals = 1;
+    expect_made("Over a whole rotation 'b' and 'c' let the fewest dangerous rocks through and cannot be told apart: 352 and "
+                "277 of 1000.\nToday 'c' lets the fewest dangerous rocks through: 277 of 1000.");
+    made.rotation.known = false; /* not computed yet */
+    expect_made("Today 'c' lets the fewest dangerous rocks through: 277 of 1000.");
+    make_verdict(mean, today, 2, 0);
+    for (size_t i = 0; i < OPTIONS; i++)
+        choices[i].window.kind = CEDUO_WINDOW_GIVEN;
+    expect_made("Over these years 'c' lets the fewest dangerous rocks through: 277 of 1000.\n"
+                "Today 'a' lets the fewest dangerous rocks through: 127 of 1000.");
+    for (size_t i = 0; i < OPTIONS; i++)
+        choices[i].window.kind = CEDUO_WINDOW_ALIKE; /* every year is as today */
+    expect_made("Today 'a' lets the fewest dangerous rocks through: 127 of 1000.");
 }
 
-static void what_was_not_simulated_is_not_compared(void **state)
+static void add_line(void *context, const char *sentence)
+{
+    ceduo_text_format(context, "%s\n", sentence);
+}
+
+static void why_there_is_no_rotation(void **state)
 {
     (void)state;
-    double half = 0;
-    open_scene(50e3);
-    differences[2] = (struct ceduo_difference){{NAN, NAN}, {NAN, NAN}, {NAN, NAN}};
-    struct ceduo_result *result = assess_first(2);
-    assert_true(isnan(ceduo_compare_share(result, 2, &half)) && isnan(half));
-    half = 0;
-    assert_true(isnan(ceduo_compare_difference(result, 2, &half)) && isnan(half));
-    assert_false(ceduo_compare_worse(result, 2, 0) || ceduo_compare_worse(result, 0, 2));
-    assert_false(ceduo_compare_best(result).known);
-    ceduo_result_free(result);
-}
-
-static void expect_known(bool wanted)
-{
-    struct ceduo_result *result = assess();
-    assert_int_equal(ceduo_compare_best(result).known, wanted);
-    ceduo_result_free(result);
-}
-
-/* It takes two options, rocks among their stems and a place where they are counted. */
-static void the_best_of_nothing_is_not_known(void **state)
-{
-    (void)state;
-    open_scene(50e3);
-    expect_known(true);
-    scene.scene.options_count = 1;
-    expect_known(false);
-    scene.scene.options_count = OPTIONS;
-    scene.scene.controls_count = 0;
-    expect_known(false);
-    scene.scene.controls_count = 1;
-    scene.scene.simulation.contact_model = CEDUO_INDEX;
-    expect_known(false);
+    static const double mean[OPTIONS] = {.5, .5, .5};
+    static struct ceduo_stems trees = {.per_ha = 100, .dbh = .2, .height = 10};
+    static char name[] = "old stand";
+    static struct ceduo_belt belt = {.to = 10, .name = name, .stand = {.trees = &trees, .trees_count = 1}};
+    struct text text = {0};
+    make_verdict(mean, mean, 0, 0);
+    options[1].belts = options[2].belts = &belt;
+    options[1].belts_count = options[2].belts_count = 1;
+    choices[0].window.kind = choices[1].window.kind = CEDUO_WINDOW_ALIKE;
+    choices[2].window.kind = CEDUO_WINDOW_UNCUT;
+    ceduo_words_windows(&scene.scene, &made, add_line, &text);
+    assert_string_equal(ceduo_text_string(&text),
+                        "All years of 'a' are alike: no stem stands in it.\n"
+                        "All years of 'b' are alike: the file of 'old stand' has no growth (growth, cutting).\n"
+                        "'c' grows, but is never cut: its next 25 years stand for it.\n");
+    ceduo_text_free(&text);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_interval_is_rounded_outward),
-        cmocka_unit_test(two_standard_errors_apart_is_not_worse),
-        cmocka_unit_test(nothing_is_best_within_two_standard_errors),
-        cmocka_unit_test(a_difference_of_nothing_has_the_margin_of_a_share),
-        cmocka_unit_test(what_was_not_simulated_is_not_compared),
-        cmocka_unit_test(the_best_of_nothing_is_not_known),
+        cmocka_unit_test(three_standard_errors_apart_is_not_clear),
+        cmocka_unit_test(what_is_not_accepted_is_not_judged),
+        cmocka_unit_test(unknown_is_never_best),
+        cmocka_unit_test(a_sentence_for_the_rotation_and_one_for_today),
+        cmocka_unit_test(why_there_is_no_rotation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

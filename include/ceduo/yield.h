@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_YIELD_H
+#define CEDUO_YIELD_H
+
+#include "years.h"
+
+/* What a forest yields, from the volumes of its stems, their growth and their cuts (rotation.h). All is stem wood in m3 per
+ * hectare of forest: the mean over the belts, each weighted by its length.
+ *
+ * A cut takes what stands before it less what stands after it: trees that stay were shoots before. Stems that die between
+ * two cuts, by the falling number of shoots or thinned by the density, are no yield: each counts with its volume of the year
+ * before. Hence over a rotation that repeats itself the volume felled is what grew less what died. */
+struct ceduo_felling {
+    unsigned year;
+    size_t belt;
+    double stems_per_ha, volume; /* m3/ha of that belt */
+};
+
+struct ceduo_yield {
+    double cut_per_year;      /* m3/ha and year, over a whole rotation of each belt; NaN where growth or cuts are unknown */
+    double died_per_year;     /* likewise */
+    double standing;          /* m3/ha: the mean of that rotation's years */
+    double volume_today;      /* m3/ha as filed; NaN without a forest */
+    size_t fellings_count;
+    struct ceduo_felling *fellings; /* by year, then by belt */
+};
+
+/* The yield of an option. Fellings are those from year `first` to `last`. CEDUO_NO_MEMORY, with nothing to free, or
+ * CEDUO_OK. */
+enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned first, unsigned last, struct ceduo_yield *yield);
+void ceduo_yield_release(struct ceduo_yield *yield);
+
+/* Stem volume of a stand, m3/ha. */
+double ceduo_stand_volume(const struct ceduo_stand *stand);
+
+#endif

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/yield.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- one stand ---- */
+
+double ceduo_stand_volume(const struct ceduo_stand *stand)
+{
+    double sum = 0;
+    enum ceduo_volume_from from;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        sum += stand->shoots[i].per_ha * ceduo_stem_volume(stand, &stand->shoots[i], &from);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        sum += stand->trees[i].per_ha * ceduo_stem_volume(stand, &stand->trees[i], &from);
+    return sum;
+}
+
+/* Volume of the shoots of `now` that are gone in `next`, a year later; trees do not die. The cohorts of both end with
+ * the oldest: a younger one may have come up. */
+static double volume_died(const struct ceduo_stand *now, const struct ceduo_stand *next)
+{
+    double sum = 0;
+    enum ceduo_volume_from from;
+    for (size_t i = 1; i <= now->shoots_count && i <= next->shoots_count; i++) {
+        const struct ceduo_stems *before = &now->shoots[now->shoots_count - i];
+        const struct ceduo_stems *after = &next->shoots[next->shoots_count - i];
+        sum += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(now, before, &from);
+    }
+    return sum;
+}
+
+/* A stand over one rotation from its first cut on, m3/ha. */
+struct rotation_sum {
+    double felled, died, standing; /* standing: summed over the years */
+};
+
+static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned first, struct rotation_sum *sum)
+{
+    const struct ceduo_stand *stand = &belt->stand;
+    unsigned rotation = stand->cutting.rotation;
+    struct ceduo_grown_stand now, next;
+    enum ceduo_status status = ceduo_stand_at(stand, belt->cut_year, first, &now);
+    if (status != CEDUO_OK)
+        return status;
+    double after_cut = ceduo_stand_volume(&now.stand);
+    for (unsigned t = 1; t <= rotation && status == CEDUO_OK; t++) {
+        sum->standing += ceduo_stand_volume(&now.stand);
+        status = t < rotation ? ceduo_stand_at(stand, belt->cut_year, first + t, &next)
+                              : ceduo_stand_before_cut(stand, belt->cut_year, first + t, &next);
+        if (status == CEDUO_OK) {
+            sum->died += volume_died(&now.stand, &next.stand);
+            ceduo_grown_stand_release(&now);
+            now = next;
+        }
+    }
+    sum->felled = ceduo_stand_volume(&now.stand) - after_cut;
+    ceduo_grown_stand_release(&now);
+    return status;
+}
+
+/* ---- fellings ---- */
+
+static enum ceduo_status fell(const struct ceduo_belt *belt, struct ceduo_felling *f)
+{
+    struct ceduo_grown_stand before, after;
+    enum ceduo_status status = ceduo_stand_before_cut(&belt->stand, belt->cut_year, f->year, &before);
+    if (status != CEDUO_OK)
+        return status;
+    status = ceduo_stand_at(&belt->stand, belt->cut_year, f->year, &after);
+    if (status == CEDUO_OK) {
+        f->volume = ceduo_stand_volume(&before.stand) - ceduo_stand_volume(&after.stand);
+        f->stems_per_ha = ceduo_stand_shoots(&before.stand) + ceduo_stand_trees(&before.stand) -
+                          ceduo_stand_shoots(&after.stand) - ceduo_stand_trees(&after.stand);
+        ceduo_grown_stand_release(&after);
+    }
+    ceduo_grown_stand_release(&before);
+    return status;
+}
+
+static bool is_felled(const struct ceduo_belt *belt, unsigned year)
+{
+    return ceduo_is_cut_year(&belt->stand, belt->cut_year, year);
+}
+
+static enum ceduo_status list_fellings(const struct ceduo_option *option, unsigned first, unsigned last,
+                                       struct ceduo_yield *yield)
+{
+    size_t n = 0;
+    for (unsigned year = first; year <= last; year++)
+        for (size_t i = 0; i < option->belts_count; i++)
+            n += is_felled(&option->belts[i], year);
+    yield->fellings = calloc(n + 1, sizeof *yield->fellings);
+    enum ceduo_status status = yield->fellings ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (unsigned year = first; year <= last && status == CEDUO_OK; year++)
+        for (size_t i = 0; i < option->belts_count && status == CEDUO_OK; i++)
+            if (is_felled(&option->belts[i], year)) {
+                struct ceduo_felling *f = &yield->fellings[yield->fellings_count++];
+                *f = (struct ceduo_felling){.year = year, .belt = i};
+                status = fell(&option->belts[i], f);
+            }
+    return status;
+}
+
+/* ---- an option ---- */
+
+static enum ceduo_status sum_belts(const struct ceduo_option *option, struct ceduo_yield *yield)
+{
+    double length = 0, felled = 0, died = 0, standing = 0, today = 0;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        double metres = belt->to - belt->from, rotation = belt->stand.cutting.rotation;
+        unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year);
+        struct rotation_sum sum = {0};
+        if (ceduo_stand_is_bare(&belt->stand) && !ceduo_stand_sprouts(&belt->stand))
+            continue;
+        enum ceduo_status status = first == CEDUO_NEVER ? CEDUO_OK : sum_rotation(belt, first, &sum);
+        if (status != CEDUO_OK)
+            return status;
+        double known = first == CEDUO_NEVER ? NAN : metres / rotation;
+        length += metres;
+        felled += known * sum.felled;
+        died += known * sum.died;
+        standing += known * sum.standing;
+        today += metres * ceduo_stand_volume(&belt->stand);
+    }
+    yield->cut_per_year = felled / length; /* NaN without a forest */
+    yield->died_per_year = died / length;
+    yield->standing = standing / length;
+    yield->volume_today = today / length;
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned first, unsigned last, struct ceduo_yield *yield)
+{
+    *yield = (struct ceduo_yield){0};
+    enum ceduo_status status = sum_belts(option, yield);
+    if (status == CEDUO_OK)
+        status = list_fellings(option, first, last, yield);
+    if (status != CEDUO_OK)
+        ceduo_yield_release(yield);
+    return status;
+}
+
+void ceduo_yield_release(struct ceduo_yield *yield)
+{
+    free(yield->fellings);
+    *yield = (struct ceduo_yield){0};
+}

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+double ceduo_share_of(const struct ceduo_arrivals *arrivals)
+{
+    return isnan(arrivals->exceed_probability) ? arrivals->reach_probability : arrivals->exceed_probability;
+}
+
+struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
+{
+    if (!a)
+        return (struct ceduo_portion){NAN, NAN};
+    double share = ceduo_share_of(a);
+    double half = ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released);
+    return (struct ceduo_portion){share, half};
+}
+
+static struct ceduo_paired to_first(const struct ceduo_result *r, size_t option)
+{
+    const struct ceduo_difference *d = &r->options[option].differences[r->last_control];
+    return isnan(r->scene->controls[r->last_control].accepted) ? d->reach_probability : d->exceed_probability;
+}
+
+struct ceduo_portion ceduo_share_to_first(const struct ceduo_result *r, size_t option)
+{
+    struct ceduo_paired found = to_first(r, option);
+    const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
+    double share = ceduo_share_at(a).mean, first = ceduo_share_at(ceduo_result_wooded(r, 0, r->last_control)).mean;
+    double half = !a               ? NAN
+                  : share == first ? ceduo_half_width_of_share(share, found.se, a->released)
+                                   : CEDUO_Z95 * found.se;
+    return (struct ceduo_portion){found.mean, half};
+}
+
+/* ---- which is best ---- */
+
+/* A figure of one option less that of another, with its standard error. */
+typedef struct ceduo_paired difference_of(const void *context, size_t option, size_t less);
+
+static bool is_clearly_worse(difference_of *difference, const void *context, size_t option, size_t than)
+{
+    struct ceduo_paired d = difference(context, option, than);
+    return d.mean > CEDUO_CLEAR * d.se;
+}
+
+static void find_best(difference_of *difference, const void *context, size_t n, struct ceduo_leader *leader)
+{
+    leader->best = leader->rivals = 0;
+    for (size_t i = 1; i < n; i++)
+        if (difference(context, i, leader->best).mean < 0)
+            leader->best = i;
+    for (size_t i = 0; i < n; i++) {
+        leader->rival[i] = i != leader->best && !is_clearly_worse(difference, context, i, leader->best);
+        leader->rivals += leader->rival[i];
+    }
+}
+
+/* From the differences to the first option: the error of a difference of two of them is rather too large. */
+static struct ceduo_paired difference_today(const void *context, size_t option, size_t less)
+{
+    struct ceduo_paired a = to_first(context, option), b = to_first(context, less);
+    return (struct ceduo_paired){a.mean - b.mean, hypot(a.se, b.se)};
+}
+
+static struct ceduo_paired difference_over_years(const void *context, size_t option, size_t less)
+{
+    struct ceduo_years *const *years = context;
+    return ceduo_years_difference(years[option], years[less]);
+}
+
+/* ---- one option ---- */
+
+static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
+{
+    const struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
+    c->years = s.years;
+    c->flown = s.flown;
+    c->no_contact = s.unprotected_contact;
+    c->free_runs = s.unprotected_free_run;
+    c->too_much = s.unprotected_energy;
+    c->worst_year = s.worst_year;
+    c->worst.mean = s.worst; /* by the index an ADC: it has no error */
+    for (size_t i = 0; i < years->count; i++)
+        if (years->years[i].year == s.worst_year && years->years[i].wooded.rocks > 0)
+            c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
+    struct ceduo_paired mean = isnan(s.exceed.mean) ? s.reach : s.exceed;
+    c->mean = (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
+}
+
+static enum ceduo_status read_choice(const struct ceduo_result *r, const struct ceduo_years *years, size_t option,
+                                     struct ceduo_choice *c)
+{
+    const struct ceduo_portion unknown = {NAN, NAN};
+    const struct ceduo_option *o = &r->scene->options[option];
+    struct ceduo_window rotation = ceduo_window_of(o);
+    *c = (struct ceduo_choice){.today = unknown, .worst = unknown, .mean = unknown};
+    c->window = years ? years->window : ceduo_window_in(r->scene, o);
+    if (r->scene->controls_count > 0) {
+        c->today = ceduo_share_at(ceduo_result_wooded(r, option, r->last_control));
+        c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
+        if (years && years->count > 0)
+            read_years(years, c);
+    }
+    unsigned first = rotation.first < c->window.first ? rotation.first : c->window.first;
+    unsigned last = rotation.last + 1 > c->window.last ? rotation.last + 1 : c->window.last;
+    return ceduo_yield_of(o, first, last, &c->yield);
+}
+
+/* ---- all options ---- */
+
+static bool all_are_known(const struct ceduo_verdict *v, bool rotation)
+{
+    for (size_t i = 0; i < v->n; i++)
+        if (isnan(rotation ? v->choices[i].mean.mean : v->choices[i].today.mean))
+            return false;
+    return v->wooded && v->n > 1;
+}
+
+static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdict *v, size_t option)
+{
+    double yield = v->choices[option].yield.cut_per_year;
+    for (size_t i = 0; i < v->n; i++) {
+        double other = v->choices[i].yield.cut_per_year;
+        bool clear = is_clearly_worse(difference_over_years, years, option, i);
+        if (i != option && other >= yield && (clear || (other > yield && difference_over_years(years, option, i).mean >= 0)))
+            return true;
+    }
+    return false;
+}
+
+static void judge(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
+{
+    v->today.known = all_are_known(v, false);
+    for (size_t i = 0; i < v->n && v->today.known; i++)
+        v->today.known = !isnan(difference_today(r, i, 0).mean);
+    if (v->today.known)
+        find_best(difference_today, r, v->n, &v->today);
+    v->rotation.known = years && all_are_known(v, true);
+    if (v->rotation.known)
+        find_best(difference_over_years, years, v->n, &v->rotation);
+    for (size_t i = 0; i < v->n && v->rotation.known; i++)
+        v->choices[i].beaten = is_beaten(years, v, i);
+}
+
+enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years,
+                                     struct ceduo_verdict *v)
+{
+    size_t n = r->options_count;
+    *v = (struct ceduo_verdict){.wooded = r->wooded && r->scene->controls_count > 0,
+                                .accepted =
+                                    r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
+                                .choices = calloc(n + 1, sizeof *v->choices)};
+    v->today.rival = calloc(n + 1, sizeof *v->today.rival);
+    v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);
+    enum ceduo_status status = v->choices && v->today.rival && v->rotation.rival ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        status = read_choice(r, years ? years[i] : NULL, i, &v->choices[i]);
+        v->n = i + (status == CEDUO_OK);
+    }
+    if (status == CEDUO_OK)
+        judge(r, years, v);
+    else
+        ceduo_verdict_release(v);
+    return status;
+}
+
+void ceduo_verdict_release(struct ceduo_verdict *v)
+{
+    for (size_t i = 0; i < v->n; i++)
+        ceduo_yield_release(&v->choices[i].yield);
+    free(v->choices);
+    free(v->today.rival);
+    free(v->rotation.rival);
+    *v = (struct ceduo_verdict){0};
+}

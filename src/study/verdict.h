@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_VERDICT_H
+#define CEDUO_VERDICT_H
+
+#include "ceduo/result.h"
+#include "ceduo/yield.h"
+
+/* The options side by side at the last control: today, over one whole rotation of each, and what that yields. One figure is
+ * compared throughout: of the rocks released the share that arrives with too much energy, or where no accepted energy is
+ * given the share that arrives. Every option has the same rocks, so each difference has an error of its own.
+ *
+ * Two options are told apart only if they differ by CEDUO_CLEAR standard errors. That many, because the answer is looked at
+ * again and again while rocks are added, among several options: what is called clear shall not be taken back. */
+#define CEDUO_CLEAR 3.0
+
+double ceduo_share_of(const struct ceduo_arrivals *arrivals);
+
+/* A share of the released and half the width of its 95 % interval; NaN: not known (yet). */
+struct ceduo_portion {
+    double mean, half;
+};
+struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *arrivals); /* NULL is allowed */
+
+/* The same of an option less that of the first option; NaN also where the two have not as many rocks. */
+struct ceduo_portion ceduo_share_to_first(const struct ceduo_result *result, size_t option);
+
+/* What is known of one option. */
+struct ceduo_choice {
+    struct ceduo_portion today, worst, mean; /* worst and mean: of the years */
+    unsigned worst_year;
+    size_t years, flown;                     /* flown: years in which rocks were simulated */
+    size_t no_contact, free_runs, too_much;  /* years in which that light fails */
+    bool energy_known;                       /* too_much is */
+    bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more
+                  * through */
+    struct ceduo_window window;
+    struct ceduo_yield yield;
+};
+
+/* Which option is best; known: all have their figure. */
+struct ceduo_leader {
+    bool known;
+    size_t best;
+    size_t rivals; /* others that it does not clearly beat */
+    bool *rival;   /* which: one for each option */
+};
+
+struct ceduo_verdict {
+    bool wooded, accepted; /* rocks fly through the forests; an accepted energy is given */
+    size_t n;
+    struct ceduo_choice *choices;
+    struct ceduo_leader today, rotation;
+};
+
+/* What a result says, and the years of each option as far as they are there: `years`, and each of them, may be NULL.
+ * CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+enum ceduo_status ceduo_verdict_make(const struct ceduo_result *result, struct ceduo_years *const *years,
+                                     struct ceduo_verdict *verdict);
+void ceduo_verdict_release(struct ceduo_verdict *verdict);
+
+#endif

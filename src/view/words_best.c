@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which option is best, in sentences. */
+#include <math.h>
+
+#include "base/intl.h"
+#include "words.h"
+
+/* ---- the years that are compared ---- */
+
+static bool all_of_kind(const struct ceduo_verdict *v, enum ceduo_window_kind kind)
+{
+    for (size_t i = 0; i < v->n; i++)
+        if (v->choices[i].window.kind != kind)
+            return false;
+    return true;
+}
+
+void ceduo_words_span(struct text *text, const struct ceduo_verdict *v)
+{
+    const struct ceduo_window *w = &v->choices[0].window;
+    bool one = true;
+    for (size_t i = 1; i < v->n; i++)
+        one = one && v->choices[i].window.first == w->first && v->choices[i].window.last == w->last;
+    if (one && all_of_kind(v, CEDUO_WINDOW_GIVEN))
+        ceduo_text_format(text, _("years %u to %u"), w->first, w->last);
+    else if (all_of_kind(v, CEDUO_WINDOW_ALIKE))
+        ceduo_text_put(text, _("all years alike"));
+    else
+        ceduo_text_put(text, _("one whole rotation of each option, after its first cut"));
+}
+
+void ceduo_words_window(struct text *text, const struct ceduo_option *option, const struct ceduo_window *window)
+{
+    const struct ceduo_belt *still = NULL;
+    for (size_t i = 0; i < option->belts_count; i++)
+        if (!still && !ceduo_stand_is_bare(&option->belts[i].stand))
+            still = &option->belts[i];
+    if (window->kind == CEDUO_WINDOW_UNCUT)
+        ceduo_text_format(text, _("'%s' grows, but is never cut: its next %d years stand for it."), option->name,
+                          CEDUO_YEARS_UNCUT);
+    else if (window->kind == CEDUO_WINDOW_ALIKE && !still)
+        ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), option->name);
+    else if (window->kind == CEDUO_WINDOW_ALIKE)
+        ceduo_text_format(text, _("All years of '%s' are alike: the file of '%s' has no growth (growth, cutting)."),
+                          option->name, still->name);
+}
+
+void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *v, ceduo_words_say *say,
+                         void *context)
+{
+    for (size_t i = 0; i < v->n; i++) {
+        struct text sentence = {0};
+        ceduo_words_window(&sentence, &scene->options[i], &v->choices[i].window);
+        if (sentence.length > 0)
+            say(context, sentence.bytes);
+        ceduo_text_free(&sentence);
+    }
+}
+
+/* ---- the best ---- */
+
+#define NAMED_MOST 3 /* options named where none of them is clearly best */
+
+static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
+{
+    return 1000 * (rotation ? v->choices[i].mean.mean : v->choices[i].today.mean);
+}
+
+/* "large reserves' and 'selection coppice'": the best and those that it does not clearly beat, in their order. */
+static void put_names(struct text *text, const struct ceduo_scene *scene, const struct ceduo_leader *leader, size_t n)
+{
+    size_t left = leader->rivals + 1;
+    for (size_t i = 0; i < n; i++) {
+        if (i != leader->best && !leader->rival[i])
+            continue;
+        left--;
+        ceduo_text_format(text, "'%s'%s", scene->options[i].name, left == 0 ? "" : left == 1 ? _(" and ") : ", ");
+    }
+}
+
+static void put_numbers(struct text *text, const struct ceduo_verdict *v, const struct ceduo_leader *leader, bool rotation)
+{
+    size_t left = leader->rivals + 1;
+    for (size_t i = 0; i < v->n; i++) {
+        if (i != leader->best && !leader->rival[i])
+            continue;
+        left--;
+        ceduo_text_format(text, "%.0f%s", mean_of(v, rotation, i), left == 0 ? "" : left == 1 ? _(" and ") : ", ");
+    }
+}
+
+/* "Over a whole rotation 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
+static void say_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, bool rotation,
+                     const char *when)
+{
+    const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
+    ceduo_text_format(text, "%s ", when);
+    if (leader->rivals + 1 == v->n || leader->rivals >= NAMED_MOST) {
+        ceduo_text_format(text, leader->rivals + 1 == v->n ? _("no option is clearly better than the others.")
+                                                           : _("%zu options are best and cannot be told apart."),
+                          leader->rivals + 1);
+        return;
+    }
+    put_names(text, scene, leader, v->n);
+    if (leader->rivals == 0)
+        ceduo_text_put(text, v->accepted ? _(" lets the fewest dangerous rocks through: ")
+                                         : _(" lets the fewest rocks through: "));
+    else
+        ceduo_text_put(text, v->accepted ? _(" let the fewest dangerous rocks through and cannot be told apart: ")
+                                         : _(" let the fewest rocks through and cannot be told apart: "));
+    put_numbers(text, v, leader, rotation);
+    ceduo_text_put(text, _(" of 1000."));
+}
+
+/* One sentence where the same option is clearly best over the years and today. */
+static bool say_both(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, const char *when)
+{
+    const struct ceduo_leader *a = &v->rotation, *b = &v->today;
+    if (!a->known || !b->known || a->best != b->best || a->rivals > 0 || b->rivals > 0)
+        return false;
+    ceduo_text_format(text,
+                      v->accepted ? _("%s '%s' lets the fewest dangerous rocks through, as it does today: %.0f and %.0f of "
+                                      "1000.")
+                                  : _("%s '%s' lets the fewest rocks through, as it does today: %.0f and %.0f of 1000."),
+                      when, scene->options[a->best].name, mean_of(v, true, a->best), mean_of(v, false, a->best));
+    return true;
+}
+
+void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
+{
+    const char *when = all_of_kind(v, CEDUO_WINDOW_GIVEN) ? _("Over these years") : _("Over a whole rotation");
+    bool years = v->rotation.known && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
+    if (years && say_both(text, scene, v, when))
+        return;
+    if (years)
+        say_best(text, scene, v, true, when);
+    if (years && v->today.known)
+        ceduo_text_char(text, '\n');
+    if (v->today.known)
+        say_best(text, scene, v, false, _("Today"));
+}
