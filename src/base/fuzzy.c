@@ -7,7 +7,7 @@
 
 #define LETTERS_MOST 64
 
-enum { ANY = 1, TOGETHER = 6, WORD = 8, START = 4 };
+enum { ANY = 1, TOGETHER = 9, WORD = 8, START = 4 };
 
 static int lower(char c)
 {
