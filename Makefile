@@ -37,11 +37,9 @@ OPTIMISE_debug := -O0 -g
 # have line numbers.
 OPTIMISE_asan := -O1 -g1 -Dalways_inline=unused -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPTIMISE_tsan := -O1 -g1 -Dalways_inline=unused -fsanitize=thread
-# A function inlined by force would be counted once for each caller. Counts are atomic: most branches are differences of
-# counts, so where threads lose some, a branch that was taken may come out as 0, and one that was not as taken. Only the
-# innermost loops are counted without, for all of it would take more than twice the time.
+# A function inlined by force would be counted once for each caller. Counts are atomic: many are differences of others, so
+# where threads lost some, a branch that was taken could come out as 0, and one that was not as taken.
 OPTIMISE_cov := -O0 -g --coverage -fprofile-update=atomic -Dalways_inline=unused
-build/cov/src/core/walk.o build/cov/src/core/stems.o: OPTIMISE_cov += -fprofile-update=single
 OPTIMISE_fuzz := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: fused multiply-adds would give different bits on different machines.

@@ -216,9 +216,9 @@ static bool change(const struct value *v, double number, struct ceduo_number *n)
 /* To the word of that index; -1: not said. */
 static bool put_choice(const struct value *v, double number)
 {
-    int choice = (int)number;
     if (!(number >= -1) || number != floor(number) || !(number < (double)v->field->choices->n))
         return false;
+    int choice = (int)number;
     memcpy(v->at, &choice, sizeof choice);
     return true;
 }

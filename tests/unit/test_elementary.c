@@ -87,6 +87,7 @@ static void angles(void **context)
         expect_near("atan", far, ceduo_atan(far), atanl(far), 2);
     }
     EXPECT(ceduo_atan(INFINITY), ==, M_PI_2);
+    assert_true(isnan(ceduo_atan(NAN)));
     for (uint64_t n = 1; n < 200; n++)
         for (uint64_t i = 0; i < n; i++) {
             double c, s;
@@ -105,6 +106,8 @@ static void roots(void **context)
         expect_near("cbrt", far, ceduo_cbrt(far), cbrtl(far), 1);
     }
     EXPECT(ceduo_cbrt(0), ==, 0);
+    EXPECT(ceduo_cbrt(-INFINITY), ==, -INFINITY);
+    assert_true(isnan(ceduo_cbrt(NAN)));
     EXPECT(ceduo_length(3, -4), ==, 5);
     EXPECT(ceduo_length(3e-320, 4e-320), ==, 5e-320); /* their squares are 0 */
     EXPECT(ceduo_length(0, 5e-324), ==, 5e-324);

@@ -92,6 +92,8 @@ static void a_goal_is_reached_at_the_worst_control(void **state)
         assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
         double reached = ceduo_goal_reached(CEDUO_GOAL_EXCEED, answer.result, 0);
         const struct ceduo_arrivals *a = answer.result->options[0].wooded.arrivals;
+        EXPECT(ceduo_goal_reached(CEDUO_GOAL_ARRIVE, answer.result, 0), ==,
+               fmax(a[0].reach_probability, a[1].reach_probability));
         if (i == 0)
             EXPECT(reached, ==, fmax(a[0].exceed_probability, a[1].exceed_probability));
         else

@@ -556,6 +556,24 @@ static void paths_of_numbers_in_lists(void **state)
     ceduo_scene_release(&file);
 }
 
+/* A word is the index of its choice, -1 where none is said. */
+static void words_are_put_by_their_index(void **state)
+{
+    (void)state;
+    struct scene_file file = {0};
+    struct value v;
+    read_text(&file, scenes[0]);
+    assert_true(ceduo_value_find(&file.scene, "simulation.contact_model", &v));
+    EXPECT(ceduo_value_get(&v), ==, CEDUO_STEMS);
+    assert_true(ceduo_value_put(&v, CEDUO_INDEX));
+    assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
+    const double none[] = {-2, .5, (double)v.field->choices->n, NAN};
+    for (size_t i = 0; i < LENGTH(none); i++)
+        assert_false(ceduo_value_put(&v, none[i]));
+    assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
+    ceduo_scene_release(&file);
+}
+
 /* Many values are tried on one scene without memory that stays. */
 static void puts_take_no_memory(void **state)
 {
@@ -597,6 +615,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(put_is_as_set, folder_set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(paths_of_numbers, folder_set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(paths_of_numbers_in_lists, folder_set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(words_are_put_by_their_index, folder_set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(puts_take_no_memory, folder_set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
