@@ -38,6 +38,7 @@ struct layout {
     int left;   /* where the first figure stands */
     int spark;  /* columns of the years at a glance; 0: none */
     int spark_left;
+    int lights_left; /* where the lights stand beside the name above the figures; 0: not there */
     bool has[COLUMNS];
 };
 
@@ -68,8 +69,11 @@ static struct layout lay_out(const struct app *app, struct ceduo_area area)
     rest = area.width - width_of(&l);
     l.left = area.left + (l.lines == 2 ? 0 : rest);
     if (l.lines == 2) {
+        int lights = l.has[LIGHTS] ? 0 : 4;
         l.name = area.width * 3 / 5 < 34 ? area.width - 29 : 34;
-        l.spark = area.width - l.name - 1 > SPARK_MOST ? SPARK_MOST : area.width - l.name - 1;
+        l.spark = area.width - l.name - 1 - lights;
+        l.spark = l.spark > SPARK_MOST ? SPARK_MOST : l.spark;
+        l.lights_left = lights ? area.left + area.width - 3 : 0;
         l.spark_left = area.left + l.name + 1;
     } else if (rest >= NAME_LEAST + SPARK_LEAST + 4) {
         l.name = (rest - 2) / 2 > 34 ? 34 : (rest - 2) / 2;
@@ -218,12 +222,36 @@ static void draw_row(struct app *app, const struct layout *l, struct ceduo_area 
 {
     draw_name(app, area.left, y, l->name, i);
     draw_spark(app, l, y, i);
+    if (l->lights_left > 0)
+        draw_lights(app, l->lights_left, y, i);
     int x = l->left;
     for (int c = 0; c < COLUMNS; c++)
         if (l->has[c]) {
             draw_figure(app, x, y + l->lines - 1, i, (enum column)c);
             x += widths[c];
         }
+}
+
+/* What is counted and where; the name of the place only where there is room. */
+static void put_place(struct app *app, struct ceduo_area area, int width)
+{
+    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_control *control = &r->scene->controls[r->last_control];
+    struct text text = {0};
+    if (r->scene->controls_count == 0)
+        return;
+    if (r->wooded && !isnan(control->accepted))
+        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO, control->x_given);
+    else if (r->wooded)
+        ceduo_text_format(&text, _("Of 1000 rocks, that arrive at %.6g m"), control->x_given);
+    else
+        ceduo_text_format(&text, _("At %.6g m"), control->x_given);
+    size_t before = text.length;
+    if (control->name)
+        ceduo_text_format(&text, ", %s", control->name);
+    if (text.bytes && ceduo_cells_label_width(app->charset, text.bytes) > width)
+        text.bytes[before] = '\0';
+    ceduo_app_put(app, (struct ceduo_area){area.left, area.top, width, 1}, CEDUO_ROLE_TITLE, &text);
 }
 
 static void draw_head(struct app *app, const struct layout *l, struct ceduo_area area)
@@ -233,19 +261,9 @@ static void draw_head(struct app *app, const struct layout *l, struct ceduo_area
     static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("worst"),       N_("kJ/100m"), "",
                                                   N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE")};
     const struct ceduo_result *r = app->figures.result;
-    const struct ceduo_control *control = &r->scene->controls[r->last_control];
-    struct text text = {0};
-    if (r->scene->controls_count > 0) {
-        ceduo_text_format(&text, _("At %.6g m"), control->x_given);
-        if (control->name)
-            ceduo_text_format(&text, " (%s)", control->name);
-        if (r->wooded && !isnan(control->accepted))
-            ceduo_text_format(&text, _(", of 1000 rocks with more than %g kJ:"), control->accepted * KILO);
-        else if (r->wooded)
-            ceduo_text_put(&text, _(", of 1000 rocks that arrive:"));
-    }
-    struct ceduo_area line = {area.left, area.top, area.width, 1};
-    ceduo_app_put(app, line, CEDUO_ROLE_TITLE, &text);
+    put_place(app, area, l->lights_left > 0 ? area.width - 5 : area.width);
+    if (l->lights_left > 0)
+        ceduo_cells_label(app->cells, l->lights_left, area.top, CEDUO_ROLE_TITLE, _("CFE"));
     int x = l->left;
     for (int c = 0; c < COLUMNS; c++)
         if (l->has[c]) {

@@ -128,7 +128,7 @@ MUST = {
     "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m3 2600", "Release", "x, m 0",
              "spin, rad/s 0", "Simulation", "law of impact lumped", "512.3 kg", "mean diameter B 0.68 m"],
     "results": ["kJ", "50 kJ", "p50", "p95", "bears 50", "of 1000"],
-    "compare": ["At 135 m (end of the forest)", "fail"]}
+    "compare": ["135 m", "fail"]}
 WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", "friction", "name", "facets against"],
         "stand": ["Energy of a contact", " height", "model brauner", "fracture ratio"],
         "rock": ["form of the ADC auto", "threshold, m 30", "gravity, m/s2 9.81", "seed 1", "title"],
@@ -137,11 +137,11 @@ WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", 
         "compare": ["CFE", "/ha y"]}
 # With rocks in the wood, and by the index alone.
 MUST_WOOD = {"slope": ["wood", "bare"], "stand": [], "rock": ["rocks among stems stems"],
-             "results": ["bare 991"], "compare": ["of 1000 rocks with", "today", "rotation"]}
+             "results": ["bare 991"], "compare": ["Of 1000 rocks, more than 50 kJ at 135 m", "today", "rotation"]}
 WIDE_WOOD = {"slope": ["p95 of the height, m", "mean energy, kJ", "ways of 102400 through"], "stand": [],
              "rock": [], "results": ["Of 1000,", "are stopped by stems", "Energy: FAILS.", "of 1000 released"], "compare": []}
 MUST_INDEX = {"slope": [], "stand": [], "rock": ["rocks among stems index"], "results": ["n = 101519 of 102400"],
-              "compare": ["ADC m", "kJ/100m"]}
+              "compare": ["At 135 m", "ADC m", "kJ/100m"]}
 WIDE_INDEX = {"slope": ["height above the ground, m", "without forest", "p95", "p50"], "stand": [], "rock": [],
               "results": ["Energy: unknown. The index alone"], "compare": []}
 HEADS = ("today", "worst year", "rotation", "fail", "m³/ha y", "CFE", "ADC m", "worst", "kJ/100m")
@@ -151,6 +151,7 @@ def compared(screen):
     """The table of view 5: (name, {head: cell}); the figures may stand below the name. best: the word beside the mean."""
     lines = screen.body.split("\n")
     at = next(i for i, line in enumerate(lines) if re.search(r"\b(today|ADC m) ", line))
+    above = []
     heads = [(m.group(0), m.end()) for m in re.finditer("|".join(HEADS[:6] + HEADS[6:]).replace("m³", "m(?:³|3)"), lines[at])]
     rows, name = [], ""
     for line in lines[at + 1:]:
@@ -161,10 +162,12 @@ def compared(screen):
             cells[head.replace("m3", "m³")] = line[begin:end].strip()
             begin = end
         if re.search(r"\d|…|\.\.\.|none|-", line[heads[0][1] - 5:heads[0][1]]) and re.search(r"\d/\d|…|\.\.\.|-", line):
+            cells.setdefault("CFE", above[-1] if above else "")
             own = re.split(r"  +|[▁▂▃▄▅▆▇█]", line[:heads[0][1] - 8].strip())[0].strip()
             cells["best"] = "best" if " best" in line else "worst" if " worst" in line else ""
             cells["fail"] = cells["fail"].split()[-1]
             rows.append((own or name, cells))
+        above = re.findall(r" ([✔✘?+x]{3})$", line)
         name = re.split(r"  +| [▁▂▃▄▅▆▇█]| \d{3,}$", line.strip())[0].strip()
     return rows
 

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whether what is called clear stays: for many seeds, which option is clearly best after the first thousand rocks, and after
+ * ten times as many, today and over a rotation. Prints CSV: how often that was clear at first and in the end, how often it
+ * was no longer clear, and how often another option was clearly best. The last must never happen: exit 1.
+ *
+ *   bench_verdict [SEEDS [THREADS]]     1000 seeds, all cores */
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "ceduo/question.h"
+#include "io/scene_file.h"
+#include "study/verdict.h"
+
+#define SEEDS     1000
+#define STEPS     2
+#define YEAR_STEP 5 /* of a rotation some years: the rule for what is clear is the same */
+#define NOBODY    SIZE_MAX
+
+static const uint64_t rocks[STEPS] = {1024, 10240};
+
+/* The option that is clearly best after each step, or nobody. */
+struct said {
+    size_t best[STEPS];
+};
+
+struct count {
+    size_t first, last, lost, reversed;
+};
+
+static size_t clear_best(const struct ceduo_leader *leader)
+{
+    return leader->known && leader->rivals == 0 ? leader->best : NOBODY;
+}
+
+static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step,
+                 struct said *today, struct said *rotation)
+{
+    struct ceduo_question q = ceduo_question_default(scene);
+    struct ceduo_answer answer;
+    struct ceduo_verdict verdict;
+    q.rocks = rocks[step];
+    q.run.rocks_most = rocks[STEPS - 1];
+    q.run.threads = threads;
+    q.run.arrivals_only = true;
+    q.years = true;
+    q.years_most = YEAR_STEP;
+    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
+        exit(1);
+    today->best[step] = clear_best(&verdict.today);
+    rotation->best[step] = clear_best(&verdict.rotation);
+    ceduo_verdict_release(&verdict);
+    ceduo_answer_release(&answer);
+}
+
+static void count(const struct said *said, struct count *c)
+{
+    size_t first = said->best[0], last = said->best[STEPS - 1];
+    c->first += first != NOBODY;
+    c->last += last != NOBODY;
+    c->lost += first != NOBODY && last == NOBODY;
+    c->reversed += first != NOBODY && last != NOBODY && first != last;
+}
+
+static size_t report(const char *scene, const char *when, size_t seeds, const struct count *c)
+{
+    printf("%s,%s,%zu,%zu,%zu,%zu,%zu\n", scene, when, seeds, c->first, c->last, c->lost, c->reversed);
+    return c->reversed;
+}
+
+static size_t judge(const char *name, size_t seeds, unsigned threads)
+{
+    struct scene_file file;
+    struct problems problems = {0};
+    struct count today = {0}, rotation = {0};
+    char path[128];
+    snprintf(path, sizeof path, "profiles/scenes/%s.yaml", name);
+    if (!ceduo_scene_read(&file, path, NULL, 0, &problems)) {
+        fputs(ceduo_text_string(&problems.text), stderr);
+        exit(1);
+    }
+    for (size_t seed = 1; seed <= seeds; seed++) {
+        struct ceduo_pool *pool = NULL;
+        struct said now, over;
+        file.scene.simulation.seed = seed;
+        for (size_t step = 0; step < STEPS; step++)
+            look(&file.scene, &pool, threads, step, &now, &over);
+        ceduo_pool_free(pool);
+        count(&now, &today);
+        count(&over, &rotation);
+    }
+    size_t reversed = report(name, "today", seeds, &today) + report(name, "rotation", seeds, &rotation);
+    ceduo_scene_release(&file);
+    return reversed;
+}
+
+int main(int argc, char **argv)
+{
+    size_t seeds = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : SEEDS;
+    unsigned threads = argc > 2 ? (unsigned)strtoul(argv[2], NULL, 10) : (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
+    printf("scene,when,seeds,clear_at_1024,clear_at_10240,no_longer_clear,reversed\n");
+    size_t reversed = judge("four-systems", seeds, threads) + judge("rotation", seeds, threads) +
+                      judge("staggered", seeds, threads);
+    return reversed > 0;
+}
