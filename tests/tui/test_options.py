@@ -211,7 +211,7 @@ def test_compare_one():
         wait idle
         dump
         key a
-        key G
+        type bare
         key Enter
         wait idle
         clear

@@ -130,7 +130,7 @@ MUST = {
     "results": ["kJ", "50 kJ", "p50", "p95", "bears 50", "of 1000"],
     "compare": ["135 m", "fail"]}
 WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", "friction", "name", "facets against"],
-        "stand": ["Energy of a contact", " height", "model brauner", "fracture ratio"],
+        "stand": ["Energy of a contact", " height", "energy law brauner", "fracture ratio"],
         "rock": ["form of the ADC auto", "threshold, m 30", "gravity, m/s2 9.81", "seed 1", "title"],
         "results": ["30 m: in this distance without a contact a rock reaches its full speed",
                     "Contact: passes.", "Free run: passes."],
@@ -231,6 +231,7 @@ Stand of belt 1: ADS 1
 system            simple coppice
 species           hop hornbeam
 stools per ha     3688
+shoots per stool  2.258
 spacing, m        0.5
 Shoots on the stools
 1   8326     6.1      6        0.0107   0

@@ -122,11 +122,11 @@ def test_plan_live():
     """View 2: the plan follows a change of the stand and of the option; no stem of the wood before it is shown."""
     with Place() as place:
         edits = "find trees[0]\nset 700\nfind trees[1]\nset 1\nfind shoots[0].per_ha\nset 4000\nwait idle\nclear\ndump"
-        before, after = place.play(f"resize 100 40\nwait idle\nkey 1\ndump\nkey 2\nclear\ndump\n{edits}", "wood.yaml")[1:]
+        before, after = place.play(f"resize 100 44\nwait idle\nkey 1\ndump\nkey 2\nclear\ndump\n{edits}", "wood.yaml")[1:]
         text = (place.path / "wood.yaml").read_text()
         edited = text.replace("per_ha: 80,", "per_ha: 700,").replace("per_ha: 20,", "per_ha: 1,").replace("9000,", "4000,")
         (place.path / "edited.yaml").write_text(edited)
-        fresh = place.play("resize 100 40\nwait idle\nkey 1\nkey 2\nclear\ndump", "edited.yaml")[0]
+        fresh = place.play("resize 100 44\nwait idle\nkey 1\nkey 2\nclear\ndump", "edited.yaml")[0]
         plans = [re.search(r"\n\n(?=[⠀-⣿]).*The way of this rock[^\n]*", screen.body, re.S) for screen in (before, after, fresh)]
         expect(all(plans), "the rock's way is missing in", before, after, fresh)
         expect_equal(plans[1].group(0), plans[2].group(0), "the plan after an edit, and of a scene that was so from the start")
