@@ -145,6 +145,7 @@ static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_si
         stem.kind = draw_shoot(s, &t, i, &stem.dbh);
         if (fabs(stem.y) > (s->b + stem.dbh) / 2)
             continue;
+        stem.height = stem.kind->height;
         stem.energy = stem.kind->energy;
         if (i_side == 0 && stem.along < s->start)
             turn_behind(s, stem);
@@ -210,6 +211,7 @@ static void make_single(struct stems *s, int i_side)
     side->single = (struct stem){.along = p->at[k],
                                  .y = s->poisson ? NAN : p->offset[k] * (s->b + d),
                                  .dbh = d,
+                                 .height = kind->height,
                                  .energy = kind->energy,
                                  .kind = kind,
                                  .stool = event};

@@ -279,6 +279,7 @@ static void make_stools(struct stems *s, int i_side)
         side->waiting[rank[i]] = (struct stem){.along = t.along[i],
                                                .y = t.y[i],
                                                .dbh = t.kind[i]->dbh,
+                                               .height = t.kind[i]->height,
                                                .energy = t.kind[i]->energy,
                                                .kind = t.kind[i],
                                                .stool = t.stool[i],

@@ -10,11 +10,13 @@
 /* What stems.c keeps of the stems in one rock's path, for it and for stems_fill.h. */
 
 struct stem {
-    double along, y;  /* m: place along the strip, offset from its middle */
-    double dbh;       /* m; NaN where contacts have no diameter */
+    double along;     /* m: place along the strip */
+    double height;    /* m */
     double energy;    /* J that a hit takes; NaN: not computed yet */
-    const struct wood_kind *kind;
     uint64_t stool;   /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
+    double y;         /* m: offset from the middle of the strip */
+    double dbh;       /* m; NaN where contacts have no diameter */
+    const struct wood_kind *kind;
     bool shoot;
     bool met;         /* it waits behind the release, and another shoot of its stool was hit ahead */
 };

@@ -73,12 +73,11 @@ static void load_draws(struct wide *k, size_t i)
 }
 
 /* The next stem ahead, which is known. */
-LANE void show_stem(struct wide *k, size_t i)
+LANE void show_stem(struct wide *k, size_t i, struct stem *stem)
 {
     const struct walker *w = &k->job->walkers[i];
-    struct stem *stem = ceduo_stems_next(&w->stems->side[0]);
-    k->stem_ahead[i] = w->stem_ahead;
-    k->height[i] = stem->kind->height;
+    k->stem_ahead[i] = stem->along;
+    k->height[i] = stem->height;
     k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
 }
 
@@ -92,7 +91,7 @@ static void load_stem(struct wide *k, size_t i)
     if (!w->stems || w->stem_ahead == INFINITY)
         return;
     if (w->stems->side[0].next_known)
-        show_stem(k, i);
+        show_stem(k, i, ceduo_stems_next(&w->stems->side[0]));
     else
         k->paused |= bit;
 }

@@ -75,26 +75,24 @@ static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct pa
  * already and no mark is passed. */
 LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
 {
-    unsigned at_once = p->under_way & ~(hit & bits_of(at_least(load(k->stem_ahead), load(k->next_x))));
-    for (unsigned left = at_once; left; left &= left - 1) {
-        size_t i = (size_t)__builtin_ctz(left);
-        if (!ceduo_stems_next_waits(&k->job->walkers[i].stems->side[0]))
-            at_once &= ~(1u << i);
-    }
-    for (unsigned left = hit & at_once; left; left &= left - 1) {
-        struct walker *w = &k->job->walkers[__builtin_ctz(left)];
-        w->stems_hit++;
-        w->stools_met += ceduo_stems_meet(w->stems, ceduo_stems_next(&w->stems->side[0]));
-    }
-    for (unsigned left = at_once; left; left &= left - 1) {
+    unsigned alone = hit & bits_of(at_least(load(k->stem_ahead), load(k->next_x)));
+    for (unsigned left = p->under_way & ~alone; left; left &= left - 1) {
         size_t i = (size_t)__builtin_ctz(left);
         struct walker *w = &k->job->walkers[i];
-        ceduo_stems_take_waiting(&w->stems->side[0]);
-        w->stem_ahead = w->stems->side[0].next;
-        show_stem(k, i);
+        struct stems_side *side = &w->stems->side[0];
+        if (!ceduo_stems_next_waits(side)) {
+            alone |= 1u << i;
+            continue;
+        }
+        bool is_hit = hit >> i & 1;
+        w->stems_hit += is_hit;
+        w->stools_met += ceduo_stems_meet_shoot(w->stems, &side->waiting[side->first], is_hit);
+        ceduo_stems_take_waiting(side);
+        w->stem_ahead = side->next;
+        show_stem(k, i, &side->waiting[side->first]);
     }
-    if (p->under_way & ~at_once)
-        take_stems_alone(k, p, p->under_way & ~at_once, hit, t);
+    if (alone)
+        take_stems_alone(k, p, alone, hit, t);
 }
 
 /* The next stem of each flight under way, whose landing comes behind it or is not known. */
