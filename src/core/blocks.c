@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/elementary.h"
+
 #include "ceduo/assess.h"
 
 static struct ceduo_number scaled(struct ceduo_number n, double factor)
@@ -78,20 +80,20 @@ static void sort_volumes(double own, struct ceduo_block blocks[CEDUO_BLOCKS])
 }
 
 enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
-                               uint64_t rocks, unsigned threads, const atomic_bool *cancel,
-                               struct ceduo_block blocks[CEDUO_BLOCKS])
+                               uint64_t rocks, const struct ceduo_arrivals *own, unsigned threads,
+                               const atomic_bool *cancel, struct ceduo_block blocks[CEDUO_BLOCKS])
 {
-    struct ceduo_rock own, rock;
-    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &own);
+    struct ceduo_rock mean, rock;
+    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &mean);
     if (status != CEDUO_OK)
         return status;
-    sort_volumes(own.volume, blocks);
+    sort_volumes(mean.volume, blocks);
     bool flies = scene->simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < CEDUO_BLOCKS && status == CEDUO_OK; i++) {
         struct ceduo_block *b = &blocks[i];
         struct ceduo_scene other = *scene;
         if (!b->own)
-            other.rock = ceduo_rock_scaled(&scene->rock, cbrt(b->volume / own.volume));
+            other.rock = ceduo_rock_scaled(&scene->rock, ceduo_cbrt(b->volume / mean.volume));
         status = ceduo_rock_of_means(&other.rock, &rock);
         if (status != CEDUO_OK)
             break;
@@ -100,7 +102,9 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
         b->diameter = rock.mean_diameter;
         b->adc = index.worst_adc;
         b->contacts = index.contacts;
-        if (flies)
+        if (flies && b->own && own && own->released == rocks)
+            b->arrivals = *own;
+        else if (flies)
             status = fly_block(&other, option, control, rocks, threads, cancel, b);
     }
     return status;

@@ -60,7 +60,8 @@ static enum ceduo_status fly_blocks(const struct ceduo_question *q, struct ceduo
     a->blocks = calloc(scene->options_count * CEDUO_BLOCKS + 1, sizeof *a->blocks);
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
-        status = ceduo_blocks(scene, &scene->options[i], a->result->last_control, rocks, q->run.threads, q->run.cancel,
+        status = ceduo_blocks(scene, &scene->options[i], a->result->last_control, rocks,
+                              ceduo_result_wooded(a->result, i, a->result->last_control), q->run.threads, q->run.cancel,
                               &a->blocks[i * CEDUO_BLOCKS]);
     if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;

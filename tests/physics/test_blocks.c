@@ -117,7 +117,7 @@ static void drop(struct ceduo_rock_def rock, double accepted)
 
 static void size_up(struct ceduo_block blocks[CEDUO_BLOCKS])
 {
-    enum ceduo_status status = ceduo_blocks(&scene.scene, &scene.option, 0, BLOCKS_FLOWN, 1, NULL, blocks);
+    enum ceduo_status status = ceduo_blocks(&scene.scene, &scene.option, 0, BLOCKS_FLOWN, NULL, 1, NULL, blocks);
     assert_int_equal(status, CEDUO_OK);
 }
 
@@ -195,6 +195,20 @@ static void blocks_fly_with_their_own_mass(void **state)
     }
 }
 
+/* What is known of the own block stands in its row as it is, if as many were simulated. */
+static void the_own_block_is_not_simulated_twice(void **state)
+{
+    (void)state;
+    struct ceduo_block blocks[CEDUO_BLOCKS];
+    for (uint64_t released = BLOCKS_FLOWN - 1; released <= BLOCKS_FLOWN; released++) {
+        const struct ceduo_arrivals own = {.released = released, .reached = 77};
+        drop(slab(0.5), 1e3);
+        assert_int_equal(ceduo_blocks(&scene.scene, &scene.option, 0, BLOCKS_FLOWN, &own, 1, NULL, blocks), CEDUO_OK);
+        for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+            EXPECT(blocks[i].arrivals.reached == 77, ==, (blocks[i].own && released == BLOCKS_FLOWN));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -203,6 +217,7 @@ int main(void)
         cmocka_unit_test(the_own_size_has_its_place_among_the_others),
         cmocka_unit_test(blocks_have_the_mass_and_width_of_their_volume),
         cmocka_unit_test(blocks_fly_with_their_own_mass),
+        cmocka_unit_test(the_own_block_is_not_simulated_twice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
