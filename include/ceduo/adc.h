@@ -50,6 +50,7 @@ enum ceduo_stand_warning {
     CEDUO_WARN_NEAR_JUMP = 1 << 1,         /* B within 10 % of s, where the rule auto jumps */
     CEDUO_WARN_DORREN_THIN = 1 << 2,       /* dorren below 10 cm: outside its data */
     CEDUO_WARN_FORM_FACTOR = 1 << 3,       /* a volume by form factor, outside the species' equation */
+    CEDUO_WARN_RATIO_ASSUMED = 1 << 5,     /* fracture ratio 1 assumed for a species without one */
     CEDUO_WARN_U_ASSUMED = 1 << 4,         /* U of beech assumed for another species */
     CEDUO_WARN_WIDE_SPACING = 1 << 5       /* s > B + d: the rock can pass between two shoots; crofton is not exact */
 };

@@ -32,6 +32,17 @@ enum ceduo_energy_model {
 #undef X
 };
 
+/* What brauner takes where a stem is hit beside its middle. */
+#define CEDUO_ENERGY_OFFSETS(X)                                                                        \
+    X(WHOLE, "whole")          /* as much as in its middle: Ciabocco et al. 2009 */                     \
+    X(BY_ECCENTRICITY, "dorren") /* the share of Dorren et al. 2006, ceduo_dorren_share() */
+
+enum ceduo_energy_offset {
+#define X(NAME, word) CEDUO_OFFSET_##NAME,
+    CEDUO_ENERGY_OFFSETS(X)
+#undef X
+};
+
 /* Stems of one kind: shoots of one age on the stools, or trees of one class. Densities are per horizontal hectare. */
 struct ceduo_stems {
     double per_ha; /* >= 0; of 0 there is nothing, whatever else is said */
@@ -74,7 +85,10 @@ struct ceduo_stand {
     struct ceduo_stems *trees;  /* classes of single trees: standards, reserves, maidens */
     enum ceduo_energy_model energy;
     double u;              /* J/m3, brauner; NaN: the species' */
-    double fracture_ratio; /* dorren */
+    double fracture_ratio; /* dorren; NaN: the species' */
+    enum ceduo_energy_offset offset; /* brauner */
+    int glancing;     /* 0 or 1; -1: not said, see ceduo_stand_glances() */
+    double hit_below; /* m: a hit higher on a stem takes nothing; 0: every hit takes */
     struct ceduo_growth growth;
     struct ceduo_cutting cutting;
 };
@@ -96,6 +110,7 @@ struct ceduo_species {
     double h_lo, h_hi, d_lo, d_hi; /* m, cm */
     double u;                      /* J/m3: Table 4 of Ciabocco et al. 2009, or its beech value */
     bool u_literature;             /* false: the value of beech, assumed for this species */
+    double fracture_ratio;         /* after the list of Dorren and Berger; NaN: it has none */
 };
 
 const struct ceduo_species *ceduo_species_list(size_t *count);
@@ -113,6 +128,14 @@ double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_ste
 
 /* Work of breaking (J/m3) that brauner takes: the stand's own, else its species', else that of beech. */
 double ceduo_stand_u(const struct ceduo_stand *stand);
+
+/* Strength of the wood relative to silver fir that dorren takes: the stand's own, else its species', else 1 (assumed). */
+double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand);
+
+/* Whether a hit takes at most the share 1 - u2 of the rock's energy, u = |offset|/((B + d)/2): what lies in the part of its
+ * velocity that is normal to the stem, so that a stem that is grazed cannot stop a rock dead (assumed). Where the stand
+ * does not say: with dorren, and with brauner by eccentricity. */
+bool ceduo_stand_glances(const struct ceduo_stand *stand);
 
 /* Energy (J) that a contact with one of `stems` takes. brauner: V·U (Eq. 3 of Ciabocco et al. 2009). dorren: the mean
  * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). */

@@ -12,10 +12,11 @@
  *     energy_NAME(stand, stems)                     makes that
  *     NAME_mean(energy)                             J: the mean stem, over all places where it can be hit
  *     NAME_hit(energy, dbh, eccentricity)           J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle
- *     NAME_ALIKE                                    whether hits of stems of one diameter all take the same
+ *     NAME_alike(energy)                            whether hits of stems of one diameter all take the same
  *     NAME_warnings(stand, stems)                   bits of enum ceduo_warning */
 struct stem_energy {
     enum ceduo_energy_model model;
+    double glancing; /* 0 or 1, see ceduo_stand_glances() */
     union {
 #define X(NAME, name) struct energy_##name name;
         CEDUO_ENERGY_MODELS(X)
@@ -25,7 +26,7 @@ struct stem_energy {
 
 static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    struct stem_energy e = {.model = stand->energy};
+    struct stem_energy e = {.model = stand->energy, .glancing = ceduo_stand_glances(stand)};
     switch (stand->energy) {
 #define X(NAME, name)                                 \
     case CEDUO_##NAME:                                \
@@ -41,6 +42,7 @@ static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand,
 static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
+    hash_double(hash, e->glancing);
     switch (e->model) {
 #define X(NAME, name)                                                                          \
     case CEDUO_##NAME:                                                                         \
@@ -75,16 +77,25 @@ static inline double stem_energy_hit(const struct stem_energy *e, double dbh, do
     return 0;
 }
 
-static inline bool stem_energy_alike(enum ceduo_energy_model model)
+/* Whether all hits of stems of one diameter take the same of any rock. */
+static inline bool stem_energy_alike(const struct stem_energy *e)
 {
-    switch (model) {
+    if (e->glancing > 0)
+        return false;
+    switch (e->model) {
 #define X(NAME, name)  \
     case CEDUO_##NAME: \
-        return NAME##_ALIKE;
+        return name##_alike(&e->by.name);
         CEDUO_ENERGY_MODELS(X)
 #undef X
     }
     return false;
+}
+
+/* The share of a rock's energy that a hit takes at the most. */
+static inline double stem_energy_part(const struct stem_energy *e, double eccentricity)
+{
+    return e->glancing > 0 ? 1 - eccentricity * eccentricity : 1;
 }
 
 static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

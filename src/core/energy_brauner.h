@@ -6,29 +6,36 @@
 #include "scene/volume.h"
 
 /* Eq. 3 of Ciabocco et al. 2009, after Brauner et al. 2005: W = V·U, the volume of the stem times the work of breaking,
- * wherever the stem is hit. */
+ * wherever the stem is hit; or the share of it that Dorren et al. 2006 found beside the middle. */
 struct energy_brauner {
-    double u; /* J/m3 */
+    double by_eccentricity; /* 0 or 1 */
+    double u;               /* J/m3 */
     struct stem_volume volume;
 };
 
-/* Whether all hits of stems of one diameter take the same. */
-#define BRAUNER_ALIKE true
 
 static inline struct energy_brauner energy_brauner(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    return (struct energy_brauner){.u = ceduo_stand_u(stand), .volume = stem_volume_of(stand, stems)};
+    return (struct energy_brauner){.by_eccentricity = stand->offset == CEDUO_OFFSET_BY_ECCENTRICITY,
+                                   .u = ceduo_stand_u(stand),
+                                   .volume = stem_volume_of(stand, stems)};
 }
 
 static inline double brauner_mean(const struct energy_brauner *e)
 {
-    return stem_volume_mean(&e->volume, NULL) * e->u;
+    double whole = stem_volume_mean(&e->volume, NULL) * e->u;
+    return e->by_eccentricity > 0 ? ceduo_dorren_mean_share() * whole : whole;
 }
 
 static inline double brauner_hit(const struct energy_brauner *e, double dbh, double eccentricity)
 {
-    (void)eccentricity;
-    return stem_volume_one(&e->volume, dbh) * e->u;
+    double whole = stem_volume_one(&e->volume, dbh) * e->u;
+    return e->by_eccentricity > 0 ? ceduo_dorren_share(eccentricity) * whole : whole;
+}
+
+static inline bool brauner_alike(const struct energy_brauner *e)
+{
+    return !(e->by_eccentricity > 0);
 }
 
 static inline unsigned brauner_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

@@ -9,12 +9,11 @@ struct energy_dorren {
     double fracture_ratio, dbh; /* FE; m, of the mean stem */
 };
 
-#define DORREN_ALIKE false
 #define DORREN_DBH_LEAST 0.1 /* m: thinner stems lie outside the data */
 
 static inline struct energy_dorren energy_dorren(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    return (struct energy_dorren){stand->fracture_ratio, stems->dbh};
+    return (struct energy_dorren){ceduo_stand_fracture_ratio(stand), stems->dbh};
 }
 
 static inline double dorren_mean(const struct energy_dorren *e)
@@ -27,10 +26,18 @@ static inline double dorren_hit(const struct energy_dorren *e, double dbh, doubl
     return ceduo_dorren_share(eccentricity) * ceduo_dorren_energy(dbh, e->fracture_ratio);
 }
 
+static inline bool dorren_alike(const struct energy_dorren *e)
+{
+    (void)e;
+    return false;
+}
+
 static inline unsigned dorren_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    (void)stand;
-    return stems->dbh < DORREN_DBH_LEAST ? CEDUO_WARN_DORREN_THIN : 0u;
+    size_t count;
+    bool known = stand->species >= 0 && !isnan(ceduo_species_list(&count)[stand->species].fracture_ratio);
+    return (stems->dbh < DORREN_DBH_LEAST ? CEDUO_WARN_DORREN_THIN : 0u) |
+           (isnan(stand->fracture_ratio) && !known ? CEDUO_WARN_RATIO_ASSUMED : 0u);
 }
 
 #endif

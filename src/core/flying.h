@@ -155,11 +155,12 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
-    double cost = ceduo_stem_energy(stem, w->rock.mean_diameter);
+    double b = w->rock.mean_diameter;
+    struct hit hit = {.energy = energy, .cost = ceduo_stem_energy(stem, b), .part = ceduo_stem_part(w->stems, stem, b)};
     count_hit(w, stem);
-    double share = speed_kept((struct hit){.energy = energy, .cost = cost});
+    double share = speed_kept(hit);
     if (w->watch && w->watch->stem)
-        show_stem(w, stem, x, clearance, energy, share > 0 ? cost : energy);
+        show_stem(w, stem, x, clearance, energy, energy_taken(hit));
     return share;
 }
 

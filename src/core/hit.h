@@ -4,10 +4,18 @@
 #ifndef CEDUO_HIT_H
 #define CEDUO_HIT_H
 
-/* A hit as the rock comes: its kinetic energy, and what the stem takes of a rock that has as much (J). */
+/* A hit as the rock comes: its kinetic energy, what the stem takes of a rock that has as much (J), and the share of the
+ * rock's energy that this hit takes at the most. */
 struct hit {
-    reals energy, cost;
+    reals energy, cost, part;
 };
+
+/* J that the stem takes. */
+LANE reals energy_taken(struct hit h)
+{
+    reals most = mul(h.part, h.energy);
+    return pick(less(h.cost, most), h.cost, most);
+}
 
 /* Kinetic energy (J) of a rock in flight. */
 LANE reals flying_energy(reals mass, reals moment, reals vx, reals vz, reals spin)
@@ -19,8 +27,8 @@ LANE reals flying_energy(reals mass, reals moment, reals vx, reals vz, reals spi
 /* The share of its speed that the rock keeps, 0 where the stem stops it. */
 LANE reals speed_kept(struct hit h)
 {
-    flags goes_on = less(h.cost, h.energy);
-    return pick(goes_on, root_of(sub(all(1), over(h.cost, h.energy))), all(0));
+    reals taken = energy_taken(h);
+    return pick(less(taken, h.energy), root_of(sub(all(1), over(taken, h.energy))), all(0));
 }
 
 #endif

@@ -81,11 +81,25 @@ static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem
     return !stem->shoot || ceduo_stems_meet_shoot(stems, stem, true);
 }
 
-/* Energy (J) that a hit of this stem takes from a rock of diameter b. */
+/* How far off its middle a rock of diameter b hits this stem, 0…1; 0 for a contact without a stem. */
+static inline double ceduo_stem_eccentricity(const struct stem *stem, double b)
+{
+    return isnan(stem->dbh) ? 0 : 2 * fabs(stem->y) / (b + stem->dbh);
+}
+
+/* The share of the energy of a rock of diameter b that a hit of this stem takes at the most. */
+static inline double ceduo_stem_part(const struct stems *stems, const struct stem *stem, double b)
+{
+    if (!stems->wood->glances)
+        return 1;
+    return stem_energy_part(&stem->kind->by_hit, ceduo_stem_eccentricity(stem, b));
+}
+
+/* Energy (J) that a hit of this stem takes from a rock of diameter b that has as much. */
 static inline double ceduo_stem_energy(struct stem *stem, double b)
 {
     if (isnan(stem->energy))
-        stem->energy = stem_energy_hit(&stem->kind->by_hit, stem->dbh, 2 * fabs(stem->y) / (b + stem->dbh));
+        stem->energy = stem_energy_hit(&stem->kind->by_hit, stem->dbh, ceduo_stem_eccentricity(stem, b));
     return stem->energy;
 }
 

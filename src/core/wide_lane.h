@@ -36,7 +36,8 @@ struct wide {
     double along[LANES];   /* of those that roll */
     double draw[3][LANES]; /* for the facets of the next contacts */
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
-    double height[LANES], cost[LANES]; /* of the next stem ahead; J that a hit of it takes */
+    double height[LANES]; /* of the next stem ahead; */
+    double cost[LANES], part[LANES]; /* what a hit of it takes: see struct hit */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
@@ -79,6 +80,7 @@ LANE void show_stem(struct wide *k, size_t i, struct stem *stem)
     k->stem_ahead[i] = stem->along;
     k->height[i] = stem->height;
     k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
+    k->part[i] = ceduo_stem_part(w->stems, stem, w->rock.mean_diameter);
 }
 
 /* The next stem ahead, if there is one. */

@@ -98,7 +98,7 @@ LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
 /* The next stem of each flight under way, whose landing comes behind it or is not known. */
 LANE void pass_stem(struct form form, struct wide *k, struct passing *p)
 {
-    reals zero = all(0), to = load(k->stem_ahead), height = load(k->height), cost = load(k->cost);
+    reals zero = all(0), to = load(k->stem_ahead), height = load(k->height), cost = load(k->cost), part = load(k->part);
     flags knows = flags_of(p->knows);
     go_to_segment(form, k, p, to);
     reals t = over(sub(to, p->x), p->vx), latest = load(k->t);
@@ -120,7 +120,8 @@ LANE void pass_stem(struct form form, struct wide *k, struct passing *p)
         p->x = pick(h, to, p->x);
         p->z = pick(h, z, p->z);
         p->vz = pick(h, sub(p->vz, mul(all(k->g->gravity), t)), p->vz);
-        struct hit blow = {.energy = flying_energy(load(k->mass), load(k->moment), p->vx, p->vz, p->spin), .cost = cost};
+        struct hit blow = {.energy = flying_energy(load(k->mass), load(k->moment), p->vx, p->vz, p->spin), .cost = cost,
+                           .part = part};
         reals share = speed_kept(blow);
         p->vx = pick(h, mul(p->vx, share), p->vx);
         p->vz = pick(h, mul(p->vz, share), p->vz);

@@ -38,7 +38,7 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
 {
     struct wood_kind k = {.dbh = stems->dbh,
                           .most = stems->dbh,
-                          .height = stems->height,
+                          .height = stand->hit_below > 0 ? fmin(stems->height, stand->hit_below) : stems->height,
                           .energy = NAN,
                           .by_hit = stem_energy_of(stand, stems)};
     if (stems->dbh_sd > LEAST_SPREAD * stems->dbh) {
@@ -46,7 +46,7 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
         k.shape = ratio * ratio;
         k.scale = stems->dbh_sd / ratio;
         k.most = thickest(k.shape, k.scale);
-    } else if (stem_energy_alike(stand->energy)) {
+    } else if (stem_energy_alike(&k.by_hit)) {
         k.energy = stem_energy_mean(&k.by_hit);
     }
     return k;
@@ -198,6 +198,7 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
         wood->bare = false;
+        wood->glances |= simulation->contact_model == CEDUO_STEMS && ceduo_stand_glances(&belt->stand);
         if (simulation->contact_model == CEDUO_POISSON)
             make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), &wood->kinds[used],
                           &wood->strata_room[used], to);

@@ -50,6 +50,7 @@ struct wood_belt {
 
 struct wood {
     bool bare; /* nothing to be met */
+    bool glances; /* a hit may take less than its stem would, see ceduo_stand_glances() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */

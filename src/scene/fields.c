@@ -194,8 +194,19 @@ static const struct field energy_fields[] = {
         AT(ceduo_stand, u), "J/m3", 0, 1e7, ABOVE, NULL,
            N_("brauner: work of breaking; without it that of the species, or of beech if unknown")),
     NUMBER("fracture_ratio", NAMED(N_("fracture ratio"), NULL),
-        AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, "1.5",
-           N_("dorren: energy of this species over that of silver fir; the default is an assumption")),
+        AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, NULL,
+           N_("dorren: energy of this species over that of silver fir; without it that of the species, or 1 if unknown")),
+    WORD("offset", NAMED(N_("hit off centre"), NULL),
+        AT(ceduo_stand, offset), 0, "whole",
+           N_("brauner, a stem hit beside its middle: the whole energy, or the share of Dorren et al. 2006"),
+           &ceduo_offset_words),
+    WORD("glancing", NAMED(N_("glancing hits"), NULL),
+        AT(ceduo_stand, glancing), 0, NULL,
+           N_("whether a hit takes no more than lies in the direction of the stem; without it as the law says, see below"),
+           &ceduo_flag_words),
+    NUMBER("hit_below_m", USUAL(N_("hits below, m"), NULL, 0.5, 10),
+        AT(ceduo_stand, hit_below), "m", 0, 150, ABOVE | ZERO, NULL,
+           N_("a hit higher on a stem takes nothing, as a thin stem bends away; without it every hit takes")),
 };
 static const struct object energy_object = OBJECT(ceduo_stand, energy_fields, NULL);
 

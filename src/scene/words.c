@@ -17,6 +17,11 @@ WORDS(system, CEDUO_SYSTEMS);
 WORDS(rule, CEDUO_RULES);
 WORDS(contact_model, CEDUO_CONTACT_MODELS);
 WORDS(spread, CEDUO_SPREAD_KINDS);
+WORDS(offset, CEDUO_ENERGY_OFFSETS);
+
+/* A flag that need not be said. */
+#define FLAGS(X) X(FALSE, "false") X(TRUE, "true")
+WORDS(flag, FLAGS);
 
 /* Laws are also parts of the names of functions. */
 #undef X_WORD

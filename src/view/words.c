@@ -100,6 +100,8 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         say_format(say, context,
                    _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
                    belt->name);
+    if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
+        say_format(say, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."), belt->name);
     const struct ceduo_stems *first = NULL;
     size_t n = r->warnings & CEDUO_WARN_FORM_FACTOR ? form_factor_stems(s, &first) : 0;
     if (n > 0)

@@ -86,6 +86,7 @@ USUAL = {
     "forest[].stand.trees[].height_m": (4, 25), "forest[].stand.trees[].volume_m3": (1e-2, 3),
     "forest[].stand.trees[].age_y": (1, 150),
     "forest[].stand.energy.u_J_m3": (3e4, 2e5), "forest[].stand.energy.fracture_ratio": (0.5, 3),
+    "forest[].stand.energy.hit_below_m": (0.5, 5),
     "forest[].stand.growth.shoots.dbh_most_m": (0.1, 0.3), "forest[].stand.growth.shoots.dbh_rate_1_y": (0.01, 0.05),
     "forest[].stand.growth.shoots.height_most_m": (8, 20), "forest[].stand.growth.shoots.height_rate_1_y": (0.02, 0.06),
     "forest[].stand.growth.trees.dbh_most_m": (0.3, 0.8), "forest[].stand.growth.trees.dbh_rate_1_y": (0.01, 0.03),
@@ -99,7 +100,7 @@ USUAL = {
 }
 
 # Keys that may be left out, though the table names no default. Others are seldom left out.
-OPTIONAL = {"name", "accepted_kJ", "measured_speed_m_s", "cut_year", "system", "species", "volume_m3", "age_y", "u_J_m3",
+OPTIONAL = {"name", "accepted_kJ", "measured_speed_m_s", "cut_year", "system", "species", "volume_m3", "age_y", "u_J_m3", "fracture_ratio", "glancing", "hit_below_m",
             "sdi_most", "stay_per_ha", "shoots_young", "shoots_old", "rocks_per_year"}
 GROUPS = {"shoots": 0.85, "trees": 0.85, "energy": 0.4, "growth": 0.4, "cutting": 0.4}  # shares of scenes that have them
 
