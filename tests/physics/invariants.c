@@ -123,7 +123,8 @@ static void look_at_roll(struct watch *w, const struct ceduo_piece *p)
     double scale = fmax(before + g * (fabs(p->x) + fabs(p->z)), after + g * (fabs(p->x1) + fabs(p->z1)));
     if (gained > 0)
         w->energy_off = fmax(w->energy_off, gained / scale);
-    size_t j = ceduo_slope_segment(&w->scene->scene.slope, (p->x + p->x1) / 2);
+    /* the middle may round to the far end, and that to the next segment */
+    size_t j = ceduo_slope_segment(&w->scene->scene.slope, fmin(p->x, p->x1));
     look_under_roll(w, j, p->x, p->z);
     look_under_roll(w, j, p->x1, p->z1);
 }

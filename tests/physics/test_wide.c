@@ -190,6 +190,9 @@ static void add_stems(struct wild *w, struct line_random *r)
         if (line_chance(r, 0.3))
             w->plots[i].shoots.dbh_sd = w->plots[i].trees.dbh_sd = 0.02;
         w->plots[i].stand.energy = line_chance(r, 0.5) ? CEDUO_BRAUNER : CEDUO_DORREN;
+        w->plots[i].stand.offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
+        w->plots[i].stand.glancing = line_chance(r, 0.5) ? -1 : line_chance(r, 0.5);
+        w->plots[i].stand.hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
         w->belts[i] = (struct ceduo_belt){.from = from[i], .to = to[i], .stand = w->plots[i].stand};
     }
     w->line.option.belts = w->belts;
