@@ -13,7 +13,7 @@
 struct ceduo_felling {
     unsigned year;
     size_t belt;
-    double stems_per_ha, volume; /* m3/ha of that belt */
+    double stems_per_ha, volume; /* m3/ha of that belt; 0 where an inventory is poorer than what its cuts leave */
 };
 
 struct ceduo_yield {
@@ -25,9 +25,8 @@ struct ceduo_yield {
     struct ceduo_felling *fellings; /* by year, then by belt */
 };
 
-/* The yield of an option. Fellings are those from year `first` to `last`. CEDUO_NO_MEMORY, with nothing to free, or
- * CEDUO_OK. */
-enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned first, unsigned last, struct ceduo_yield *yield);
+/* The yield of an option. Fellings are those from year 0 to `last`. CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield);
 void ceduo_yield_release(struct ceduo_yield *yield);
 
 /* Stem volume of a stand, m3/ha. */

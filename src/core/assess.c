@@ -50,16 +50,26 @@ struct met {
     double adc, free_run;
 };
 
-static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
+static struct met meet_all(const struct ceduo_scene *scene, const struct ceduo_stand *stand)
 {
     double b = ceduo_rock_mean(&scene->rock).mean_diameter;
-    struct counted c;
-    stand = count(stand, dbh, &c);
     if (ceduo_stand_is_bare(stand))
         return (struct met){INFINITY, 1};
     struct ceduo_adc adc = ceduo_adc(stand, b);
     return (struct met){ceduo_adc_value(&adc, ceduo_adc_rule(stand, b, scene->simulation.rule)),
                         exp(-scene->simulation.threshold / adc.crofton)};
+}
+
+/* Fewer stems are not met more often, though their mean diameter may make a form say so. */
+static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
+{
+    struct counted c;
+    struct met all = meet_all(scene, stand);
+    const struct ceduo_stand *thick = count(stand, dbh, &c);
+    if (thick == stand)
+        return all;
+    struct met met = meet_all(scene, thick);
+    return (struct met){fmax(met.adc, all.adc), fmax(met.free_run, all.free_run)};
 }
 
 static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh,

@@ -69,37 +69,48 @@ static enum ceduo_status fell(const struct ceduo_belt *belt, struct ceduo_fellin
     if (status != CEDUO_OK)
         return status;
     status = ceduo_stand_at(&belt->stand, belt->cut_year, f->year, &after);
-    if (status == CEDUO_OK) {
-        f->volume = ceduo_stand_volume(&before.stand) - ceduo_stand_volume(&after.stand);
-        f->stems_per_ha = ceduo_stand_shoots(&before.stand) + ceduo_stand_trees(&before.stand) -
-                          ceduo_stand_shoots(&after.stand) - ceduo_stand_trees(&after.stand);
+    if (status == CEDUO_OK) { /* an inventory may be poorer than what its cuts leave */
+        f->volume = fmax(0, ceduo_stand_volume(&before.stand) - ceduo_stand_volume(&after.stand));
+        f->stems_per_ha = fmax(0, ceduo_stand_shoots(&before.stand) + ceduo_stand_trees(&before.stand) -
+                                      ceduo_stand_shoots(&after.stand) - ceduo_stand_trees(&after.stand));
         ceduo_grown_stand_release(&after);
     }
     ceduo_grown_stand_release(&before);
     return status;
 }
 
-static bool is_felled(const struct ceduo_belt *belt, unsigned year)
+static int by_year(const void *a, const void *b)
 {
-    return ceduo_is_cut_year(&belt->stand, belt->cut_year, year);
+    const struct ceduo_felling *f = a, *g = b;
+    if (f->year != g->year)
+        return f->year < g->year ? -1 : 1;
+    return f->belt < g->belt ? -1 : f->belt > g->belt;
 }
 
-static enum ceduo_status list_fellings(const struct ceduo_option *option, unsigned first, unsigned last,
-                                       struct ceduo_yield *yield)
+static size_t count_fellings(const struct ceduo_belt *belt, unsigned last)
+{
+    unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year);
+    return first > last ? 0 : (last - first) / belt->stand.cutting.rotation + 1;
+}
+
+static enum ceduo_status list_fellings(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
 {
     size_t n = 0;
-    for (unsigned year = first; year <= last; year++)
-        for (size_t i = 0; i < option->belts_count; i++)
-            n += is_felled(&option->belts[i], year);
+    for (size_t i = 0; i < option->belts_count; i++)
+        n += count_fellings(&option->belts[i], last);
     yield->fellings = calloc(n + 1, sizeof *yield->fellings);
     enum ceduo_status status = yield->fellings ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (unsigned year = first; year <= last && status == CEDUO_OK; year++)
-        for (size_t i = 0; i < option->belts_count && status == CEDUO_OK; i++)
-            if (is_felled(&option->belts[i], year)) {
-                struct ceduo_felling *f = &yield->fellings[yield->fellings_count++];
-                *f = (struct ceduo_felling){.year = year, .belt = i};
-                status = fell(&option->belts[i], f);
-            }
+    for (size_t i = 0; i < option->belts_count && status == CEDUO_OK; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        unsigned year = ceduo_first_cut(&belt->stand, belt->cut_year);
+        for (size_t k = count_fellings(belt, last); k-- > 0 && status == CEDUO_OK; year += belt->stand.cutting.rotation) {
+            struct ceduo_felling *f = &yield->fellings[yield->fellings_count++];
+            *f = (struct ceduo_felling){.year = year, .belt = i};
+            status = fell(belt, f);
+        }
+    }
+    if (status == CEDUO_OK)
+        qsort(yield->fellings, yield->fellings_count, sizeof *yield->fellings, by_year);
     return status;
 }
 
@@ -132,12 +143,12 @@ static enum ceduo_status sum_belts(const struct ceduo_option *option, struct ced
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned first, unsigned last, struct ceduo_yield *yield)
+enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
 {
     *yield = (struct ceduo_yield){0};
     enum ceduo_status status = sum_belts(option, yield);
     if (status == CEDUO_OK)
-        status = list_fellings(option, first, last, yield);
+        status = list_fellings(option, last, yield);
     if (status != CEDUO_OK)
         ceduo_yield_release(yield);
     return status;

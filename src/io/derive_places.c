@@ -174,6 +174,8 @@ static bool says_the_same(struct deriver *d, const struct node *a, const struct 
         a = ceduo_node_get(a, beside[i]) ? ceduo_node_without(d->arena, a, beside[i]) : a;
         b = ceduo_node_get(b, beside[i]) ? ceduo_node_without(d->arena, b, beside[i]) : b;
     }
+    if (!a || !b)
+        ceduo_problem_memory(d->problems);
     return a && b && ceduo_node_equal(a, b);
 }
 

@@ -88,7 +88,7 @@ static void read_yield(struct search *s, double value, enum ceduo_status status)
 {
     struct ceduo_yield *yield = &s->seek->yield;
     bool known = status == CEDUO_OK && !isnan(value) && set_value(s, value) &&
-                 ceduo_yield_of(&s->seek->file->scene.options[s->seek->search.option], 1, 0, yield) == CEDUO_OK;
+                 ceduo_yield_of(&s->seek->file->scene.options[s->seek->search.option], 0, yield) == CEDUO_OK;
     if (!known)
         *yield = (struct ceduo_yield){.cut_per_year = NAN, .died_per_year = NAN, .standing = NAN, .volume_today = NAN};
     free(yield->fellings);

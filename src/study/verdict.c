@@ -104,9 +104,9 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
         if (years && years->count > 0)
             read_years(years, c);
     }
-    unsigned first = rotation.first < c->window.first ? rotation.first : c->window.first;
-    unsigned last = rotation.last + 1 > c->window.last ? rotation.last + 1 : c->window.last;
-    return ceduo_yield_of(o, first, last, &c->yield);
+    unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MOST;
+    unsigned last = c->window.last < end ? end : c->window.last < most ? c->window.last : most;
+    return ceduo_yield_of(o, last, &c->yield);
 }
 
 /* ---- all options ---- */

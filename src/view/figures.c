@@ -176,10 +176,13 @@ static bool enter_year(struct ceduo_place *p, size_t i)
     return p->year != NULL;
 }
 
+/* Up to the end of the first whole rotation, whichever years are asked for. */
 static bool enter_felling(struct ceduo_place *p, size_t i)
 {
+    const struct ceduo_yield *yield = yield_at(p);
+    struct ceduo_window rotation = ceduo_window_of(&p->report->result->scene->options[p->option]);
     p->felling = i;
-    return yield_at(p) && i < yield_at(p)->fellings_count;
+    return yield && i < yield->fellings_count && yield->fellings[i].year <= rotation.last + 1;
 }
 
 static bool enter_difference(struct ceduo_place *p, size_t i)
@@ -437,7 +440,7 @@ static const struct ceduo_figure felling[] = {
     {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", .from = yield_of, \
      AT(yield, died_per_year), .null = "a stand says nothing of growth or cutting"}
 static const struct ceduo_figure yield[] = {
-    YIELD, {"cuts", "", "an object for each cut, up to the end of the years", .of = felling, .enter = enter_felling}, END};
+    YIELD, {"cuts", "", "an object for each cut, up to the one that ends the first whole rotation", .of = felling, .enter = enter_felling}, END};
 static const struct ceduo_figure yield_columns[] = {YIELD, END};
 
 static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};

@@ -68,7 +68,12 @@ static void say_years(struct ceduo_page *page, const struct ceduo_result *r, con
         ceduo_text_format(line, _(", with too much energy %zu"), s.unprotected_energy);
     ceduo_text_put(line, ". ");
     struct ceduo_paired mean = says ? s.exceed : s.reach;
-    if (s.flown > 0)
+    if (s.flown > 0 && isnan(mean.se)) /* of one rock */
+        ceduo_text_format(line,
+                          says ? _("In the mean %.0f of 1000 arrive with too much energy, at worst %.0f in year %u.")
+                               : _("In the mean %.0f of 1000 arrive, at worst %.0f in year %u."),
+                          mean.mean * 1000, s.worst * 1000, s.worst_year);
+    else if (s.flown > 0)
         ceduo_text_format(line,
                           says ? _("In the mean %.0f \xc2\xb1%.0f of 1000 arrive with too much energy, at worst %.0f in year %u.")
                                : _("In the mean %.0f \xc2\xb1%.0f of 1000 arrive, at worst %.0f in year %u."),
