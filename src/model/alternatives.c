@@ -137,7 +137,9 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         ceduo_changes_add(&c, "%s=%s", path, value);
     if (c.failed)
         ceduo_problem_memory(problems);
-    bool good = !c.failed && ceduo_document_set_all(d, c.sets, c.n, path, problems);
+    else if (c.refused.length)
+        ceduo_problem(problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", c.refused.bytes);
+    bool good = !c.failed && !c.refused.length && ceduo_document_set_all(d, c.sets, c.n, path, problems);
     if (good && c.filled.length)
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
     if (good && c.taken.length)
@@ -145,6 +147,7 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
     if (good && c.followed.length)
         ceduo_text_format(said, "%s%s", said->length ? "; " : "", c.followed.bytes);
     ceduo_text_free(&c.followed);
+    ceduo_text_free(&c.refused);
     ceduo_text_free(&c.taken);
     ceduo_text_free(&c.filled);
     return good;

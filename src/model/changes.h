@@ -13,6 +13,7 @@ struct changes {
     const char *sets[CHANGES_MOST]; /* PATH=VALUE, or PATH alone: what stands there is taken out */
     size_t n;
     struct text taken, filled, followed;
+    struct text refused; /* why it cannot be; "": it can, as far as is known */
     bool failed;
 };
 

@@ -75,6 +75,14 @@ static void move_neighbour(struct changes *c, const struct place *place, bool to
     bool overlaps = to ? there < now : there > now;
     if (isnan(there) || (there != old && !overlaps))
         return;
+    snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "to_m" : "from_m");
+    double end = number_at(c->d, path);
+    if (to ? end <= now : end >= now)
+        ceduo_text_format(&c->refused,
+                          to ? _("what comes next ends at %g m already; delete that first")
+                             : _("what comes before begins at %g m only; delete that first"),
+                          end);
+    snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
     ceduo_changes_add(c, "%s=%s", path, ceduo_number_shortest(now, room));
     ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
                       room);

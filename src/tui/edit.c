@@ -10,15 +10,16 @@
 #include "popups.h"
 #include "view/typed.h"
 
-/* A refusal begins with the field's label, not its key. */
+/* A refusal begins with the field's label, not with its key or path. */
 static void name_field(struct app *app, const struct field *field)
 {
-    char key[64], rest[sizeof app->message];
-    snprintf(key, sizeof key, "%.60s: ", field->key);
-    const char *found = strstr(app->message, key);
-    if (!found || strcspn(app->message, " ") < (size_t)(found - app->message))
+    char rest[sizeof app->message];
+    size_t n = strcspn(app->message, " ");
+    bool key = n > 1 && app->message[n - 1] == ':' &&
+               ((size_t)strcspn(app->message, "_.[") < n || strncmp(app->message, field->key, n - 1) == 0);
+    if (!key || !app->message[n])
         return;
-    snprintf(rest, sizeof rest, "%s", found + strlen(key));
+    snprintf(rest, sizeof rest, "%s", app->message + n + 1);
     ceduo_app_warn(app, "%s: %s", _(field->shown.label), rest);
 }
 
@@ -50,12 +51,21 @@ static bool is_meant(struct app *app, const struct form_cell *cell, const char *
 {
     struct text why = {0};
     bool good = !cell->field || ceduo_typed_in_range(cell->field, typed, &why);
-    bool sure = app->line.doubted || !cell->field || !ceduo_typed_unusual(cell->field, typed, &why);
+    bool sure = !good || app->line.doubted || !cell->field || !ceduo_typed_unusual(cell->field, typed, &why);
     if (!good || !sure)
         ceduo_app_warn(app, "%s", ceduo_text_string(&why));
     app->line.doubted = good && !sure;
     ceduo_text_free(&why);
     return good && sure;
+}
+
+/* A list of numbers that is shown whole is typed as it is shown: with blanks between. */
+static bool is_typed_plainly(const struct form_cell *cell, const struct node *node)
+{
+    bool numbers = node->kind == NODE_LIST && strlen(cell->text) + 1 < sizeof cell->text;
+    for (size_t i = 0; numbers && i < node->n; i++)
+        numbers = node->items[i]->kind == NODE_SCALAR;
+    return numbers;
 }
 
 /* The whole value as it is typed: what is shown may be cut or put in other words. */
@@ -72,7 +82,7 @@ void ceduo_edit_start(struct app *app)
     struct text text = {0};
     if (node && node->kind == NODE_SCALAR)
         ceduo_shown_value(cell->field, node->text, &text);
-    else if (node && cell->field->type != FIELD_SPREAD)
+    else if (node && cell->field->type != FIELD_SPREAD && !is_typed_plainly(cell, node))
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_put(&text, cell->text);

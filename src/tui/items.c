@@ -277,6 +277,11 @@ void ceduo_items_delete(struct app *app)
         ceduo_app_say(app, "%s", _("d deletes an item of a list: put the cursor on one"));
         return;
     }
+    const struct node *list = ceduo_document_node(&app->document, item.list);
+    if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
+        ceduo_app_say(app, "%s", _("the only place where rocks are counted stays"));
+        return;
+    }
     snprintf(path, sizeof path, "%s[%zu]", item.list, item.index);
     if (ceduo_app_edited(app, delete_item(app, &item, path))) {
         struct text words = {0};

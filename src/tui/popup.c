@@ -300,8 +300,11 @@ static void draw_more(struct app *app, const struct popup *p, bool above, bool b
 /* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
-    note_lines = p->text.bytes ? note_lines : 0;
-    int width = app->width - 2 < 84 ? app->width - 2 : 84, height = lines + note_lines + 2;
+    int width = app->width - 2 < 84 ? app->width - 2 : 84, wanted = note_lines;
+    if (p->kind == POPUP_FIELDS && p->text.bytes) /* no more than it takes; over a list it changes with the cursor */
+        ceduo_app_text(app, (struct ceduo_area){0, 0, width - 4, 0}, CEDUO_ROLE_DIM, p->text.bytes, &wanted);
+    note_lines = p->text.bytes ? wanted : 0;
+    int height = lines + note_lines + 2;
     height = height > app->height - 2 ? app->height - 2 : height;
     struct ceduo_area r = {(app->width - width) / 2, (app->height - height) / 2, width, height};
     struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, note_lines};
@@ -364,7 +367,7 @@ static void draw_fields(struct app *app, struct popup *p)
     int picks = 0;
     for (size_t i = 0; i < p->fields_count; i++)
         picks = p->offers[i] ? PICKS_SHOWN : picks;
-    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + picks, NOTE_LINES);
+    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + picks, app->height);
     int x = in.left + 32, width = in.width - 32;
     for (size_t i = 0; i < p->fields_count; i++) {
         ceduo_app_text(app, (struct ceduo_area){in.left, in.top + (int)i, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);

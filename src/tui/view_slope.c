@@ -38,7 +38,7 @@ static void build_vertices(struct app *app, struct form *form)
         ceduo_form_note(form, _("The profile has too many vertices to list; edit its file."));
         return;
     }
-    ceduo_form_heading(form, _("Vertices [x, z], m"));
+    ceduo_form_heading(form, _("Profile: points x z, m"));
     ceduo_form_points(form, d, ceduo_schema_field(ceduo_schema_slope(), "vertices_m"), "slope.vertices_m");
 }
 

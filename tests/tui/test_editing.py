@@ -480,7 +480,7 @@ def test_vertices():
         dump
         key d
         dump""")
-    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Vertices")[1], re.M)) for s in screens]
+    counts = [len(re.findall(r"^\d +\S+ \S+$", s.body.split("Profile: points")[1], re.M)) for s in screens]
     expect_in("60 35", screens[0].body)
     expect_equal(counts[0], 3, "vertices")
     for i in (1, 2):

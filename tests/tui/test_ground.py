@@ -40,7 +40,7 @@ def land(script, text=LAND):
 
 
 def points(screen):
-    return re.findall(r"^\d +(\S+) (\S+)$", screen.body.split("Vertices")[1], re.M)
+    return re.findall(r"^\d +(\S+) (\S+)$", screen.body.split("Profile: points")[1], re.M)
 
 
 def stretches(screen, head):
@@ -125,6 +125,7 @@ def test_neighbours_follow():
     expect_equal([s[:2] for s in stretches(into, BELTS)], [(10, 60), (60, 80)], "over the gap and into the next: it gives way")
     refused = land("wait idle\nfind forest[0]\nkey Right\nset 85\ndump")[0]
     expect_in("Esc leaves it as it was", refused.bar, "a belt is not swallowed")
+    expect_in("what comes next ends at 80 m already", refused.note)
     longer = land("find vertices_m[2]\nset 120 0\ndump\nset 110,5 -5\ndump")
     expect_equal(stretches(longer[0], GROUNDS), [(0, 120, "talus")], "the ground goes with the profile")
     expect_equal(stretches(longer[1], GROUNDS), [(0, 110.5, "talus")], "and back")
