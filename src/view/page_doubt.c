@@ -116,7 +116,7 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         }
         ceduo_doubt_input_name(ceduo_page_text(page), r, g);
         for (int end = 0; end < 2; end++)
-            ceduo_doubt_input_end(ceduo_page_text(page), r, g, end);
+            ceduo_doubt_input_shown(ceduo_page_text(page), r, g, end);
         ceduo_text_format(ceduo_page_text(page), "%.0f %%", fmin(1, fmax(0, f->indices.total[g].value)) * 100);
         struct text *left = ceduo_page_text(page);
         if (isnan(f->left[g]))

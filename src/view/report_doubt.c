@@ -54,6 +54,8 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
         return;
     }
     const char *place = input->places[0], *stand = stand_name(&r->file->scene, place);
+    for (size_t i = 1; stand && i < input->places_count; i++)
+        stand = stand_name(&r->file->scene, input->places[i]) == stand ? stand : NULL;
     if (!ceduo_value_find(&r->file->scene, place, &v)) {
         ceduo_text_safe(text, input->path);
         return;
@@ -70,19 +72,38 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
     }
 }
 
-void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t group, int end)
+/* The value of an end; of words their text, and NaN. */
+static double end_of(const struct ceduo_doubt_report *r, size_t group, int end, struct value *v, const char **word)
 {
     const struct ceduo_input *input = input_of(r, group);
+    *word = NULL;
+    if (!input || !ceduo_value_find(&r->file->scene, input->places[0], v))
+        return NAN;
+    if (input->kind == CEDUO_INPUT_WORDS)
+        *word = v->field->choices->names[input->words[end == 0 ? 0 : input->words_count - 1]];
+    double value = end == 0 ? input->lo : input->hi;
+    return *word ? NAN : input->kind == CEDUO_INPUT_FACTOR ? value * ceduo_value_get(v) : value;
+}
+
+void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t group, int end)
+{
     char room[CEDUO_NUMBER_ROOM];
     struct value v;
-    if (!input || !ceduo_value_find(&r->file->scene, input->places[0], &v))
-        return;
-    double value = end == 0 ? input->lo : input->hi;
-    if (input->kind == CEDUO_INPUT_WORDS)
-        ceduo_text_put(text, v.field->choices->names[input->words[end == 0 ? 0 : input->words_count - 1]]);
-    else
-        ceduo_text_put(text, ceduo_number_shortest(
-                                 input->kind == CEDUO_INPUT_FACTOR ? value * ceduo_value_get(&v) : value, room));
+    const char *word;
+    double value = end_of(r, group, end, &v, &word);
+    if (word || !isnan(value))
+        ceduo_text_put(text, word ? word : ceduo_number_shortest(value, room));
+}
+
+void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *r, size_t group, int end)
+{
+    struct value v;
+    const char *word;
+    double value = end_of(r, group, end, &v, &word);
+    if (word)
+        ceduo_text_put(text, word);
+    else if (!isnan(value))
+        ceduo_words_number(text, value * v.field->shown.per, 4);
 }
 
 const char *ceduo_doubt_verdict(double probability)

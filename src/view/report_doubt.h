@@ -17,8 +17,11 @@ struct ceduo_doubt_report {
 /* What people call an input: "diameter, ADS 1"; "energy law". */
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
 
-/* The range of an input, as it would be written; the first and the last of words. */
+/* An end of an input's range, 0 or 1, as files have it; of words the first and the last. */
 void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
+
+/* The same in the unit that people use, and short. */
+void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
 
 /* How sure an order of two options is, in a word. */
 const char *ceduo_doubt_verdict(double probability);
