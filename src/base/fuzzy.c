@@ -19,8 +19,8 @@ static bool begins_word(const char *text, size_t i)
     return i == 0 || strchr(" -_/.(,", text[i - 1]) != NULL;
 }
 
-/* The best of all ways in which the letters stand in the text: best[k] is that of the first k letters, the last of them at
- * the byte before the one looked at (`ending`), or anywhere before it (`best`). */
+/* The best of all ways in which the letters stand in the text: best[k] is that of the first k letters, the last of
+ * them at the byte before the one looked at (`ending`), or anywhere before it (`best`). */
 int ceduo_fuzzy_match(const char *typed, const char *text)
 {
     int best[LETTERS_MOST + 1], ending[LETTERS_MOST + 1];

@@ -150,7 +150,8 @@ static bool read_value(const struct source *s, struct columns *c, struct span f,
     else if (reading != CEDUO_NUMBER_NONE)
         ceduo_problem(problems, s, line, column, _("beyond %g m"), vertex->hi);
     else if (!one_decimal)
-        ceduo_problem(problems, s, line, column, _("'%s': decimals stand after a comma or after a dot, not both"), room);
+        ceduo_problem(problems, s, line, column, _("'%s': decimals stand after a comma or after a dot, not both"),
+                      room);
     else if (fits && strchr(room, ','))
         ceduo_problem(problems, s, line, column, _("'%s' is not a number; write a dot for the decimals"), room);
     else

@@ -45,8 +45,8 @@ struct points {
 };
 
 /* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
- * separated by comma, semicolon or tab. Where they are not separated by commas, commas may stand for the decimals. False
- * where that fails. */
+ * separated by comma, semicolon or tab. Where they are not separated by commas, commas may stand for the decimals.
+ * False where that fails. */
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
 
 void ceduo_derive_slope(struct deriver *d);

@@ -9,19 +9,33 @@
 #include "base/intl.h"
 #include "changes.h"
 
+/* What people call a value: its label without the unit. */
+static const struct field *put_name(struct text *text, const char *map, const char *key)
+{
+    char path[512];
+    snprintf(path, sizeof path, "%.400s.%.60s", map, key);
+    const struct field *f = ceduo_schema_at(path);
+    const char *label = f ? _(f->shown.label) : key;
+    ceduo_text_add(text, label, strcspn(label, ","));
+    return f;
+}
+
 /* Takes an entry of a mapping out, if it is there. */
 static void take_out(struct changes *c, const char *map, const char *key)
 {
     if (!ceduo_node_get(ceduo_document_node(c->d, map), key))
         return;
     ceduo_changes_add(c, "%s.%s", map, key);
-    ceduo_text_format(&c->taken, "%s%s", c->taken.length ? ", " : "", key);
+    ceduo_text_put(&c->taken, c->taken.length ? ", " : "");
+    put_name(&c->taken, map, key);
 }
 
 static void fill_in(struct changes *c, const char *key, const char *value)
 {
     ceduo_changes_add(c, "rock.%s=%s", key, value);
-    ceduo_text_format(&c->filled, "%s%s %s", c->filled.length ? ", " : "", key, value);
+    ceduo_text_put(&c->filled, c->filled.length ? ", " : "");
+    const struct field *f = put_name(&c->filled, "rock", key);
+    ceduo_text_format(&c->filled, " %s %s", value, f ? f->unit : "");
 }
 
 /* ---- another shape ---- */
@@ -57,7 +71,8 @@ static void fill_sizes(struct changes *c, enum ceduo_shape shape, const struct c
         fill_in(c, "diameter_m", ceduo_changes_rounded(scale * sqrt(s[0] * s[1]), 3, a));
         fill_in(c, "height_m", ceduo_changes_rounded(scale * s[2], 3, b));
     } else {
-        snprintf(all, sizeof all, "[%s, %s, %s]", ceduo_changes_rounded(scale * s[0], 3, a), ceduo_changes_rounded(scale * s[1], 3, b),
+        snprintf(all, sizeof all, "[%s, %s, %s]", ceduo_changes_rounded(scale * s[0], 3, a),
+                 ceduo_changes_rounded(scale * s[1], 3, b),
                  ceduo_changes_rounded(scale * s[2], 3, third));
         fill_in(c, "axes_m", all);
     }

@@ -22,9 +22,9 @@ void ceduo_changes_add(struct changes *changes, const char *format, ...) __attri
 /* A number of so many digits as text. */
 const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 
-/* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap; the
- * shoots of stools that become more or fewer, so that as many stand on each. False where the path is none of the files
- * (ceduo_shoots_per_stool()), and nothing is to be set there. */
+/* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap;
+ * the shoots of stools that become more or fewer, so that as many stand on each. False where the path is none of the
+ * files (ceduo_shoots_per_stool()), and nothing is to be set there. */
 bool ceduo_changes_follow(struct changes *changes, const char *path, const char *value);
 
 /* Shoots on a stool of the stand at a path, as its document has them; NaN where there are none. A field of the screen

@@ -215,7 +215,8 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
 {
     const struct node *item = ceduo_document_parse(d, vertices_list, vertex, problems);
     const struct node *root = with_item(d, d->file.root, vertices_list, index + 1, item, problems);
-    const struct node *vertices = ceduo_document_node(d, vertices_list), *segments = ceduo_document_node(d, ground_list);
+    const struct node *vertices = ceduo_document_node(d, vertices_list);
+    const struct node *segments = ceduo_document_node(d, ground_list);
     if (root && segments && segments->n > 1)
         root = with_item(d, root, ground_list, index + 1, segments->items[index], problems);
     else if (root && segments && vertices && apart)
@@ -226,7 +227,8 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
 /* Without a vertex, and without the ground of one of the segments beside it. */
 static bool remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
 {
-    const struct node *vertices = ceduo_document_node(d, vertices_list), *segments = ceduo_document_node(d, ground_list);
+    const struct node *vertices = ceduo_document_node(d, vertices_list);
+    const struct node *segments = ceduo_document_node(d, ground_list);
     if (!vertices || vertices->n < 3 || vertex >= vertices->n)
         return ceduo_document_commit(d, NULL, vertices_list, problems);
     const struct node *less = ceduo_node_removed(&d->file.arena, vertices, vertex);

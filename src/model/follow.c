@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What goes along with a value that a person changes. Borders: where a belt, or a ground, ends and the next one begins in
- * the same place, moving one moves the other; where a border is moved over the next, that one gives way. Stools: more of
- * them have more shoots. */
+/* What goes along with a value that a person changes. Borders: where a belt, or a ground, ends and the next one begins
+ * in the same place, moving one moves the other; where a border is moved over the next, that one gives way. Stools:
+ * more of them have more shoots. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,8 +84,8 @@ static void move_neighbour(struct changes *c, const struct place *place, bool to
                           end);
     snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
     ceduo_changes_add(c, "%s=%s", path, ceduo_number_shortest(now, room));
-    ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
-                      room);
+    ceduo_text_format(&c->followed,
+                      to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"), room);
 }
 
 static void follow_border(struct changes *c, const char *path, double now)

@@ -29,8 +29,8 @@ bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, uint64_
 void ceduo_jobs_seek(struct jobs *jobs, const struct seek *seek);
 void ceduo_jobs_stop_seek(struct jobs *jobs);
 
-/* Asks what a change (PATH=VALUE, shorter than 1024 bytes) would do to the lights of an option. The scene is copied as it is
- * now. */
+/* Asks what a change (PATH=VALUE, shorter than 1024 bytes) would do to the lights of an option. The scene is copied as
+ * it is now. */
 void ceduo_jobs_foresee(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
 
 /* What a search came to. */

@@ -69,7 +69,7 @@ static const struct field rock_fields[] = {
     NUM(FIELD_SPREADS, "axes_m", NAMED(N_("axes, m"), NULL),
         AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
         N_("the three axes of an ellipsoid or block")),
-    SPREAD("volume_m3", NAMED(N_("or volume, m3"), NULL),
+    SPREAD("volume_m3", NAMED(N_("volume, m3"), NULL),
         AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
            N_("volume of a sphere, instead of its diameter")),
     SPREAD("mass_kg", NAMED(N_("mass, kg"), NULL),

@@ -51,7 +51,7 @@ struct object;
 
 /* How people read and type a value, where files say it otherwise: see view/typed.h. */
 struct field_shown {
-    const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL where that is the label */
+    const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL: the label */
     const char *unit;          /* NULL: the file's */
     double per;                /* so many of it are one of the file's */
     double least, most;        /* what is usual, in the file's unit: beyond it a person is asked back */

@@ -84,7 +84,8 @@ static void fill_cell(struct form_cell *cell, const struct document *d, const st
     cell->field = field;
     cell->given = node != NULL;
     cell->assumed = node && ceduo_scene_assumes_value(&d->file, path);
-    const char *written = node && node->kind == NODE_SCALAR ? node->text : !node && field && field->value ? field->value : "";
+    const char *usual = !node && field && field->value ? field->value : "";
+    const char *written = node && node->kind == NODE_SCALAR ? node->text : usual;
     snprintf(cell->written, sizeof cell->written, "%s", written);
     const char *name = node && node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
     if (name && field && field->flags & FIELD_FOLLOWS)

@@ -33,15 +33,18 @@ static bool find_item(struct app *app, struct item *item)
 
 /* ---- splitting ---- */
 
+static bool read_scalar(const struct node *node, double *value)
+{
+    return node && node->kind == NODE_SCALAR && ceduo_number_read(node->text, value) == CEDUO_NUMBER_GOOD;
+}
+
 /* The number at `list[index].key`; NaN where there is none. */
 static double number_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
     char path[FORM_PATH + 64];
     double value;
     snprintf(path, sizeof path, "%s[%zu].%s", item->list, index, key);
-    const struct node *node = ceduo_document_node(&app->document, path);
-    bool good = node && node->kind == NODE_SCALAR && ceduo_number_read(node->text, &value) == CEDUO_NUMBER_GOOD;
-    return good ? value : NAN;
+    return read_scalar(ceduo_document_node(&app->document, path), &value) ? value : NAN;
 }
 
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
@@ -66,9 +69,8 @@ static bool split_at(struct app *app, size_t segment, bool apart)
     double x[2], z[2];
     for (size_t i = 0; i < 2; i++) {
         const struct node *point = vertices->items[segment + i];
-        bool pair = point->kind == NODE_LIST && point->n == 2 && ceduo_number_read(point->items[0]->text, &x[i]) == CEDUO_NUMBER_GOOD &&
-                    ceduo_number_read(point->items[1]->text, &z[i]) == CEDUO_NUMBER_GOOD;
-        if (!pair)
+        if (point->kind != NODE_LIST || point->n != 2 || !read_scalar(point->items[0], &x[i]) ||
+            !read_scalar(point->items[1], &z[i]))
             return false;
     }
     snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", (x[0] + x[1]) / 2, (z[0] + z[1]) / 2);
@@ -186,7 +188,8 @@ static bool delete_ground(struct app *app, const struct item *item, const char *
     char border[FORM_PATH + 64];
     bool first = item->index == 0;
     double end = number_of(app, item, item->index, first ? "from_m" : "to_m");
-    snprintf(border, sizeof border, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, first ? "from_m" : "to_m", end);
+    snprintf(border, sizeof border, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1,
+             first ? "from_m" : "to_m", end);
     const char *const sets[] = {border, path};
     return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
 }

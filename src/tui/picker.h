@@ -6,7 +6,8 @@
 #include "line.h"
 #include "view/cells.h"
 
-/* The one list to choose from: what is typed leaves those that match, the best first. It knows nothing of what it lists. */
+/* The one list to choose from: what is typed leaves those that match, the best first. It knows nothing of what it
+ * lists. */
 
 struct pick {
     const char *text, *value;
@@ -47,7 +48,8 @@ int ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct c
 
 /* ---- files ---- */
 
-/* Adds what a path that is typed may go on to: folders, and files that end as given (".csv"; several with blanks between). */
+/* Adds what a path that is typed may go on to: folders, and files that end as given (".csv"; several with blanks
+ * between). */
 void ceduo_picker_add_files(struct picker *picker, const char *typed, const char *endings);
 
 /* The longest that a typed path can be completed to without a choice; false where there is none. */

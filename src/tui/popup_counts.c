@@ -75,8 +75,8 @@ static bool is_usual(struct app *app, struct popup *p, const struct plot *plot)
         struct text why = {0};
         struct line *line = &p->fields[sizes[i].field];
         const struct field *f = ceduo_schema_at(sizes[i].path);
-        bool good = !is_needed(plot, sizes[i].field) || ceduo_typed_in_range(f, line->text, &why);
-        bool asked = good && is_needed(plot, sizes[i].field) && !line->doubted && ceduo_typed_unusual(f, line->text, &why);
+        bool needed = is_needed(plot, sizes[i].field), good = !needed || ceduo_typed_in_range(f, line->text, &why);
+        bool asked = good && needed && !line->doubted && ceduo_typed_unusual(f, line->text, &why);
         line->doubted |= asked;
         if (why.bytes)
             ceduo_app_warn(app, "%s", why.bytes);
@@ -133,8 +133,8 @@ __attribute__((format(printf, 2, 3))) static void change(struct changes *c, cons
 }
 
 /* One class of stems in the place of those that stand there, or none. */
-static void change_stems(struct app *app, struct changes *c, const char *stand, const char *key, const struct plot *plot,
-                         size_t count)
+static void change_stems(struct app *app, struct changes *c, const char *stand, const char *key,
+                         const struct plot *plot, size_t count)
 {
     char path[FORM_PATH + 16];
     const double *v = &plot->values[count];
@@ -216,8 +216,9 @@ void ceduo_popup_counts(struct app *app)
     if (!p)
         return;
     ceduo_app_stand(app, p->path, sizeof p->path);
-    ceduo_text_format(&p->text, _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
-                                  "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),
+    ceduo_text_format(&p->text,
+                      _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
+                        "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),
                       belt->name);
     field_number(p, _("size of the plot, m2"), 400);
     ceduo_popup_choice(p, _("measured along the slope or map"), ALONG_SLOPE, offer_how);

@@ -60,7 +60,8 @@ static bool read_word(struct app *app, const char *typed, struct ceduo_search *s
     if (reading == CEDUO_GOAL_NO_SHARE)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
     else if (reading != CEDUO_GOAL_GOOD)
-        ceduo_app_warn(app, "%s", _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
+        ceduo_app_warn(app, "%s",
+                       _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
     return reading == CEDUO_GOAL_GOOD;
 }
 
@@ -158,9 +159,11 @@ static void put_found(struct text *text, const struct popup *p, const struct ced
     put_reached(text, s->goal, f->goal_at_value);
 }
 
-static void put_none(struct text *text, const struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f)
+static void put_none(struct text *text, const struct popup *p, const struct ceduo_search *s,
+                     const struct ceduo_found *f)
 {
-    ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text, p->fields[FIND_HI].text);
+    ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text,
+                      p->fields[FIND_HI].text);
     if (isnan(f->nearest))
         return;
     ceduo_text_put(text, _("; nearest is "));
@@ -175,12 +178,14 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     size_t row = row_of(s->goal);
     if (f->found && f->whole_range) { /* then the value that is there is as good as another */
-        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), p->fields[FIND_LO].text,
-                          p->fields[FIND_HI].text, cell && cell->text[0] ? cell->text : _("as it is"));
+        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"),
+                          p->fields[FIND_LO].text, p->fields[FIND_HI].text,
+                          cell && cell->text[0] ? cell->text : _("as it is"));
         return;
     }
     (f->found ? put_found : put_none)(text, p, s, f);
-    ceduo_text_format(text, ceduo_goals[s->goal].below ? _(" (below %g %s is wanted)") : _(" (at most %g %s is wanted)"),
+    ceduo_text_format(text,
+                      ceduo_goals[s->goal].below ? _(" (below %g %s is wanted)") : _(" (at most %g %s is wanted)"),
                       s->target * goals[row].per, _(goals[row].unit));
     if (!f->monotone)
         ceduo_text_put(text, _("; not monotone: there may be other values"));
@@ -303,8 +308,8 @@ void ceduo_popup_find(struct app *app)
     snprintf(p->path, sizeof p->path, "%s", cell->path);
     ceduo_text_put(&p->text, _("The value of: "));
     ceduo_shown_path(cell->path, &p->text);
-    ceduo_text_put(&p->text, _(". The same rocks for every value; the goal counts at the worst control. What is found is put "
-                               "into the field; u takes it back."));
+    ceduo_text_put(&p->text, _(". The same rocks for every value; the goal counts at the worst control. What is found "
+                               "is put into the field; u takes it back."));
     ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
     ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
     ceduo_popup_field(p, _("values from"), ceduo_shown_number(cell->field, lo, lo_room));

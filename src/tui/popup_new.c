@@ -95,7 +95,8 @@ static bool read_control(struct app *app, const struct popup *p, struct answers 
         return false;
     if (a->control > a->first && a->control > a->face && a->control <= a->last)
         return true;
-    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, a->face, a->last);
+    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, a->face,
+                   a->last);
     return false;
 }
 
@@ -196,8 +197,8 @@ static void ask(struct app *app)
     struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
     if (!p)
         return;
-    ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is left "
-                               "empty is not there; rocks are then counted at the end. All can be changed later."));
+    ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
+                               "left empty is not there; rocks are then counted at the end. All can be changed later."));
     p->endings = ".csv";
     p->check = check_new;
     ceduo_popup_field(p, _("title"), _("My slope"));

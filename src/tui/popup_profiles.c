@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of what there is to choose from: the words of a field, the program's and the user's files; and what each would do
- * to the lights. */
+/* Lists of what there is to choose from: the words of a field, the program's and the user's files; and what each would
+ * do to the lights. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -207,7 +207,8 @@ static void put_stand(struct app *app, struct text *text, const char *value)
                       "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
                       "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
                       value);
-    if (yaml.bytes && ceduo_scene_read_text(&file, app->document.path ? app->document.path : "preset", yaml.bytes, &problems)) {
+    const char *name = app->document.path ? app->document.path : "preset";
+    if (yaml.bytes && ceduo_scene_read_text(&file, name, yaml.bytes, &problems)) {
         file.scene.rock = app->document.file.scene.rock;
         file.scene.simulation = app->document.file.scene.simulation;
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];

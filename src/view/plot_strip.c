@@ -246,14 +246,15 @@ static void name_curves(const struct strip *s)
 static bool is_free(const struct strip *s, int column, int row, int width)
 {
     const struct ceduo_frame *f = &s->frame;
-    bool inside = row >= f->top && row < f->top + f->height && column >= f->left && column + width <= f->left + f->width;
+    bool inside = row >= f->top && row < f->top + f->height && column >= f->left &&
+                  column + width <= f->left + f->width;
     for (int i = -1; inside && i <= width; i++) /* a blank on either side, so that it is no part of a curve */
         inside = ceduo_canvas_is_blank(s->canvas, column + i, row);
     return inside;
 }
 
-/* A place for a label beside a line at `row`, before it or behind it, in that row or the nearest that is free of curves.
- * False where there is none: what it says stands beside the pictures, too. */
+/* A place for a label beside a line at `row`, before it or behind it, in that row or the nearest that is free of
+ * curves. False where there is none: what it says stands beside the pictures, too. */
 static bool find_free(const struct strip *s, int before, int behind, int width, int *column, int *row)
 {
     for (int i = 0; i < 2 * s->frame.height; i++) {

@@ -323,7 +323,7 @@ def test_help_field():
 
 def test_help_scrolls():
     """The help can be read to its end at 80x24."""
-    pages = fast("key ?\ndump\n" + "key PgDn\ndump\n" * 5 + "key g\ndump\nkey q\ndump")
+    pages = fast("wait idle\nkey ?\ndump\n" + "key PgDn\ndump\n" * 5 + "key g\ndump\nkey q\ndump")
     text = "\n".join(p.text for p in pages[:6])
     for name, word, word2, bar, what in actions():
         expect_in(what, text, name)
