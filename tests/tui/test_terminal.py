@@ -423,6 +423,26 @@ def test_recover_twice():
         kill(t, t.start("fast.yaml", sees=("left behind", "forget it")))
 
 
+def test_recover_list():
+    """What was left behind on several scenes is one list with date and title; one is taken up in its own scene."""
+    with Place() as place, Tmux(place) as t:
+        place.write("other.yaml", FAST.replace("title: fast", "title: above the mill"))
+        leave_work(t, place)
+        pid = t.start("other.yaml", sees=("1 slope", "above the mill"))
+        t.edit("1234")
+        until("a copy of the other work", lambda: len(left_behind(place)) == 2)
+        kill(t, pid)
+        today = time.strftime("%Y-%m-%d")
+        screen = t.start("fast.yaml", sees=("Unsaved work was left behind", "forget all of it")) and t.screen()
+        rows = re.findall(rf"unsaved work of {today} \d\d:\d\d: ([^│]+?) *│", screen)
+        expect_equal(rows, ["fast, fast.yaml", "above the mill, other.yaml"], "this scene's first")
+        t.keys("Down", "Enter")
+        t.sees("your work is back", "* above the mill")
+        t.keys("2")
+        t.sees("stools per ha     1234")
+        expect_equal(len(left_behind(place)), 2, "the other copy, and that of the work that was taken up")
+
+
 def test_recover_escape():
     """Esc at the offer of left work does not destroy it: only 'forget it' does."""
     with Place() as place, Tmux(place) as t:
@@ -604,7 +624,7 @@ def test_mouse():
         t.sees("Belts of forest")
         t.sees("from, m: where the belt begins")
         press(65, 10, 10)
-        t.sees("x_m  where the rocks that pass are counted")
+        t.sees("counted at, m: where passing rocks are counted")
         press(64, 10, 10)
         t.sees("from, m: where the belt begins")
 
