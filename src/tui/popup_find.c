@@ -254,7 +254,7 @@ static double limit_of(const struct app *app, const char *path, bool whole, doub
     if (fits(app, path, end))
         return end;
     double good = now, bad = end;
-    for (int i = 0; i < 12; i++) {
+    for (int i = 0; i < 20; i++) {
         double middle = whole ? round((good + bad) / 2) : (good + bad) / 2;
         if (middle == good || middle == bad)
             break;

@@ -1,0 +1,48 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""f on every kind of number offers a range whose ends the scene itself accepts."""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import Place, home  # noqa: E402
+from harness import CEDUO, DONE, expect, expect_equal, run_all  # noqa: E402
+
+# view, path, of the file's unit in one that is shown
+FIELDS = [(1, "forest[0].from_m", 1), (1, "forest[0].to_m", 1), (1, "forest[1].from_m", 1), (1, "forest[1].to_m", 1),
+          (1, "controls[0].x_m", 1), (1, "controls[1].x_m", 1), (1, "controls[1].accepted_kJ", 1),
+          (1, "slope.segments[0].rn", 1), (1, "slope.segments[1].rt", 1), (1, "slope.segments[1].friction", 1),
+          (2, "forest[0].stand.stools.per_ha", 1), (2, "forest[0].stand.stools.spacing_m", 1),
+          (2, "forest[0].stand.shoots[0].per_ha", 1), (2, "forest[0].stand.shoots[0].dbh_m", 0.01),
+          (2, "forest[0].stand.shoots[1].per_ha", 1), (2, "forest[0].stand.trees[0].per_ha", 1),
+          (2, "forest[0].stand.trees[1].height_m", 1), (2, "forest[0].stand.energy.u_J_m3", 1),
+          (3, "rock.diameter_m", 1), (3, "rock.density_kg_m3", 1), (3, "release.height_m", 1), (3, "release.vx_m_s", 1),
+          (3, "simulation.threshold_m", 1), (3, "simulation.rocks", 1), (3, "simulation.gravity_m_s2", 1)]
+
+
+def accepts(place, scene, path, value):
+    done = subprocess.run([CEDUO, "--check", "-s", f"{path}={value:.12g}", scene], cwd=place.path, env=home(place.path),
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, check=False)
+    return done.returncode == DONE
+
+
+def test_ranges():
+    """Both ends of the range that f offers are values of the scene, and lie around the value that is there."""
+    with Place() as place:
+        script = "".join(f"key {view}\nfind {path}\nkey f\ndump\nkey Esc\n" for view, path, _ in FIELDS)
+        screens = place.play(script, "fast.yaml")
+        for (_, path, per), screen in zip(FIELDS, screens, strict=True):
+            found = re.search(r"values from +(\S+) to +(\S+)", screen.popup)
+            expect(found, f"{path}: no range in", screen)
+            lo, hi = (float(x) * per for x in found.groups())
+            expect(lo <= hi, path, lo, hi)
+            expect(accepts(place, "fast.yaml", path, lo), f"{path}: the scene refuses {lo}, the lower end")
+            expect(accepts(place, "fast.yaml", path, hi), f"{path}: the scene refuses {hi}, the upper end")
+        words = re.search(r"values from +(\S+) to +(\S+)", screens[10].popup).groups()
+        expect_equal(words, ("300", "9500"), "stools per ha: a stool has one shoot at least, 9500 shoots stand there")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
