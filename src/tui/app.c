@@ -369,18 +369,14 @@ static int draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role
     return lines;
 }
 
-int ceduo_app_text_lines(const char *text, int width)
+int ceduo_app_text_lines(struct app *app, const char *text, int width)
 {
-    int n = 0;
-    for (const char *next; *text; text = next, n++)
-        ceduo_utf8_wrap(text, (size_t)width, &next);
-    return n;
+    return draw_wrapped(app, (struct ceduo_area){0, 0, width, 0}, CEDUO_ROLE_TEXT, text, 0);
 }
 
 bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top)
 {
-    struct ceduo_area none = {0, 0, area.width, 0};
-    int most = top ? draw_wrapped(app, none, role, text, 0) - area.height : 0;
+    int most = top ? ceduo_app_text_lines(app, text, area.width) - area.height : 0;
     if (top && *top > most)
         *top = most > 0 ? most : 0;
     draw_wrapped(app, area, role, text, top ? *top : 0);

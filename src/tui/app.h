@@ -151,7 +151,7 @@ void ceduo_app_search(struct app *app);
 bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top);
 
 /* Lines that it takes. */
-int ceduo_app_text_lines(const char *text, int width);
+int ceduo_app_text_lines(struct app *app, const char *text, int width);
 
 /* Draws a text from its first line and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);

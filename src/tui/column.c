@@ -8,7 +8,8 @@
 
 #include "base/intl.h"
 
-#define HEIGHT_FOR_ALL 24 /* lines with room for everything and some warnings */
+#define HEIGHT_FOR_ALL  24 /* lines with room for everything and some warnings */
+#define HEIGHT_FOR_MOST 17 /* with room for the lights behind all but the heights */
 
 struct pen {
     struct app *app;
@@ -123,7 +124,8 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     }
     put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
     put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
-    put_figures(pen, _("  95 % kJ"), wood->energy.p95 * KILO, bare->energy.p95 * KILO);
+    if (pen->area.height >= HEIGHT_FOR_MOST)
+        put_figures(pen, _("  95 % kJ"), wood->energy.p95 * KILO, bare->energy.p95 * KILO);
     if (pen->area.height >= HEIGHT_FOR_ALL)
         put_figures(pen, _("  95 % m"), wood->height.p95, bare->height.p95);
 }

@@ -324,7 +324,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct layout l = lay_out(app, area);
     struct text words = {0};
     say_verdict(app, &words);
-    int said = ceduo_app_text_lines(ceduo_text_string(&words), area.width), least = said < area.height / 3 ? said : area.height / 3;
+    int said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width), least = said < area.height / 3 ? said : area.height / 3;
     draw_head(app, &l, area);
     int room = (area.height - 2 - least) / l.lines;
     int top = (int)app->option >= room ? (int)app->option - room + 1 : 0;

@@ -108,6 +108,22 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         say_belt(text, &y->option.belts[i]);
 }
 
+/* The same year of the other options. */
+static void say_others(struct app *app, unsigned year, struct text *text)
+{
+    const struct ceduo_result *r = app->figures.result;
+    size_t said = 0;
+    for (size_t i = 0; i < r->options_count; i++) {
+        const struct ceduo_years *years = ceduo_figures_years(&app->figures, r->scene, i);
+        for (size_t k = 0; years && i != app->option && k < years->count; k++)
+            if (years->years[k].year == year && years->years[k].wooded.rocks > 0)
+                ceduo_text_format(text, "%s'%s' %.0f", said++ == 0 ? _("In that year ") : ", ", r->scene->options[i].name,
+                                  1000 * ceduo_share_of(&years->years[k].wooded.arrivals[r->last_control]));
+    }
+    if (said > 0)
+        ceduo_text_put(text, _(" of 1000."));
+}
+
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     struct ceduo_years_summary s = ceduo_years_sum(years, app->figures.result->last_control);
@@ -139,6 +155,7 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
 
 #define PICTURE_LEAST 9 /* lines of the picture with one strip */
 #define FORM_LEAST    3
+#define HEIGHT_FOR_OTHERS 30
 
 static void draw(struct app *app, struct ceduo_area area)
 {
@@ -149,8 +166,10 @@ static void draw(struct app *app, struct ceduo_area area)
         say_all(app, picture.years, &text);
         ceduo_text_char(&text, '\n');
         say_year(app, picture.years, &text);
+        if (area.height >= HEIGHT_FOR_OTHERS && app->year < picture.years->count)
+            say_others(app, picture.years->years[app->year].year, &text);
     }
-    int words = ceduo_app_text_lines(ceduo_text_string(&text), area.width);
+    int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     int least = PICTURE_LEAST + (alone ? 0 : FORM_LEAST);
     words = words > area.height - least ? area.height - least : words;
     int form = alone ? 0 : (area.height - words) / 3;

@@ -238,6 +238,7 @@ VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
 VALUE(share_at, flown, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
 VALUE(missed_at, arrivals, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->released))
 VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
+VALUE(too_much_of, place, isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
 VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, WORD("ceduo-find-1"))
 VALUE(find_path, find_report, WORD(o->file->path))
@@ -450,7 +451,8 @@ static const struct ceduo_figure rotation[] = {
     {"felled_m", "m", "metres of belts felled in them, each time they are", .value = felled_of},
     {"unprotected_contact", "", "years in which lights.contact fails", AT(place, sum.unprotected_contact)},
     {"unprotected_free_run", "", "years in which lights.free_run fails", AT(place, sum.unprotected_free_run)},
-    {"unprotected_energy", "", "years in which lights.energy fails", AT(place, sum.unprotected_energy)},
+    {"unprotected_energy", "", "years in which lights.energy fails", .value = too_much_of,
+     .null = "the control has no accepted_kJ, or contact_model is index"},
     {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
     {"exceed_probability", "", "plain mean over the years", IN(place, sum.exceed, paired)},
     {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired),
