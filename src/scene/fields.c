@@ -318,7 +318,7 @@ static const struct field control_fields[] = {
            N_("where passing rocks are counted")),
     TEXT("name", NAMED(N_("name"), NULL),
         AT(ceduo_control, name), UNFLOWN, N_("what stands there")),
-    NUM(FIELD_NUMBER, "accepted_kJ", USUAL(N_("withstands, kJ"), N_("bears kJ"), 0, 20000),
+    NUM(FIELD_NUMBER, "accepted_kJ", USUAL(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000),
         AT(ceduo_control, accepted), "kJ", 1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER("measured_speed_m_s", USUAL(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80),
         AT(ceduo_control, measured_speed), "m/s", 0, 1000, UNFLOWN, NULL,

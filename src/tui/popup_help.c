@@ -26,7 +26,11 @@ void ceduo_popup_help(struct app *app)
         ceduo_text_format(&p->text, "%-18s%s\n", keys, _(a->help));
     }
     ceduo_text_put(&p->text, _(" \nA star marks what is assumed and not measured. Dim values are defaults.\n"
-                               "A number with a spread is typed as {mean: 0.6, spread: 0.1, kind: normal}.\n"
+                               "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
+                               "0.6 +- 0.1, with a u behind it where all between is alike. A point is x z with a blank "
+                               "between.\n"
+                               "In a list, type to search: the best match stands first. a and y split a ground, a belt "
+                               "or a point of the profile; its neighbours follow where a border is moved.\n"
                                "The column on the right: of 1000 rocks released, without forest; the three lights; what "
                                "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
                                "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
