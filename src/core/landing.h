@@ -36,28 +36,37 @@ HOT double clamp(double v, double a, double b)
     return v < lo ? lo : v > hi ? hi : v;
 }
 
-/* Puts a landing at time t on segment j. Steeper than 45 degrees z is kept and x follows, elsewhere the other way. */
-HOT struct landing land_at(const struct ground *g, const struct flight *f, size_t j, double t)
+/* The slope of segment j. On a long profile the segment is seldom at hand, while its vertices just were: the same bits from
+ * those. */
+HOT double slope_of(const struct ground *g, size_t j, bool blocks)
 {
-    const struct ground_segment *s = &g->segments[j];
+    return blocks ? (g->z[j + 1] - g->z[j]) / (g->x[j + 1] - g->x[j]) : g->segments[j].m;
+}
+
+/* Puts a landing at time t on segment j of slope m. Steeper than 45 degrees z is kept and x follows, elsewhere the other
+ * way. */
+HOT struct landing land_at(const struct ground *g, const struct flight *f, size_t j, double m, double t)
+{
     struct landing l = {.t = t, .segment = j, .left = false};
-    if (s->steep) {
+    if (fabs(m) > 1) {
         l.z = clamp(f->z + (f->vz - g->half_g * t) * t, g->z[j], g->z[j + 1]);
-        l.x = l.z == g->z[j + 1] ? g->x[j + 1] : clamp(g->x[j] + (l.z - g->z[j]) / s->m, g->x[j], g->x[j + 1]);
+        l.x = l.z == g->z[j + 1] ? g->x[j + 1] : clamp(g->x[j] + (l.z - g->z[j]) / m, g->x[j], g->x[j + 1]);
     } else {
         l.x = clamp(f->x + f->vx * t, g->x[j], g->x[j + 1]);
-        l.z = ground_height(g, j, l.x);
+        l.z = l.x >= g->x[j + 1] ? g->z[j + 1] : g->z[j] + m * (l.x - g->x[j]);
     }
     return l;
 }
 
 /* The contact with segment j, which the flight meets before time t_most. */
-HOT struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_most)
+HOT struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_most, bool blocks)
 {
-    const struct ground_segment *s = &g->segments[j];
-    double c = f->on_ground && j == f->segment ? 0 : f->z - (g->z[j] + s->m * (f->x - g->x[j]));
-    double t = later_root(c, f->vz - s->m * f->vx, g->gravity);
-    return land_at(g, f, j, t > t_most ? t_most : t); /* t_most may be NaN where vx is hardly more than 0 */
+    if (blocks)
+        __builtin_prefetch(&g->segments[j]);
+    double m = slope_of(g, j, blocks);
+    double c = f->on_ground && j == f->segment ? 0 : f->z - (g->z[j] + m * (f->x - g->x[j]));
+    double t = later_root(c, f->vz - m * f->vx, g->gravity);
+    return land_at(g, f, j, m, t > t_most ? t_most : t); /* t_most may be NaN where vx is hardly more than 0 */
 }
 
 /* A flight without horizontal speed comes down where it went up. */
@@ -91,7 +100,7 @@ HOT struct landing land_beyond(const struct ground *g, const struct flight *f, s
         size_t q = dir > 0 ? p + 1 : p - 1;
         double t = (g->x[q] - f->x) * inv;
         if (!((f->z + (f->vz - g->half_g * t) * t) - g->z[q] >= 0))
-            return land_on(g, f, dir > 0 ? p : q, t);
+            return land_on(g, f, dir > 0 ? p : q, t, false);
         p = q;
     }
     return land_nowhere(g, f, dir, inv);
@@ -137,7 +146,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
                 break;
             }
             if (level == 0)
-                return land_on(g, f, i, t);
+                return land_on(g, f, i, t, true);
             barrier = q;
             most = --level;
         }
@@ -152,10 +161,10 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
     double t = (g->x[q] - f->x) * inv;
     /* c is exactly 0 on the ground: compare slopes, not heights, which may be beyond all numbers where vx is next to none */
     if (f->on_ground && !(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
-        return land_on(g, f, j, t);
+        return land_on(g, f, j, t, blocks);
     double h = (f->z + (f->vz - g->half_g * t) * t) - g->z[q];
     if (!f->on_ground && !(h >= 0))
-        return land_on(g, f, j, t);
+        return land_on(g, f, j, t, blocks);
     return blocks ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);
 }
 

@@ -125,6 +125,10 @@ static void load_course(struct wide *k, size_t i, const struct course *c)
     k->along[i] = c->v.along;
     uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
     k->to[i] = j;
+    if (k->far) { /* what is read of them next */
+        __builtin_prefetch(&ground->tilt.pairs[j]);
+        __builtin_prefetch(&ground->share.pairs[j]);
+    }
     k->x0[i] = ground->place.pairs[j][0];
     k->z0[i] = ground->place.pairs[j][1];
     k->x1[i] = ground->place.pairs[j + 1][0];
