@@ -18,6 +18,7 @@
 #define CONTROLS_MOST 4
 #define CELLS_MOST    150
 #define LONG_VERTICES 4097
+#define KINDS_MOST    3 /* cohorts, classes of trees */
 
 static const enum ceduo_kernel wide[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512};
 #define WIDE (sizeof wide / sizeof wide[0])
@@ -132,6 +133,7 @@ struct wild {
     struct ceduo_control controls[CONTROLS_MOST];
     double cell_x[CELLS_MOST];
     struct paper_plot plots[2];
+    struct ceduo_stems shoots[2][KINDS_MOST], trees[2][KINDS_MOST];
     struct ceduo_belt belts[2];
     struct ceduo_run_def def;
     uint64_t first, rocks;
@@ -180,25 +182,60 @@ static void add_places(struct wild *w, struct line_random *r)
         w->cell_x[i] = end * (double)(i + 1) / (double)w->def.cells;
 }
 
+/* Up to three kinds of stems after a pattern. */
+static size_t add_kinds(struct line_random *r, const struct ceduo_stems *pattern, struct ceduo_stems kinds[KINDS_MOST])
+{
+    size_t n = (size_t)line_uniform(r, 0, KINDS_MOST + 0.999);
+    for (size_t i = 0; i < n; i++) {
+        kinds[i] = *pattern;
+        kinds[i].per_ha = pattern->per_ha * line_log_uniform(r, 0.1, 2);
+        kinds[i].dbh = line_uniform(r, 0.02, 0.3);
+        kinds[i].height = line_log_uniform(r, 0.3, 20);
+        kinds[i].volume = line_chance(r, 0.5) ? pattern->volume : NAN;
+        kinds[i].dbh_sd = line_chance(r, 0.3) ? kinds[i].dbh * line_uniform(r, 0.01, 1) : 0;
+    }
+    return n;
+}
+
+/* A plot of the paper as it is, or with several cohorts and classes, and from few shoots to very many on a stool. */
+static void add_stand(struct wild *w, struct line_random *r, int i)
+{
+    struct ceduo_stand *stand = &w->plots[i].stand;
+    paper_plot_init(&w->plots[i], i + 1);
+    stand->energy = line_chance(r, 0.5) ? CEDUO_BRAUNER : CEDUO_DORREN;
+    stand->offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
+    stand->glancing = line_chance(r, 0.5) ? -1 : line_chance(r, 0.5);
+    stand->hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
+    if (line_chance(r, 0.3))
+        return;
+    stand->shoots_count = add_kinds(r, &w->plots[i].shoots, w->shoots[i]);
+    stand->trees_count = add_kinds(r, &w->plots[i].trees, w->trees[i]);
+    stand->shoots = w->shoots[i];
+    stand->trees = w->trees[i];
+    double shoots = 0;
+    for (size_t k = 0; k < stand->shoots_count; k++)
+        shoots += w->shoots[i][k].per_ha;
+    stand->stools_per_ha = shoots / line_log_uniform(r, 1, line_chance(r, 0.2) ? 100 : 8);
+}
+
+/* Belts that may begin before the release, so that stools stand on both sides of it. */
 static void add_stems(struct wild *w, struct line_random *r)
 {
     struct ceduo_scene *scene = &w->line.scene;
     double end = w->line.x[scene->slope.vertices - 1], middle = end * line_uniform(r, 0.1, 0.9);
     const double from[] = {end * line_uniform(r, 0, 0.1), middle}, to[] = {middle, end};
     for (int i = 0; i < 2; i++) {
-        paper_plot_init(&w->plots[i], i + 1);
-        if (line_chance(r, 0.3))
-            w->plots[i].shoots.dbh_sd = w->plots[i].trees.dbh_sd = 0.02;
-        w->plots[i].stand.energy = line_chance(r, 0.5) ? CEDUO_BRAUNER : CEDUO_DORREN;
-        w->plots[i].stand.offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
-        w->plots[i].stand.glancing = line_chance(r, 0.5) ? -1 : line_chance(r, 0.5);
-        w->plots[i].stand.hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
+        add_stand(w, r, i);
         w->belts[i] = (struct ceduo_belt){.from = from[i], .to = to[i], .stand = w->plots[i].stand};
     }
     w->line.option.belts = w->belts;
     w->line.option.belts_count = line_chance(r, 0.5) ? 1 : 2;
     scene->simulation.contact_model = line_chance(r, 0.6) ? CEDUO_STEMS : CEDUO_POISSON;
     w->def.option = &w->line.option;
+    if (line_chance(r, 0.5)) { /* released in the forest, and perhaps uphill */
+        scene->release.x.mean = from[0] + (middle - from[0]) * line_uniform(r, 0, 1);
+        scene->release.vx.mean = line_uniform(r, -8, 8);
+    }
 }
 
 static void wild_init(struct wild *w, uint64_t number)

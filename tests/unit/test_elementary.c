@@ -7,6 +7,8 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "core/many.h"
+#include "core/random.h"
 
 #define PLACES 200000
 
@@ -59,6 +61,35 @@ static void logarithms(void **context)
     EXPECT(ceduo_log(0), ==, -INFINITY);
     EXPECT(ceduo_log(INFINITY), ==, INFINITY);
     assert_true(isnan(ceduo_log(-1)) && isnan(ceduo_log(NAN)));
+}
+
+/* Many at once give the bits of one. */
+static void many_at_once(void **context)
+{
+    (void)context;
+    for (uint64_t n = 0; n < PLACES / MANY; n++) {
+        many_bits events, kinds;
+        many_reals u, angle, log, sine, cosine;
+        many_from(3 * n, 5, &events);
+        many_from(n % 7, 0, &kinds);
+        many_threefry(11, n, &events, &kinds);
+        many_bits high = events >> 12;
+        many_of_integers(&high, &u);
+        u = u * 0x1p-52 + 0x1p-53;
+        angle = (u - 0.5) * 3.14159;
+        many_log(&u, &log);
+        many_sincos(&angle, &sine, &cosine);
+        for (unsigned i = 0; i < MANY; i++) {
+            double one = u[i], turn = angle[i], l, s, c;
+            uint64_t bits[2];
+            random_bits(11, n, 3 * n + 5 * i, n % 7, bits);
+            assert_true(bits[0] == events[i] && bits[1] == kinds[i]);
+            assert_true(one == (double)(bits[0] >> 12) * 0x1p-52 + 0x1p-53);
+            elementary_log(&one, &l);
+            elementary_sincos(&turn, &s, &c);
+            assert_true(l == log[i] && s == sine[i] && c == cosine[i]);
+        }
+    }
 }
 
 static void powers(void **context)
@@ -129,7 +160,7 @@ static void normal_law(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(logarithms), cmocka_unit_test(powers),     cmocka_unit_test(angles),
+        cmocka_unit_test(logarithms), cmocka_unit_test(many_at_once), cmocka_unit_test(powers),     cmocka_unit_test(angles),
         cmocka_unit_test(roots),      cmocka_unit_test(normal_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
