@@ -30,8 +30,8 @@ struct ceduo_stand_result {
 
 #define CEDUO_THICK_DBH 0.08 /* m: thinner shoots are met, but hardly stop anything; assumed */
 
-/* What the lights of contact and free run say where stems count from some dbh on. Contact passes where every belt is under
- * the threshold and no gap longer than it. */
+/* What the lights of contact and free run say where stems count from some dbh on. Contact passes where every belt
+ * is under the threshold and no gap longer than it. */
 struct ceduo_meeting {
     double worst_adc;      /* m, the largest of the belts; infinite where no belt is, or one without stems that count */
     double worst_free_run; /* the largest of the belts; 1 where no belt is */
@@ -55,8 +55,8 @@ struct ceduo_index {
 /* Whether the lights of contact and free run would say anything else of the thick stems alone. */
 bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
 
-/* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, where it is not said what
- * is too much, and where it hangs on rocks that never came to an end. */
+/* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, where it is not
+ * said what is too much, and where it hangs on rocks that never came to an end. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
 /* A belt by itself. */

@@ -10,21 +10,21 @@
 /* A stand in the years to come. Every year is computed by itself, in closed form: nothing is accumulated.
  *
  * Year 0 is the stand as filed, the inventory; until its first cut it grows. Each of its cohorts and classes has an
- * age: its own where that is given and above 0, otherwise the age at which its curve has its dbh; one that is as thick
- * as the curve ever gets, or thicker, grows no more. After t years, from the age a:
+ * age: its own where that is given and above 0, otherwise the age at which its curve has its dbh; one that is as
+ * thick as the curve ever gets, or thicker, grows no more. After t years, from the age a:
  *     dbh and its deviation × d(a + t)/d(a), height × h(a + t)/h(a), a given volume with dbh2 × height,
  *     shoots × n(a + t)/n(a), all by one factor more where less than one a stool would be left; trees stay as many.
  * From the first cut on the ages are those that the cuts leave, t years after the last one:
  *     trees of class j (1, 2 …): cutting.stay_per_ha[j - 1], j·rotation + t years old;
  *     shoots of K cohorts: t, rotation + t … (K - 1)·rotation + t years old, n(age)/K of each on a stool.
- * In the year of a cut itself the youngest shoots are not there yet: with one cohort no stool stands. Their volume is
- * that of species, dbh and height; all of a cohort are alike. Nothing but these trees and shoots comes up, so a stand
- * without stools has none after a cut either.
+ * In the year of a cut itself the youngest shoots are not there yet: with one cohort no stool stands. Their volume
+ * is that of species, dbh and height; all of a cohort are alike. Nothing but these trees and shoots comes up, so a
+ * stand without stools has none after a cut either.
  *     d(t) = D(1 - exp(-kt)), h(t) = H(1 - exp(-mt)), n(t) = n_old + (n_young - n_old)exp(-t/5)
  * are assumed, as are all their constants.
  *
- * An inventory that has one cohort of shoots less than its stools have after a cut was cut just before year 0: from year 1
- * on its new shoots are there, n(t)/K on each stool.
+ * An inventory that has one cohort of shoots less than its stools have after a cut was cut just before year 0: from
+ * year 1 on its new shoots are there, n(t)/K on each stool.
  *
  * In computed years (all but year 0 as filed) the shoots, and only they, are thinned by one factor to
  * growth.sdi_most, never below one a stool. Trees are not: a stand of many large trees stays above it. */
@@ -55,13 +55,13 @@ enum ceduo_status ceduo_stand_before_cut(const struct ceduo_stand *stand, double
 bool ceduo_stand_sprouts(const struct ceduo_stand *stand);
 bool ceduo_stand_grows(const struct ceduo_stand *stand);
 
-/* The year, from 0 on, of the first cut that the inventory sees, CEDUO_NEVER where there is none: without a rotation,
- * or where the growth of what comes after a cut (shoots if there are stools, trees if any stay) is unknown.
- * `first_cut`: a year in which a cut falls; of a fraction the next whole year. Cuts follow each other by the rotation,
- * and where it is negative only its rhythm matters: -5 with 25 years is 20, the inventory being what that cut left.
- * INFINITY: never. NaN: when the oldest shoots reach the age of cutting, rotation × cohorts; without shoots when the
- * oldest trees do, rotation × (rotations that the oldest to stay have seen + 1); in year 1 where they are older, so that
- * year 0 is the stand as filed; never where no age is known. */
+/* The year, from 0 on, of the first cut that the inventory sees, CEDUO_NEVER where there is none: without a
+ * rotation, or where the growth of what comes after a cut (shoots if there are stools, trees if any stay) is
+ * unknown. `first_cut`: a year in which a cut falls; of a fraction the next whole year. Cuts follow each other by
+ * the rotation, and where it is negative only its rhythm matters: -5 with 25 years is 20, the inventory being what
+ * that cut left. INFINITY: never. NaN: when the oldest shoots reach the age of cutting, rotation × cohorts; without
+ * shoots when the oldest trees do, rotation × (rotations that the oldest to stay have seen + 1); in year 1 where
+ * they are older, so that year 0 is the stand as filed; never where no age is known. */
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
 
 /* Whether a cut falls in `year`: the first one or one that is whole rotations later. */

@@ -16,8 +16,8 @@ struct ceduo_run;
 #define CEDUO_BLOCK_ROCKS 1024                       /* rocks summed as one */
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
-/* How rocks are simulated: one by one, or 16 or 32 at once in the lanes of wide registers. All give the same bits. Where
- * the machine lacks such registers, rocks are simulated one by one; so are, with BEST, rocks among stems. */
+/* How rocks are simulated: one by one, or 16 or 32 at once in the lanes of wide registers. All give the same bits.
+ * Where the machine lacks such registers, rocks are simulated one by one; so are, with BEST, rocks among stems. */
 enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512 };
 
 struct ceduo_run_def {
@@ -88,16 +88,17 @@ struct ceduo_difference {
     struct ceduo_paired energy_per_released; /* J */
 };
 
-/* `run` less `baseline`: two runs of one scene (all NaN where one is NULL). Where one is longer, of the rocks that both
- * have, if their samples are kept, otherwise all NaN. Both simulate the same rocks, so the more alike the forests, the smaller the error of the difference. In runs too long to keep their samples
- * the standard error comes from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes
- * goes. */
+/* `run` less `baseline`: two runs of one scene (all NaN where one is NULL). Where one is longer, of the rocks that
+ * both have, if their samples are kept, otherwise all NaN. Both simulate the same rocks, so the more alike the
+ * forests, the smaller the error of the difference. In runs too long to keep their samples the standard error comes
+ * from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes goes. */
 #define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control);
 
-/* Adds 1 to the mark of each rock that reaches a control with more than is accepted there, or reaches it where that is not
- * said. Returns how many rocks were looked at, at most `most`: fewer than all where samples are kept of the first only. */
+/* Adds 1 to the mark of each rock that reaches a control with more than is accepted there, or reaches it where that
+ * is not said. Returns how many rocks were looked at, at most `most`: fewer than all where samples are kept of the
+ * first only. */
 uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t most);
 
 /* How the trajectories ended, and where the rocks lie that came to rest or were stopped by stems. */

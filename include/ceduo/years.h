@@ -36,8 +36,9 @@ struct ceduo_window {
 #define CEDUO_YEARS_UNCUT 25   /* of a forest that grows and is never cut */
 #define CEDUO_PERIOD_MOST 120  /* years: beyond it belts of several rotations count as repeating with the longest */
 
-/* The years of an option that stand for all to come: after its first cut a forest repeats itself, so one whole rotation has
- * each of its states once. Where its belts have several rotations, all of them must have ended together. */
+/* The years of an option that stand for all to come: after its first cut a forest repeats itself, so one whole
+ * rotation has each of its states once. Where its belts have several rotations, all of them must have ended
+ * together. */
 struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 
 /* The same, with the first and the last year that the scene names instead. */
@@ -55,19 +56,19 @@ struct ceduo_years {
     size_t last_control;      /* the one farthest along x */
     uint64_t rocks;           /* simulated in every year; 0: not in all of them yet */
     uint64_t marked;          /* rocks that have a mark: all, or the first if there are very many */
-    uint16_t *marks;          /* of each rock the years in which it reaches the last control with more than is accepted, or
-                               * reaches it where that is not said */
+    uint16_t *marks;          /* of each rock the years in which it reaches the last control with more than is
+                               * accepted, or reaches it where that is not said */
 };
 
-/* Grows the stands of an option to the years of a window; nothing is simulated and nothing assessed yet. What the option
- * points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
+/* Grows the stands of an option to the years of a window; nothing is simulated and nothing assessed yet. What the
+ * option points to must outlive it. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                      struct ceduo_window window, struct ceduo_years **years);
 void ceduo_years_free(struct ceduo_years *years);
 
-/* Has the pool make the runs of all years, as long as `rocks`, those of years with the same forest once; then assesses
- * every year, `bare` being what arrives without forest. With the contact model index, or 0 rocks, no rock is simulated. CEDUO_CANCELLED,
- * CEDUO_NO_MEMORY: the years before are assessed. */
+/* Has the pool make the runs of all years, as long as `rocks`, those of years with the same forest once; then
+ * assesses every year, `bare` being what arrives without forest. With the contact model index, or 0 rocks, no rock is
+ * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY: the years before are assessed. */
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks);
 
@@ -75,9 +76,10 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
  * ADC, how many rocks come down a year. It has as many controls, at the same places, and `bare` is of them. */
 void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare);
 
-/* The years together, at one control. Every figure is a plain mean over the years computed. Because all years simulate the same
- * rocks, their errors go together: the standard error of a mean is at most the mean of the standard errors, and that is
- * given; of the share that is marked the error itself, from each rock's own mean over the years. NaN where a figure does not exist. */
+/* The years together, at one control. Every figure is a plain mean over the years computed. Because all years
+ * simulate the same rocks, their errors go together: the standard error of a mean is at most the mean of the standard
+ * errors, and that is given; of the share that is marked the error itself, from each rock's own mean over the years.
+ * NaN where a figure does not exist. */
 struct ceduo_years_summary {
     size_t years, flown;
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
@@ -90,8 +92,8 @@ struct ceduo_years_summary {
 };
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);
 
-/* The mean share of the released that is marked, of one option less that of another, rock by rock over the rocks that both
- * have. NaN where it is not known. */
+/* The mean share of the released that is marked, of one option less that of another, rock by rock over the rocks that
+ * both have. NaN where it is not known. */
 struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less);
 
 /* Metres of belts that are felled in the years computed, each time they are: square metres for each metre of width. */

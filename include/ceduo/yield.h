@@ -4,12 +4,13 @@
 
 #include "years.h"
 
-/* What a forest yields, from the volumes of its stems, their growth and their cuts (rotation.h). All is stem wood in m3 per
- * hectare of forest: the mean over the belts, each weighted by its length.
+/* What a forest yields, from the volumes of its stems, their growth and their cuts (rotation.h). All is stem wood
+ * in m3 per hectare of forest: the mean over the belts, each weighted by its length.
  *
- * A cut takes what stands before it less what stands after it: trees that stay were shoots before. Stems that die between
- * two cuts, by the falling number of shoots or thinned by the density, are no yield: each counts with its volume of the year
- * before. Hence over a rotation that repeats itself the volume felled is what grew less what died. */
+ * A cut takes what stands before it less what stands after it: trees that stay were shoots before. Stems that die
+ * between two cuts, by the falling number of shoots or thinned by the density, are no yield: each counts with its
+ * volume of the year before. Hence over a rotation that repeats itself the volume felled is what grew less what
+ * died. */
 struct ceduo_felling {
     unsigned year;
     size_t belt;
@@ -17,7 +18,8 @@ struct ceduo_felling {
 };
 
 struct ceduo_yield {
-    double cut_per_year;      /* m3/ha and year, over a whole rotation of each belt; NaN where growth or cuts are unknown */
+    double cut_per_year;      /* m3/ha and year, over a whole rotation of each belt; NaN where growth or cuts are not
+                               * known */
     double died_per_year;     /* likewise */
     double standing;          /* m3/ha: the mean of that rotation's years */
     double volume_today;      /* m3/ha as filed; NaN without a forest */
@@ -25,7 +27,8 @@ struct ceduo_yield {
     struct ceduo_felling *fellings; /* by year, then by belt */
 };
 
-/* The yield of an option. Fellings are those from year 0 to `last`. CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+/* The yield of an option. Fellings are those from year 0 to `last`. CEDUO_NO_MEMORY, with nothing to free, or
+ * CEDUO_OK. */
 enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield);
 void ceduo_yield_release(struct ceduo_yield *yield);
 

@@ -5,8 +5,8 @@
 
 /* ---- stems that count ---- */
 
-/* Stems of a stand from some dbh on. Every form of the ADC depends on numbers and mean diameters alone, so shoots and trees
- * may be one kind each. */
+/* Stems of a stand from some dbh on. Every form of the ADC depends on numbers and mean diameters alone, so shoots and
+ * trees may be one kind each. */
 struct counted {
     struct ceduo_stand stand;
     struct ceduo_stems shoots, trees;
@@ -82,7 +82,8 @@ static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stan
         meeting->contact = CEDUO_FAIL;
 }
 
-static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_meeting *meeting)
+static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap,
+                          struct ceduo_meeting *meeting)
 {
     if (!forest)
         *meeting = (struct ceduo_meeting){.worst_adc = INFINITY, .worst_free_run = 1};
@@ -189,7 +190,6 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     index.energy = CEDUO_UNKNOWN;
     index.exhausted = bare_mean < index.dissipated;
     index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);
-    index.measured =
-        0.5 * ceduo_rock_mean(&scene->rock).mass * control->measured_speed * control->measured_speed;
+    index.measured = 0.5 * ceduo_rock_mean(&scene->rock).mass * control->measured_speed * control->measured_speed;
     return index;
 }

@@ -150,7 +150,8 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
 }
 
 /* Simulates a year and reads it; rocks that bring too much get a mark. */
-static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *y, struct ceduo_pool *pool, uint64_t rocks)
+static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *y, struct ceduo_pool *pool,
+                                  uint64_t rocks)
 {
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_pool_fly(pool, &y->option, rocks, &run);

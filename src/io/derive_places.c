@@ -140,7 +140,8 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
                             0);
     else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
         ceduo_derive_refuse(d, path, ".stools",
-                            _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the stools"),
+                            _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
+                              "stools"),
                             0, 0);
     else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha)
         ceduo_derive_refuse(d, path, ".stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),

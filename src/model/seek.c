@@ -77,8 +77,9 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     q.years = search->rotation;
     enum ceduo_status status = ceduo_ask(&q, &s->pool, &answer);
     if (status == CEDUO_OK)
-        *goal = search->rotation ? ceduo_goal_over_years(search->goal, answer.years[search->option], &answer.result->bare)
-                                 : ceduo_goal_reached(search->goal, answer.result, search->option);
+        *goal = !search->rotation
+                    ? ceduo_goal_reached(search->goal, answer.result, search->option)
+                    : ceduo_goal_over_years(search->goal, answer.years[search->option], &answer.result->bare);
     ceduo_answer_release(&answer);
     return status;
 }

@@ -125,7 +125,8 @@ static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdi
     for (size_t i = 0; i < v->n; i++) {
         double other = v->choices[i].yield.cut_per_year;
         bool clear = is_clearly_worse(difference_over_years, years, option, i);
-        if (i != option && other >= yield && (clear || (other > yield && difference_over_years(years, option, i).mean >= 0)))
+        if (i != option && other >= yield &&
+            (clear || (other > yield && difference_over_years(years, option, i).mean >= 0)))
             return true;
     }
     return false;
@@ -150,8 +151,8 @@ enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_
 {
     size_t n = r->options_count;
     *v = (struct ceduo_verdict){.wooded = r->wooded && r->scene->controls_count > 0,
-                                .accepted =
-                                    r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
+                                .accepted = r->scene->controls_count > 0 &&
+                                            !isnan(r->scene->controls[r->last_control].accepted),
                                 .choices = calloc(n + 1, sizeof *v->choices)};
     v->today.rival = calloc(n + 1, sizeof *v->today.rival);
     v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);

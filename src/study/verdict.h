@@ -5,12 +5,14 @@
 #include "ceduo/result.h"
 #include "ceduo/yield.h"
 
-/* The options side by side at the last control: today, over one whole rotation of each, and what that yields. One figure is
- * compared throughout: of the rocks released the share that arrives with too much energy, or where no accepted energy is
- * given the share that arrives. Every option has the same rocks, so each difference has an error of its own.
+/* The options side by side at the last control: today, over one whole rotation of each, and what that yields. One
+ * figure is compared throughout: of the rocks released the share that arrives with too much energy, or where no
+ * accepted energy is given the share that arrives. Every option has the same rocks, so each difference has an error
+ * of its own.
  *
- * Two options are told apart only if they differ by CEDUO_CLEAR standard errors. That many, because the answer is looked at
- * again and again while rocks are added, among several options: what is called clear shall not be taken back. */
+ * Two options are told apart only if they differ by CEDUO_CLEAR standard errors. That many, because the answer is
+ * looked at again and again while rocks are added, among several options: what is called clear shall not be taken
+ * back. */
 #define CEDUO_CLEAR 3.0
 
 double ceduo_share_of(const struct ceduo_arrivals *arrivals);

@@ -40,7 +40,10 @@ static void put_scene(struct pen *pen)
     if (!isnan(rock.mass))
         line(pen, CEDUO_ROLE_TEXT, _("Rock  %.3g m  %.4g kg%s"), rock.mean_diameter, rock.mass,
              ceduo_notes_assume(pen->app->document.file.notes, "rock") ? "*" : "");
-    line(pen, CEDUO_ROLE_TEXT, _("Wood  %s%s"), s->options_count > 1 ? o->name : o->belts_count ? o->belts[0].name : _("none"),
+    line(pen, CEDUO_ROLE_TEXT, _("Wood  %s%s"),
+         s->options_count > 1 ? o->name
+         : o->belts_count     ? o->belts[0].name
+                              : _("none"),
          o->belts_count > 1 && s->options_count < 2 ? " \xc2\xb7 \xe2\x80\xa6" : "");
 }
 
@@ -109,8 +112,11 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
                          const struct ceduo_arrivals *bare)
 {
     const struct ceduo_distribution none = ceduo_distribution_none();
-    const struct ceduo_arrivals nothing = {
-        .reach_probability = NAN, .exceed_probability = NAN, .energy_per_released = NAN, .energy = none, .height = none};
+    const struct ceduo_arrivals nothing = {.reach_probability = NAN,
+                                           .exceed_probability = NAN,
+                                           .energy_per_released = NAN,
+                                           .energy = none,
+                                           .height = none};
     wood = wood ? wood : &nothing;
     char a[32], b[32], limit[32];
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
@@ -136,7 +142,8 @@ static void put_light(struct pen *pen, const char *name, const char *what, enum 
          ceduo_words_verdict(light), what);
 }
 
-static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold, bool forest)
+static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold,
+                        bool forest)
 {
     char what[64];
     if (isinf(adc))
@@ -149,7 +156,11 @@ static void put_contact(struct pen *pen, const char *name, double adc, enum cedu
 static void put_free_run(struct pen *pen, const char *name, double free_run, enum ceduo_light light)
 {
     char what[64];
-    snprintf(what, sizeof what, pen->area.width >= 30 ? "%.1f %% (\xe2\x89\xa4" "10)" : "%.1f %%", free_run * 100);
+    snprintf(what, sizeof what,
+             pen->area.width >= 30 ? "%.1f %% (\xe2\x89\xa4"
+                                     "10)"
+                                   : "%.1f %%",
+             free_run * 100);
     put_light(pen, name, what, light);
 }
 
@@ -159,14 +170,23 @@ static void put_thick(struct pen *pen, const struct ceduo_index *index, double t
     const struct ceduo_meeting *thick = &index->thick;
     bool contact = thick->contact != index->contact, free_run = thick->free_run != index->free_run;
     if (contact && pen->area.width >= 30)
-        put_contact(pen, _(" \xe2\x89\xa5" "8 cm"), thick->worst_adc, thick->contact, threshold, index->length > 0);
+        put_contact(pen,
+                    _(" \xe2\x89\xa5"
+                      "8 cm"),
+                    thick->worst_adc, thick->contact, threshold, index->length > 0);
     if (free_run && pen->area.width >= 30)
-        put_free_run(pen, _(" \xe2\x89\xa5" "8 cm"), thick->worst_free_run, thick->free_run);
+        put_free_run(pen,
+                     _(" \xe2\x89\xa5"
+                       "8 cm"),
+                     thick->worst_free_run, thick->free_run);
     if ((contact || free_run) && pen->area.width < 30)
         line(pen, CEDUO_ROLE_BAD, "%s %s", ceduo_plot_light_mark(CEDUO_FAIL),
-             contact && free_run ? _("\xe2\x89\xa5" "8 cm alone: both FAIL")
-             : contact           ? _("\xe2\x89\xa5" "8 cm: contact FAILS")
-                                 : _("\xe2\x89\xa5" "8 cm: free run FAILS"));
+             contact && free_run ? _("\xe2\x89\xa5"
+                                     "8 cm alone: both FAIL")
+             : contact           ? _("\xe2\x89\xa5"
+                                               "8 cm: contact FAILS")
+                                 : _("\xe2\x89\xa5"
+                                               "8 cm: free run FAILS"));
 }
 
 static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood,
@@ -184,7 +204,11 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
     put_thick(pen, index, threshold);
     what[0] = '\0';
     if (index->energy != CEDUO_UNKNOWN && wood)
-        snprintf(what, sizeof what, wide ? "%.1f %% (\xe2\x89\xa4" "5)" : "%.1f %%", wood->exceed_probability * 100);
+        snprintf(what, sizeof what,
+                 wide ? "%.1f %% (\xe2\x89\xa4"
+                        "5)"
+                      : "%.1f %%",
+                 wood->exceed_probability * 100);
     put_light(pen, _("Energy"), what, index->energy);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 5: the silvicultural options side by side, today and over one whole rotation of each. View 6 shows the same options
- * year by year. */
+/* View 5: the silvicultural options side by side, today and over one whole rotation of each. View 6 shows the same
+ * options year by year. */
 #include <math.h>
 #include <stdio.h>
 
@@ -33,10 +33,10 @@ static const int widths[COLUMNS] = {
 
 /* How the table fits its place: names beside the figures or above them, and which columns have room. */
 struct layout {
-    int lines;  /* that an option takes */
-    int name;   /* columns of a name */
-    int left;   /* where the first figure stands */
-    int spark;  /* columns of the years at a glance; 0: none */
+    int lines; /* that an option takes */
+    int name;  /* columns of a name */
+    int left;  /* where the first figure stands */
+    int spark; /* columns of the years at a glance; 0: none */
     int spark_left;
     int lights_left; /* where the lights stand beside the name above the figures; 0: not there */
     bool has[COLUMNS];
@@ -157,7 +157,8 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
     }
 }
 
-/* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all. */
+/* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than
+ * all. */
 static const char *mark_of(const struct ceduo_verdict *v, size_t i)
 {
     if (!v->rotation.known || v->rotation.rivals + 1 == v->n)
@@ -165,7 +166,8 @@ static const char *mark_of(const struct ceduo_verdict *v, size_t i)
     if (i == v->rotation.best)
         return v->rotation.rivals == 0 ? _("best") : "";
     for (size_t k = 0; k < v->n; k++)
-        if (k != i && v->choices[k].mean.mean + v->choices[k].mean.half >= v->choices[i].mean.mean - v->choices[i].mean.half)
+        if (k != i &&
+            v->choices[k].mean.mean + v->choices[k].mean.half >= v->choices[i].mean.mean - v->choices[i].mean.half)
             return "";
     return _("worst");
 }
@@ -186,8 +188,8 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
         return;
     }
     if (column == MARK) {
-        ceduo_cells_label(app->cells, x + 1, y, i == app->figures.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
-                          mark);
+        ceduo_cells_label(app->cells, x + 1, y,
+                          i == app->figures.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, mark);
         return;
     }
     struct text text = {0};
@@ -199,10 +201,9 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
 static void draw_spark(struct app *app, const struct layout *l, int y, size_t i)
 {
-    static const char *const levels[2][9] = {
-        {" ", "\xe2\x96\x81", "\xe2\x96\x82", "\xe2\x96\x83", "\xe2\x96\x84", "\xe2\x96\x85", "\xe2\x96\x86",
-         "\xe2\x96\x87", "\xe2\x96\x88"},
-        {"0", "1", "2", "3", "4", "5", "6", "7", "8"}};
+    static const char *const levels[2][9] = {{" ", "\xe2\x96\x81", "\xe2\x96\x82", "\xe2\x96\x83", "\xe2\x96\x84",
+                                              "\xe2\x96\x85", "\xe2\x96\x86", "\xe2\x96\x87", "\xe2\x96\x88"},
+                                             {"0", "1", "2", "3", "4", "5", "6", "7", "8"}};
     const struct ceduo_years *years = ceduo_figures_years(&app->figures, app->figures.result->scene, i);
     if (!years || l->spark == 0 || !app->figures.verdict.wooded)
         return;
@@ -241,7 +242,8 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
     if (r->scene->controls_count == 0)
         return;
     if (r->wooded && !isnan(control->accepted))
-        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO, control->x_given);
+        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO,
+                          control->x_given);
     else if (r->wooded)
         ceduo_text_format(&text, _("Of 1000 rocks, that arrive at %.6g m"), control->x_given);
     else
@@ -256,9 +258,9 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
 
 static void draw_head(struct app *app, const struct layout *l, struct ceduo_area area)
 {
-    static const char *const simulated[COLUMNS] = {N_("today"),        N_("worst year"), N_("rotation"), "",
-                                                   N_("fail"), N_("m\xc2\xb3/ha y"),  N_("CFE")};
-    static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("worst"),       N_("kJ/100m"), "",
+    static const char *const simulated[COLUMNS] = {N_("today"), N_("worst year"),     N_("rotation"), "",
+                                                   N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE")};
+    static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("worst"),          N_("kJ/100m"), "",
                                                   N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE")};
     const struct ceduo_result *r = app->figures.result;
     put_place(app, area, l->lights_left > 0 ? area.width - 5 : area.width);
@@ -268,8 +270,7 @@ static void draw_head(struct app *app, const struct layout *l, struct ceduo_area
     for (int c = 0; c < COLUMNS; c++)
         if (l->has[c]) {
             const char *head = _((r->wooded ? simulated : by_index)[c]);
-            ceduo_canvas_label_right(&app->cells->canvas, x + widths[c] - 1, area.top + 1, CEDUO_ROLE_TITLE,
-                                     head);
+            ceduo_canvas_label_right(&app->cells->canvas, x + widths[c] - 1, area.top + 1, CEDUO_ROLE_TITLE, head);
             x += widths[c];
         }
 }
@@ -296,7 +297,8 @@ static void say_verdict(struct app *app, struct text *words)
     const struct ceduo_result *r = app->figures.result;
     const struct ceduo_verdict *v = &app->figures.verdict;
     if (v->n < 2) {
-        ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one.\n"));
+        ceduo_text_put(words,
+                       _("One way to treat this wood so far. a adds another from a preset, y a copy of this one.\n"));
     } else {
         ceduo_words_best(words, r->scene, v);
         if (words->length > 0)
@@ -308,8 +310,9 @@ static void say_verdict(struct app *app, struct text *words)
     if (v->wooded && !v->accepted)
         ceduo_text_put(words, _("What the place withstands is not given (view 3): energy is not judged.\n"));
     if (!r->wooded)
-        ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
-                                "not what a rock loses.\n"));
+        ceduo_text_put(words,
+                       _("Without forest every option sees the same rocks; the index says what stems could take, "
+                         "not what a rock loses.\n"));
     say_progress(app, words);
     if (v->n > 1 && r->wooded && v->accepted)
         ceduo_text_format(words, _("fail: years in which more than %.0f of 1000 bring too much."),
@@ -324,7 +327,8 @@ static void draw(struct app *app, struct ceduo_area area)
     struct layout l = lay_out(app, area);
     struct text words = {0};
     say_verdict(app, &words);
-    int said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width), least = said < area.height / 3 ? said : area.height / 3;
+    int said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width),
+        least = said < area.height / 3 ? said : area.height / 3;
     draw_head(app, &l, area);
     int room = (area.height - 2 - least) / l.lines;
     int top = (int)app->option >= room ? (int)app->option - room + 1 : 0;
@@ -399,20 +403,39 @@ static void rename_option(struct app *app)
 static bool act(struct app *app, enum action action)
 {
     switch (action) {
-    case ACTION_UP: choose(app, (long)app->option - 1); return true;
-    case ACTION_DOWN: choose(app, (long)app->option + 1); return true;
-    case ACTION_TOP: choose(app, 0); return true;
-    case ACTION_BOTTOM: choose(app, 1000000); return true;
-    case ACTION_ADD: ceduo_popup_new_option(app); return true;
-    case ACTION_DUPLICATE: copy_option(app); return true;
-    case ACTION_DELETE: delete_option(app); return true;
-    case ACTION_EARLIER: move_option(app, -1); return true;
-    case ACTION_LATER: move_option(app, 1); return true;
+    case ACTION_UP:
+        choose(app, (long)app->option - 1);
+        return true;
+    case ACTION_DOWN:
+        choose(app, (long)app->option + 1);
+        return true;
+    case ACTION_TOP:
+        choose(app, 0);
+        return true;
+    case ACTION_BOTTOM:
+        choose(app, 1000000);
+        return true;
+    case ACTION_ADD:
+        ceduo_popup_new_option(app);
+        return true;
+    case ACTION_DUPLICATE:
+        copy_option(app);
+        return true;
+    case ACTION_DELETE:
+        delete_option(app);
+        return true;
+    case ACTION_EARLIER:
+        move_option(app, -1);
+        return true;
+    case ACTION_LATER:
+        move_option(app, 1);
+        return true;
     case ACTION_EDIT:
         if (ceduo_node_get(app->document.file.root, "options"))
             rename_option(app);
         return true;
-    default: return false;
+    default:
+        return false;
     }
 }
 

@@ -90,8 +90,9 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
     if (y->wooded.rocks > 0) {
         const struct ceduo_arrivals *a = &y->wooded.arrivals[c];
         struct ceduo_portion share = ceduo_share_at(a);
-        ceduo_text_format(text, isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive; ")
-                                                             : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ; "),
+        ceduo_text_format(text,
+                          isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive; ")
+                                                       : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ; "),
                           share.mean * 1000, ceil(1000 * share.half), control->accepted * KILO);
     }
     ceduo_text_put(text, _("mean distance between stem hits (ADC) "));
@@ -117,7 +118,8 @@ static void say_others(struct app *app, unsigned year, struct text *text)
         const struct ceduo_years *years = ceduo_figures_years(&app->figures, r->scene, i);
         for (size_t k = 0; years && i != app->option && k < years->count; k++)
             if (years->years[k].year == year && years->years[k].wooded.rocks > 0)
-                ceduo_text_format(text, "%s'%s' %.0f", said++ == 0 ? _("In that year ") : ", ", r->scene->options[i].name,
+                ceduo_text_format(text, "%s'%s' %.0f", said++ == 0 ? _("In that year ") : ", ",
+                                  r->scene->options[i].name,
                                   1000 * ceduo_share_of(&years->years[k].wooded.arrivals[r->last_control]));
     }
     if (said > 0)
@@ -134,15 +136,17 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_put(text, _(" Each: "));
     else
-        ceduo_text_format(text, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u: ")
-                                                                 : _("Years %u to %u: "), w->first, w->last);
+        ceduo_text_format(
+            text, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u: ") : _("Years %u to %u: "),
+            w->first, w->last);
     if (s.flown > 0)
         ceduo_text_format(text, _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u). "), mean.mean * 1000,
                           ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
     ceduo_text_put(text, _("Years that fail: "));
     if (s.flown > 0 && says)
         ceduo_text_format(text, _("energy %zu, "), s.unprotected_energy);
-    ceduo_text_format(text, _("contact %zu, free run %zu of %zu. "), s.unprotected_contact, s.unprotected_free_run, s.years);
+    ceduo_text_format(text, _("contact %zu, free run %zu of %zu. "), s.unprotected_contact, s.unprotected_free_run,
+                      s.years);
     if (!isnan(s.passes_per_year))
         ceduo_text_format(text, _("Expected a year: %.3g pass"), s.passes_per_year);
     if (!isnan(s.exceeds_per_year))
@@ -153,8 +157,8 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
         ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
 }
 
-#define PICTURE_LEAST 9 /* lines of the picture with one strip */
-#define FORM_LEAST    3
+#define PICTURE_LEAST     9 /* lines of the picture with one strip */
+#define FORM_LEAST        3
 #define HEIGHT_FOR_OTHERS 30
 
 static void draw(struct app *app, struct ceduo_area area)
@@ -200,11 +204,16 @@ static bool act(struct app *app, enum action action)
     if (ceduo_app_state(app)->pane != 1)
         return false;
     switch (action) {
-    case ACTION_RIGHT: return go_to_year(app, (long)app->year + 1);
-    case ACTION_LEFT: return go_to_year(app, (long)app->year - 1);
-    case ACTION_TOP: return go_to_year(app, 0);
-    case ACTION_BOTTOM: return go_to_year(app, 100000);
-    default: return false;
+    case ACTION_RIGHT:
+        return go_to_year(app, (long)app->year + 1);
+    case ACTION_LEFT:
+        return go_to_year(app, (long)app->year - 1);
+    case ACTION_TOP:
+        return go_to_year(app, 0);
+    case ACTION_BOTTOM:
+        return go_to_year(app, 100000);
+    default:
+        return false;
     }
 }
 

@@ -39,8 +39,11 @@ static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_
         add_by_index(page, s);
 }
 
-#define BY_CONTACT \
-    {N_("option"), 23, 2, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {N_("free run"), -7, 0, CEDUO_SPAN}, {"", 5, 1, 0}
+#define BY_CONTACT                                                                                                     \
+    {N_("option"), 23, 2, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {N_("free run"), -7, 0, CEDUO_SPAN},             \
+    {                                                                                                                  \
+        "", 5, 1, 0                                                                                                    \
+    }
 
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
@@ -108,18 +111,19 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     static const struct ceduo_page_column flown[] = {
-        {N_("option"), 23, 2, 0},   {NULL, -9, 0, 0},      {N_("worst year"), -11, 0, 0}, {N_("contact"), -8, 0, 0},
+        {N_("option"), 23, 2, 0},   {NULL, -9, 0, 0},         {N_("worst year"), -11, 0, 0}, {N_("contact"), -8, 0, 0},
         {N_("free run"), -9, 0, 0}, {N_("energy"), -7, 0, 0}, {N_("m3/y"), -5, 0, 0},        {N_("m3"), -6, 0, 0}};
-    static const struct ceduo_page_column by_index[] = {
-        {N_("option"), 23, 2, 0},  {N_("ADC m, worst"), -14, 0, 0}, {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
-        {N_("m3/y"), -6, 0, 0}, {N_("m3"), -7, 0, 0}};
+    static const struct ceduo_page_column by_index[] = {{N_("option"), 23, 2, 0},  {N_("ADC m, worst"), -14, 0, 0},
+                                                        {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
+                                                        {N_("m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     ceduo_text_put(caption, _("Over "));
     ceduo_words_span(caption, v);
-    ceduo_text_put(caption, v->wooded ? _(": of 1000 released, in the mean and in the worst year; years in which a test "
-                                          "fails; wood felled per hectare and year, and standing:")
-                                      : _(": the worst year; years in which a test fails; wood felled per hectare and year, "
-                                          "and standing:"));
+    ceduo_text_put(caption, v->wooded
+                                ? _(": of 1000 released, in the mean and in the worst year; years in which a test "
+                                    "fails; wood felled per hectare and year, and standing:")
+                                : _(": the worst year; years in which a test fails; wood felled per hectare and year, "
+                                    "and standing:"));
     if (v->choices[0].flown > 0) {
         ceduo_page_table(page, flown, sizeof flown / sizeof flown[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));
@@ -175,7 +179,8 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (v)
         say_best(page, r, v);
     if (!r->wooded)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                       _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
-                         "says what stems could take, not what a rock loses; no column decides alone."));
+        ceduo_text_put(
+            ceduo_page_add(page, CEDUO_PAGE_NOTE),
+            _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
+              "says what stems could take, not what a rock loses; no column decides alone."));
 }

@@ -142,10 +142,12 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
 {
     const uint64_t *e = a->ended, *all = f->ends.count;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
-                              "slope"),
-                      a->reach_probability * 1000, of_1000(e[CEDUO_STOPPED_BY_STEMS], f->rocks),
-                      of_1000(e[CEDUO_AT_REST], f->rocks), of_1000(e[CEDUO_LEFT_SLOPE], f->rocks));
+    ceduo_text_format(
+        line,
+        _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
+          "slope"),
+        a->reach_probability * 1000, of_1000(e[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(e[CEDUO_AT_REST], f->rocks),
+        of_1000(e[CEDUO_LEFT_SLOPE], f->rocks));
     if (e[CEDUO_UNFINISHED] > 0)
         ceduo_text_format(line, _("; %llu of %llu never come to an end"), (unsigned long long)e[CEDUO_UNFINISHED],
                           (unsigned long long)f->rocks);
@@ -153,14 +155,16 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
         ceduo_text_format(line, _("; one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
     if (last)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-                          of_1000(all[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(all[CEDUO_AT_REST], f->rocks),
-                          of_1000(all[CEDUO_LEFT_SLOPE], f->rocks));
+        ceduo_text_format(
+            ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+            _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
+            of_1000(all[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(all[CEDUO_AT_REST], f->rocks),
+            of_1000(all[CEDUO_LEFT_SLOPE], f->rocks));
 }
 
 /* What cannot mislead: the mean of those that arrive may be higher through the forest, as the slow ones are stopped. */
-static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
+static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded,
+                              const struct ceduo_arrivals *bare)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_put(line, _("Energy per released rock: "));

@@ -30,8 +30,8 @@ static void add_year(struct ceduo_page *page, const struct ceduo_year *y, size_t
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("year"), 9, 4, 0}, {N_("ADC m"), -7, 0, 0},    {"", 5, 1, 0},    {N_("free run"), -7, 0, CEDUO_SPAN},
-        {"", 5, 1, 0},         {N_("kJ/100 m"), -9, 0, 0}, {NULL, -16, 0, 0}, {N_("arr. kJ"), -8, 0, 0},
+        {N_("year"), 9, 4, 0},  {N_("ADC m"), -7, 0, 0},    {"", 5, 1, 0},     {N_("free run"), -7, 0, CEDUO_SPAN},
+        {"", 5, 1, 0},          {N_("kJ/100 m"), -9, 0, 0}, {NULL, -16, 0, 0}, {N_("arr. kJ"), -8, 0, 0},
         {N_("energy"), 0, 2, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Year by year, up to %s m:"),
@@ -43,7 +43,8 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
 }
 
 /* How many rocks are to be expected, where the scene says how many come down. */
-static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s, bool says)
+static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s,
+                         bool says)
 {
     ceduo_text_format(line, _(" With %g rocks a year %.3g a year are to be expected to pass"), scene->rocks_per_year,
                       s->passes_per_year);
@@ -61,8 +62,9 @@ static void say_years(struct ceduo_page *page, const struct ceduo_result *r, con
     const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
     bool says = !isnan(last_control(r)->accepted);
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
-                                     "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
+    ceduo_text_format(line,
+                      ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
+                               "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
                       s.years, s.unprotected_contact, s.unprotected_free_run);
     if (s.flown > 0 && says)
         ceduo_text_format(line, _(", with too much energy %zu"), s.unprotected_energy);
@@ -74,10 +76,11 @@ static void say_years(struct ceduo_page *page, const struct ceduo_result *r, con
                                : _("In the mean %.0f of 1000 arrive, at worst %.0f in year %u."),
                           mean.mean * 1000, s.worst * 1000, s.worst_year);
     else if (s.flown > 0)
-        ceduo_text_format(line,
-                          says ? _("In the mean %.0f \xc2\xb1%.0f of 1000 arrive with too much energy, at worst %.0f in year %u.")
-                               : _("In the mean %.0f \xc2\xb1%.0f of 1000 arrive, at worst %.0f in year %u."),
-                          mean.mean * 1000, ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
+        ceduo_text_format(
+            line,
+            says ? _("In the mean %.0f \xc2\xb1%.0f of 1000 arrive with too much energy, at worst %.0f in year %u.")
+                 : _("In the mean %.0f \xc2\xb1%.0f of 1000 arrive, at worst %.0f in year %u."),
+            mean.mean * 1000, ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
     else
         ceduo_text_format(line, _("The ADC is largest in year %u."), s.worst_year);
     if (s.flown > 0 && !isnan(r->scene->rocks_per_year))

@@ -124,9 +124,10 @@ static void draw(struct rotation *r)
     else if (isnan(r->control->accepted))
         ceduo_text_put(&share, _("of 1000 released arrive"));
     else
-        ceduo_text_format(&share, r->area->width >= 60 ? _("of 1000 released with more than %g kJ (limit %g)")
-                                                      : _("of 1000 released with > %g kJ (limit %g)"), r->control->accepted * KILO,
-                          CEDUO_EXCEED_MOST * 1000);
+        ceduo_text_format(&share,
+                          r->area->width >= 60 ? _("of 1000 released with more than %g kJ (limit %g)")
+                                               : _("of 1000 released with > %g kJ (limit %g)"),
+                          r->control->accepted * KILO, CEDUO_EXCEED_MOST * 1000);
     if (strips < 2 * STRIP_LEAST) /* room for one: what gets through */
         first = 0;
     else

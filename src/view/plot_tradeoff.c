@@ -5,8 +5,8 @@
 #include "base/intl.h"
 #include "plot_parts.h"
 
-/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to the
- * right. The best corner is below on the right. An option that another beats in both stands in brackets. */
+/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to
+ * the right. The best corner is below on the right. An option that another beats in both stands in brackets. */
 
 #define AXIS_WIDTH   6
 #define LEGEND_WIDTH 34 /* columns of the names beside the picture */
@@ -38,8 +38,9 @@ static enum ceduo_role role_of(const struct tradeoff *t, size_t i)
 
 static void draw_error(const struct tradeoff *t, const struct ceduo_choice *c)
 {
-    ceduo_canvas_line(t->canvas, &t->frame, CEDUO_ROLE_MEAN, c->yield.cut_per_year, 1000 * (c->mean.mean - c->mean.half),
-                      c->yield.cut_per_year, 1000 * (c->mean.mean + c->mean.half));
+    ceduo_canvas_line(t->canvas, &t->frame, CEDUO_ROLE_MEAN, c->yield.cut_per_year,
+                      1000 * (c->mean.mean - c->mean.half), c->yield.cut_per_year,
+                      1000 * (c->mean.mean + c->mean.half));
 }
 
 /* The number of an option beside its point; a little lower where another stands there. */
@@ -69,7 +70,8 @@ static void draw_legend(const struct tradeoff *t)
         if (is_known(c))
             ceduo_plot_say(t->canvas, a->left, a->top + (int)i, a->width, role_of(t, i), "%s %s", sign, name);
         else
-            ceduo_plot_say(t->canvas, a->left, a->top + (int)i, a->width, CEDUO_ROLE_AXIS, _("- %s: no yield known"), name);
+            ceduo_plot_say(t->canvas, a->left, a->top + (int)i, a->width, CEDUO_ROLE_AXIS, _("- %s: no yield known"),
+                           name);
     }
     if ((int)t->verdict->n < a->height)
         ceduo_plot_say(t->canvas, a->left, a->top + (int)t->verdict->n, a->width, CEDUO_ROLE_AXIS,
@@ -111,9 +113,10 @@ static void put_caption(const struct tradeoff *t, const struct ceduo_area *a)
 {
     struct text words[2] = {{0}};
     bool danger = t->verdict->accepted;
-    ceduo_text_put(&words[0],
-                   danger ? _("dangerous rocks of 1000 over a rotation, against wood felled, m\xc2\xb3 per ha and year")
-                          : _("rocks of 1000 that arrive over a rotation, against wood felled, m\xc2\xb3 per ha and year"));
+    ceduo_text_put(
+        &words[0],
+        danger ? _("dangerous rocks of 1000 over a rotation, against wood felled, m\xc2\xb3 per ha and year")
+               : _("rocks of 1000 that arrive over a rotation, against wood felled, m\xc2\xb3 per ha and year"));
     ceduo_text_put(&words[1], danger ? _("dangerous of 1000, against m\xc2\xb3 per ha and year")
                                      : _("arriving of 1000, against m\xc2\xb3 per ha and year"));
     ceduo_plot_put_fitting(t->canvas, a->left, a->top, a->width, CEDUO_ROLE_AXIS, 2, words);

@@ -78,7 +78,8 @@ static void put_names(struct text *text, const struct ceduo_scene *scene, const 
     }
 }
 
-static void put_numbers(struct text *text, const struct ceduo_verdict *v, const struct ceduo_leader *leader, bool rotation)
+static void put_numbers(struct text *text, const struct ceduo_verdict *v, const struct ceduo_leader *leader,
+                        bool rotation)
 {
     size_t left = leader->rivals + 1;
     for (size_t i = 0; i < v->n; i++) {
@@ -96,8 +97,9 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
     ceduo_text_format(text, "%s ", when);
     if (leader->rivals + 1 == v->n || leader->rivals >= NAMED_MOST) {
-        ceduo_text_format(text, leader->rivals + 1 == v->n ? _("no option is clearly better than the others.")
-                                                           : _("%zu options are best and cannot be told apart."),
+        ceduo_text_format(text,
+                          leader->rivals + 1 == v->n ? _("no option is clearly better than the others.")
+                                                     : _("%zu options are best and cannot be told apart."),
                           leader->rivals + 1);
         return;
     }
@@ -113,15 +115,17 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
 }
 
 /* One sentence where the same option is clearly best over the years and today. */
-static bool say_both(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, const char *when)
+static bool say_both(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
+                     const char *when)
 {
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (!a->known || !b->known || a->best != b->best || a->rivals > 0 || b->rivals > 0)
         return false;
     ceduo_text_format(text,
-                      v->accepted ? _("%s '%s' lets the fewest dangerous rocks through, as it does today: %.0f and %.0f of "
-                                      "1000.")
-                                  : _("%s '%s' lets the fewest rocks through, as it does today: %.0f and %.0f of 1000."),
+                      v->accepted
+                          ? _("%s '%s' lets the fewest dangerous rocks through, as it does today: %.0f and %.0f of "
+                              "1000.")
+                          : _("%s '%s' lets the fewest rocks through, as it does today: %.0f and %.0f of 1000."),
                       when, scene->options[a->best].name, mean_of(v, true, a->best), mean_of(v, false, a->best));
     return true;
 }

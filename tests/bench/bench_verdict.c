@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether what is called clear stays: for many seeds, which option is clearly best after the first thousand rocks, and after
- * ten times as many, today and over a rotation. Prints CSV: how often that was clear at first and in the end, how often it
- * was no longer clear, and how often another option was clearly best. The last must never happen: exit 1.
+/* Whether what is called clear stays: for many seeds, which option is clearly best after the first thousand rocks,
+ * and after ten times as many, today and over a rotation. Prints CSV: how often that was clear at first and in the
+ * end, how often it was no longer clear, and how often another option was clearly best. The last must never happen:
+ * exit 1.
  *
- *   bench_verdict [SEEDS [THREADS]]     1000 seeds, all cores */
+ * bench_verdict [SEEDS [THREADS]]     1000 seeds, all cores */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -45,7 +46,8 @@ static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsi
     q.run.arrivals_only = true;
     q.years = true;
     q.years_most = YEAR_STEP;
-    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
+    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK ||
+        ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
         exit(1);
     today->best[step] = clear_best(&verdict.today);
     rotation->best[step] = clear_best(&verdict.rotation);
@@ -99,7 +101,7 @@ int main(int argc, char **argv)
     size_t seeds = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : SEEDS;
     unsigned threads = argc > 2 ? (unsigned)strtoul(argv[2], NULL, 10) : (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
     printf("scene,when,seeds,clear_at_1024,clear_at_10240,no_longer_clear,reversed\n");
-    size_t reversed = judge("four-systems", seeds, threads) + judge("rotation", seeds, threads) +
-                      judge("staggered", seeds, threads);
+    size_t reversed =
+        judge("four-systems", seeds, threads) + judge("rotation", seeds, threads) + judge("staggered", seeds, threads);
     return reversed > 0;
 }

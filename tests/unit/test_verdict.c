@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and what
- * was clear is not taken back. */
+/* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
+ * what was clear is not taken back. */
 #include "expect.h"
 
 #include <math.h>
@@ -97,7 +97,7 @@ static void what_is_clear_stays(void **state)
         looks++;
     }
     assert_true(today.known && rotation.known);
-    EXPECT(today.rocks, ==, FLIGHTS_FIRST);    /* told from the first thousand rocks */
+    EXPECT(today.rocks, ==, FLIGHTS_FIRST); /* told from the first thousand rocks */
     EXPECT(rotation.rocks, ==, FLIGHTS_FIRST);
     EXPECT(today.best, ==, 0);    /* the simple coppice before its cut, */
     EXPECT(rotation.best, ==, 3); /* the large reserves over the rotation: 127 and 277 of 1000 */
