@@ -67,7 +67,6 @@ static void assess(struct figures *f, const struct ceduo_scene *scene, const str
 /* Judges by the years of the scene as it is now: those of an earlier one do not count. */
 static void judge(struct figures *f, const struct ceduo_scene *scene)
 {
-    ceduo_verdict_release(&f->verdict);
     struct ceduo_years **fit = calloc(scene->options_count + 1, sizeof *fit);
     for (size_t i = 0; fit && i < scene->options_count; i++) {
         struct ceduo_years *years = ceduo_figures_years(f, scene, i);
@@ -83,6 +82,7 @@ static void refresh(struct figures *f, const struct ceduo_scene *scene)
     const struct ceduo_outlook *o = ceduo_figures_outlook(f, scene);
     ceduo_result_free(f->result);
     f->result = NULL;
+    ceduo_verdict_release(&f->verdict);
     if (!o || !o->bare)
         return;
     assess(f, scene, o);

@@ -237,10 +237,10 @@ static void draw_row(struct app *app, const struct layout *l, struct ceduo_area 
 static void put_place(struct app *app, struct ceduo_area area, int width)
 {
     const struct ceduo_result *r = app->figures.result;
-    const struct ceduo_control *control = &r->scene->controls[r->last_control];
     struct text text = {0};
     if (r->scene->controls_count == 0)
         return;
+    const struct ceduo_control *control = &r->scene->controls[r->last_control];
     if (r->wooded && !isnan(control->accepted))
         ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO,
                           control->x_given);
