@@ -135,8 +135,8 @@ static inline void go_to_next_stem(struct walker *w, int side)
     w->gives_up = w->cancelled || ceduo_stems_too_many(w->stems);
 }
 
-/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the trajectory is given
- * up. */
+/* The next stem along +x (side 0) or -x, which is taken away; false where there is none after all, or the trajectory
+ * is given up. */
 static bool take_stem(struct walker *w, int side, struct stem *stem)
 {
     bool taken = w->stems->side[side].next_known;
@@ -170,9 +170,10 @@ static size_t segment_between(const struct ground *g, size_t a, size_t b, double
     return gsl_interp_bsearch(g->x, x, a < b ? a : b, (a < b ? b : a) + 1);
 }
 
-/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit, and may not be known yet. True
- * where one stops the rock (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while the next stem stands over the same
- * segment and the rock is still above the ground there: the parabola is concave, so there was no contact before. */
+/* Flies past the stems between the rock and its landing `l`, which moves as stems are hit, and may not be known yet.
+ * True where one stops the rock (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while
+ * the next stem stands over the same segment and the rock is still above the ground there: the parabola is concave, so
+ * there was no contact before. */
 static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l,
                                                      bool knows_landing)
 {

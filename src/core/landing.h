@@ -36,15 +36,15 @@ HOT double clamp(double v, double a, double b)
     return v < lo ? lo : v > hi ? hi : v;
 }
 
-/* The slope of segment j. On a long profile the segment is seldom at hand, while its vertices just were: the same bits from
- * those. */
+/* The slope of segment j. On a long profile the segment is seldom at hand, while its vertices just were: the same bits
+ * from those. */
 HOT double slope_of(const struct ground *g, size_t j, bool blocks)
 {
     return blocks ? (g->z[j + 1] - g->z[j]) / (g->x[j + 1] - g->x[j]) : g->segments[j].m;
 }
 
-/* Puts a landing at time t on segment j of slope m. Steeper than 45 degrees z is kept and x follows, elsewhere the other
- * way. */
+/* Puts a landing at time t on segment j of slope m. Steeper than 45 degrees z is kept and x follows, elsewhere the
+ * other way. */
 HOT struct landing land_at(const struct ground *g, const struct flight *f, size_t j, double m, double t)
 {
     struct landing l = {.t = t, .segment = j, .left = false};
@@ -90,9 +90,9 @@ HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, 
                             .left = true};
 }
 
-/* Follows the flight from vertex p, which it clears, towards dir: the first segment at whose far vertex it would be under
- * the ground. The parabola less a straight line is concave: where it is above both ends of a segment it touches nothing
- * between. NaN is contact. */
+/* Follows the flight from vertex p, which it clears, towards dir: the first segment at whose far vertex it would be
+ * under the ground. The parabola less a straight line is concave: where it is above both ends of a segment it touches
+ * nothing between. NaN is contact. */
 HOT struct landing land_beyond(const struct ground *g, const struct flight *f, size_t p, int dir, double inv)
 {
     size_t last = dir > 0 ? g->n : 0;
@@ -159,7 +159,8 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
     double inv = 1 / f->vx;
     size_t j = f->segment, q = dir > 0 ? j + 1 : j;
     double t = (g->x[q] - f->x) * inv;
-    /* c is exactly 0 on the ground: compare slopes, not heights, which may be beyond all numbers where vx is next to none */
+    /* c is exactly 0 on the ground: compare slopes, not heights, which may be beyond all numbers where vx is next to
+     * none */
     if (f->on_ground && !(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
         return land_on(g, f, j, t, blocks);
     double h = (f->z + (f->vz - g->half_g * t) * t) - g->z[q];
@@ -168,8 +169,8 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
     return blocks ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);
 }
 
-/* The next contact of a flight with the ground; `blocks`: whether it has any. The walk says so where it knows it as it is
- * compiled, as a call to what it does not need would cost it registers. */
+/* The next contact of a flight with the ground; `blocks`: whether it has any. The walk says so where it knows it as it
+ * is compiled, as a call to what it does not need would cost it registers. */
 HOT struct landing next_landing_over(const struct ground *g, const struct flight *f, bool blocks)
 {
     if (f->vx > 0)

@@ -5,9 +5,9 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Some numbers at once in plain C, by the compilers' vectors: MANY of them, as fits the target for which the including file is
- * compiled. The bits are the same for each target. They go by pointers, as how they are passed
- * by value depends on the target. */
+/* Some numbers at once in plain C, by the compilers' vectors: MANY of them, as fits the target for which the including
+ * file is compiled. The bits are the same for each target. They go by pointers, as how they are passed by value
+ * depends on the target. */
 #ifndef MANY
 #define MANY 8
 #endif

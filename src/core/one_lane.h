@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* The operations of lanes.h for one number, so that a text that is written with them serves both. A file includes either
- * this or lanes.h. */
+/* The operations of lanes.h for one number, so that a text that is written with them serves both. A file includes
+ * either this or lanes.h. */
 #define LANE static inline __attribute__((always_inline))
 
 typedef double reals;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x and
- * all single trees (or contacts) another, each drawn some places ahead (stems_fill.h). A stool is made whole when the rock
- * comes near, and its shoots wait, sorted, because they stand around its centre. Work is counted as effort, and drawing
- * pauses now and then, so that a caller can cancel. */
+/* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x
+ * and all single trees (or contacts) another, each drawn some places ahead (stems_fill.h). A stool is made whole when
+ * the rock comes near, and its shoots wait, sorted, because they stand around its centre. Work is counted as effort,
+ * and drawing pauses now and then, so that a caller can cancel. */
 #include "stems.h"
 
 #include <math.h>
@@ -34,8 +34,8 @@ static const struct stems_kernel *choose_kernel(enum ceduo_kernel kernel)
 
 /* ---- diameters ---- */
 
-/* A diameter by the gamma law, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter itself, as thick stems
- * are met more often. */
+/* A diameter by the gamma law, after Marsaglia and Tsang 2000. `extra` 1: weighted by the diameter itself, as thick
+ * stems are met more often. */
 static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_t event, uint64_t kind, int extra)
 {
     double shape = k->shape + extra, scale = k->scale;
@@ -291,8 +291,8 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->side[1].next_known = false;
 }
 
-/* The strip behind the release is drawn only when a rock goes there. The stools around the release are those of the strip
- * ahead. */
+/* The strip behind the release is drawn only when a rock goes there. The stools around the release are those of the
+ * strip ahead. */
 static void prepare_behind(struct stems *s)
 {
     if (!s->poisson && !make_stools_to(s, 0, s->start + s->wood->reach))

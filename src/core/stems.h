@@ -11,10 +11,10 @@
 #include "ceduo/trajectory.h"
 #include "stems_state.h"
 
-/* The stems in one rock's path, drawn as it reaches them. Stools and trees are Poisson processes in the plane, of which
- * the rock sweeps a strip as wide as itself: what stands beside the strip is never drawn, and what is drawn is distributed as
- * on a full map. Ahead of the release (side 0, along +x) and behind it (side 1) there is one such strip each; places along
- * side 1 are -x. Ground is covered once: a stem that was passed is gone. */
+/* The stems in one rock's path, drawn as it reaches them. Stools and trees are Poisson processes in the plane, of
+ * which the rock sweeps a strip as wide as itself: what stands beside the strip is never drawn, and what is drawn is
+ * distributed as on a full map. Ahead of the release (side 0, along +x) and behind it (side 1) there is one such strip
+ * each; places along side 1 are -x. Ground is covered once: a stem that was passed is gone. */
 
 /* Whether a rock has met too many stems to be followed further. */
 static inline bool ceduo_stems_too_many(const struct stems *stems)
@@ -35,8 +35,8 @@ static inline struct stem *ceduo_stems_next(struct stems_side *side)
     return side->next_waits ? &side->waiting[side->first] : &side->single;
 }
 
-/* Takes that stem away and looks for the one after it. Where it was not known, no stem is taken, and side[].next has moved
- * on. Each call does a bounded amount of work. */
+/* Takes that stem away and looks for the one after it. Where it was not known, no stem is taken, and side[].next has
+ * moved on. Each call does a bounded amount of work. */
 void ceduo_stems_look_on(struct stems *stems, int side);
 
 /* Whether the next stem and the one after it both wait already, as mostly they do; and takes the first of them. */
@@ -60,11 +60,12 @@ static inline void ceduo_stems_take(struct stems *stems, int i)
         ceduo_stems_look_on(stems, i);
 }
 
-/* A stool astride of the release was hit: its shoots that wait behind know of it, however late the rock comes to them. */
+/* A stool astride of the release was hit: its shoots that wait behind know of it, however late the rock comes to them.
+ * */
 void ceduo_stems_meet_behind(struct stems *stems, uint64_t stool);
 
-/* Notes that a shoot is hit, or not; whether it is hit and its stool was not before. Which is as likely as not, so that no
- * branch depends on it. */
+/* Notes that a shoot is hit, or not; whether it is hit and its stool was not before. Which is as likely as not, so
+ * that no branch depends on it. */
 static inline bool ceduo_stems_meet_shoot(struct stems *stems, const struct stem *stem, bool hit)
 {
     uint64_t *place = &stems->met[stem->stool & stems->wood->places];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The next places of streams of stools or trees, and the shoots of the next stools, many at once: see stems.h. This is compiled for each kind of registers. */
+/* The next places of streams of stools or trees, and the shoots of the next stools, many at once: see stems.h. This is
+ * compiled for each kind of registers. */
 #ifndef CEDUO_STEMS_FILL_H
 #define CEDUO_STEMS_FILL_H
 
@@ -24,8 +25,8 @@ static inline uint64_t shoot_draw(enum random_kind kind, unsigned i)
     return (uint64_t)kind | (uint64_t)i << 8;
 }
 
-/* What is drawn of each place: of the gap before it 40 bits, of the mark 38, of offset and turn 25 each. Gaps are in units
- * of their mean. */
+/* What is drawn of each place: of the gap before it 40 bits, of the mark 38, of offset and turn 25 each. Gaps are in
+ * units of their mean. */
 static inline void draw_points(const struct stems *s, uint64_t event, struct points *to, double gaps[POINTS])
 {
     for (unsigned i = 0; i < to->size; i += MANY) {
@@ -192,7 +193,9 @@ static inline bool is_plain_stool(const struct stems *s, int side)
 {
     const struct points *p = &s->side[side].streams[STREAM_STOOLS];
     const struct wood_stools *stools = s->wood->along[side][p->belt[p->next]].stools;
-    return !stools->spread && stools->n + 1 < (stools->cohorts > 1 ? 4 * COHORT_GROUPS : SHOOTS_FEW) && (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
+    unsigned most = stools->cohorts > 1 ? 4 * COHORT_GROUPS : SHOOTS_FEW;
+    return !stools->spread && stools->n + 1 < most &&
+           (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
 }
 
 /* Shoots to be put in order: the last bits of `along` tell them apart. */

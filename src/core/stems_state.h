@@ -77,8 +77,8 @@ struct stems;
 struct stems_kernel {
     /* Draws the next places of a stream. */
     void (*fill)(struct stems *stems, int side, enum stem_stream stream);
-    /* Makes some of the stools that come next on a side, of which the shoots are alike and stand ahead of the release; there
-     * is room for SHOOTS_AT_ONCE. */
+    /* Makes some of the stools that come next on a side, of which the shoots are alike and stand ahead of the release;
+     * there is room for SHOOTS_AT_ONCE. */
     void (*make_stools)(struct stems *stems, int side);
 };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One rock from its release to its end: it flies to its next contact (flying.h), is thrown off again or rolls
  * (rolling.h), until it rests, leaves the slope, is stopped by a stem, or takes too long. The wide walk (wide_walk.h) does
- * the same for many rocks without a forest and hands over to this one what is rare. */
+ * the same for many rocks and hands over to this one what is rare. */
 #include "walk.h"
 
 #include "rolling.h"

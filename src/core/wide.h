@@ -6,7 +6,8 @@
 #include "walk.h"
 
 /* The walk of walk.h for many rocks at once, one in each lane of wide registers: the same bits for every rock. What
- * happens seldom (stems, marks, rolling, far landings on long slopes) is done lane by lane by the scalar walk. */
+ * happens seldom (marks, rolling over vertices and past stems, far landings on long slopes) is done lane by lane by
+ * the scalar walk. */
 
 /* Two numbers for each vertex or segment i, at [i + 1]: look_up() of lanes.h. */
 #define TABLE_SMALL 16

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wide walk and the drawing of stems on AVX-512. The rest of the program is for any machine, so this file alone sets the target. */
+/* The wide walk and the drawing of stems on AVX-512. The rest of the program is for any machine, so this file alone
+ * sets the target. */
 #include "wide.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)

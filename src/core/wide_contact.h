@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact of the wide walk: the same operations in the same order as in flying.h, law_*.h, random.h and elementary.h. */
+/* The contact of the wide walk: the same operations in the same order as in flying.h, law_*.h, random.h and
+ * elementary.h. */
 #ifndef CEDUO_WIDE_CONTACT_H
 #define CEDUO_WIDE_CONTACT_H
 

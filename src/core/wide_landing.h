@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From one contact of the wide walk to the next, in flight or rolling: the same operations in the same order as in landing.h
- * and rolling.h. */
+/* From one contact of the wide walk to the next, in flight or rolling: the same operations in the same order as in
+ * landing.h and rolling.h. */
 #ifndef CEDUO_WIDE_LANDING_H
 #define CEDUO_WIDE_LANDING_H
 
@@ -142,8 +142,8 @@ LANE void is_within(const struct rocks *r, flags steep, reals x, reals z, reals 
 }
 
 /* Those that roll, as is_roll(); `unsure`: where the scalar walk looks again, as those that land on another segment. */
-LANE unsigned rolling(struct form form, const struct wide *k, const struct rocks *r, reals off, const struct landings *l, flags steep,
-                      unsigned *unsure)
+LANE unsigned rolling(struct form form, const struct wide *k, const struct rocks *r, reals off,
+                      const struct landings *l, flags steep, unsigned *unsure)
 {
     reals radius = load(k->radius);
     unsigned lands = k->live & ~in_the_air(form, k);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lanes of the wide walk: what each holds of its rock, and how the scalar walk does for one lane what happens seldom. */
+/* The lanes of the wide walk: what each holds of its rock, and how the scalar walk does for one lane what happens
+ * seldom. */
 #ifndef CEDUO_WIDE_LANE_H
 #define CEDUO_WIDE_LANE_H
 
@@ -16,8 +17,8 @@ struct form {
     bool wood;  /* there are stems */
 };
 
-/* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of struct
- * wide_ground do; 0 and n + 1 lie off the slope. */
+/* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of
+ * struct wide_ground do; 0 and n + 1 lie off the slope. */
 struct wide {
     const struct wide_job *job;
     const struct wide_ground *ground;

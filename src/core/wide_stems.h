@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flights of the wide walk among stems: the same operations in the same order as in flying.h. Behind a hit a lane is aloft:
- * its landing is looked for when the next stem stands beyond its segment, together with those of the lanes that come from
- * a contact. */
+/* Flights of the wide walk among stems: the same operations in the same order as in flying.h. Behind a hit a lane is
+ * aloft: its landing is looked for when the next stem stands beyond its segment, together with those of the lanes that
+ * come from a contact. */
 #ifndef CEDUO_WIDE_STEMS_H
 #define CEDUO_WIDE_STEMS_H
 
@@ -47,7 +47,8 @@ LANE void go_to_segment(struct form form, const struct wide *k, struct passing *
     }
 }
 
-/* The scalar walk takes the stem that is before each of `lanes`, whose flights pass marks up to there if they hit it. */
+/* The scalar walk takes the stem that is before each of `lanes`, whose flights pass marks up to there if they hit it.
+ * */
 static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct passing *p, unsigned lanes, unsigned hit,
                                                        reals t)
 {
@@ -71,8 +72,8 @@ static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct pa
     }
 }
 
-/* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it waits
- * already and no mark is passed. */
+/* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
+ * waits already and no mark is passed. */
 LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
 {
     unsigned alone = hit & bits_of(at_least(load(k->stem_ahead), load(k->next_x)));
@@ -160,8 +161,8 @@ LANE void store_passing(struct form form, struct wide *k, struct passing *p)
     k->left &= ~p->moved;
 }
 
-/* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known. Returns those
- * of which the scalar walk does the rest. */
+/* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known.
+ * Returns those of which the scalar walk does the rest. */
 LANE unsigned pass_stems(struct form form, struct wide *k)
 {
     reals zero = all(0);

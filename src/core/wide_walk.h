@@ -2,8 +2,8 @@
 #ifndef CEDUO_WIDE_WALK_H
 #define CEDUO_WIDE_WALK_H
 
-/* The wide walk on the lanes of lanes.h; see wide.h. What is computed here and in wide_*.h is computed by walk.c for one
- * rock: the same operations in the same order. */
+/* The wide walk on the lanes of lanes.h; see wide.h. What is computed here and in wide_*.h is computed by walk.c for
+ * one rock: the same operations in the same order. */
 
 #include "wide_landing.h"
 #include "wide_stems.h"
@@ -42,6 +42,18 @@ LANE void store_lanes(struct form form, struct wide *k, struct rocks *r, struct 
     store(k->z1, l->z1);
     store(k->m, l->m);
     store(k->theta, l->theta);
+}
+
+LANE void go_off_one_by_one(struct wide *k, unsigned lanes, const struct velocities *v)
+{
+    _Alignas(64) double along[LANES], off[LANES];
+    store(along, v->along);
+    store(off, v->off);
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        k->along[i] = along[i];
+        go_off_alone(k, i, off[i]);
+    }
 }
 
 LANE void step_lanes(struct form form, struct wide *k, bool even)
@@ -87,16 +99,8 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     k->aloft = still_aloft;
     for (; still_aloft; still_aloft &= still_aloft - 1)
         come_down_alone(k, (size_t)__builtin_ctz(still_aloft));
-    if (!alone)
-        return;
-    _Alignas(64) double along[LANES], off[LANES];
-    store(along, v.along);
-    store(off, v.off);
-    for (; alone; alone &= alone - 1) {
-        size_t i = (size_t)__builtin_ctz(alone);
-        k->along[i] = along[i];
-        go_off_alone(k, i, off[i]);
-    }
+    if (alone)
+        go_off_one_by_one(k, alone, &v);
 }
 
 /* Few are left: one after the other to its end. */

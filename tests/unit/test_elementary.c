@@ -160,8 +160,8 @@ static void normal_law(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(logarithms), cmocka_unit_test(many_at_once), cmocka_unit_test(powers),     cmocka_unit_test(angles),
-        cmocka_unit_test(roots),      cmocka_unit_test(normal_law),
+        cmocka_unit_test(logarithms), cmocka_unit_test(many_at_once), cmocka_unit_test(powers),
+        cmocka_unit_test(angles),     cmocka_unit_test(roots),        cmocka_unit_test(normal_law),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
