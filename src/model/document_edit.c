@@ -2,6 +2,7 @@
 /* Edits. Each makes a changed tree, which shares all but the nodes on the path to the change, and commits it as a new
  * state. All nodes lie in the arena of the document's file. */
 #include "document.h"
+#include "fit_doubt.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -68,7 +69,9 @@ static const struct node *without(struct document *d, const struct node *root, c
         return without(d, root, path, problems);
     }
     ceduo_node_keep_written(less, holder);
-    return parent[0] ? put(d, root, parent, less, problems) : less;
+    root = parent[0] ? put(d, root, parent, less, problems) : less;
+    bool item = root && less->kind == NODE_LIST;
+    return item ? ceduo_doubt_shifted(&d->file.arena, root, parent, strtoul(last, NULL, 10), -1) : root;
 }
 
 /* root with an item put into a list, which is made where there is none. */
@@ -81,7 +84,9 @@ static const struct node *with_item(struct document *d, const struct node *root,
         return NULL;
     const struct node *plain = ceduo_node_renamed(&d->file.arena, item, NULL);
     index = index > holder->n ? holder->n : index;
-    return put(d, root, list, plain ? ceduo_node_inserted(&d->file.arena, holder, index, plain) : NULL, problems);
+    const struct node *more = plain ? ceduo_node_inserted(&d->file.arena, holder, index, plain) : NULL;
+    root = put(d, root, list, more, problems);
+    return root ? ceduo_doubt_shifted(&d->file.arena, root, list, index, 1) : NULL;
 }
 
 /* root with PATH=VALUE, or without PATH. */
@@ -235,6 +240,8 @@ static bool remove_vertex(struct document *d, size_t vertex, size_t segment, str
     const struct node *root = put(d, d->file.root, vertices_list, less, problems);
     if (root && segments && segments->n > 1)
         root = put(d, root, ground_list, ceduo_node_removed(&d->file.arena, segments, segment), problems);
+    if (root && segments && segments->n > 1)
+        root = ceduo_doubt_shifted(&d->file.arena, root, ground_list, segment, -1);
     return ceduo_document_commit(d, root, vertices_list, problems);
 }
 
@@ -262,6 +269,7 @@ static const struct node *with_options(struct document *d, const struct node *ro
         item = ceduo_node_with(&d->file.arena, item, "forest", forest);
     options = item ? ceduo_node_replaced(&d->file.arena, options, 0, item) : NULL;
     root = options ? ceduo_node_without(&d->file.arena, root, "forest") : NULL;
+    root = root ? ceduo_doubt_of_options(&d->file.arena, root) : NULL;
     return root ? ceduo_node_with(&d->file.arena, root, "options", options) : NULL;
 }
 

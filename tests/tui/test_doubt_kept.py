@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is said about values that are not known goes along with the values, and never refuses an edit."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import FAST, Place, check_good  # noqa: E402
+from harness import expect, expect_equal, run_all  # noqa: E402
+
+DOUBTED = FAST + """\
+doubt:
+  - {path: "forest[*].stand.energy.u_J_m3", lo: 80000, hi: 120000}
+  - {path: "forest[0].stand.stools.per_ha", lo: 2700, hi: 3300}
+  - {path: "forest[0].stand.trees[1].dbh_m", lo: 0.3, hi: 0.4}
+  - {path: "forest[1].stand.stools.per_ha", lo: 900, hi: 1100}
+  - {path: "rock.density_kg_m3", lo: 2500, hi: 2700}
+"""
+
+
+def paths_after(keys):
+    with Place() as place:
+        place.write("doubted.yaml", DOUBTED)
+        place.play(f"{keys}\nkey s\ndump", "doubted.yaml")
+        check_good(place.path, "doubted.yaml")
+        saved = place.text("doubted.yaml")
+        return re.findall(r'path: "?([^",]+)"?,', saved.split("doubt:")[1]) if "doubt:" in saved else []
+
+
+ALL, STOOLS, TREE, LOWER, ROCK = re.findall(r'path: "([^"]+)"', DOUBTED)
+
+
+def test_items_that_go():
+    """A belt or a class of trees that is deleted takes its rows along; those behind it keep theirs, at their new places."""
+    expect_equal(paths_after(""), [ALL, STOOLS, TREE, LOWER, ROCK], "nothing done")
+    expect_equal(paths_after("find forest[1]\nkey d"), [ALL, STOOLS, TREE, ROCK], "the lower belt deleted")
+    expect_equal(paths_after("find forest[0]\nkey d"), [ALL, LOWER.replace("[1]", "[0]"), ROCK], "the upper belt deleted")
+    expect_equal(paths_after("key 2\nfind trees[0]\nkey d"), [ALL, STOOLS, TREE.replace("trees[1]", "trees[0]"), LOWER, ROCK],
+                 "the first class of trees deleted")
+    expect_equal(paths_after("key 2\nfind trees[0]\nkey d d"), [ALL, STOOLS, LOWER, ROCK], "all trees deleted")
+
+
+def test_items_that_come():
+    """A belt that is split leaves the rows of its upper part and of the belts behind it."""
+    expect_equal(paths_after("find forest[0]\nkey y"), [ALL, STOOLS, TREE, LOWER.replace("forest[1]", "forest[2]"), ROCK],
+                 "the upper belt split")
+
+
+def test_options():
+    """Rows about the forest are about the option 'current' once there are options, whatever their order."""
+    current = [p.replace("forest", "options[current].forest", 1) for p in (STOOLS, TREE, LOWER)]
+    everywhere = ALL.replace("forest", "options[*].forest", 1)
+    expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter"), [everywhere, *current, ROCK], "an option added")
+    expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter\nkey g d"), [everywhere, ROCK], "the first one deleted")
+
+
+def test_stand_replaced():
+    """Another stand has none of the rows about what the old one had and it has not."""
+    found = paths_after("key 2\nkey p\ntype bare\nkey Enter")
+    expect(TREE not in found and LOWER in found and ROCK in found, found)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
