@@ -177,10 +177,10 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
-    for way, least in (("four-systems", 4), ("two-cuts", 7), ("reserves", 3), ("sections", 2), ("shards", 4), ("valley", 6)):
+    for way, least in (("four-systems", 4), ("two-cuts", 7), ("reserves", 3), ("doubt", 2), ("sections", 2), ("shards", 4), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "two-cuts", "reserves", "sections", "shards", "valley")
+    ways = ("four-systems", "two-cuts", "reserves", "doubt", "sections", "shards", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -323,6 +323,21 @@ def test_reserves():
     expect_in("nearest: 1, ADC 99.2", walk.outputs[1])
     many = int(re.search(r"per_ha = (\d+)", walk.outputs[2])[1])
     expect(379 < many < 600, walk.outputs[2])
+
+
+def test_doubt():
+    """How sure: the doubt is many times the error of the rocks, most of it comes from the energy law, and the CSV is whole"""
+    walk = walked("doubt")
+    now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
+    expect(450 < now < 510 and 450 < lo < hi < 520, "480, 20 more or less", now, lo, hi)
+    expect(210 < low < 260 and 730 < high < 790, "230 to 770", low, high)
+    expect(high - low > 8 * (hi - lo), "the doubt is mostly far more")
+    shares = [(m[1].strip(), int(m[2])) for m in re.finditer(r"^  (\S.{33}).* (\d+) % +\d+$", walk.outputs[0], re.M)]
+    expect_equal([name for name, _ in shares[:2]], ["energy law", "hit off centre"])
+    expect(shares[0][1] > 50, shares)
+    expect_in("920 scenes were computed", walk.outputs[0])
+    rows = list(csv.DictReader(io.StringIO(walk.read("doubt.csv"))))
+    expect_equal(len({r["option"] for r in rows}), 8)
 
 
 def test_sections():
