@@ -61,7 +61,33 @@ static bool add_ground(struct places *p, const char *path)
     return true;
 }
 
-/* All places of a path must be one kind of value: that is returned, NULL where it is not so, which is told. */
+/* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: there is none. */
+static const struct field *row_of(struct deriver *d, const char *path)
+{
+    const char *end = strchr(path, ']');
+    if (strncmp(path, GROUND, sizeof GROUND - 1) == 0) {
+        bool known = end && end[1] == '.' &&
+                     ceduo_choice_find(&ceduo_material_words,
+                                       ceduo_derive_text(d, "%.*s", (int)(end - path - (ptrdiff_t)(sizeof GROUND - 1)),
+                                                         path + sizeof GROUND - 1)) >= 0;
+        return known ? ceduo_schema_field(ceduo_schema_segment(), end + 2) : NULL;
+    }
+    char *first = ceduo_arena_string(d->arena, path);
+    for (char *p = first; p && *p; p++)
+        if (p[0] == '[' && p[1] == '*')
+            p[1] = '0';
+    return first ? ceduo_schema_at(first) : NULL;
+}
+
+static bool is_number_or_word(const struct field *f)
+{
+    return f && !(f->flags & (FIELD_NOWHERE | FIELD_DRAFT)) &&
+           (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_SPREADS || f->type == FIELD_COUNT ||
+            f->type == FIELD_CHOICE || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS);
+}
+
+/* All places of a path, which are one kind of value: that is returned. NULL where there are none: the path may be of
+ * something that this scene has not, as a stand that was exchanged; if it is of nothing at all, that is told. */
 static const struct field *find_places(struct deriver *d, const char *at, const char *path, struct places *p)
 {
     const struct field *field = NULL;
@@ -69,15 +95,20 @@ static const struct field *find_places(struct deriver *d, const char *at, const 
     size_t stretches = d->draft.scene.slope.vertices;
     p->room = stretches + CEDUO_ITEMS_MOST;
     p->items = ceduo_bind_take(d->arena, p->room, sizeof *p->items, d->problems);
-    bool good = p->items && (add_ground(p, path) || add_all(p, path));
-    for (size_t i = 0; good && i < p->n; i++) {
-        good = ceduo_value_find(&d->draft.scene, p->items[i], &v) && (!field || v.field == field) && v.part == VALUE_WHOLE;
-        field = v.field;
+    size_t found = 0;
+    if (!is_number_or_word(row_of(d, path))) {
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", at), _("'%s' is not a number or a word of a scene"), path);
+        return NULL;
     }
-    if (good && p->n > 0)
-        return field;
-    ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", at), _("'%s' is not a number or a word of this scene"), path);
-    return NULL;
+    if (!p->items || (!add_ground(p, path) && !add_all(p, path)))
+        return NULL;
+    for (size_t i = 0; i < p->n; i++)
+        if (ceduo_value_find(&d->draft.scene, p->items[i], &v) && (!field || v.field == field) && v.part == VALUE_WHOLE) {
+            field = v.field;
+            p->items[found++] = p->items[i];
+        }
+    p->n = found;
+    return field;
 }
 
 /* ---- ranges ---- */

@@ -109,7 +109,7 @@ def test_no_end():
             with open(endless, "rb", buffering=0) as stream:
                 done = subprocess.run([CEDUO, mode, "-"], stdin=stream, capture_output=True, text=True, env=environment(),
                                       timeout=20 * SLOWER, check=False)
-            expect("standard input: cannot read it: it does not end" in done.stderr and done.returncode == INPUT, mode, done)
+            expect("standard input: cannot read it: this file has no end" in done.stderr and done.returncode == INPUT, mode, done)
 
 
 def test_streams():
@@ -136,11 +136,11 @@ def test_streams():
         good("--check", "/dev/stdin", stdin=text)
         f.write("s.yaml", text)
         good("--script", "/dev/null", "s.yaml", cwd=f.path)
-        expect_in("/dev/null: holds no value", check(f, "/dev/null").err)
-        expect_in("standard input: holds no value", check(f, "-", stdin=b"").err)
-        expect_in("/dev/null: holds no part", ceduo("--merge", "/dev/null").err)
+        expect_in("/dev/null: there is no value", check(f, "/dev/null").err)
+        expect_in("standard input: there is no value", check(f, "-", stdin=b"").err)
+        expect_in("/dev/null: contains no part", ceduo("--merge", "/dev/null").err)
         f.write("empty.yaml", b"")  # as large as those of the system, but it ends
-        expect_in("empty.yaml: holds no value", check(f, "empty.yaml").err)
+        expect_in("empty.yaml: there is no value", check(f, "empty.yaml").err)
     os.close(master)
     os.close(slave)
 
@@ -240,7 +240,7 @@ def test_names_in_every_mode():
         for i in (1, 2):
             run("--shard", f"{i}/2", "-o", f"{NASTY}{i}", name, status=DONE)
         run("--merge", f"{NASTY}1", f"{NASTY}2", status=DONE)
-        expect_in("once more", run("--merge", f"{NASTY}1", f"{NASTY}1", f"{NASTY}2", status=INPUT).err)
+        expect_in("is given twice", run("--merge", f"{NASTY}1", f"{NASTY}1", f"{NASTY}2", status=INPUT).err)
         expect_in("missing: 2", run("--merge", f"{NASTY}1", status=INPUT).err)
         for words in (("--merge", f"{NASTY}0"), ("--merge", name), ("--check", f"{NASTY}0"), ("--script", f"{NASTY}0", name)):
             run(*words, status=INPUT)
@@ -250,10 +250,10 @@ def test_names_in_every_mode():
             f.write(NASTY, text)
             done = run("--script", NASTY, name, status=status)
             expect(status == DONE or len(done.err.splitlines()) == 1, ascii(done.err))
-        for option in ("format", "rows", "plot", "charset", "rocks", "tolerance", "years", "size", "find", "goal", "shard", "seed",
+        for option in ("format", "rows", "plot", "charset", "rocks", "tolerance", "size", "find", "goal", "shard", "seed",
                        "threads", "option", "set", NASTY, f"check={NASTY}"):
             run("--batch", f"--{option}", f"{NASTY}?", name, status=USAGE)
-        for word in (f"-{NASTY}", f"--{NASTY}", f"--batch={NASTY}"):
+        for word in (f"-{NASTY}", f"--{NASTY}", f"--batch={NASTY}", f"--years={NASTY}", f"--sensitivity={NASTY}"):
             run(word, name, status=USAGE)
 
 

@@ -189,9 +189,23 @@ def test_ranking():
     expect_equal([(f["value"], f["doubt_p5"], f["doubt_p95"]) for f in difference], [(0, 0, 0)] * 3)
 
 
+def test_what_is_not_there():
+    """What the scene has not is passed over, so that a stand can be exchanged; a missing item of many, too"""
+    gone = [{"path": p, "lo": 0.1, "hi": 0.2} for p in ("forest[7].stand.trees[0].dbh_m", "forest[0].stand.shoots[0].dbh_m",
+                                                        "options[other].forest[0].stand.trees[0].dbh_m",
+                                                        "slope.materials[talus].rn")]
+    expect_equal(paths(answer(measured(doubt=[*gone, DENSITY]))), ["rock.density_kg_m3"])
+    some = {"path": "forest[*].stand.trees[0].dbh_m", "lo": 0.1, "hi": 0.2}
+    belts = [{"from_m": 0, "to_m": 30, "stand": wood()}, {"from_m": 30, "to_m": 40, "stand": {"system": "bare"}}]
+    inputs = answer(measured(forest=belts, doubt=[some]))["figures"][0]["inputs"]
+    expect_equal([(i["path"], i["places"]) for i in inputs], [(some["path"], 1)])
+    expect_equal(ceduo("--check", "-s", "forest=[]", "paper-site").status, DONE)
+
+
 REFUSED = {
-    "doubt[0].path: 'rock.colour' is not a number or a word of this scene": {"path": "rock.colour", "lo": 1, "hi": 2},
-    "doubt[0].path: 'forest[7].from_m' is not a number": {"path": "forest[7].from_m", "lo": 1, "hi": 2},
+    "doubt[0].path: 'rock.colour' is not a number or a word of a scene": {"path": "rock.colour", "lo": 1, "hi": 2},
+    "doubt[0].path: 'title' is not a number": {"path": "title", "lo": 1, "hi": 2},
+    "doubt[0].path: 'slope.materials[gold].rn' is not a number": {"path": "slope.materials[gold].rn", "lo": 0.1, "hi": 0.2},
     "doubt[0].hi: the range is empty; hi must be above lo": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
     "doubt[0].sd: the range is empty; sd must be above 0": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
     "doubt[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},
