@@ -72,7 +72,7 @@ static bool make_room(struct stems *s, struct stems_side *side, size_t more)
     side->end = count;
     if (2 * (count + more) <= side->room)
         return true;
-    size_t room = 4 * (count + more) + 64;
+    size_t room = 3 * (count + more) + 5; /* for those of lanes, no whole pages */
     struct stem *waiting = realloc(side->waiting, room * sizeof *waiting);
     s->no_memory |= !waiting;
     if (!waiting)

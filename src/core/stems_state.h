@@ -97,6 +97,7 @@ struct stems {
     bool no_memory;        /* the trajectory is not to be used */
     uint64_t drawn;        /* stems drawn */
     uint64_t effort;       /* the same, and what is done to keep them in order, in units of one stem */
+    char apart[320];       /* of those of other lanes: whole pages would put all on a few lines of the cache */
     uint64_t pause;        /* effort at which the drawing stops for a moment: the rock may be waited for no longer */
 };
 
