@@ -9,7 +9,6 @@
 
 #include "base/grow.h"
 #include "base/intl.h"
-#include "fit_doubt.h"
 #include "io/file.h"
 #include "io/resolve.h"
 #include "recovery.h"
@@ -66,17 +65,6 @@ static bool adopt(struct document *d, const struct node *root, struct problems *
     return good;
 }
 
-/* The same without what is said about values that the edit took away. */
-static bool adopt_fitted(struct document *d, const struct node *root, const char *what, struct problems *problems)
-{
-    bool of_doubt = strncmp(what, "doubt", 5) == 0;
-    const struct node *fitted = of_doubt ? root : ceduo_doubt_without(&d->file.arena, root, problems);
-    if (!fitted || fitted == root)
-        return false;
-    ceduo_problems_free(problems);
-    return adopt(d, fitted, problems);
-}
-
 bool ceduo_document_commit(struct document *d, const struct node *root, const char *what, struct problems *problems)
 {
     if (!root) {
@@ -90,7 +78,7 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
         ceduo_problem_memory(problems);
         return false;
     }
-    if (!adopt(d, root, problems) && !adopt_fitted(d, root, what, problems))
+    if (!adopt(d, root, problems))
         return false;
     if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
         d->file.root = before;

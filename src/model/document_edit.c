@@ -2,7 +2,7 @@
 /* Edits. Each makes a changed tree, which shares all but the nodes on the path to the change, and commits it as a new
  * state. All nodes lie in the arena of the document's file. */
 #include "document.h"
-#include "fit_doubt.h"
+#include "doubt_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -66,7 +66,8 @@ static const struct node *without(struct document *d, const struct node *root, c
         return NULL;
     if (less->kind == NODE_LIST && less->n == 0 && strcmp(parent, "options") != 0) {
         *path = parent;
-        return without(d, root, path, problems);
+        root = ceduo_doubt_shifted(&d->file.arena, root, parent, strtoul(last, NULL, 10), -1);
+        return root ? without(d, root, path, problems) : NULL;
     }
     ceduo_node_keep_written(less, holder);
     root = parent[0] ? put(d, root, parent, less, problems) : less;

@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "ceduo/question.h"
-#include "fit_doubt.h"
 #include "io/resolve.h"
 
 /* The scene with the change, in an arena of its own; it shares the nodes and the slope of the other. Release it by its
@@ -16,17 +15,8 @@ static bool make(const struct scene_file *from, const char *set, struct scene_fi
     file->arena = (struct arena){.shelf = from->arena.shelf};
     bool good = ceduo_scene_set(file, "preview", set, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
-    const struct scene_file unbound = *file;
     file->root = root;
     good = root && problems.count == 0 && ceduo_scene_bind(file, &problems);
-    if (root && !good && (root = ceduo_doubt_without(&file->arena, root, &problems)) != file->root && root) {
-        const struct arena arena = file->arena; /* it has grown */
-        *file = unbound;
-        file->arena = arena;
-        file->root = root;
-        ceduo_problems_free(&problems);
-        good = ceduo_scene_bind(file, &problems);
-    }
     ceduo_problems_free(&problems);
     return good;
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good  # noqa: E402
-from harness import expect, expect_equal, run_all  # noqa: E402
+from harness import expect_equal, run_all  # noqa: E402
 
 DOUBTED = FAST + """\
 doubt:
@@ -52,13 +52,13 @@ def test_options():
     current = [p.replace("forest", "options[current].forest", 1) for p in (STOOLS, TREE, LOWER)]
     everywhere = ALL.replace("forest", "options[*].forest", 1)
     expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter"), [everywhere, *current, ROCK], "an option added")
-    expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter\nkey g d"), [everywhere, ROCK], "the first one deleted")
+    expect_equal(paths_after("key 5 a\ntype large-reserves\nkey Enter\nkey g d"), [everywhere, *current, ROCK],
+                 "the first one deleted: its rows name it, and no other")
 
 
 def test_stand_replaced():
-    """Another stand has none of the rows about what the old one had and it has not."""
-    found = paths_after("key 2\nkey p\ntype bare\nkey Enter")
-    expect(TREE not in found and LOWER in found and ROCK in found, found)
+    """Another stand is taken whatever is said of the old one; that stays, for the next one."""
+    expect_equal(paths_after("key 2\nkey p\ntype bare\nkey Enter"), [ALL, STOOLS, TREE, LOWER, ROCK], "a bare stand")
 
 
 if __name__ == "__main__":

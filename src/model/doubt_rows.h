@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_FIT_DOUBT_H
-#define CEDUO_FIT_DOUBT_H
+#ifndef CEDUO_DOUBT_ROWS_H
+#define CEDUO_DOUBT_ROWS_H
 
 #include "io/node.h"
 
-/* Rows of `doubt` name values of the scene by their paths. An edit may take such a value away, or move the forest into
- * options: then the rows go along, so that no edit is refused for what is only said about a value. */
-
-/* The scene without the rows that `problems` complains about; the scene itself where there are none. NULL without memory. */
-const struct node *ceduo_doubt_without(struct arena *arena, const struct node *root, const struct problems *problems);
+/* Rows of `doubt` name values of the scene by their paths. Where an edit moves such a value, they go along. Rows about what is
+ * no longer there are passed over by the reader. */
 
 /* The scene with the rows about items of a list where these are once an item was put in before `index` (by 1) or that item
  * was taken out (by -1), whose rows go with it. NULL without memory, or for NULL. */

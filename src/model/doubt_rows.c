@@ -1,35 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "fit_doubt.h"
+#include "doubt_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#define PREFIX "doubt["
-
-/* Whether a complaint is about row i: "doubt[4].path: …". */
-static bool is_told(const char *text, size_t i)
-{
-    for (const char *at = text; (at = strstr(at, PREFIX)); at++)
-        if (strtoul(at + strlen(PREFIX), NULL, 10) == i)
-            return true;
-    return false;
-}
-
-const struct node *ceduo_doubt_without(struct arena *arena, const struct node *root, const struct problems *problems)
-{
-    const struct node *rows = ceduo_node_get(root, "doubt"), *left = rows;
-    const char *text = problems->text.bytes ? problems->text.bytes : "";
-    if (!rows || rows->kind != NODE_LIST)
-        return root;
-    for (size_t i = rows->n; left && i-- > 0;)
-        if (is_told(text, i))
-            left = ceduo_node_removed(arena, left, i);
-    if (left == rows)
-        return root;
-    if (left && left->n == 0)
-        return ceduo_node_without(arena, root, "doubt");
-    return left ? ceduo_node_with(arena, root, "doubt", left) : NULL;
-}
 
 static const struct node *with_path(struct arena *arena, const struct node *row, struct text *path)
 {
