@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --batch, --plot, --shard and --check: scene by scene. */
+/* Scene by scene: --batch, --plot, --shard and --check; and what other modes share of that. */
 #include "batch.h"
 
 #include <stdlib.h>
@@ -9,6 +9,7 @@
 #include "io/part_file.h"
 #include "output.h"
 #include "print.h"
+#include "say.h"
 
 static enum exit_status worse(enum exit_status a, enum exit_status b)
 {
@@ -104,6 +105,32 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
             ceduo_interrupt_release();
     }
     return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
+}
+
+enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(struct text *out),
+                                  enum exit_status (*one)(const struct arguments *arguments, struct scene_file *file,
+                                                          struct text *out))
+{
+    struct text out = {0};
+    enum exit_status status = EXIT_DONE;
+    if (a->format == CEDUO_CSV)
+        header(&out);
+    for (size_t i = 0; i < a->scenes_count; i++) {
+        struct scene_file file;
+        enum exit_status done = ceduo_batch_read(a, a->scenes[i], NULL, &file);
+        if (done == EXIT_DONE) {
+            ceduo_interrupt_catch();
+            done = one(a, &file, &out);
+            ceduo_interrupt_release();
+        }
+        ceduo_scene_release(&file);
+        status = worse(status, done);
+    }
+    ceduo_say_plainly(&out);
+    if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag()))
+        status = worse(status, ceduo_output_write(a, &out));
+    ceduo_text_free(&out);
+    return status;
 }
 
 enum exit_status ceduo_batch_check(const struct arguments *a)

@@ -13,6 +13,12 @@ enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
 
+/* Reads each scene and hands it to `one`, which adds its answer; `header` begins a CSV. The answers are printed together,
+ * but not after an interruption. */
+enum exit_status ceduo_batch_each(const struct arguments *arguments, void (*header)(struct text *out),
+                                  enum exit_status (*one)(const struct arguments *arguments, struct scene_file *file,
+                                                          struct text *out));
+
 /* Adds the shard of a scene, the `place`-th given, that was read through a shelf. */
 enum exit_status ceduo_batch_shard(const struct arguments *arguments, const char *path, const struct shelf *shelf,
                                    const struct scene_file *file, size_t place, struct text *out);

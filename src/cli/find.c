@@ -4,7 +4,6 @@
 #include "batch.h"
 #include "interrupt.h"
 #include "model/seek.h"
-#include "output.h"
 #include "say.h"
 
 static void put(struct text *out, const struct arguments *a, const struct ceduo_find_report *report)
@@ -67,31 +66,14 @@ static enum exit_status look(const struct arguments *a, struct scene_file *file,
     return status == CEDUO_OK ? EXIT_DONE : usage ? EXIT_USAGE : EXIT_RUN;
 }
 
+static enum exit_status find_in(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    size_t option = 0;
+    enum exit_status status = choose(a, file, &option);
+    return status == EXIT_DONE ? look(a, file, option, out) : status;
+}
+
 enum exit_status ceduo_batch_find(const struct arguments *a)
 {
-    struct text out = {0};
-    enum exit_status status = EXIT_DONE;
-    if (a->format == CEDUO_CSV)
-        ceduo_find_csv_header(&out);
-    for (size_t i = 0; i < a->scenes_count; i++) {
-        struct scene_file file;
-        size_t option = 0;
-        enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
-        if (one == EXIT_DONE)
-            one = choose(a, &file, &option);
-        if (one == EXIT_DONE) {
-            ceduo_interrupt_catch();
-            one = look(a, &file, option, &out);
-            ceduo_interrupt_release();
-        }
-        ceduo_scene_release(&file);
-        status = one > status ? one : status;
-    }
-    ceduo_say_plainly(&out);
-    if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
-        enum exit_status written = ceduo_output_write(a, &out);
-        status = written > status ? written : status;
-    }
-    ceduo_text_free(&out);
-    return status;
+    return ceduo_batch_each(a, ceduo_find_csv_header, find_in);
 }

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --sensitivity: what doubt does to the figures of a scene. */
-#include "base/intl.h"
 #include "batch.h"
 #include "interrupt.h"
 #include "io/inputs.h"
-#include "output.h"
 #include "say.h"
 #include "view/report_doubt.h"
 
@@ -12,6 +10,8 @@
 
 static void put(struct text *out, const struct arguments *a, const struct ceduo_doubt_report *report)
 {
+    if (a->format == CEDUO_TABLE && out->length > 0)
+        ceduo_text_char(out, '\n');
     if (a->format == CEDUO_JSON)
         ceduo_doubt_json(out, report);
     else if (a->format == CEDUO_CSV)
@@ -54,27 +54,5 @@ static enum exit_status compute(const struct arguments *a, struct scene_file *fi
 
 enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
 {
-    struct text out = {0};
-    enum exit_status status = EXIT_DONE;
-    if (a->format == CEDUO_CSV)
-        ceduo_doubt_csv_header(&out);
-    for (size_t i = 0; i < a->scenes_count; i++) {
-        struct scene_file file;
-        enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
-        if (one == EXIT_DONE) {
-            if (out.length > 0 && a->format == CEDUO_TABLE)
-                ceduo_text_char(&out, '\n');
-            ceduo_interrupt_catch();
-            one = compute(a, &file, &out);
-            ceduo_interrupt_release();
-        }
-        ceduo_scene_release(&file);
-        status = one > status ? one : status;
-    }
-    if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag())) {
-        enum exit_status written = ceduo_output_write(a, &out);
-        status = written > status ? written : status;
-    }
-    ceduo_text_free(&out);
-    return status;
+    return ceduo_batch_each(a, ceduo_doubt_csv_header, compute);
 }

@@ -126,7 +126,10 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         else
             whole(left, f->left[g] * scale);
     }
-    if (rest > 0)
+    if (rest == r->answer->groups)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                       _("No input stands out; more base points (--sensitivity=N) may tell."));
+    else if (rest > 0)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), ngettext("%zu other input has hardly any effect.",
                                                                          "%zu other inputs have hardly any effect.", rest), rest);
 }
