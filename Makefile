@@ -251,7 +251,8 @@ do-check-all: do-check
 THREADED := $(addprefix $(T)/,unit/test_jobs $(addprefix physics/test_,statistics_of_runs part years))
 do-check-threads: $(THREADED) $(PROGRAM)
 	set -e; for t in $(THREADED); do $$t; done
-	set -e; for t in tests/tui/test_screens.py tests/tui/test_editing.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py; do \
+	set -e; for t in tests/tui/test_screens.py tests/tui/test_editing.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py \
+	    tests/cli/test_sensitivity.py; do \
 	    CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) $$t; done
 
 # Runs these under valgrind: every scene as a batch, a picture, years, a search, a merge of parts, and the terminal program
@@ -261,6 +262,7 @@ do-check-memory: all
 	$(VALGRIND) $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --plot profile -n 200 profiles/scenes/paper-site.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --years 0:3 -f json -n 100 profiles/scenes/rotation.yaml >/dev/null
+	$(VALGRIND) $(PROGRAM) --sensitivity=3 -n 50 profiles/scenes/paper-site.yaml profiles/scenes/four-systems.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --find forest[0].stand.stools.per_ha=500:5000 --goal adc=30 profiles/scenes/paper-site.yaml >/dev/null
 	set -e; for i in 1 2; do $(VALGRIND) $(PROGRAM) --shard $$i/2 -n 3000 -o $(BUILD)/part-$$i.jsonl profiles/scenes/paper-site.yaml; done
 	$(VALGRIND) $(PROGRAM) --merge $(BUILD)/part-1.jsonl $(BUILD)/part-2.jsonl >/dev/null

@@ -7,6 +7,7 @@
 #include "ceduo/pool.h"
 #include "fuzz.h"
 #include "io/emit.h"
+#include "io/inputs.h"
 #include "io/scene_file.h"
 
 #define NAME "profiles/scenes/fuzz.yaml" /* no such file; references are looked for beside it */
@@ -46,6 +47,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct scene_file file;
     struct problems problems = {0};
     if (ceduo_scene_read_text(&file, NAME, text, &problems)) {
+        struct scene_inputs inputs;
+        ceduo_inputs_of(&file, &inputs);
         struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
         struct ceduo_pool *pool;
         if (ceduo_pool_create(&def, &pool) != CEDUO_OK)
