@@ -14,6 +14,8 @@
 #include "inputs.h"
 
 #define GROUPS CEDUO_SENSITIVITY_GROUPS
+#define COARSE       4 /* times fewer rocks in a first look, */
+#define COARSE_LEAST 50 /* but so many */
 
 /* Figures of one evaluation: for each option and kind, then the differences of all options but the first. */
 static size_t figures_of(const struct ceduo_scene *scene)
@@ -225,12 +227,14 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
     enum ceduo_status status = CEDUO_OK;
     size_t n = def->inputs_count, figures = figures_of(def->scene);
     struct ranked *ranked = calloc(n, sizeof *ranked);
+    struct ceduo_doubt_def coarse = *def; /* enough rocks to rank */
+    coarse.rocks = def->rocks > COARSE_LEAST * COARSE ? def->rocks / COARSE : def->rocks;
     for (size_t from = 0; ranked && status == CEDUO_OK && from < n; from += GROUPS - 1) {
         size_t own = n - from < GROUPS - 1 ? n - from : GROUPS - 1;
         struct plan plan = {.design = {n, CEDUO_DOUBT_FIRST, def->scene->simulation.seed + from, own + 1, group}};
         for (size_t i = 0; i < n; i++)
             group[i] = i >= from && i < from + own ? i - from : own;
-        status = run_plan(def, &plan, *done, all);
+        status = run_plan(&coarse, &plan, *done, all);
         struct ceduo_halves *column = status == CEDUO_OK ? malloc(plan.rows * sizeof *column) : NULL;
         if (column)
             column_of(&plan, figures, main, column);
