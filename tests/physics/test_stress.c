@@ -137,6 +137,7 @@ static void random_scenes(void **state)
     static struct line_scene scene;
     struct invariants_tally t = {0};
     uint64_t parted = 0;
+    by_design = FE_OVERFLOW; /* some rock in millions moves by 1e-166 m/s: t2 to the next vertex is infinite, it lands before */
     for (uint64_t number = first; number < first + scenes; number++) {
         line_scene_random(&scene, number, LASTING_EVERY);
         invariants_expect(&scene, number, &t);
@@ -158,6 +159,7 @@ static void random_scenes(void **state)
                   (uintmax_t)parted);
     EXPECT(parted, <=, 2 + scenes / 1000);
     EXPECT(t.cracks, <=, 2 + scenes / 20000);
+    by_design = 0;
 }
 
 /* ---- nasty scenes ---- */
