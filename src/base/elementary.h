@@ -47,11 +47,5 @@ static inline double elementary_real(uint64_t i)
 #define PICK(m, p, q) ((m) ? (p) : (q))
 #define ELEMENTARY(name) elementary_##name
 #include "elementary_text.h"
-#undef REAL
-#undef BITS
-#undef AS_BITS
-#undef AS_REAL
-#undef PICK
-#undef ELEMENTARY
 
 #endif

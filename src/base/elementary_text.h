@@ -2,7 +2,7 @@
 /* Logarithm, sine and cosine by their power series: the same bits with any libm, any optimisation and in any lane.
  * This is the text of each; whoever includes it has said for which numbers: REAL, a double or a vector of doubles;
  * BITS, as many uint64_t; AS_BITS(p) and AS_REAL(p), the one read as the other; PICK(m, p, q), p where m holds, and q
- * elsewhere; ELEMENTARY(name), what the function is called. */
+ * elsewhere; ELEMENTARY(name), what the function is called. It forgets them at the end. */
 
 /* log(x) of an x that is normal, finite and above 0, within an ulp. x = 2^k (1 + f) with 1 + f near 1; with
  * s = f/(2 + f), log(1 + f) = 2(s + s^3/3 + s^5/5 + …). */
@@ -52,3 +52,10 @@ static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosin
     *cosine = PICK(a > 0.7853981633974483, s, c);
     *sine = AS_REAL(AS_BITS(PICK(a > 0.7853981633974483, c, s)) | (AS_BITS(*angle) & sign));
 }
+
+#undef REAL
+#undef BITS
+#undef AS_BITS
+#undef AS_REAL
+#undef PICK
+#undef ELEMENTARY

@@ -22,12 +22,6 @@ typedef uint64_t many_bits __attribute__((vector_size(8 * MANY)));
 #define PICK(m, p, q) ((many_reals)(((many_bits)(m) & (many_bits)(p)) | (~(many_bits)(m) & (many_bits)(q))))
 #define ELEMENTARY(name) many_##name
 #include "base/elementary_text.h"
-#undef REAL
-#undef BITS
-#undef AS_BITS
-#undef AS_REAL
-#undef PICK
-#undef ELEMENTARY
 
 /* n, n + step, n + 2 step … */
 MANY_INLINE void many_from(uint64_t n, uint64_t step, many_bits *result)

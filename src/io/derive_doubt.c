@@ -50,28 +50,33 @@ static bool add_all(struct places *p, const char *path)
 
 #define GROUND "slope.materials["
 
-/* slope.materials[NAME].KEY: that ground wherever it is. */
+/* The name and the key of slope.materials[NAME].KEY; NULL: the path is not of that form. */
+static const char *ground_of(struct deriver *d, const char *path, const char **key)
+{
+    const size_t before = sizeof GROUND - 1;
+    const char *end = strchr(path, ']');
+    if (strncmp(path, GROUND, before) != 0 || !end || end[1] != '.')
+        return NULL;
+    *key = end + 2;
+    return ceduo_derive_text(d, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
+}
+
+/* That ground wherever it is. */
 static bool add_ground(struct places *p, const char *path)
 {
-    const char *end = strchr(path, ']');
-    if (strncmp(path, GROUND, sizeof GROUND - 1) != 0 || !end || end[1] != '.')
-        return false;
-    const char *name = ceduo_derive_text(p->d, "%.*s", (int)(end - path - (ptrdiff_t)(sizeof GROUND - 1)), path + sizeof GROUND - 1);
-    p->n = ceduo_input_ground(p->d->arena, p->d->root, &p->d->draft.scene, name, end + 2, p->items);
-    return true;
+    const char *key, *name = ground_of(p->d, path, &key);
+    if (name)
+        p->n = ceduo_input_ground(p->d->arena, p->d->root, &p->d->draft.scene, name, key, p->items);
+    return name != NULL;
 }
 
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: there is none. */
 static const struct field *row_of(struct deriver *d, const char *path)
 {
-    const char *end = strchr(path, ']');
-    if (strncmp(path, GROUND, sizeof GROUND - 1) == 0) {
-        bool known = end && end[1] == '.' &&
-                     ceduo_choice_find(&ceduo_material_words,
-                                       ceduo_derive_text(d, "%.*s", (int)(end - path - (ptrdiff_t)(sizeof GROUND - 1)),
-                                                         path + sizeof GROUND - 1)) >= 0;
-        return known ? ceduo_schema_field(ceduo_schema_segment(), end + 2) : NULL;
-    }
+    const char *key, *ground = ground_of(d, path, &key);
+    if (ground)
+        return ceduo_choice_find(&ceduo_material_words, ground) < 0 ? NULL
+                                                                   : ceduo_schema_field(ceduo_schema_segment(), key);
     char *first = ceduo_arena_string(d->arena, path);
     for (char *p = first; p && *p; p++)
         if (p[0] == '[' && p[1] == '*')

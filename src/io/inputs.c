@@ -4,6 +4,7 @@
 #include "inputs.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/intl.h"
@@ -48,20 +49,18 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
 
 /* ---- where a value comes from ---- */
 
-/* The stand around a path: forest[0].stand. */
+const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *s, const char *place)
+{
+    size_t i = 0, k;
+    bool within = sscanf(place, "options[%zu].forest[%zu].", &i, &k) == 2 ||
+                  (s->options_count == 1 && sscanf(place, "forest[%zu].", &k) == 1);
+    return within && i < s->options_count && k < s->options[i].belts_count ? &s->options[i].belts[k] : NULL;
+}
+
 static const struct ceduo_stand *stand_of(struct finder *f, const char *path)
 {
-    const char *inner = strstr(path, ".stand");
-    const struct ceduo_scene *s = &f->file->scene;
-    for (size_t i = 0; inner && i < s->options_count; i++)
-        for (size_t k = 0; k < s->options[i].belts_count; k++) {
-            char *one = text_of(f, "options[%zu].forest[%zu]", i, k), *other = text_of(f, "forest[%zu]", k);
-            size_t n = (size_t)(inner - path);
-            if (one && other && ((strlen(one) == n && strncmp(one, path, n) == 0) ||
-                                 (strlen(other) == n && strncmp(other, path, n) == 0 && s->options_count == 1)))
-                return &s->options[i].belts[k].stand;
-        }
-    return NULL;
+    const struct ceduo_belt *belt = ceduo_input_belt(&f->file->scene, path);
+    return belt ? &belt->stand : NULL;
 }
 
 /* The energy law is the same question for all stands, the strength of wood for all of one species; any other value is one

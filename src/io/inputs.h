@@ -16,6 +16,9 @@ struct scene_inputs {
 /* False without memory. `doubt: none`: there are none. */
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
 
+/* The belt that a place is in, forest[0].stand… or options[2].forest[0].stand…; NULL: it is in none. */
+const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);
+
 /* Paths of the segments of a ground of the library, one for each stretch; returns how many. */
 size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene,
                           const char *material, const char *key, const char **places);

@@ -5,6 +5,8 @@
  * first look ranks them, and the least move together. */
 #include "ceduo/doubt.h"
 
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -30,12 +32,16 @@ static size_t figure_index(size_t options, size_t option, enum ceduo_doubt_kind 
 
 /* ---- one evaluation ---- */
 
+static const struct ceduo_arrivals *arrivals_of(const struct ceduo_result *r, size_t option)
+{
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, r->last_control);
+    return wooded ? wooded : &r->bare.arrivals[r->last_control];
+}
+
 /* Sums over all rocks released, from which shares and means come. */
 static void read_option(const struct ceduo_result *r, size_t option, double *sums)
 {
-    const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
-    if (!a)
-        a = &r->bare.arrivals[r->last_control];
+    const struct ceduo_arrivals *a = arrivals_of(r, option);
     sums[CEDUO_DOUBT_REACH] = a->reach_probability * (double)a->released;
     sums[CEDUO_DOUBT_EXCEED] = a->exceed_probability * (double)a->released;
     sums[CEDUO_DOUBT_ENERGY] = a->energy_per_released * (double)a->released;
@@ -257,17 +263,9 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
 
 /* ---- reading ---- */
 
-static int compare_doubles(const void *a, const void *b)
+static double quantile_of(const double *sorted, size_t n, double p)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double quantile_of(double *sorted, size_t n, double p)
-{
-    double at = p * (double)(n - 1);
-    size_t i = (size_t)at;
-    return i + 1 < n ? sorted[i] + (at - (double)i) * (sorted[i + 1] - sorted[i]) : sorted[n - 1];
+    return gsl_stats_quantile_from_sorted_data(sorted, 1, n, p);
 }
 
 static double mean_of(struct ceduo_halves y)
@@ -299,7 +297,7 @@ static double width_if_known(struct sample *samples, size_t n, double *room)
         size_t from = c * n / classes, to = (c + 1) * n / classes;
         for (size_t i = from; i < to; i++)
             room[i - from] = samples[i].y;
-        qsort(room, to - from, sizeof *room, compare_doubles);
+        gsl_sort(room, 1, to - from);
         width += (quantile_of(room, to - from, 0.95) - quantile_of(room, to - from, 0.05)) / (double)classes;
     }
     return width;
@@ -336,7 +334,7 @@ static void read_spread(const struct plan *p, const size_t *input, struct readin
     size_t n = 2 * p->design.points, stride = p->design.groups + 2;
     for (size_t i = 0; i < n; i++)
         r->sorted[i] = mean_of(r->column[i / 2 * stride + i % 2]);
-    qsort(r->sorted, n, sizeof *r->sorted, compare_doubles);
+    gsl_sort(r->sorted, 1, n);
     f->p5 = quantile_of(r->sorted, n, 0.05);
     f->p50 = quantile_of(r->sorted, n, 0.5);
     f->p95 = quantile_of(r->sorted, n, 0.95);
@@ -399,9 +397,8 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
     enum ceduo_status status = ceduo_ask(&q, NULL, &is);
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
         const struct ceduo_result *r = is.result;
-        const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
+        const struct ceduo_arrivals *a = arrivals_of(r, i);
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS];
-        a = a ? a : &r->bare.arrivals[r->last_control];
         put_sampling(&f[CEDUO_DOUBT_REACH], a->reach_probability, a->reach_lo, a->reach_hi);
         put_sampling(&f[CEDUO_DOUBT_EXCEED], a->exceed_probability, a->exceed_lo, a->exceed_hi);
         double half = 1.96 * a->energy_per_released_se;
@@ -543,10 +540,6 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference)
 {
-    for (size_t i = 0; i < answer->figures_count; i++) {
-        const struct ceduo_doubt_figure *f = &answer->figures[i];
-        if (f->option == option && f->kind == kind && f->difference == difference)
-            return f;
-    }
-    return NULL;
+    size_t options = (answer->figures_count / CEDUO_DOUBT_KINDS + 1) / 2;
+    return &answer->figures[figure_index(options, option, kind, difference)];
 }

@@ -5,6 +5,7 @@
 #include "ceduo/sensitivity.h"
 
 #include <gsl/gsl_qrng.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -165,12 +166,8 @@ static void resample(const struct ceduo_design *d, const struct sums *blocks, ui
 /* Standard deviation of x[0], x[stride], …: drawing n blocks of n again spreads by sqrt(1 - 1/n) too little. */
 static double deviation(const struct ceduo_design *d, const double *x, size_t n, size_t stride)
 {
-    double mean = 0, sum = 0, blocks = (double)blocks_of(d);
-    for (size_t i = 0; i < n; i++)
-        mean += x[i * stride] / (double)n;
-    for (size_t i = 0; i < n; i++)
-        sum += (x[i * stride] - mean) * (x[i * stride] - mean);
-    return sqrt(sum / (double)(n - 1) * blocks / (blocks - 1));
+    double blocks = (double)blocks_of(d);
+    return gsl_stats_sd(x, stride, n) * sqrt(blocks / (blocks - 1));
 }
 
 static double middle_of(const struct ceduo_design *d, const struct ceduo_halves *values)

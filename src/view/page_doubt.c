@@ -10,15 +10,6 @@
 
 #define FIRST 3 /* inputs that are named as what to measure first */
 
-static const struct ceduo_control *last_control(const struct ceduo_scene *s)
-{
-    const struct ceduo_control *last = s->controls;
-    for (size_t i = 1; i < s->controls_count; i++)
-        if (s->controls[i].x > last->x)
-            last = &s->controls[i];
-    return last;
-}
-
 static const struct ceduo_doubt_figure *main_of(const struct ceduo_doubt_report *r, size_t option)
 {
     return ceduo_doubt_figure_of(r->answer, option, r->answer->main, false);
@@ -32,7 +23,7 @@ static double scale_of(const struct ceduo_doubt_report *r)
 
 static void put_title(struct ceduo_page *page, const struct ceduo_doubt_report *r)
 {
-    const struct ceduo_control *c = last_control(&r->file->scene);
+    const struct ceduo_control *c = &r->file->scene.controls[ceduo_scene_last_control(&r->file->scene)];
     struct text *t = ceduo_page_add(page, CEDUO_PAGE_TITLE);
     ceduo_text_safe(t, r->file->scene.title);
     t = ceduo_page_add(page, CEDUO_PAGE_SECTION);
@@ -49,27 +40,20 @@ static void put_title(struct ceduo_page *page, const struct ceduo_doubt_report *
 static const struct ceduo_page_column option_columns[] = {{N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0},
                                                           {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
 
-static void put_pair(struct text *t, double lo, double hi, double scale)
+/* Of 1000 rocks a whole number, of energies three digits. */
+static void put_value(struct text *t, double value, double scale)
 {
-    ceduo_words_number(t, lo * scale, scale < 1 ? 3 : 0);
-    ceduo_text_put(t, "\xe2\x80\x93");
-    ceduo_words_number(t, hi * scale, scale < 1 ? 3 : 0);
-}
-
-static void whole(struct text *t, double value)
-{
-    ceduo_text_format(t, "%.0f", value);
+    if (scale < 1)
+        ceduo_words_number(t, value * scale, 3);
+    else
+        ceduo_text_format(t, "%.0f", value * scale);
 }
 
 static void put_range(struct text *t, double lo, double hi, double scale)
 {
-    if (scale < 1) {
-        put_pair(t, lo, hi, scale);
-        return;
-    }
-    whole(t, lo * scale);
+    put_value(t, lo, scale);
     ceduo_text_put(t, "\xe2\x80\x93");
-    whole(t, hi * scale);
+    put_value(t, hi, scale);
 }
 
 static void put_options(struct ceduo_page *page, const struct ceduo_doubt_report *r)
@@ -80,11 +64,7 @@ static void put_options(struct ceduo_page *page, const struct ceduo_doubt_report
     for (size_t i = 0; i < s->options_count; i++) {
         const struct ceduo_doubt_figure *f = main_of(r, i);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        struct text *t = ceduo_page_text(page);
-        if (scale < 1)
-            ceduo_words_number(t, f->value * scale, 3);
-        else
-            whole(t, f->value * scale);
+        put_value(ceduo_page_text(page), f->value, scale);
         put_range(ceduo_page_text(page), f->sampling_lo, f->sampling_hi, scale);
         put_range(ceduo_page_text(page), f->p5, f->p95, scale);
     }
@@ -121,10 +101,8 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         struct text *left = ceduo_page_text(page);
         if (isnan(f->left[g]))
             ceduo_text_char(left, '-');
-        else if (scale < 1)
-            ceduo_words_number(left, f->left[g] * scale, 3);
         else
-            whole(left, f->left[g] * scale);
+            put_value(left, f->left[g], scale);
     }
     if (rest == r->answer->groups)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),

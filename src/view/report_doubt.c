@@ -25,25 +25,17 @@ static const struct ceduo_input *input_of(const struct ceduo_doubt_report *r, si
     return several ? NULL : &r->inputs->items[r->answer->input[group]];
 }
 
-/* The stand that a place is in: forest[0].stand…, options[2].forest[0].stand… */
-static const char *stand_name(const struct ceduo_scene *scene, const char *place)
-{
-    for (size_t i = 0; i < scene->options_count; i++)
-        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
-            struct text one = {0}, other = {0};
-            ceduo_text_format(&one, "options[%zu].forest[%zu].", i, k);
-            ceduo_text_format(&other, "forest[%zu].", k);
-            bool here = strncmp(place, ceduo_text_string(&one), one.length) == 0 ||
-                        (scene->options_count == 1 && strncmp(place, ceduo_text_string(&other), other.length) == 0);
-            ceduo_text_free(&one);
-            ceduo_text_free(&other);
-            if (here)
-                return scene->options[i].belts[k].name;
-        }
-    return NULL;
-}
-
 #define GROUND "slope.materials["
+
+/* The stand that all places are in; NULL: none, or several. */
+static const char *stand_name(const struct ceduo_doubt_report *r, const struct ceduo_input *input)
+{
+    const struct ceduo_belt *first = ceduo_input_belt(&r->file->scene, input->places[0]);
+    for (size_t i = 1; first && i < input->places_count; i++)
+        if (ceduo_input_belt(&r->file->scene, input->places[i]) != first)
+            return NULL;
+    return first ? first->name : NULL;
+}
 
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t group)
 {
@@ -53,9 +45,7 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
         ceduo_text_format(text, _("%zu others together"), r->answer->together);
         return;
     }
-    const char *place = input->places[0], *stand = stand_name(&r->file->scene, place);
-    for (size_t i = 1; stand && i < input->places_count; i++)
-        stand = stand_name(&r->file->scene, input->places[i]) == stand ? stand : NULL;
+    const char *place = input->places[0], *stand = stand_name(r, input);
     if (!ceduo_value_find(&r->file->scene, place, &v)) {
         ceduo_text_safe(text, input->path);
         return;
@@ -154,11 +144,7 @@ static void put_input(struct json *j, const struct ceduo_doubt_report *r, const 
 
 static double last_x(const struct ceduo_scene *s)
 {
-    size_t last = 0;
-    for (size_t i = 1; i < s->controls_count; i++)
-        if (s->controls[i].x > s->controls[last].x)
-            last = i;
-    return s->controls[last].x_given;
+    return s->controls[ceduo_scene_last_control(s)].x_given;
 }
 
 static void put_figure(struct json *j, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
