@@ -21,7 +21,7 @@ struct watch {
     bool smooth;
     struct ceduo_piece last;
     uint64_t pieces, flights, impacts;
-    uint64_t in_crack;                               /* the last so many pieces flew from wall to wall */
+    uint64_t in_crack;                               /* so many pieces flew from wall to wall of a crack */
     double size, under, energy_off, gain, crsp_gain; /* largest so far */
     bool bad;                                        /* not a number, or a gap between pieces */
 };
@@ -159,7 +159,7 @@ static void look_at_piece(void *context, const struct ceduo_piece *p)
         look_at_roll(w, p);
     else
         look_at_flight(w, p);
-    w->in_crack = is_in_crack(&w->scene->scene.slope, w->rock.radius, p) ? w->in_crack + 1 : 0;
+    w->in_crack += is_in_crack(&w->scene->scene.slope, w->rock.radius, p);
     if (w->pieces > 0) {
         w->bad |= p->x != w->last.x1 || p->z != w->last.z1 || p->contacts < w->last.contacts;
         double before = kinetic(w, w->last.vx1, w->last.vz1, spin_at_end(w, &w->last));
