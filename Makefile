@@ -7,6 +7,7 @@
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make man        write the tables of the program into the manual
+#   make po         bring the marked text of the sources into src/po/*.po
 #   make lint       run cppcheck and clang-tidy
 #   make fuzz       run libFuzzer, FUZZ_SECONDS=600 for each reader
 #   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
@@ -19,6 +20,7 @@ DESTDIR ?=
 BINDIR ?= $(PREFIX)/bin
 DATADIR ?= $(PREFIX)/share/ceduo
 MANDIR ?= $(PREFIX)/share/man
+LOCALEDIR ?= $(PREFIX)/share/locale
 LIBDIR ?= $(PREFIX)/lib
 INCLUDEDIR ?= $(PREFIX)/include
 BASHDIR ?= $(PREFIX)/share/bash-completion/completions
@@ -56,13 +58,15 @@ object = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY := $(BUILD)/libceduo.a
 PARTS := $(BUILD)/libparts.a
 PROGRAM := $(BUILD)/ceduo
+LANGUAGES := $(patsubst src/po/%.po,%,$(wildcard src/po/*.po))
+MO := $(LANGUAGES:%=$(BUILD)/locale/%/LC_MESSAGES/ceduo.mo)
 
 ifeq ($(VARIANT),release)
-all: ceduo
+all: ceduo $(MO)
 ceduo: $(PROGRAM)
 	cp -f $(PROGRAM) $@
 else
-all: $(PROGRAM)
+all: $(PROGRAM) $(MO)
 endif
 
 $(LIBRARY): $(call object,$(CORE))
@@ -84,13 +88,34 @@ $(BUILD)/%.o: %.c Makefile
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
+$(BUILD)/src/cli/language.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_string,$(LOCALEDIR)))
+
+# ---- translations ----
+
+$(MO): $(BUILD)/locale/%/LC_MESSAGES/ceduo.mo: src/po/%.po
+	@mkdir -p $(@D)
+	msgfmt -c -o $@ $<
+
+# All text that is marked, by the files in which it stands.
+TEMPLATE := $(BUILD)/ceduo.pot
+.PHONY: $(TEMPLATE)
+$(TEMPLATE):
+	@mkdir -p $(@D)
+	@ls src/*/*.[ch] | LC_ALL=C sort | xgettext -f - -o $@ --force-po --from-code=UTF-8 -L C -k_ -kN_ -kngettext:1,2 --add-location=file -c'Translators:' \
+	    --package-name=ceduo --copyright-holder=
+
+po: $(TEMPLATE)
+	@sed -i '/^"POT-Creation-Date/d' $(TEMPLATE)
+	@for l in $(LANGUAGES); do msgmerge -q --update --backup=none --no-wrap --add-location=file src/po/$$l.po $(TEMPLATE) && \
+	    msgfmt -c --statistics -o /dev/null src/po/$$l.po || exit 1; done
+
 # Those of this variant alone: another may be being built.
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc pkgconf python3 tmux \
-	zsh locales parallel
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext pkgconf python3 \
+	tmux zsh locales parallel
 
 deps:
 	@missing=; for p in $(DEBIAN); do \
@@ -147,7 +172,7 @@ $(T)/unit/test_memory $(T)/unit/test_memory_files $(T)/unit/test_page: LDFLAGS +
 $(UNIT:=.tap): %.tap: %
 	@tests/run $@ $<
 
-$(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM)
+$(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM) $(MO)
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
 
 # This test also compares what these print.
@@ -221,7 +246,7 @@ do-lint:
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_LINT)" deps
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
 	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
-	    "-DCEDUO_DATADIR=\"\"" 2>/dev/null' tidy
+	    "-DCEDUO_DATADIR=\"\"" "-DCEDUO_LOCALEDIR=\"\"" 2>/dev/null' tidy
 
 # Runs all tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Failures do
 # not count here, as this build is too slow for some tests that depend on the clock; `make check` judges them.
@@ -343,6 +368,8 @@ install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 3 5 7,$(call to,$(MANDIR))/man$n)
 	install -m 755 -- $(PROGRAM) $(call to,$(BINDIR))/ceduo
 	for f in $(DATA); do install -m 644 -- $$f $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
+	for l in $(LANGUAGES); do install -d -- $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES && \
+	    install -m 644 -- $(BUILD)/locale/$$l/LC_MESSAGES/ceduo.mo $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES/ || exit 1; done
 	for p in $(PAGES); do install -m 644 -- $$p $(call to,$(MANDIR))/man$${p##*.}/ || exit 1; done
 	install -d -- $(call to,$(LIBDIR))/pkgconfig $(call to,$(INCLUDEDIR))/ceduo
 	install -m 644 -- $(LIBRARY) $(call to,$(LIBDIR))/libceduo.a
@@ -354,6 +381,7 @@ uninstall:
 	rm -f -- $(call to,$(BINDIR))/ceduo
 	for f in $(DATA); do rm -f -- $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
 	for d in $(FOLDERS:%=/%) ''; do rmdir -- $(call to,$(DATADIR))$$d 2>/dev/null || :; done
+	for l in $(LANGUAGES); do rm -f -- $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES/ceduo.mo || exit 1; done
 	for p in $(notdir $(PAGES)); do rm -f -- $(call to,$(MANDIR))/man$${p##*.}/$$p || exit 1; done
 	rm -f -- $(call to,$(BASHDIR))/ceduo $(call to,$(ZSHDIR))/_ceduo
 	rm -f -- $(call to,$(LIBDIR))/libceduo.a $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
@@ -374,5 +402,5 @@ dist:
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist man install uninstall dist clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist man po install uninstall dist clean
 .DELETE_ON_ERROR:

@@ -2,10 +2,6 @@
 #ifndef CEDUO_INTL_H
 #define CEDUO_INTL_H
 
-#include <libintl.h>
-
-/* Marks a string for translation; N_ only marks it, where it stands in a table. */
-#define _(string) gettext(string)
-#define N_(string) string
+#include "language.h"
 
 #endif

@@ -18,12 +18,13 @@ enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_SENSITIVITY, 
 
 struct arguments {
     enum mode mode;
-    uint32_t given; /* options, as bits: see ceduo_option_given() */
+    uint64_t given; /* options, as bits: see ceduo_option_given() */
     enum ceduo_format format;
     enum ceduo_plot plot;       /* a picture instead of the page */
     int plot_width, plot_height; /* cells, title and all */
     const char *script; /* keys and commands for the terminal program; NULL: none */
     enum ceduo_charset charset;
+    int language;       /* a word of the option's row */
     const char *output; /* NULL: standard output */
     int stands;         /* CSV rows are stands */
     bool quiet;

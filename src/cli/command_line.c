@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "options.h"
 #include "say.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --find: the value of one parameter for which a goal is reached. */
-#include "base/intl.h"
+#include "base/language.h"
 #include "batch.h"
 #include "interrupt.h"
 #include "model/seek.h"

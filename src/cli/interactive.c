@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "batch.h"
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "options.h"
 #include "say.h"
 #include "tui/program.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 #include "batch.h"
 #include "io/file.h"

@@ -1,19 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
-#include <locale.h>
 #include <signal.h>
 #include <unistd.h>
 
-#include "base/intl.h"
 #include "batch.h"
 #include "ceduo/version.h"
 #include "command_line.h"
+#include "language.h"
 #include "output.h"
-
-#ifndef CEDUO_LOCALEDIR
-#define CEDUO_LOCALEDIR "/usr/local/share/locale"
-#endif
 
 /* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
  * it should: /dev/null is opened the wrong way round. */
@@ -22,15 +17,6 @@ static void keep_standard_streams(void)
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) < 0)
             open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
-}
-
-/* Numbers have a dot in every locale: LC_NUMERIC stays that of C. */
-static void set_locale(void)
-{
-    setlocale(LC_CTYPE, "");
-    setlocale(LC_MESSAGES, "");
-    bindtextdomain("ceduo", CEDUO_LOCALEDIR);
-    textdomain("ceduo");
 }
 
 static enum exit_status print(const struct arguments *a, void (*fill)(struct text *text))
@@ -78,7 +64,7 @@ static enum exit_status act(const struct arguments *a)
 int main(int argc, char **argv)
 {
     keep_standard_streams();
-    set_locale();
+    ceduo_language_start();
     signal(SIGXFSZ, SIG_IGN);    /* a file that is too large for its limit is an error like a full disk */
     gsl_set_error_handler_off(); /* its own would abort */
     struct arguments arguments;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "batch.h"
 #include "ceduo/part.h"
 #include "ceduo/version.h"

@@ -6,10 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "ceduo/doubt.h"
 #include "ceduo/years.h"
 #include "io/part_file.h"
+#include "language.h"
 #include "say.h"
 
 #define WIDTH_LEAST  20
@@ -44,6 +45,15 @@ static enum exit_status set_word(struct arguments *a, const struct option_row *r
                                   ? ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, all.bytes)
                                   : ceduo_usage_no_memory();
     ceduo_text_free(&all);
+    return status;
+}
+
+/* At once: what is wrong with a later option is said in this language. */
+static enum exit_status set_language(struct arguments *a, const struct option_row *row, char *value)
+{
+    enum exit_status status = set_word(a, row, value);
+    if (status == EXIT_DONE)
+        ceduo_language_set(value);
     return status;
 }
 
@@ -281,6 +291,8 @@ static const struct option_row rows[] = {
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, NOT_CHECK,
      N_("characters that pictures are made of (from the locale)")},
+    {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, 0,
+     N_("language of tables, screens and messages (from the locale)")},
     {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, NOT_PART | NOT_CHECK,
      N_("feed keys and commands to the terminal program; needs no terminal")},
     {"check", 0, NULL, NULL, 0, MODE_CHECK, NOT_PART, N_("check the scenes and print every problem; compute nothing")},
@@ -326,7 +338,7 @@ static int weight(enum mode mode)
 enum exit_status ceduo_option_set(struct arguments *a, const struct option_row *row, char *value)
 {
     enum exit_status status = row->set ? row->set(a, row, value) : EXIT_DONE;
-    a->given |= (uint32_t)1 << (row - rows);
+    a->given |= (uint64_t)1 << (row - rows);
     if (status == EXIT_DONE && weight(row->mode) > weight(a->mode))
         a->mode = row->mode;
     return status;

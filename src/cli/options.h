@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 
-#define OPTIONS_MOST 32 /* arguments.given has a bit for each */
+#define OPTIONS_MOST 64 /* arguments.given has a bit for each */
 #define THREADS_MOST 1024
 
 /* The options of the command line in one table: parsing, help, completion and the checks of what goes together read it.

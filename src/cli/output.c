@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "interrupt.h"
 #include "io/file.h"
 #include "say.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "interrupt.h"
 #include "options.h"
 #include "say.h"

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 bool ceduo_say_utf8(void)
 {

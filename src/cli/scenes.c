@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "interrupt.h"
 #include "io/file.h"
 #include "output.h"

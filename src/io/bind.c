@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "ceduo/number.h"
 
 #define KEYS_SHOWN_MOST 32

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "file.h"
 
 /* A line of the file, and a field of it. */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "resolve.h"
 
 void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...)

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "resolve.h"
 
 /* ---- release and controls ---- */

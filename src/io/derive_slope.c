@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "resolve.h"
 
 static bool read_vertices(struct deriver *d, struct points *p)

@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "temporary.h"
 
 /* ---- reading ---- */

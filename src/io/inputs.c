@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/text.h"
 #include "scene/ranges.h"
 #include "scene/value.h"

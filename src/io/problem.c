@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 
 #define LINE_MOST    100 /* columns of the source line that are shown */

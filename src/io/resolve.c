@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/path.h"
 #include "file.h"
 

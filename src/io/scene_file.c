@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "derive.h"
 #include "file.h"
 #include "resolve.h"

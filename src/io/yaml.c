@@ -7,7 +7,7 @@
 #include <yaml.h>
 
 #include "base/grow.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 #include "node.h"
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "io/file.h"
 #include "io/resolve.h"
 #include "recovery.h"

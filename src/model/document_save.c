@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"

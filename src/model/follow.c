@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "changes.h"
 
 void ceduo_changes_add(struct changes *c, const char *format, ...)

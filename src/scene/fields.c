@@ -3,7 +3,7 @@
  * comment in a public header and one row here. */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "schema.h"
 
 #define FAR 1e9 /* m: survey coordinates and more */

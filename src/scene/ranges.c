@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 #define ASSUMED N_("assumed")
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "ceduo/assess.h"
 
 const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {

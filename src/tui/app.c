@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 #include "model/alternatives.h"
 

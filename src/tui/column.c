@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 #define HEIGHT_FOR_ALL  24 /* lines with room for everything and some warnings */
 #define HEIGHT_FOR_MOST 17 /* with room for the lights behind all but the heights */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "io/emit.h"
 #include "popups.h"
 #include "view/typed.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "ceduo/material.h"
 #include "edit.h"
 #include "view/typed.h"

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/text.h"
 #include "base/utf8.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/fuzzy.h"
 #include "base/grow.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/text.h"
 
 void ceduo_picker_clear(struct picker *p)

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 #include "view/typed.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/typed.h"

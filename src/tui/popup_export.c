@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "model/foresee.h"
 #include "model/seek.h"
 #include "popup.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All keys, and the field under the cursor. */
-#include "base/intl.h"
+#include "base/language.h"
 #include "popup.h"
 #include "popups.h"
 

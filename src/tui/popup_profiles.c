@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "ceduo/material.h"
 #include "io/file.h"
 #include "model/foresee.h"

@@ -6,7 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "popup.h"
 #include "model/recovery.h"
 #include "popups.h"

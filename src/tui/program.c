@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "edit.h"
 #include "popup.h"
 #include "popups.h"

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/grow.h"
-#include "base/intl.h"
+#include "base/language.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
 #define PIECES_MOST 20000

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 #include "popup.h"
 

@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <wchar.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "program.h"
 #include "screen.h"
 

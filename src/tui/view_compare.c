@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "io/emit.h"
 #include "popup.h"
 #include "popups.h"

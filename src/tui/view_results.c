@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
 #include "app.h"
-#include "base/intl.h"
+#include "base/language.h"
 
 static void draw(struct app *app, struct ceduo_area area)
 {

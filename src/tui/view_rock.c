@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "app.h"
-#include "base/intl.h"
+#include "base/language.h"
 
 static void add(struct app *app, struct form *form, const char *group, const char *key)
 {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "app.h"
-#include "base/intl.h"
+#include "base/language.h"
 
 static void build(struct app *app, struct form *form)
 {

@@ -2,7 +2,7 @@
 /* View 1: the slope, trajectories over it, height and energy along it; its ground, belts and controls to edit. */
 
 #include "app.h"
-#include "base/intl.h"
+#include "base/language.h"
 
 static void build_ground(struct app *app, struct form *form)
 {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "app.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "model/changes.h"
 #include "scene/words.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
-#include "base/intl.h"
+#include "base/language.h"
 
 static void fail(struct ceduo_page *page)
 {

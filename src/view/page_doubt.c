@@ -3,7 +3,7 @@
  * holds, and what to measure first. */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "page.h"
 #include "report_doubt.h"
 #include "words.h"

@@ -2,7 +2,7 @@
 /* What a search found, in sentences. */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "report.h"
 
 static void put_value(struct text *text, double value)

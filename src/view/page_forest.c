@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "page_parts.h"
 #include "scene/words.h"
 

@@ -2,7 +2,7 @@
 /* What stands below a page: warnings of the whole run, and each assumption with the first place that makes it. */
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "page_parts.h"
 
 static bool is_shown(const struct ceduo_report *report, const struct source_note *note)

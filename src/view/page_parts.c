@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 void ceduo_page_share(struct ceduo_page *page, const struct ceduo_arrivals *a)
 {

@@ -2,7 +2,7 @@
 /* An option year by year. */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "page_parts.h"
 
 static const struct ceduo_control *last_control(const struct ceduo_result *r)

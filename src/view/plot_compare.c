@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "ceduo/assess.h"
-#include "base/intl.h"
+#include "base/language.h"
 #include "plot_parts.h"
 #include "study/verdict.h"
 

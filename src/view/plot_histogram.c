@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "plot_parts.h"
 
 /* Energies at a control as horizontal bars. */

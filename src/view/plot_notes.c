@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "plot_parts.h"
 
 /* The words beside the profile. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 /* ---- text ---- */
 

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/utf8.h"
 #include "plot_parts.h"
 #include "study/verdict.h"

@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "plot_parts.h"
 
 /* A stand from above, or a rock's trajectory through it. Places of a stand are drawn from a generator of its

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "plot_parts.h"
 
 /* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "plot_parts.h"
 
 /* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to

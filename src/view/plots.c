@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
 #define X(NAME, name, needs_run, needs_cells, by_option)                                                               \

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "base/json.h"
 #include "ceduo/version.h"
 #include "scene/value.h"

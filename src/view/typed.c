@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 #define TYPED_MOST 1024 /* bytes of what is typed in a line */
 #define EVERYWHERE 2e9  /* a range so wide tells a person nothing */

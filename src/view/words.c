@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 
 const char *ceduo_words_light(enum ceduo_light light)
 {

@@ -2,7 +2,7 @@
 /* Which option is best, in sentences. */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "words.h"
 
 /* ---- the years that are compared ---- */

@@ -17,7 +17,7 @@ KNOWS = {"base": "", "scene": "base", "core": "base scene", "study": "base scene
          "tui": "base scene core study io view model", "cli": "base scene core study io view model tui"}
 LIBRARY = ("base", "scene", "core", "study")
 SCIENCE = ("scene", "core")  # reaches for nothing outside
-OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort)$")
+OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: what decides about its trajectory takes only what rounds the same everywhere.
 TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
               "core/ground", "core/prepared", "core/run_fly", "core/stems", "core/trajectory", "core/walk", "core/wide",
