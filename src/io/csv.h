@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_CSV_H
+#define CEDUO_CSV_H
+
+#include "base/arena.h"
+#include "base/text.h"
+#include "problem.h"
+
+/* Tables as people export them: a header that names the columns, then rows; separated by semicolon, tab or comma, what
+ * is in double quotes whole. Where commas do not separate, they may stand for the decimals. */
+
+/* A part of a line. */
+struct csv_span {
+    const char *p;
+    size_t n;
+};
+
+struct csv {
+    const struct source *source;
+    size_t at, number;     /* bytes read; number of the present line, from 1 */
+    struct csv_span line;  /* the present line */
+    struct csv_span header;
+    char separator;
+    char decimal; /* ',' or '.', once a number has shown it; '\0' before */
+};
+
+/* Reads a file and its header. False where that fails, which is told. */
+bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems);
+
+#define CEDUO_CSV_NONE  SIZE_MAX
+#define CEDUO_CSV_TWICE (SIZE_MAX - 1)
+
+/* The column of the first of some names, ended by NULL, that the header has; upper and lower case are one.
+ * CEDUO_CSV_NONE: it has none; CEDUO_CSV_TWICE: it has that name twice. */
+size_t ceduo_csv_column(const struct csv *csv, const char *const *names);
+
+/* How many columns the header has, and the names of all, with a comma between them. */
+size_t ceduo_csv_columns(const struct csv *csv, struct text *names);
+
+/* The next row that is not blank; false at the end. */
+bool ceduo_csv_next(struct csv *csv);
+
+/* How many lines the file has at the most. */
+size_t ceduo_csv_lines(const struct csv *csv);
+
+/* A field of the present row, without blanks and quotes around it; false where the row has fewer. */
+bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *field);
+
+bool ceduo_csv_is(struct csv_span field, const char *word);
+
+/* The number in a field of the present row, no smaller than lo and no larger than hi; of `unit` in messages. What is wrong
+ * with it is told. */
+bool ceduo_csv_number(struct csv *csv, struct csv_span field, double lo, double hi, const char *unit, double *value,
+                      struct problems *problems);
+
+/* Reports a problem with a field of the present row. */
+void ceduo_csv_complain(const struct csv *csv, struct csv_span field, struct problems *problems, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+#endif
