@@ -403,7 +403,8 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
         return;
     if (!want_list(b, node) || !(items = ceduo_bind_take(b->arena, node->n, f->object->size, b->problems)))
         return;
-    put_list(f, item, items, node->n);
+    if (!(f->flags & FIELD_NOWHERE))
+        put_list(f, item, items, node->n);
     for (size_t i = 0; i < node->n; i++) {
         size_t before = enter_item(b, i);
         ceduo_schema_init(f->object, items + i * f->object->size);
@@ -465,7 +466,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
 
 static void add_note(struct binder *b, const char *path, const char *kind, const char *text)
 {
-    if (ceduo_path_leads_to("doubt", path)) /* of a range, not of a value that is computed with */
+    if (ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[")) /* of a range, not of a value */
         return;
     struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
     char *own_path = ceduo_arena_string(b->arena, path), *own_text = ceduo_arena_string(b->arena, text);

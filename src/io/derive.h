@@ -19,7 +19,8 @@ struct deriver {
     struct bad_values bad;
     bool profile;        /* the slope has its vertices */
     bool ground_assumed; /* the slope's file says no ground: talus was taken */
-    size_t inputs_count; /* what the scene says is not known */
+    size_t inputs_count; /* what the scene says is not known, then what its stands say */
+    size_t inputs_of_scene;
     struct ceduo_input *inputs;
     double origin;       /* what was taken off every x */
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene says is not known: each row becomes an input, with the places that it stands for. */
+/* What a scene and its stands say is not known: each row becomes an input, with the places that it stands for. */
 #include <math.h>
 #include <string.h>
 
@@ -8,6 +8,12 @@
 #include "inputs.h"
 #include "resolve.h"
 #include "scene/value.h"
+
+/* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
+struct said {
+    const struct doubt *row;
+    const char *at, *within;
+};
 
 /* ---- places ---- */
 
@@ -93,16 +99,20 @@ static bool is_number_or_word(const struct field *f)
 
 /* All places of a path, which are one kind of value: that is returned. NULL where there are none: the path may be of
  * something that this scene has not, as a stand that was exchanged; if it is of nothing at all, that is told. */
-static const struct field *find_places(struct deriver *d, const char *at, const char *path, struct places *p)
+static const struct field *find_places(struct deriver *d, const struct said *said, struct places *p)
 {
     const struct field *field = NULL;
     struct value v;
+    const char *path = ceduo_derive_text(d, "%s%s", said->within, said->row->path);
     size_t stretches = d->draft.scene.slope.vertices;
     p->room = stretches + CEDUO_ITEMS_MOST;
     p->items = ceduo_bind_take(d->arena, p->room, sizeof *p->items, d->problems);
     size_t found = 0;
     if (!is_number_or_word(row_of(d, path))) {
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", at), _("'%s' is not a number or a word of a scene"), path);
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", said->at),
+                              said->within[0] ? _("'%s' is not a number or a word of a stand")
+                                              : _("'%s' is not a number or a word of a scene"),
+                              said->row->path);
         return NULL;
     }
     if (!p->items || (!add_ground(p, path) && !add_all(p, path)))
@@ -186,34 +196,165 @@ static bool check_form(struct deriver *d, const char *at, const struct doubt *ro
     return one && words == choice;
 }
 
+/* One input of a row. False where it is none, as what it is about is not there, or it is wrong, which is told. */
+static bool make_input(struct deriver *d, const struct said *said, struct ceduo_input *input)
+{
+    struct places places = {.d = d};
+    const struct field *field = find_places(d, said, &places);
+    if (!field || !check_form(d, said->at, said->row, field))
+        return false;
+    *input = (struct ceduo_input){.path = said->within[0] ? places.items[0] : said->row->path,
+                                  .places = places.items,
+                                  .places_count = places.n};
+    return field->type == FIELD_CHOICE ? read_words(d, said->at, said->row, field, input)
+                                       : read_range(d, said->at, said->row, field, input);
+}
+
+static void complain_twice(struct deriver *d, const struct said *said)
+{
+    ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", said->at), _("'%s' is given twice"), said->row->path);
+}
+
 static void derive_row(struct deriver *d, size_t i, struct ceduo_input *inputs, size_t *n)
 {
-    const struct doubt *row = &d->draft.doubts[i];
-    const char *at = ceduo_derive_text(d, "doubt[%zu]", i);
-    struct places places = {.d = d};
-    struct ceduo_input input = {.path = row->path};
-    const struct field *field = find_places(d, at, row->path, &places);
-    if (!field || !check_form(d, at, row, field))
+    const struct said said = {&d->draft.doubts[i], ceduo_derive_text(d, "doubt[%zu]", i), ""};
+    struct ceduo_input input;
+    if (!make_input(d, &said, &input))
         return;
-    bool good = field->type == FIELD_CHOICE ? read_words(d, at, row, field, &input) : read_range(d, at, row, field, &input);
     for (size_t k = 0; k < *n; k++)
-        if (strcmp(inputs[k].path, row->path) == 0) {
-            ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", at), _("'%s' is given twice"), row->path);
-            good = false;
+        if (strcmp(inputs[k].path, said.row->path) == 0) {
+            complain_twice(d, &said);
+            return;
         }
-    input.places = places.items;
-    input.places_count = places.n;
-    if (good)
-        inputs[(*n)++] = input;
+    inputs[(*n)++] = input;
+}
+
+/* ---- of stands ---- */
+
+/* A row of a stand. Many belts may have the stand: then it stands for the places in all of them. */
+struct stand_row {
+    const struct node *node;
+    size_t input; /* SIZE_MAX: it is none, as it is wrong or about what the stand has not */
+};
+
+struct stand_rows {
+    struct deriver *d;
+    struct stand_row *items;
+    size_t n, of_scene; /* inputs that the scene itself names come first */
+    struct ceduo_input *inputs;
+    size_t inputs_count;
+};
+
+static bool is_of_scene(const struct stand_rows *s, const char *place)
+{
+    for (size_t i = 0; i < s->of_scene; i++)
+        for (size_t k = 0; k < s->inputs[i].places_count; k++)
+            if (strcmp(s->inputs[i].places[k], place) == 0)
+                return true;
+    return false;
+}
+
+/* Adds the places of one input to those of another, but for what the scene itself names. */
+static void join(struct stand_rows *s, struct ceduo_input *to, const struct ceduo_input *from)
+{
+    const char **all = ceduo_bind_take(s->d->arena, to->places_count + from->places_count, sizeof *all, s->d->problems);
+    size_t n = 0;
+    for (size_t i = 0; all && i < to->places_count; i++)
+        all[n++] = to->places[i];
+    for (size_t i = 0; all && i < from->places_count; i++)
+        if (!is_of_scene(s, from->places[i]))
+            all[n++] = from->places[i];
+    to->places = all;
+    to->places_count = n;
+}
+
+static void add_stand_row(struct stand_rows *s, const struct said *said, const struct node *node)
+{
+    struct stand_row *known = s->items;
+    struct ceduo_input input;
+    while (known < s->items + s->n && known->node != node)
+        known++;
+    bool is_new = known == s->items + s->n;
+    if (is_new) {
+        *known = (struct stand_row){node, SIZE_MAX};
+        s->n++;
+    } else if (known->input == SIZE_MAX) {
+        return;
+    }
+    if (!make_input(s->d, said, &input))
+        return;
+    if (is_new) {
+        known->input = s->inputs_count;
+        s->inputs[s->inputs_count] = input;
+        s->inputs[s->inputs_count++].places_count = 0;
+    }
+    join(s, &s->inputs[known->input], &input);
+}
+
+static void take_stand(struct stand_rows *s, const char *path, const struct node *stand)
+{
+    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
+    const struct node *rows = ceduo_node_get(stand, "doubt");
+    const char *within = ceduo_derive_text(s->d, "%s.", path);
+    for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
+        struct doubt row;
+        const struct source_note *notes = NULL;
+        const char *at = ceduo_derive_text(s->d, "%sdoubt[%zu]", within, i);
+        if (!ceduo_derive_sound(s->d, at))
+            continue;
+        ceduo_schema_init(object, &row);
+        ceduo_bind(s->d->arena, object, rows->items[i], &row, s->d->problems, &notes, &s->d->bad);
+        const struct said said = {&row, at, within};
+        bool twice = false;
+        for (size_t k = 0; k < i; k++) {
+            const char *other = ceduo_node_text(rows->items[k], "path");
+            twice |= row.path && other && strcmp(other, row.path) == 0;
+        }
+        if (twice)
+            complain_twice(s->d, &said);
+        else if (row.path)
+            add_stand_row(s, &said, rows->items[i]);
+    }
+}
+
+/* Calls `one` for the stand of each belt. */
+static void each_stand(struct deriver *d, void (*one)(struct stand_rows *s, const char *path, const struct node *stand),
+                       struct stand_rows *s)
+{
+    const struct node *options = ceduo_node_get(d->root, "options");
+    bool many = options && options->kind == NODE_LIST;
+    for (size_t i = 0; i < (many ? options->n : 1); i++) {
+        const struct node *forest = ceduo_node_get(many ? options->items[i] : d->root, "forest");
+        const char *in = many ? ceduo_derive_text(d, "options[%zu].", i) : "";
+        for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++)
+            one(s, ceduo_derive_text(d, "%sforest[%zu].stand", in, k), ceduo_node_get(forest->items[k], "stand"));
+    }
+}
+
+static void count_rows(struct stand_rows *s, const char *path, const struct node *stand)
+{
+    const struct node *rows = ceduo_node_get(stand, "doubt");
+    (void)path;
+    s->n += rows && rows->kind == NODE_LIST ? rows->n : 0;
 }
 
 void ceduo_derive_doubts(struct deriver *d)
 {
-    size_t n = d->draft.doubts_count;
-    if (n == 0 || !ceduo_derive_sound(d, "doubt") || !d->profile || ceduo_derive_too_many(d, "doubt", n))
+    size_t n = ceduo_derive_sound(d, "doubt") ? d->draft.doubts_count : 0;
+    struct stand_rows s = {.d = d};
+    each_stand(d, count_rows, &s);
+    if (n + s.n == 0 || !d->profile || ceduo_derive_too_many(d, "doubt", n))
         return;
-    struct ceduo_input *inputs = ceduo_bind_take(d->arena, n, sizeof *inputs, d->problems);
-    for (size_t i = 0; inputs && i < n; i++)
-        derive_row(d, i, inputs, &d->inputs_count);
-    d->inputs = inputs;
+    s.items = ceduo_bind_take(d->arena, s.n, sizeof *s.items, d->problems);
+    s.inputs = ceduo_bind_take(d->arena, n + s.n, sizeof *s.inputs, d->problems);
+    if (!s.items || !s.inputs)
+        return;
+    for (size_t i = 0; i < n; i++)
+        derive_row(d, i, s.inputs, &s.inputs_count);
+    s.n = 0;
+    s.of_scene = s.inputs_count;
+    each_stand(d, take_stand, &s);
+    d->inputs = s.inputs;
+    d->inputs_count = s.inputs_count;
+    d->inputs_of_scene = s.of_scene;
 }

@@ -241,9 +241,11 @@ static bool put_together(struct finder *f, struct scene_inputs *inputs)
     inputs->sources = ceduo_arena_take(f->arena, (most + 1) * sizeof *inputs->sources);
     if (!inputs->items || !inputs->sources)
         return false;
-    for (; inputs->n < named; inputs->n++) {
-        inputs->items[inputs->n] = f->file->inputs[inputs->n];
-        inputs->sources[inputs->n] = N_("doubt, in the scene");
+    for (size_t i = 0; i < named; i++) {
+        if (f->file->inputs[i].places_count == 0) /* of a stand, and the scene says otherwise */
+            continue;
+        inputs->items[inputs->n] = f->file->inputs[i];
+        inputs->sources[inputs->n++] = i < f->file->inputs_of_scene ? N_("doubt, in the scene") : N_("doubt, in the stand");
     }
     for (const struct found *one = f->first; one; one = one->next)
         if (is_first(f, one) && make_input(f, one, most, &inputs->items[inputs->n]))

@@ -37,6 +37,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->ground_assumed = d.ground_assumed;
     file->inputs = d.inputs;
     file->inputs_count = d.inputs_count;
+    file->inputs_of_scene = d.inputs_of_scene;
     file->scene = d.draft.scene;
     file->scene.title = (char *)(uintptr_t)title_of(file, file->scene.title);
     bool good = problems->count == before && !problems->memory;

@@ -14,7 +14,8 @@ struct scene_file {
     struct ceduo_scene scene;
     const struct source_note *notes; /* where values come from, last first */
     const struct node *slope_node;   /* that scene.slope was made from */
-    size_t inputs_count; /* what it says is not known */
+    size_t inputs_count; /* what it says is not known, then what its stands say */
+    size_t inputs_of_scene;
     const struct ceduo_input *inputs;
     bool ground_assumed;             /* the slope's file says no ground: talus was taken */
 };

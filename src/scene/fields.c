@@ -152,6 +152,25 @@ static const struct field slope_fields[] = {
 };
 static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slopes");
 
+/* ---- doubt ---- */
+
+#define ANY(key, name, member, meaning) \
+    NUMBER(key, NAMED(name, NULL), AT(doubt, member), "", -1e12, 1e12, UNFLOWN, NULL, meaning)
+
+static const struct field doubt_fields[] = {
+    TEXT("path", NAMED(N_("value"), NULL),
+        AT(doubt, path), REQUIRED | UNFLOWN,
+        N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
+    ANY("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
+    ANY("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
+    ANY("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
+    ANY("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
+    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of"), NULL),
+        LIST(doubt, one_of, one_of_count), UNFLOWN, NULL,
+        N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
+};
+static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
+
 /* ---- stand ---- */
 
 static const struct field stems_fields[] = {
@@ -283,6 +302,9 @@ static const struct field stand_fields[] = {
           &growth_object),
     GROUP("cutting", NAMED(N_("cutting"), NULL),
         SAME, 0, N_("how it is cut; without it never"), &cutting_object),
+    ITEMS("doubt", NAMED(N_("doubt"), NULL),
+        NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | UNFLOWN,
+        N_("what is not known of the stand, for --sensitivity; paths begin at the stand: stools.per_ha"), &doubt_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
 
@@ -362,23 +384,6 @@ static const struct field minimum_fields[] = {
            N_("single trees that must be kept by law or by wish of the owner; a forest with fewer is reported")),
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
-
-#define ANY(key, name, member, meaning) \
-    NUMBER(key, NAMED(name, NULL), AT(doubt, member), "", -1e12, 1e12, UNFLOWN, NULL, meaning)
-
-static const struct field doubt_fields[] = {
-    TEXT("path", NAMED(N_("value"), NULL),
-        AT(doubt, path), REQUIRED | UNFLOWN,
-        N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
-    ANY("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
-    ANY("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
-    ANY("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
-    ANY("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
-    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of"), NULL),
-        LIST(doubt, one_of, one_of_count), UNFLOWN, NULL,
-        N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
-};
-static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
 
 static const struct field window_fields[] = {
     NUMBER("first", NAMED(N_("first year shown"), NULL),
