@@ -79,6 +79,15 @@ void ceduo_text_format(struct text *text, const char *format, ...)
     va_end(args);
 }
 
+void ceduo_text_then(struct text *text, const char *between, const char *format, ...)
+{
+    va_list args;
+    ceduo_text_put(text, between);
+    va_start(args, format);
+    ceduo_text_vformat(text, format, args);
+    va_end(args);
+}
+
 void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator)
 {
     for (size_t i = 0; i < n; i++)

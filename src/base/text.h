@@ -24,6 +24,8 @@ void ceduo_text_put(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);
 void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
+/* A clause or sentence after what comes between it and the one before: "; ", ", " or " ". */
+void ceduo_text_then(struct text *text, const char *between, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ceduo_text_free(struct text *text);
 
 /* The words with a separator between them. */

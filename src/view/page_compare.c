@@ -117,13 +117,16 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
                                                         {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
                                                         {N_("m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
-    ceduo_text_put(caption, _("Over "));
-    ceduo_words_span(caption, v);
-    ceduo_text_put(caption, v->wooded
-                                ? _(": of 1000 released, in the mean and in the worst year; years in which a test "
+    struct text span = {0};
+    ceduo_words_span(&span, v);
+    ceduo_text_format(caption,
+                      v->wooded ? _("Over %s: of 1000 released, in the mean and in the worst year; years in which a test "
                                     "fails; wood felled per hectare and year, and standing:")
-                                : _(": the worst year; years in which a test fails; wood felled per hectare and year, "
-                                    "and standing:"));
+                                : _("Over %s: the worst year; years in which a test fails; wood felled per hectare and "
+                                    "year, and standing:"),
+                      ceduo_text_string(&span));
+    caption->failed |= span.failed;
+    ceduo_text_free(&span);
     if (v->choices[0].flown > 0) {
         ceduo_page_table(page, flown, sizeof flown / sizeof flown[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));

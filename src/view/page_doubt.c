@@ -27,14 +27,15 @@ static void put_title(struct ceduo_page *page, const struct ceduo_doubt_report *
     struct text *t = ceduo_page_add(page, CEDUO_PAGE_TITLE);
     ceduo_text_safe(t, r->file->scene.title);
     t = ceduo_page_add(page, CEDUO_PAGE_SECTION);
-    ceduo_text_put(t, _("How sure is it? "));
-    if (c->name)
-        ceduo_text_safe(t, c->name);
-    ceduo_text_format(t, _(" at %g m, "), c->x_given);
+    struct text name = {0};
+    ceduo_text_safe(&name, c->name ? c->name : "");
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
-        ceduo_text_format(t, _("of 1000 rocks those with more than %g kJ"), ceduo_words_accepted(c));
+        ceduo_text_format(t, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"), ceduo_text_string(&name),
+                          c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_text_put(t, _("kJ per released rock"));
+        ceduo_text_format(t, _("How sure is it? %s at %g m, kJ per released rock"), ceduo_text_string(&name), c->x_given);
+    t->failed |= name.failed;
+    ceduo_text_free(&name);
 }
 
 static const struct ceduo_page_column option_columns[] = {{N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0},
@@ -118,10 +119,14 @@ static void put_orders(struct ceduo_page *page, const struct ceduo_doubt_report 
     for (size_t i = 0; i < r->answer->orders_count; i++) {
         const struct ceduo_doubt_order *o = &r->answer->orders[i];
         struct text *t = ceduo_page_add(page, CEDUO_PAGE_ITEM);
-        ceduo_text_safe(t, s->options[o->better].name);
-        ceduo_text_put(t, _(" is better than "));
-        ceduo_text_safe(t, s->options[o->than].name);
-        ceduo_text_format(t, _(" in %.0f %% of what may be true: %s."), o->probability * 100, ceduo_doubt_verdict(o->probability));
+        struct text better = {0}, than = {0};
+        ceduo_text_safe(&better, s->options[o->better].name);
+        ceduo_text_safe(&than, s->options[o->than].name);
+        ceduo_text_format(t, _("%s is better than %s in %.0f %% of what may be true: %s."), ceduo_text_string(&better),
+                          ceduo_text_string(&than), o->probability * 100, ceduo_doubt_verdict(o->probability));
+        t->failed |= better.failed || than.failed;
+        ceduo_text_free(&better);
+        ceduo_text_free(&than);
     }
 }
 
@@ -136,9 +141,13 @@ static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report 
         if (!matters(f, g) || isnan(f->left[g]))
             continue;
         struct text *t = ceduo_page_add(page, CEDUO_PAGE_ITEM);
-        ceduo_text_put(t, told == 0 ? _("Measure first: ") : _("then: "));
-        ceduo_doubt_input_name(t, r, g);
-        ceduo_text_format(t, _("; of a doubt %.3g wide it would leave %.3g."), (f->p95 - f->p5) * scale, f->left[g] * scale);
+        struct text name = {0};
+        ceduo_doubt_input_name(&name, r, g);
+        ceduo_text_format(t, told == 0 ? _("Measure first: %s; of a doubt %.3g wide it would leave %.3g.")
+                                       : _("then: %s; of a doubt %.3g wide it would leave %.3g."),
+                          ceduo_text_string(&name), (f->p95 - f->p5) * scale, f->left[g] * scale);
+        t->failed |= name.failed;
+        ceduo_text_free(&name);
         told++;
     }
 }

@@ -5,12 +5,6 @@
 #include "base/language.h"
 #include "report.h"
 
-static void put_value(struct text *text, double value)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_put(text, ceduo_number_shortest(value, room));
-}
-
 static void put_goal(struct text *text, enum ceduo_goal goal, double value)
 {
     ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
@@ -22,52 +16,64 @@ static void put_goal(struct text *text, enum ceduo_goal goal, double value)
         ceduo_text_format(text, "%.4g %s", value, ceduo_goals[goal].unit);
 }
 
-static void put_found(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f)
+static void put_found(struct text *text, const struct ceduo_found *f, const char *path, const char *goal)
 {
-    ceduo_text_safe(text, s->path);
-    ceduo_text_put(text, " = ");
-    put_value(text, f->value);
-    ceduo_text_put(text, "\n  ");
-    ceduo_text_put(text, f->whole_range              ? _("every value of the range reaches the goal: ")
-                         : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: ")
-                                                     : _("the largest value that reaches the goal: "));
-    put_goal(text, s->goal, f->goal_at_value);
+    char room[CEDUO_NUMBER_ROOM];
+    ceduo_text_format(text, "%s = %s\n  ", path, ceduo_number_shortest(f->value, room));
+    ceduo_text_format(text,
+                      f->whole_range              ? _("every value of the range reaches the goal: %s")
+                      : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")
+                                                  : _("the largest value that reaches the goal: %s"),
+                      goal);
 }
 
-static void put_none(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f)
+static void put_none(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const char *path,
+                     const char *goal)
 {
-    struct text path = {0};
-    ceduo_text_safe(&path, s->path);
-    ceduo_text_format(text, _("no value of %s from "), ceduo_text_string(&path));
-    text->failed |= path.failed;
-    ceduo_text_free(&path);
-    put_value(text, s->lo);
-    ceduo_text_put(text, _(" to "));
-    put_value(text, s->hi);
-    ceduo_text_put(text, _(" reaches the goal"));
-    if (isnan(f->nearest))
-        return;
-    ceduo_text_put(text, _("\n  nearest: "));
-    put_value(text, f->nearest);
-    ceduo_text_put(text, ", ");
-    put_goal(text, s->goal, f->goal_at_nearest);
+    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM], near[CEDUO_NUMBER_ROOM];
+    ceduo_text_format(text, _("no value of %s from %s to %s reaches the goal"), path, ceduo_number_shortest(s->lo, lo),
+                      ceduo_number_shortest(s->hi, hi));
+    if (!isnan(f->nearest))
+        ceduo_text_then(text, "\n  ", _("nearest: %s, %s"), ceduo_number_shortest(f->nearest, near), goal);
+}
+
+/* What is wanted, of which option, and where that counts. */
+static void put_wanted(struct text *text, const struct ceduo_search *s, const char *option)
+{
+    const struct ceduo_goal_row *goal = &ceduo_goals[s->goal];
+    double target = ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target;
+    ceduo_text_then(text, " ", goal->below ? _("(below %g %s is wanted), option '%s', %s") : _("(at most %g %s is wanted), option '%s', %s"),
+                    target, goal->unit, option,
+                    !s->rotation                  ? _("worst control")
+                    : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
+                                                  : _("worst control, in the worst year of one whole rotation"));
+    ceduo_text_char(text, '\n');
 }
 
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
 {
     const struct ceduo_search *s = report->search;
-    const struct ceduo_goal_row *goal = &ceduo_goals[s->goal];
-    (report->found->found ? put_found : put_none)(text, s, report->found);
-    ceduo_text_put(text, goal->below ? _(" (below ") : _(" (at most "));
-    ceduo_text_format(text, "%g %s", ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, goal->unit);
-    ceduo_text_put(text, _(" is wanted), option '"));
-    ceduo_text_safe(text, report->file->scene.options[s->option].name);
-    ceduo_text_put(text, !s->rotation                  ? _("', worst control\n")
-                         : ceduo_goal_is_mean(s->goal) ? _("', worst control, in the mean of one whole rotation\n")
-                                                        : _("', worst control, in the worst year of one whole rotation\n"));
-    if (report->yield && !isnan(report->yield->cut_per_year))
-        ceduo_text_format(text, _("  yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare\n"),
-                          report->yield->cut_per_year, report->yield->standing);
-    if (!report->found->monotone)
-        ceduo_text_put(text, _("  ! The goal does not only rise or only fall over this range: there may be other values.\n"));
+    const struct ceduo_found *f = report->found;
+    struct text path = {0}, option = {0}, goal = {0};
+    ceduo_text_safe(&path, s->path);
+    ceduo_text_safe(&option, report->file->scene.options[s->option].name);
+    put_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
+    if (f->found)
+        put_found(text, f, ceduo_text_string(&path), ceduo_text_string(&goal));
+    else
+        put_none(text, s, f, ceduo_text_string(&path), ceduo_text_string(&goal));
+    put_wanted(text, s, ceduo_text_string(&option));
+    if (report->yield && !isnan(report->yield->cut_per_year)) {
+        ceduo_text_then(text, "  ", _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
+                        report->yield->cut_per_year, report->yield->standing);
+        ceduo_text_char(text, '\n');
+    }
+    if (!f->monotone) {
+        ceduo_text_then(text, "  ! ", _("The goal does not only rise or only fall over this range: there may be other values."));
+        ceduo_text_char(text, '\n');
+    }
+    text->failed |= path.failed || option.failed || goal.failed;
+    ceduo_text_free(&path);
+    ceduo_text_free(&option);
+    ceduo_text_free(&goal);
 }

@@ -39,11 +39,9 @@ static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *s
 static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, "%s%s: ADC ", b->name, b->assumed ? "*" : "");
-    ceduo_words_number(line, s->adc_m, 3);
-    ceduo_text_format(line, _(" m, free run %.1f %%, "), s->free_run_probability * 100);
-    ceduo_words_number(line, s->per_100m * KILO, 3);
-    ceduo_text_format(line, _(" kJ per 100 m (%s)"), s->bare ? _("no stems") : ceduo_rule_words.names[s->rule]);
+    ceduo_text_format(line, _("%s%s: ADC %s m, free run %.1f %%, %s kJ per 100 m (%s)"), b->name, b->assumed ? "*" : "",
+                      SHOWN(s->adc_m, 3), s->free_run_probability * 100, SHOWN(s->per_100m * KILO, 3),
+                      s->bare ? _("no stems") : ceduo_rule_words.names[s->rule]);
 }
 
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
@@ -96,9 +94,8 @@ static const char *rule_of(const struct ceduo_option *o, const struct ceduo_opti
 static void say_measured(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_index *index)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_put(line, _("Measured here on one rock: "));
-    ceduo_words_number(line, index->measured * KILO, 3);
-    ceduo_text_format(line, _(" kJ (%g m/s). One rock is no validation."), c->measured_speed);
+    ceduo_text_format(line, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
+                      SHOWN(index->measured * KILO, 3), c->measured_speed);
 }
 
 void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
@@ -107,27 +104,16 @@ void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     const struct ceduo_index *index = &r->options[option].controls[control];
     const struct ceduo_arrivals *a = &r->bare.arrivals[control];
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take "), rule);
-    ceduo_words_number(line, index->dissipated * KILO, 3);
-    ceduo_text_put(line, " kJ");
-    if (index->length > 0) {
-        ceduo_text_put(line, ", ");
-        ceduo_words_number(line, index->per_100m * KILO, 3);
-        ceduo_text_format(line, _(" kJ per 100 m (%s)"), rule);
-    }
-    if (a->reached == 0) {
-        ceduo_text_put(line, _("; no rock arrives, nothing is left to compare."));
-    } else if (index->exhausted) {
-        ceduo_text_put(line, _(", more than the mean rock brings: used up on average. Some rocks still pass."));
-    } else {
-        ceduo_text_put(line, _("; left (Eq. 5): "));
-        ceduo_words_number(line, a->energy.mean * KILO, 4);
-        ceduo_text_put(line, " \xe2\x88\x92 ");
-        ceduo_words_number(line, index->dissipated * KILO, 3);
-        ceduo_text_put(line, " = ");
-        ceduo_words_number(line, index->residual * KILO, 3);
-        ceduo_text_put(line, " kJ.");
-    }
+    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, SHOWN(index->dissipated * KILO, 3));
+    if (index->length > 0)
+        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), SHOWN(index->per_100m * KILO, 3), rule);
+    if (a->reached == 0)
+        ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
+    else if (index->exhausted)
+        ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
+    else
+        ceduo_text_then(line, "; ", _("left (Eq. 5): %s \xe2\x88\x92 %s = %s kJ."), SHOWN(a->energy.mean * KILO, 4),
+                        SHOWN(index->dissipated * KILO, 3), SHOWN(index->residual * KILO, 3));
     if (!isnan(index->measured))
         say_measured(page, &r->scene->controls[control], index);
 }

@@ -18,12 +18,11 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     struct text *line = ceduo_page_fact(page, _("Rock"));
-    ceduo_text_format(line, "%s, ", ceduo_shape_words.names[r->scene->rock.shape]);
-    ceduo_words_number(line, r->rock.mass, 4);
-    ceduo_text_put(line, _(" kg, mean diameter "));
-    ceduo_words_number(line, r->rock.mean_diameter, 3);
-    ceduo_text_format(line, " m%s%s", ceduo_rock_varies(&r->scene->rock) ? _(" (means of its spread)") : "",
-                      assumed_mark(report, "rock"));
+    ceduo_text_format(line,
+                      ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
+                                                         : _("%s, %s kg, mean diameter %s m"),
+                      _(ceduo_shape_words.names[r->scene->rock.shape]), SHOWN(r->rock.mass, 4), SHOWN(r->rock.mean_diameter, 3));
+    ceduo_text_put(line, assumed_mark(report, "rock"));
 }
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
@@ -36,13 +35,10 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
         high = fmax(high, slope->z[i]);
     }
     struct text *line = ceduo_page_fact(page, _("Slope"));
-    ceduo_words_number(line, slope->x[slope->vertices - 1], 4);
-    ceduo_text_put(line, _(" m long, "));
-    ceduo_words_number(line, high - low, 4);
     ceduo_text_format(line,
-                      ngettext(" m high, %zu segment; law %s, facets %s%s",
-                               " m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
-                      slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
+                      ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
+                               "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
+                      SHOWN(slope->x[slope->vertices - 1], 4), SHOWN(high - low, 4), slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
                       ceduo_facets_words.names[slope->facets], assumed_mark(report, "slope"));
 }
 
@@ -68,7 +64,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_format(place, _(", bears %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
+        ceduo_text_then(place, ", ", _("bears %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
                           where.bytes && ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
     ceduo_text_free(&where);
 }
@@ -113,22 +109,14 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
 static void say_arrivals(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, "%s: ", name);
-    ceduo_words_of_1000(line, a->reach_probability, a->reach_lo, a->reach_hi);
-    ceduo_text_put(line, _(" of 1000 arrive"));
-    if (!isnan(a->exceed_probability)) {
-        ceduo_text_put(line, ", ");
-        ceduo_words_of_1000(line, a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        ceduo_text_put(line, _(" with more than it bears"));
-    }
-    if (a->reached > 0) {
-        ceduo_text_put(line, _("; of those that arrive the mean is "));
-        ceduo_words_number(line, a->energy.mean * KILO, 4);
-        ceduo_text_put(line, " \xc2\xb1 ");
-        ceduo_words_number(line, ceduo_half_width(a->energy.se, a->reached) * KILO, 2);
-        ceduo_text_put(line, _(" kJ, 95 % below "));
-        ceduo_words_number(line, a->energy.p95 * KILO, 3);
-    }
+    ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, SHOWN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
+    if (!isnan(a->exceed_probability))
+        ceduo_text_then(line, ", ", _("%s with more than it bears"),
+                        SHOWN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi));
+    if (a->reached > 0)
+        ceduo_text_then(line, "; ", _("of those that arrive the mean is %s \xc2\xb1 %s kJ, 95 %% below %s"),
+                        SHOWN(a->energy.mean * KILO, 4), SHOWN(ceduo_half_width(a->energy.se, a->reached) * KILO, 2),
+                        SHOWN(a->energy.p95 * KILO, 3));
     ceduo_text_char(line, '.');
 }
 
@@ -149,10 +137,10 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
         a->reach_probability * 1000, of_1000(e[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(e[CEDUO_AT_REST], f->rocks),
         of_1000(e[CEDUO_LEFT_SLOPE], f->rocks));
     if (e[CEDUO_UNFINISHED] > 0)
-        ceduo_text_format(line, _("; %llu of %llu never come to an end"), (unsigned long long)e[CEDUO_UNFINISHED],
+        ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)e[CEDUO_UNFINISHED],
                           (unsigned long long)f->rocks);
     if (a->reached > 0)
-        ceduo_text_format(line, _("; one that arrives here has hit %.3g stems"), a->contacts);
+        ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
     if (last)
         ceduo_text_format(
@@ -167,14 +155,14 @@ static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arriva
                               const struct ceduo_arrivals *bare)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_put(line, _("Energy per released rock: "));
-    for (int k = wooded ? 0 : 1; k < 2; k++) {
-        const struct ceduo_arrivals *a = k == 0 ? wooded : bare;
-        ceduo_words_number(line, a->energy_per_released * KILO, 3);
-        ceduo_text_put(line, " \xc2\xb1");
-        ceduo_words_number(line, ceduo_half_width(a->energy_per_released_se, a->released) * KILO, 2);
-        ceduo_text_put(line, k == 1 ? wooded ? _(" without it.") : _(" kJ.") : _(" kJ through the wood, "));
-    }
+    const char *mean = SHOWN(bare->energy_per_released * KILO, 3);
+    const char *half = SHOWN(ceduo_half_width(bare->energy_per_released_se, bare->released) * KILO, 2);
+    if (wooded)
+        ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ through the wood, %s \xc2\xb1%s without it."),
+                          SHOWN(wooded->energy_per_released * KILO, 3),
+                          SHOWN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * KILO, 2), mean, half);
+    else
+        ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ."), mean, half);
 }
 
 static bool none_arrives(const struct ceduo_arrivals *a)

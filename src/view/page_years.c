@@ -46,13 +46,15 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
 static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s,
                          bool says)
 {
-    ceduo_text_format(line, _(" With %g rocks a year %.3g a year are to be expected to pass"), scene->rocks_per_year,
+    ceduo_text_then(line, " ", _("With %g rocks a year %.3g a year are to be expected to pass"), scene->rocks_per_year,
                       s->passes_per_year);
     if (says)
-        ceduo_text_format(line, _(", %.3g of them with too much energy"), s->exceeds_per_year);
-    ceduo_text_format(line, _("; in all %zu years %.3g"), s->years, s->passes_per_year * (double)s->years);
+        ceduo_text_then(line, ", ", _("%.3g of them with too much energy"), s->exceeds_per_year);
     if (says)
-        ceduo_text_format(line, _(" and %.3g"), s->exceeds_per_year * (double)s->years);
+        ceduo_text_then(line, "; ", _("in all %zu years %.3g and %.3g"), s->years, s->passes_per_year * (double)s->years,
+                        s->exceeds_per_year * (double)s->years);
+    else
+        ceduo_text_then(line, "; ", _("in all %zu years %.3g"), s->years, s->passes_per_year * (double)s->years);
     ceduo_text_char(line, '.');
 }
 
@@ -67,7 +69,7 @@ static void say_years(struct ceduo_page *page, const struct ceduo_result *r, con
                                "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
                       s.years, s.unprotected_contact, s.unprotected_free_run);
     if (s.flown > 0 && says)
-        ceduo_text_format(line, _(", with too much energy %zu"), s.unprotected_energy);
+        ceduo_text_then(line, ", ", _("with too much energy %zu"), s.unprotected_energy);
     ceduo_text_put(line, ". ");
     struct ceduo_paired mean = says ? s.exceed : s.reach;
     if (s.flown > 0 && isnan(mean.se)) /* of one rock */
@@ -87,7 +89,7 @@ static void say_years(struct ceduo_page *page, const struct ceduo_result *r, con
         say_expected(line, r->scene, &s, says);
     double felled = ceduo_years_felled(years);
     if (felled > 0)
-        ceduo_text_format(line, _(" Felled: %g m of forest along the slope."), felled);
+        ceduo_text_then(line, " ", _("Felled: %g m of forest along the slope."), felled);
 }
 
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)

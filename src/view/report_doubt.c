@@ -58,7 +58,7 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
         ceduo_text_put(text, ", ");
         ceduo_text_safe(text, stand);
     } else if (strncmp(place, "slope.segments[", 15) == 0 && input->places_count > 1) {
-        ceduo_text_format(text, _(", %zu stretches"), input->places_count);
+        ceduo_text_then(text, ", ", _("%zu stretches"), input->places_count);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "words.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "base/language.h"
 
@@ -16,27 +17,24 @@ double ceduo_words_accepted(const struct ceduo_control *control)
     return control->accepted / 1000;
 }
 
+const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM])
+{
+    double size = fabs(value);
+    int decimals = size > 0 && isfinite(size) ? digits - (int)floor(log10(size)) - 1 : 0;
+    if (isnan(value))
+        snprintf(room, CEDUO_NUMBER_ROOM, "-");
+    else if (isinf(value))
+        snprintf(room, CEDUO_NUMBER_ROOM, "%s", _("none"));
+    else if (size > 0 && (decimals > 6 || size >= 1e9))
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+    else
+        snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);
+    return room;
+}
+
 void ceduo_words_number(struct text *text, double value, int digits)
 {
-    if (isnan(value)) {
-        ceduo_text_put(text, "-");
-        return;
-    }
-    if (isinf(value)) {
-        ceduo_text_put(text, _("none"));
-        return;
-    }
-    if (value == 0) {
-        ceduo_text_put(text, "0");
-        return;
-    }
-    double size = fabs(value);
-    int before = (int)floor(log10(size)) + 1;
-    int decimals = digits - before;
-    if (decimals > 6 || size >= 1e9)
-        ceduo_text_format(text, "%.*g", digits, value);
-    else
-        ceduo_text_format(text, "%.*f", decimals > 0 ? decimals : 0, value);
+    ceduo_text_put(text, SHOWN(value, digits));
 }
 
 __attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *say, void *context, const char *format, ...)
@@ -206,14 +204,15 @@ static double thick_cm(const struct ceduo_scene *scene)
 static void say_what_counts(struct text *text, const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_dbh > 0)
-        ceduo_text_format(text, _(" Stems below %g cm do not count."), scene->simulation.contact_dbh * 100);
+        ceduo_text_then(text, " ", _("Stems below %g cm do not count."), scene->simulation.contact_dbh * 100);
 }
 
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
     const struct ceduo_index *s = index_at(result, option, control);
     double limit = result->scene->simulation.threshold;
-    ceduo_text_format(text, _("Contact: %s. "), ceduo_words_verdict(s->contact));
+    ceduo_text_format(text, _("Contact: %s."), ceduo_words_verdict(s->contact));
+    ceduo_text_char(text, ' ');
     if (s->contact == CEDUO_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%.3g m at most) and no gap is longer."), limit,
                           s->worst_adc);
@@ -229,36 +228,44 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
                           limit);
     say_what_counts(text, result->scene);
     if (s->thick.contact != s->contact && isinf(s->thick.worst_adc))
-        ceduo_text_format(text, _(" Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
     else if (s->thick.contact != s->contact)
-        ceduo_text_format(text, _(" Counting only stems from %g cm on it fails: %.3g m."), thick_cm(result->scene),
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %.3g m."), thick_cm(result->scene),
                           s->thick.worst_adc);
 }
 
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
     const struct ceduo_index *s = index_at(result, option, control);
-    ceduo_text_format(text, _("Free run: %s. "), ceduo_words_verdict(s->free_run));
+    ceduo_text_format(text, _("Free run: %s."), ceduo_words_verdict(s->free_run));
+    ceduo_text_char(text, ' ');
     if (s->length > 0)
         ceduo_text_format(text, _("Chance of %g m without a contact at worst %.1f %% (10 %% is allowed)."),
                           result->scene->simulation.threshold, s->worst_free_run * 100);
     else
         ceduo_text_put(text, _("No stem stands on the way."));
     if (s->thick.free_run != s->free_run)
-        ceduo_text_format(text, _(" Counting only stems from %g cm on it fails: %.1f %%."), thick_cm(result->scene),
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %.1f %%."), thick_cm(result->scene),
                           s->thick.worst_free_run * 100);
+}
+
+const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[CEDUO_NUMBER_ROOM])
+{
+    snprintf(room, CEDUO_NUMBER_ROOM, "%.0f (%.0f\xe2\x80\x93%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
+    return room;
 }
 
 void ceduo_words_of_1000(struct text *text, double p, double lo, double hi)
 {
-    ceduo_text_format(text, "%.0f (%.0f\xe2\x80\x93%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
+    ceduo_text_put(text, SHOWN_OF_1000(p, lo, hi));
 }
 
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, control);
     const struct ceduo_control *c = &result->scene->controls[control];
-    ceduo_text_format(text, _("Energy: %s. "), ceduo_words_verdict(index_at(result, option, control)->energy));
+    ceduo_text_format(text, _("Energy: %s."), ceduo_words_verdict(index_at(result, option, control)->energy));
+    ceduo_text_char(text, ' ');
     if (!result->wooded) {
         ceduo_text_put(text, _("The index alone says nothing of single rocks (contact_model: index)."));
     } else if (isnan(c->accepted)) {
@@ -266,12 +273,12 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
     } else if (!a) {
         ceduo_text_put(text, _("Not computed yet."));
     } else {
-        ceduo_words_of_1000(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        ceduo_text_format(text, _(" of 1000 arrive with more than %g kJ (%.0f are allowed)."), c->accepted * KILO,
+        ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
+                          SHOWN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
         if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
-            ceduo_text_format(text, _(" %llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);
+            ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);
         else if (is_close(a))
-            ceduo_text_put(text, _(" Too close to call with so few rocks."));
+            ceduo_text_then(text, " ", _("Too close to call with so few rocks."));
     }
 }

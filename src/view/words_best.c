@@ -66,28 +66,32 @@ static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
     return 1000 * (rotation ? v->choices[i].mean.mean : v->choices[i].today.mean);
 }
 
-/* "large reserves' and 'selection coppice'": the best and those that it does not clearly beat, in their order. */
-static void put_names(struct text *text, const struct ceduo_scene *scene, const struct ceduo_leader *leader, size_t n)
+/* The best and those that it does not clearly beat, in their order: their names, "'large reserves' and 'selection
+ * coppice'", or their numbers. */
+static void put_leaders(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
+                        const struct ceduo_leader *leader, bool rotation, bool names)
 {
-    size_t left = leader->rivals + 1;
-    for (size_t i = 0; i < n; i++) {
-        if (i != leader->best && !leader->rival[i])
-            continue;
-        left--;
-        ceduo_text_format(text, "'%s'%s", scene->options[i].name, left == 0 ? "" : left == 1 ? _(" and ") : ", ");
-    }
-}
-
-static void put_numbers(struct text *text, const struct ceduo_verdict *v, const struct ceduo_leader *leader,
-                        bool rotation)
-{
+    struct text said = {0};
     size_t left = leader->rivals + 1;
     for (size_t i = 0; i < v->n; i++) {
+        struct text one = {0};
         if (i != leader->best && !leader->rival[i])
             continue;
-        left--;
-        ceduo_text_format(text, "%.0f%s", mean_of(v, rotation, i), left == 0 ? "" : left == 1 ? _(" and ") : ", ");
+        if (names)
+            ceduo_text_format(&one, "'%s'", scene->options[i].name);
+        else
+            ceduo_text_format(&one, "%.0f", mean_of(v, rotation, i));
+        if (--left > 0 || leader->rivals == 0)
+            ceduo_text_format(&said, "%s%s", said.length > 0 ? ", " : "", ceduo_text_string(&one));
+        else
+            ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&said), ceduo_text_string(&one));
+        text->failed |= one.failed;
+        ceduo_text_free(&one);
     }
+    if (leader->rivals == 0)
+        ceduo_text_put(text, ceduo_text_string(&said));
+    text->failed |= said.failed;
+    ceduo_text_free(&said);
 }
 
 /* "Over a whole rotation 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
@@ -103,15 +107,20 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
                           leader->rivals + 1);
         return;
     }
-    put_names(text, scene, leader, v->n);
-    if (leader->rivals == 0)
-        ceduo_text_put(text, v->accepted ? _(" lets the fewest dangerous rocks through: ")
-                                         : _(" lets the fewest rocks through: "));
-    else
-        ceduo_text_put(text, v->accepted ? _(" let the fewest dangerous rocks through and cannot be told apart: ")
-                                         : _(" let the fewest rocks through and cannot be told apart: "));
-    put_numbers(text, v, leader, rotation);
-    ceduo_text_put(text, _(" of 1000."));
+    struct text names = {0}, numbers = {0};
+    put_leaders(&names, scene, v, leader, rotation, true);
+    put_leaders(&numbers, scene, v, leader, rotation, false);
+    ceduo_text_format(
+        text,
+        leader->rivals == 0
+            ? v->accepted ? _("%s lets the fewest dangerous rocks through: %s of 1000.")
+                          : _("%s lets the fewest rocks through: %s of 1000.")
+        : v->accepted ? _("%s let the fewest dangerous rocks through and cannot be told apart: %s of 1000.")
+                      : _("%s let the fewest rocks through and cannot be told apart: %s of 1000."),
+        ceduo_text_string(&names), ceduo_text_string(&numbers));
+    text->failed |= names.failed || numbers.failed;
+    ceduo_text_free(&names);
+    ceduo_text_free(&numbers);
 }
 
 /* One sentence where the same option is clearly best over the years and today. */
