@@ -41,7 +41,7 @@ double ceduo_stool_radius(unsigned n, double s);
 double ceduo_stool_perimeter(double shoots_per_stool, double s);
 
 /* Energy (J) taken per horizontal metre in the mean, by the chosen form, stratum by stratum (Eq. 2 to 4): each stratum's
- * own share of the form's denominator times its own energy per contact. */
+ * own share of the form's denominator times its own energy per contact. NaN where a contact takes a share. */
 double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
 
 /* What a reader should know of a stand and a rock. A set of bits. */
@@ -52,7 +52,8 @@ enum ceduo_stand_warning {
     CEDUO_WARN_FORM_FACTOR = 1 << 3,       /* a volume by form factor, outside the species' equation */
     CEDUO_WARN_RATIO_ASSUMED = 1 << 5,     /* fracture ratio 1 assumed for a species without one */
     CEDUO_WARN_U_ASSUMED = 1 << 4,         /* U of beech assumed for another species */
-    CEDUO_WARN_WIDE_SPACING = 1 << 5       /* s > B + d: the rock can pass between two shoots; crofton is not exact */
+    CEDUO_WARN_WIDE_SPACING = 1 << 6,      /* s > B + d: the rock can pass between two shoots; crofton is not exact */
+    CEDUO_WARN_INERTIA = 1 << 7            /* inertia: an assumption, and Eq. 4 has no meaning */
 };
 
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);

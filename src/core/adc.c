@@ -66,14 +66,15 @@ static double stool_width(const struct ceduo_stand *stand, enum ceduo_rule rule)
     }
 }
 
-static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule)
+static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule, double mass)
 {
-    double count = 0, energy = 0;
+    double count = 0, energy = 0, share = 0;
     for (size_t i = 0; i < stand->shoots_count; i++) {
         count += stand->shoots[i].per_ha;
         energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
+        share += stand->shoots[i].per_ha * ceduo_contact_share(stand, &stand->shoots[i], mass);
     }
-    return (struct stratum){stand->stools_per_ha, stool_width(stand, rule), energy / count};
+    return (struct stratum){stand->stools_per_ha, stool_width(stand, rule), energy / count, share / count};
 }
 
 /* How many strata the shoots make. */
@@ -87,14 +88,14 @@ size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
     return shoot_strata(stand, rule) + stand->trees_count;
 }
 
-struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i)
+struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass)
 {
     size_t shoots = shoot_strata(stand, rule);
     if (i < shoots && rule != CEDUO_GSTEIGER_STEMS)
-        return stools_as_one(stand, rule);
+        return stools_as_one(stand, rule, mass);
     const struct ceduo_stems *s = i < shoots ? &stand->shoots[i] : &stand->trees[i - shoots];
     double width = rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : s->dbh;
-    return (struct stratum){s->per_ha, width, ceduo_contact_energy(stand, s)};
+    return (struct stratum){s->per_ha, width, ceduo_contact_energy(stand, s), ceduo_contact_share(stand, s, mass)};
 }
 
 /* The form's denominator for a rock of diameter b, m per ha: A/ADC. */
@@ -102,7 +103,7 @@ static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo
 {
     double sum = 0;
     for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
-        struct stratum s = ceduo_stratum(stand, rule, i);
+        struct stratum s = ceduo_stratum(stand, rule, i, NAN);
         sum += s.per_ha * (b + s.width);
     }
     return sum;
@@ -142,7 +143,7 @@ double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ce
     rule = ceduo_adc_rule(stand, b, rule);
     double sum = 0;
     for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
-        struct stratum s = ceduo_stratum(stand, rule, i);
+        struct stratum s = ceduo_stratum(stand, rule, i, NAN);
         sum += s.per_ha * (b + s.width) * s.energy;
     }
     return sum / HECTARE;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "strata.h"
+
 /* ---- stems that count ---- */
 
 /* Stems of a stand from some dbh on. Every form of the ADC depends on numbers and mean diameters alone, so shoots and
@@ -146,15 +148,49 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
     return r;
 }
 
+/* Energy that is left on the way: taken from it, and not yet subtracted, are the amounts of Eq. 4. */
+struct left {
+    double energy, taken;
+};
+
+/* What is left of `energy` behind `length` m of a stand where contacts take shares of it: a product over the mean number
+ * of contacts of each stratum; and amounts besides, evenly mixed among them: dE/dx = -rate·E - amount. Below 0: used up. */
+static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double energy)
+{
+    struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
+    enum ceduo_rule rule = ceduo_adc_rule(stand, rock.mean_diameter, scene->simulation.rule);
+    double rate = 0, amount = 0;
+    for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
+        struct stratum s = ceduo_stratum(stand, rule, i, rock.mass);
+        double contacts = s.per_ha * (rock.mean_diameter + s.width) / HECTARE;
+        rate -= contacts * log1p(-s.share);
+        amount += s.share > 0 ? 0 : contacts * s.energy;
+    }
+    double lost = -expm1(-rate * length);
+    return energy * (1 - lost) - amount * (rate > 0 ? lost / rate : length);
+}
+
+static void pass_belt(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length,
+                      double dissipated, struct left *left)
+{
+    if (ceduo_stand_is_bare(stand) || !ceduo_stand_takes_share(stand)) {
+        left->taken += dissipated;
+        return;
+    }
+    left->energy = behind(scene, stand, length, left->energy - left->taken);
+    left->taken = 0;
+}
+
 /* Adds the part of a belt between a and b to an index. */
 static void add_belt(const struct ceduo_scene *scene, const struct ceduo_belt *belt, double a, double b,
-                     struct ceduo_index *index, struct ceduo_meeting *counted)
+                     struct ceduo_index *index, struct ceduo_meeting *counted, struct left *left)
 {
     struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, b - a);
     double least = scene->simulation.contact_dbh;
     index->length += r.bare ? 0 : b - a;
     index->contacts += r.contacts;
     index->dissipated += r.dissipated;
+    pass_belt(scene, &belt->stand, b - a, r.dissipated, left);
     index->meet_nothing_probability *= exp(-(b - a) / r.adc.crofton);
     add_meeting(scene, &belt->stand, least, counted);
     add_meeting(scene, &belt->stand, fmax(least, CEDUO_THICK_DBH), &index->thick);
@@ -166,13 +202,14 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     double start = scene->release.x.mean, at = start;
     struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
     struct ceduo_meeting counted = {.contact = CEDUO_PASS};
+    struct left left = {.energy = bare_mean};
     size_t belts = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         double a = fmax(belt->from, start), b = fmin(belt->to, control->x);
         if (!(b > a))
             continue;
-        add_belt(scene, belt, a, b, &index, &counted);
+        add_belt(scene, belt, a, b, &index, &counted, &left);
         belts++;
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
@@ -188,8 +225,8 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     index.contact = counted.contact;
     index.free_run = counted.free_run;
     index.energy = CEDUO_UNKNOWN;
-    index.exhausted = bare_mean < index.dissipated;
-    index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);
+    index.exhausted = left.energy < left.taken;
+    index.residual = isnan(bare_mean) ? NAN : fmax(0, left.energy - left.taken);
     index.measured = 0.5 * ceduo_rock_mean(&scene->rock).mass * control->measured_speed * control->measured_speed;
     return index;
 }

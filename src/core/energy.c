@@ -34,3 +34,14 @@ double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_
     const struct stem_energy energy = stem_energy_of(stand, stems);
     return stem_energy_mean(&energy);
 }
+
+bool ceduo_stand_takes_share(const struct ceduo_stand *stand)
+{
+    return stand->energy == CEDUO_INERTIA;
+}
+
+double ceduo_contact_share(const struct ceduo_stand *stand, const struct ceduo_stems *stems, double mass)
+{
+    const struct stem_energy energy = stem_energy_of(stand, stems);
+    return stem_energy_mean_share(&energy, mass);
+}

@@ -5,6 +5,7 @@
 #include "base/hash.h"
 #include "energy_brauner.h"
 #include "energy_dorren.h"
+#include "energy_inertia.h"
 
 /* What a hit takes from a rock, by one of CEDUO_ENERGY_MODELS, made ready for many hits of stems of one kind. A law is a
  * header energy_NAME.h with
@@ -12,6 +13,9 @@
  *     energy_NAME(stand, stems)                     makes that
  *     NAME_mean(energy)                             J: the mean stem, over all places where it can be hit
  *     NAME_hit(energy, dbh, eccentricity)           J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle
+ *     NAME_mean_share(energy, mass)                 the share of its energy that a rock of `mass` kg loses: as _mean; 0: of a
+ *                                                   law that takes an amount
+ *     NAME_share(energy, mass, dbh, eccentricity)   as _hit: of its energy the share that is lost at the most
  *     NAME_alike(energy)                            whether hits of stems of one diameter all take the same
  *     NAME_warnings(stand, stems)                   bits of enum ceduo_warning */
 struct stem_energy {
@@ -92,10 +96,35 @@ static inline bool stem_energy_alike(const struct stem_energy *e)
     return false;
 }
 
-/* The share of a rock's energy that a hit takes at the most. */
-static inline double stem_energy_part(const struct stem_energy *e, double eccentricity)
+static inline double stem_energy_mean_share(const struct stem_energy *e, double mass)
 {
-    return e->glancing > 0 ? 1 - eccentricity * eccentricity : 1;
+    switch (e->model) {
+#define X(NAME, name)  \
+    case CEDUO_##NAME: \
+        return name##_mean_share(&e->by.name, mass);
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return 0;
+}
+
+static inline double stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
+{
+    switch (e->model) {
+#define X(NAME, name)  \
+    case CEDUO_##NAME: \
+        return name##_share(&e->by.name, mass, dbh, eccentricity);
+        CEDUO_ENERGY_MODELS(X)
+#undef X
+    }
+    return 1;
+}
+
+/* The share of the energy of a rock of `mass` kg that a hit takes at the most. */
+static inline double stem_energy_part(const struct stem_energy *e, double mass, double dbh, double eccentricity)
+{
+    double share = stem_energy_share(e, mass, dbh, eccentricity);
+    return e->glancing > 0 ? fmin(share, 1 - eccentricity * eccentricity) : share;
 }
 
 static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

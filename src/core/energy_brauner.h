@@ -33,6 +33,18 @@ static inline double brauner_hit(const struct energy_brauner *e, double dbh, dou
     return e->by_eccentricity > 0 ? ceduo_dorren_share(eccentricity) * whole : whole;
 }
 
+static inline double brauner_mean_share(const struct energy_brauner *e, double mass)
+{
+    (void)e, (void)mass;
+    return 0;
+}
+
+static inline double brauner_share(const struct energy_brauner *e, double mass, double dbh, double eccentricity)
+{
+    (void)e, (void)mass, (void)dbh, (void)eccentricity;
+    return 1;
+}
+
 static inline bool brauner_alike(const struct energy_brauner *e)
 {
     return !(e->by_eccentricity > 0);

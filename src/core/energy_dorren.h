@@ -26,6 +26,18 @@ static inline double dorren_hit(const struct energy_dorren *e, double dbh, doubl
     return ceduo_dorren_share(eccentricity) * ceduo_dorren_energy(dbh, e->fracture_ratio);
 }
 
+static inline double dorren_mean_share(const struct energy_dorren *e, double mass)
+{
+    (void)e, (void)mass;
+    return 0;
+}
+
+static inline double dorren_share(const struct energy_dorren *e, double mass, double dbh, double eccentricity)
+{
+    (void)e, (void)mass, (void)dbh, (void)eccentricity;
+    return 1;
+}
+
 static inline bool dorren_alike(const struct energy_dorren *e)
 {
     (void)e;

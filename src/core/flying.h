@@ -155,8 +155,9 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
-    double b = w->rock.mean_diameter;
-    struct hit hit = {.energy = energy, .cost = ceduo_stem_energy(stem, b), .part = ceduo_stem_part(w->stems, stem, b)};
+    struct hit hit = {.energy = energy,
+                      .cost = ceduo_stem_energy(stem, w->rock.mean_diameter),
+                      .part = ceduo_stem_part(w->stems, stem, &w->rock)};
     count_hit(w, stem);
     double share = speed_kept(hit);
     if (w->watch && w->watch->stem)

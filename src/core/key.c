@@ -93,14 +93,15 @@ uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_op
     uint64_t key = HASH_START;
     struct ceduo_rock mean = {0};
     ceduo_rock_of_means(&scene->rock, &mean);
-    return ceduo_wood_hash(&key, &scene->simulation, option, mean.mean_diameter) ? key : 0;
+    return ceduo_wood_hash(&key, &scene->simulation, option, &mean) ? key : 0;
 }
 
 uint64_t ceduo_years_key(const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;
     const struct ceduo_simulation stems = {.contact_model = CEDUO_STEMS};
-    ceduo_wood_hash(&key, &stems, option, 0);
+    const struct ceduo_rock none = {0};
+    ceduo_wood_hash(&key, &stems, option, &none);
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         hash_double(&key, belt->from);

@@ -33,7 +33,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
-    bool good = ceduo_wood_init(&to->wood, &scene->simulation, option, to->mean.mean_diameter) &&
+    bool good = ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
                 make_marks(&to->marks, scene, cells, cell_x) &&
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_rock_varies(&scene->rock));

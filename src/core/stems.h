@@ -88,12 +88,13 @@ static inline double ceduo_stem_eccentricity(const struct stem *stem, double b)
     return isnan(stem->dbh) ? 0 : 2 * fabs(stem->y) / (b + stem->dbh);
 }
 
-/* The share of the energy of a rock of diameter b that a hit of this stem takes at the most. */
-static inline double ceduo_stem_part(const struct stems *stems, const struct stem *stem, double b)
+/* The share of a rock's energy that a hit of this stem takes at the most. */
+static inline double ceduo_stem_part(const struct stems *stems, const struct stem *stem, const struct ceduo_rock *rock)
 {
-    if (!stems->wood->glances)
+    if (!stems->wood->shares)
         return 1;
-    return stem_energy_part(&stem->kind->by_hit, ceduo_stem_eccentricity(stem, b));
+    return stem_energy_part(&stem->kind->by_hit, rock->mass, stem->dbh,
+                            ceduo_stem_eccentricity(stem, rock->mean_diameter));
 }
 
 /* Energy (J) that a hit of this stem takes from a rock of diameter b that has as much. */

@@ -81,7 +81,7 @@ LANE void show_stem(struct wide *k, size_t i, struct stem *stem)
     k->stem_ahead[i] = stem->along;
     k->height[i] = stem->height;
     k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
-    k->part[i] = ceduo_stem_part(w->stems, stem, w->rock.mean_diameter);
+    k->part[i] = ceduo_stem_part(w->stems, stem, &w->rock);
 }
 
 /* The next stem ahead, if there is one. */

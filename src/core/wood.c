@@ -69,12 +69,16 @@ static struct wood_stratum tree_stratum(const struct ceduo_stand *stand, size_t 
     return (struct wood_stratum){per_m2 * kind->dbh, per_m2, kind};
 }
 
-/* Contacts with stratum i of a rule as a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). */
-static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i,
+/* Contacts with stratum i of a rule as a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). `mass`: of the mean
+ * rock. */
+static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass,
                                            struct wood_kind *kind)
 {
-    struct stratum s = ceduo_stratum(stand, rule, i);
+    struct stratum s = ceduo_stratum(stand, rule, i, mass);
     *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .energy = s.energy};
+    if (s.share > 0)
+        kind->by_hit =
+            (struct stem_energy){.model = CEDUO_INERTIA, .by.inertia = inertia_of_contact(s.share, mass)};
     return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind};
 }
 
@@ -136,12 +140,12 @@ static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *st
     return true;
 }
 
-static void make_contacts(const struct ceduo_stand *stand, enum ceduo_rule rule, struct wood_kind *kinds,
+static void make_contacts(const struct ceduo_stand *stand, enum ceduo_rule rule, double mass, struct wood_kind *kinds,
                           struct wood_stratum *strata, struct wood_belt *to)
 {
     to->strata_count = ceduo_strata_count(stand, rule);
     for (size_t i = 0; i < to->strata_count; i++)
-        strata[i] = contact_stratum(stand, rule, i, &kinds[i]);
+        strata[i] = contact_stratum(stand, rule, i, mass, &kinds[i]);
 }
 
 static size_t kinds_in(const struct ceduo_belt *belt)
@@ -183,13 +187,14 @@ static size_t places_for(const struct wood *w, double b)
 }
 
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
-                     double b)
+                     const struct ceduo_rock *mean)
 {
     *wood = (struct wood){.bare = true};
     if (!option || simulation->contact_model == CEDUO_INDEX)
         return true;
     if (!allocate(wood, option))
         goto fail;
+    double b = mean->mean_diameter;
     size_t used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
@@ -198,10 +203,11 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
         wood->bare = false;
-        wood->glances |= simulation->contact_model == CEDUO_STEMS && ceduo_stand_glances(&belt->stand);
+        wood->shares |= ceduo_stand_takes_share(&belt->stand) ||
+                        (simulation->contact_model == CEDUO_STEMS && ceduo_stand_glances(&belt->stand));
         if (simulation->contact_model == CEDUO_POISSON)
-            make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), &wood->kinds[used],
-                          &wood->strata_room[used], to);
+            make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), mean->mass,
+                          &wood->kinds[used], &wood->strata_room[used], to);
         else if (!make_stems(wood, i, &belt->stand, &wood->kinds[used], &wood->strata_room[used], to))
             goto fail;
         used += kinds_in(belt) + 1;
@@ -270,18 +276,19 @@ static void hash_stems(uint64_t *hash, const struct ceduo_stand *stand)
     }
 }
 
-static void hash_contacts(uint64_t *hash, const struct ceduo_stand *stand, enum ceduo_rule rule)
+static void hash_contacts(uint64_t *hash, const struct ceduo_stand *stand, enum ceduo_rule rule, double mass)
 {
     size_t n = ceduo_strata_count(stand, rule);
     struct wood_kind kind;
     hash_count(hash, n);
     for (size_t i = 0; i < n; i++) {
-        struct wood_stratum stratum = contact_stratum(stand, rule, i, &kind);
+        struct wood_stratum stratum = contact_stratum(stand, rule, i, mass, &kind);
         hash_stratum(hash, &stratum);
     }
 }
 
-bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option, double b)
+bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
+                     const struct ceduo_rock *mean)
 {
     bool bare = true;
     if (!option || simulation->contact_model == CEDUO_INDEX)
@@ -295,7 +302,8 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
         hash_double(hash, belt->from);
         hash_double(hash, belt->to);
         if (simulation->contact_model == CEDUO_POISSON)
-            hash_contacts(hash, &belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule));
+            hash_contacts(hash, &belt->stand, ceduo_adc_rule(&belt->stand, mean->mean_diameter, simulation->rule),
+                          mean->mass);
         else
             hash_stems(hash, &belt->stand);
     }

@@ -50,7 +50,7 @@ struct wood_belt {
 
 struct wood {
     bool bare; /* nothing to be met */
-    bool glances; /* a hit may take less than its stem would, see ceduo_stand_glances() */
+    bool shares; /* there is more to a hit than the amount that its stem takes, see stem_energy_part() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */
@@ -61,13 +61,14 @@ struct wood {
     double **rings;
 };
 
-/* For the contact model of `simulation`; with `index`, or without an option, there is nothing to be met. `b`: mean
- * diameter of the mean rock, which decides the rule of `poisson`. False without memory. */
+/* For the contact model of `simulation`; with `index`, or without an option, there is nothing to be met. `mean`:
+ * the mean rock, which decides the rule of `poisson`. False without memory. */
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
-                     double b);
+                     const struct ceduo_rock *mean);
 void ceduo_wood_release(struct wood *wood);
 
 /* Mixes in what such a forest would be made of; false where there is nothing to be met. */
-bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option, double b);
+bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
+                     const struct ceduo_rock *mean);
 
 #endif

@@ -65,6 +65,7 @@ double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand)
 
 bool ceduo_stand_glances(const struct ceduo_stand *stand)
 {
-    bool whole = stand->energy == CEDUO_BRAUNER && stand->offset == CEDUO_OFFSET_WHOLE;
-    return stand->glancing >= 0 ? stand->glancing > 0 : !whole;
+    bool beside = stand->energy == CEDUO_DORREN ||
+                  (stand->energy == CEDUO_BRAUNER && stand->offset == CEDUO_OFFSET_BY_ECCENTRICITY);
+    return stand->glancing >= 0 ? stand->glancing > 0 : beside;
 }

@@ -214,7 +214,11 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
 
 static void put_index(struct pen *pen, const struct ceduo_index *index)
 {
-    if (isnan(index->residual))
+    if (isnan(index->dissipated) && isnan(index->residual))
+        line(pen, CEDUO_ROLE_DIM, "%s", _("index: contacts take shares"));
+    else if (isnan(index->dissipated))
+        line(pen, CEDUO_ROLE_DIM, _("index: shares, left %.3g kJ"), index->residual * KILO);
+    else if (isnan(index->residual))
         line(pen, CEDUO_ROLE_DIM, _("index: takes %.3g kJ"), index->dissipated * KILO);
     else if (index->exhausted)
         line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * KILO);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 2: the stand of one belt: stools, cohorts of shoots, classes of trees; a plan to scale. */
+#include <math.h>
+
 #include <stdio.h>
 
 #include "app.h"
@@ -57,10 +59,11 @@ static void draw_figures(struct app *app, struct ceduo_area area)
     struct text text = {0};
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha. "), r.stems_per_ha, r.basal_area);
     if (!r.bare)
-        ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g); %.3g kJ per "
-                                   "100 m (%s)"),
+        ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g)"),
                           r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,
-                          r.adc.interception, r.adc.crofton, r.per_100m * KILO, ceduo_rule_words.names[r.rule]);
+                          r.adc.interception, r.adc.crofton);
+    if (!r.bare && !isnan(r.per_100m))
+        ceduo_text_format(&text, _("; %.3g kJ per 100 m (%s)"), r.per_100m * KILO, ceduo_rule_words.names[r.rule]);
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
 }
 

@@ -255,6 +255,7 @@ VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
 #define FEW      "fewer than two rocks arrive"
 #define NO_END   "too few rocks arrive to bound it"
 #define NO_STEMS "the stand has no stems"
+#define SHARES   "a contact takes a share of the rock's energy (inertia)"
 #define UNSAID   "the control has no accepted_kJ"
 
 static const struct ceduo_figure distribution[] = {
@@ -339,9 +340,10 @@ static const struct ceduo_figure stand_result[] = {
      AT(stand_result, free_run_probability)},
     {"contacts", "", "contacts over the whole belt: length over ADC", AT(stand_result, contacts)},
     {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
-     AT(stand_result, energy_per_contact), .null = NO_STEMS},
-    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO},
-    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO},
+     AT(stand_result, energy_per_contact), .null = NO_STEMS ", or " SHARES},
+    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO,
+     .null = SHARES},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO, .null = SHARES},
     END};
 
 static const struct ceduo_figure stand[] = {
@@ -358,16 +360,16 @@ static const struct ceduo_figure summary[] = {
     {"adc_m", "m", "length_m over contacts", .value = mean_adc, .null = "there are no contacts"},
     {"contacts", "", "contacts in all belts", AT(index, contacts)},
     {"meet_nothing_probability", "", "chance of meeting no stem in any belt", AT(index, meet_nothing_probability)},
-    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = KILO},
+    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = KILO, .null = SHARES},
     {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = KILO,
-     .null = "there is no forest"},
+     .null = "there is no forest, or " SHARES},
     {"passes_threshold", "", "whether lights.contact of the last control is pass", .value = passes_contact},
     END};
 
 static const struct ceduo_figure by_index[] = {
     {"dissipated_kJ", "kJ", "energy that the stems between the release and this control could take", AT(index, dissipated),
-     .scale = KILO},
-    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0", AT(index, residual), .scale = KILO,
+     .scale = KILO, .null = SHARES},
+    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual), .scale = KILO,
      .null = "no rock arrives without forest"},
     {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
     {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s; only where the control gives that",

@@ -98,12 +98,27 @@ static void say_measured(struct ceduo_page *page, const struct ceduo_control *c,
                       SHOWN(index->measured * KILO, 3), c->measured_speed);
 }
 
-void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+/* Where contacts take shares, so that Eq. 4 has no meaning. */
+static void say_share_left(struct text *line, const char *rule, const struct ceduo_index *index,
+                           const struct ceduo_arrivals *a)
 {
-    const char *rule = rule_of(&r->scene->options[option], &r->options[option]);
-    const struct ceduo_index *index = &r->options[option].controls[control];
-    const struct ceduo_arrivals *a = &r->bare.arrivals[control];
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    if (a->reached == 0)
+        ceduo_text_format(line, _("By the index (%s) every contact takes a share; no rock arrives, nothing is left to "
+                                  "compare."),
+                          rule);
+    else if (index->exhausted)
+        ceduo_text_format(line, _("By the index (%s) contacts take shares and amounts, more than the mean rock brings: "
+                                  "used up on average. Some rocks still pass."),
+                          rule);
+    else
+        ceduo_text_format(line, _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
+                                  "%s kJ are left."),
+                          rule, SHOWN(a->energy.mean * KILO, 4), SHOWN(index->residual * KILO, 3));
+}
+
+static void say_amount_left(struct text *line, const char *rule, const struct ceduo_index *index,
+                            const struct ceduo_arrivals *a)
+{
     ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, SHOWN(index->dissipated * KILO, 3));
     if (index->length > 0)
         ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), SHOWN(index->per_100m * KILO, 3), rule);
@@ -114,6 +129,18 @@ void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     else
         ceduo_text_then(line, "; ", _("left (Eq. 5): %s \xe2\x88\x92 %s = %s kJ."), SHOWN(a->energy.mean * KILO, 4),
                         SHOWN(index->dissipated * KILO, 3), SHOWN(index->residual * KILO, 3));
+}
+
+void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+{
+    const char *rule = rule_of(&r->scene->options[option], &r->options[option]);
+    const struct ceduo_index *index = &r->options[option].controls[control];
+    const struct ceduo_arrivals *a = &r->bare.arrivals[control];
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    if (isnan(index->dissipated))
+        say_share_left(line, rule, index, a);
+    else
+        say_amount_left(line, rule, index, a);
     if (!isnan(index->measured))
         say_measured(page, &r->scene->controls[control], index);
 }

@@ -100,6 +100,11 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                    belt->name);
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
         say_format(say, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."), belt->name);
+    if (r->warnings & CEDUO_WARN_INERTIA)
+        say_format(say, context,
+                   _("%s: the energy law inertia is an assumption. A contact takes a share of what the rock has, so that "
+                     "nothing can be said of what the stems could take (Eq. 4)."),
+                   belt->name);
     const struct ceduo_stems *first = NULL;
     size_t n = r->warnings & CEDUO_WARN_FORM_FACTOR ? form_factor_stems(s, &first) : 0;
     if (n > 0)

@@ -86,7 +86,7 @@ USUAL = {
     "forest[].stand.trees[].height_m": (4, 25), "forest[].stand.trees[].volume_m3": (1e-2, 3),
     "forest[].stand.trees[].age_y": (1, 150),
     "forest[].stand.energy.u_J_m3": (3e4, 2e5), "forest[].stand.energy.fracture_ratio": (0.5, 3),
-    "forest[].stand.energy.hit_below_m": (0.5, 5),
+    "forest[].stand.energy.hit_below_m": (0.5, 5), "forest[].stand.energy.green_density_kg_m3": (600, 1200),
     "forest[].stand.growth.shoots.dbh_most_m": (0.1, 0.3), "forest[].stand.growth.shoots.dbh_rate_1_y": (0.01, 0.05),
     "forest[].stand.growth.shoots.height_most_m": (8, 20), "forest[].stand.growth.shoots.height_rate_1_y": (0.02, 0.06),
     "forest[].stand.growth.trees.dbh_most_m": (0.3, 0.8), "forest[].stand.growth.trees.dbh_rate_1_y": (0.01, 0.03),

@@ -568,6 +568,9 @@ static void warnings_of_energies_and_spacing(void **state)
     plot.stand.energy = CEDUO_DORREN;
     expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_DORREN_THIN,
                 CEDUO_WARN_U_ASSUMED | CEDUO_WARN_FORM_FACTOR);
+    plot.stand.fracture_ratio = NAN; /* hop hornbeam has none */
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_RATIO_ASSUMED,
+                CEDUO_WARN_WIDE_SPACING);
     plot.shoots.dbh = plot.trees.dbh = .1;
     expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), 0, CEDUO_WARN_DORREN_THIN);
     plot.trees.dbh = .099;

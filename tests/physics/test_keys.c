@@ -18,9 +18,10 @@ enum about {
     DORREN = 1 << 2,  /* the same with the energy of dorren */
     DBHS = 1 << 3,    /* brauner, diameters that spread */
     POISSON = 1 << 4, /* contacts by a rule of the ADC */
-    YEARS = 1 << 5    /* of an option: what becomes of its forest */
+    YEARS = 1 << 5,   /* of an option: what becomes of its forest */
+    INERTIA = 1 << 6  /* as STEMS, with inertia */
 };
-#define WOOD    (STEMS | DORREN | DBHS | YEARS)
+#define WOOD    (STEMS | DORREN | DBHS | INERTIA | YEARS)
 #define BRAUNER (STEMS | DBHS | YEARS)
 
 static struct paper_site site;
@@ -216,7 +217,7 @@ static const struct field belt_fields[] = {
 /* The species says the volume of each stem where diameters spread, by its equation, and of what comes up after a cut. */
 static const struct field stand_fields[] = {
     FIELD(ceduo_stand, system, WORD, 0),
-    FIELD(ceduo_stand, species, WORD, DBHS | YEARS),
+    FIELD(ceduo_stand, species, WORD, DBHS | INERTIA | YEARS),
     FIELD(ceduo_stand, stools_per_ha, NUMBER, WOOD),
     FIELD(ceduo_stand, spacing, NUMBER, WOOD),
     FIELD(ceduo_stand, shoots_count, COUNT, WOOD),
@@ -226,13 +227,14 @@ static const struct field stand_fields[] = {
     FIELD(ceduo_stand, energy, WORD, WOOD),
     FIELD(ceduo_stand, u, NUMBER, BRAUNER),
     FIELD(ceduo_stand, fracture_ratio, NUMBER, DORREN),
+    FIELD(ceduo_stand, green_density, NUMBER, INERTIA),
     FIELD(ceduo_stand, growth, ELSEWHERE, 0),
     FIELD(ceduo_stand, cutting, ELSEWHERE, 0),
 };
 
 static const struct field stems_fields[] = {
     FIELD(ceduo_stems, per_ha, NUMBER, WOOD), FIELD(ceduo_stems, dbh, NUMBER, WOOD),
-    FIELD(ceduo_stems, height, NUMBER, WOOD), FIELD(ceduo_stems, volume, NUMBER, BRAUNER),
+    FIELD(ceduo_stems, height, NUMBER, WOOD), FIELD(ceduo_stems, volume, NUMBER, BRAUNER | INERTIA),
     FIELD(ceduo_stems, dbh_sd, NUMBER, WOOD), FIELD(ceduo_stems, age, NUMBER, YEARS),
 };
 
@@ -339,6 +341,11 @@ static void whatever_decides_about_stems_makes_another_forest(void **state)
         site.belts[i].stand.fracture_ratio = 1.5;
     }
     walk_option(DORREN);
+    for (size_t i = 0; i < 2; i++) {
+        site.belts[i].stand.energy = CEDUO_INERTIA;
+        site.belts[i].stand.green_density = 1000;
+    }
+    walk_option(INERTIA);
     for (size_t i = 0; i < 2; i++) {
         site.belts[i].stand.energy = CEDUO_BRAUNER;
         site.plots[i].shoots.dbh_sd = site.plots[i].trees.dbh_sd = .02;

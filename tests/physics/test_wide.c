@@ -202,7 +202,8 @@ static void add_stand(struct wild *w, struct line_random *r, int i)
 {
     struct ceduo_stand *stand = &w->plots[i].stand;
     paper_plot_init(&w->plots[i], i + 1);
-    stand->energy = line_chance(r, 0.5) ? CEDUO_BRAUNER : CEDUO_DORREN;
+    stand->energy = (enum ceduo_energy_model)line_uniform(r, CEDUO_BRAUNER, CEDUO_INERTIA + 0.999);
+    stand->green_density = 900;
     stand->offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
     stand->glancing = line_chance(r, 0.5) ? -1 : line_chance(r, 0.5);
     stand->hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;

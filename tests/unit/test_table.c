@@ -251,7 +251,7 @@ static const char *const scenes[] = {
     "ceduo: scene/1\nrock: {shape: block, axes_m: [0.4, 0.5, 0.6]}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
     "forest: [" BELT ", energy: {model: dorren}}}]" REST,
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
-    "simulation: {contact_model: poisson}\nforest: [" BELT "}}]" REST,
+    "simulation: {contact_model: poisson}\nforest: [" BELT ", energy: {model: inertia}}}]" REST,
 };
 
 /* What a scene decides about. */
