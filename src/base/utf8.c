@@ -75,6 +75,11 @@ size_t ceduo_utf8_width(const char *string)
     return ceduo_utf8_width_of(string, strlen(string));
 }
 
+int ceduo_utf8_field(const char *string, int columns)
+{
+    return columns + (int)strlen(string) - (int)ceduo_utf8_width(string);
+}
+
 size_t ceduo_utf8_cut(const char *string, size_t columns)
 {
     size_t n = 0, one;

@@ -37,6 +37,9 @@ size_t ceduo_utf8_columns(uint32_t code);
 size_t ceduo_utf8_width(const char *string);
 size_t ceduo_utf8_width_of(const char *string, size_t n);
 
+/* The width that "%-*s" needs to fill so many columns with this string: it counts bytes. */
+int ceduo_utf8_field(const char *string, int columns);
+
 /* Bytes of a string that fit into so many columns. Never cuts a character. */
 size_t ceduo_utf8_cut(const char *string, size_t columns);
 

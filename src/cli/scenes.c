@@ -28,11 +28,12 @@ enum exit_status ceduo_batch_option(const struct scene_file *file, const char *n
     for (*index = 0; *index < scene->options_count; ++*index)
         if (strcmp(scene->options[*index].name, name) == 0)
             return EXIT_DONE;
-    struct text message = {0};
-    ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: "), name, file->path);
+    struct text message = {0}, names = {0};
     for (size_t i = 0; i < scene->options_count; i++)
-        ceduo_text_format(&message, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name);
+        ceduo_text_format(&names, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name);
+    ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: %s"), name, file->path, ceduo_text_string(&names));
     ceduo_say_why("ceduo", ceduo_text_string(&message));
+    ceduo_text_free(&names);
     ceduo_text_free(&message);
     return EXIT_USAGE;
 }
@@ -92,6 +93,7 @@ static bool is_time(struct progress *p, double *seconds)
         return false;
     p->shown = t;
     p->open = true;
+    fputc('\r', stderr); /* over what was shown before */
     return true;
 }
 
@@ -99,14 +101,14 @@ void ceduo_progress_show(void *progress, uint64_t rocks)
 {
     double seconds;
     if (is_time(progress, &seconds))
-        fprintf(stderr, _("\r%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
+        fprintf(stderr, _("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
 }
 
 void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all)
 {
     double seconds;
     if (is_time(progress, &seconds))
-        fprintf(stderr, _("\r%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
+        fprintf(stderr, _("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
 }
 
 void ceduo_progress_end(const struct progress *p)

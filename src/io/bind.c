@@ -482,7 +482,10 @@ static void add_note(struct binder *b, const char *path, const char *kind, const
 static void except_values(struct binder *b, const struct node *list, struct text *text)
 {
     for (size_t i = 0; i < list->n; i++) {
-        ceduo_text_format(text, "%s%s", i > 0 ? ", " : _("; changed since: "), list->items[i]->text);
+        if (i == 0)
+            ceduo_text_then(text, "; ", _("changed since: %s"), list->items[i]->text);
+        else
+            ceduo_text_then(text, ", ", "%s", list->items[i]->text);
         size_t before = enter(b, list->items[i]->text);
         add_note(b, ceduo_text_string(&b->path), "changed", _("the source around it is not of this value"));
         leave(b, before);

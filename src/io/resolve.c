@@ -417,14 +417,15 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
 /* Whether several items from the first on have the name that a bracket holds. Says so. */
 static bool is_ambiguous(struct setter *s, const struct node *list, const struct path_step *step, size_t first)
 {
-    struct text what = {0};
+    struct text what = {0}, items = {0};
     size_t place, n = 0;
-    ceduo_text_put(&what, _("several items have this name; use one of: "));
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (is_named(list->items[i], step))
-            ceduo_text_format(&what, "%s[%zu]", n++ > 0 ? ", " : "", i);
+            ceduo_text_format(&items, "%s[%zu]", n++ > 0 ? ", " : "", i);
+    ceduo_text_format(&what, _("several items have this name; use one of: %s"), ceduo_text_string(&items));
     if (n > 1)
         fail_at(s, step, ceduo_text_string(&what));
+    ceduo_text_free(&items);
     ceduo_text_free(&what);
     return n > 1;
 }

@@ -98,9 +98,9 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
         ceduo_text_format(&folders, "%s%s/scenes", i > 0 ? ", " : "", all[i]);
     }
     if (near)
-        ceduo_text_format(&names, _("; did you mean '%s'?"), near);
+        ceduo_text_then(&names, "; ", _("did you mean '%s'?"), near);
     if (folders.bytes)
-        ceduo_text_format(&names, _(" (looked for here and in %s)"), folders.bytes);
+        ceduo_text_then(&names, " ", _("(looked for here and in %s)"), folders.bytes);
     problems->memory |= names.failed || folders.failed || file->arena.failed;
     ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
                   ceduo_text_string(&names));

@@ -108,7 +108,7 @@ static void change_shape(struct changes *c, enum ceduo_shape shape)
     for (int i = 0; i < 3; i++)
         spread |= def->axes[i].spread > 0;
     if (spread)
-        ceduo_text_put(&c->filled, _(" (means, without spread)"));
+        ceduo_text_then(&c->filled, " ", _("(means, without spread)"));
 }
 
 /* ---- one of several ---- */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 
 #define HEIGHT_FOR_ALL  24 /* lines with room for everything and some warnings */
 #define HEIGHT_FOR_MOST 17 /* with room for the lights behind all but the heights */
@@ -70,7 +71,15 @@ static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, co
 {
     int column = pen->area.width >= 34 ? 15 : 7;
     int wider = strstr(wood, "\xc2\xb1") ? 1 : 0; /* a byte more than columns */
-    line(pen, role, "%-11s%*s%*s", name, column + wider, wood, 8, bare);
+    line(pen, role, "%-*s%*s%*s", ceduo_utf8_field(name, 11), name, column + wider, wood, 8, bare);
+}
+
+/* A part of the pair above: its name is set in by a blank. */
+static void put_pair_in(struct pen *pen, const char *name, const char *wood, const char *bare)
+{
+    char set_in[64];
+    snprintf(set_in, sizeof set_in, " %s", name);
+    put_pair(pen, CEDUO_ROLE_TEXT, set_in, wood, bare);
 }
 
 static void put_figures(struct pen *pen, const char *name, double wood, double bare)
@@ -91,7 +100,7 @@ static void put_missed(struct pen *pen, const char *name, enum ceduo_end end, co
     if (wood->released > 0)
         share(a, sizeof a, (double)wood->ended[end] / (double)wood->released, 0, 0, false);
     share(b, sizeof b, (double)bare->ended[end] / (double)bare->released, 0, 0, false);
-    put_pair(pen, CEDUO_ROLE_TEXT, name, a, b);
+    put_pair_in(pen, name, a, b);
 }
 
 /* Where all released end: on the way, or here. */
@@ -100,11 +109,11 @@ static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, con
     char a[32], b[32];
     share(a, sizeof a, wood->reach_probability, wood->reach_lo, wood->reach_hi, pen->area.width >= 34);
     share(b, sizeof b, bare->reach_probability, 0, 0, false);
-    put_pair(pen, CEDUO_ROLE_TEXT, _(" arrive"), a, b);
-    put_missed(pen, _(" stems stop"), CEDUO_STOPPED_BY_STEMS, wood, bare, true);
-    put_missed(pen, _(" at rest"), CEDUO_AT_REST, wood, bare, true);
-    put_missed(pen, _(" left"), CEDUO_LEFT_SLOPE, wood, bare, false);
-    put_missed(pen, _(" unfinished"), CEDUO_UNFINISHED, wood, bare, false);
+    put_pair_in(pen, _("arrive"), a, b);
+    put_missed(pen, _("stems stop"), CEDUO_STOPPED_BY_STEMS, wood, bare, true);
+    put_missed(pen, _("at rest"), CEDUO_AT_REST, wood, bare, true);
+    put_missed(pen, _("left"), CEDUO_LEFT_SLOPE, wood, bare, false);
+    put_missed(pen, _("unfinished"), CEDUO_UNFINISHED, wood, bare, false);
 }
 
 /* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). */
@@ -125,20 +134,20 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     if (!isnan(c->accepted)) {
         share(a, sizeof a, wood->exceed_probability, wood->exceed_lo, wood->exceed_hi, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
-        snprintf(limit, sizeof limit, _(" >%.4g kJ"), c->accepted * KILO);
-        put_pair(pen, CEDUO_ROLE_TEXT, limit, a, b);
+        snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * KILO);
+        put_pair_in(pen, limit, a, b);
     }
     put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
     put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
     if (pen->area.height >= HEIGHT_FOR_MOST)
-        put_figures(pen, _("  95 % kJ"), wood->energy.p95 * KILO, bare->energy.p95 * KILO);
+        put_figures(pen, "  95 % kJ", wood->energy.p95 * KILO, bare->energy.p95 * KILO);
     if (pen->area.height >= HEIGHT_FOR_ALL)
-        put_figures(pen, _("  95 % m"), wood->height.p95, bare->height.p95);
+        put_figures(pen, "  95 % m", wood->height.p95, bare->height.p95);
 }
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
 {
-    line(pen, ceduo_plot_light_role(light), "%s %-9s%s %s", ceduo_plot_light_mark(light), name,
+    line(pen, ceduo_plot_light_role(light), "%s %-*s%s %s", ceduo_plot_light_mark(light), ceduo_utf8_field(name, 9), name,
          ceduo_words_verdict(light), what);
 }
 
@@ -171,13 +180,13 @@ static void put_thick(struct pen *pen, const struct ceduo_index *index, double t
     bool contact = thick->contact != index->contact, free_run = thick->free_run != index->free_run;
     if (contact && pen->area.width >= 30)
         put_contact(pen,
-                    _(" \xe2\x89\xa5"
-                      "8 cm"),
+                    " \xe2\x89\xa5"
+                    "8 cm",
                     thick->worst_adc, thick->contact, threshold, index->length > 0);
     if (free_run && pen->area.width >= 30)
         put_free_run(pen,
-                     _(" \xe2\x89\xa5"
-                       "8 cm"),
+                     " \xe2\x89\xa5"
+                     "8 cm",
                      thick->worst_free_run, thick->free_run);
     if ((contact || free_run) && pen->area.width < 30)
         line(pen, CEDUO_ROLE_BAD, "%s %s", ceduo_plot_light_mark(CEDUO_FAIL),

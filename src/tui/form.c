@@ -417,7 +417,7 @@ void ceduo_form_explain(const struct document *d, const struct form_cell *cell, 
     ceduo_text_free(&range);
     if (f->value) {
         ceduo_shown_value(f, f->value, &usual);
-        ceduo_text_format(text, _(" (default %s)"), ceduo_text_string(&usual));
+        ceduo_text_then(text, " ", _("(default %s)"), ceduo_text_string(&usual));
         ceduo_text_free(&usual);
     }
     const struct source_note *note = ceduo_notes_find(d->file.notes, cell->path);

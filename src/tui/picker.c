@@ -31,7 +31,7 @@ void ceduo_picker_add(struct picker *p, const char *text, const char *value, boo
     struct text safe = {0};
     ceduo_text_safe(&safe, text);
     if (now)
-        ceduo_text_put(&safe, _("  (now)"));
+        ceduo_text_then(&safe, "  ", _("(now)"));
     const char *shown = ceduo_arena_string(&p->arena, ceduo_text_string(&safe));
     const char *kept = ceduo_arena_string(&p->arena, value);
     ceduo_text_free(&safe);

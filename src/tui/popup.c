@@ -288,11 +288,11 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
 static void draw_more(struct app *app, const struct popup *p, bool above, bool below)
 {
     const struct ceduo_area *r = &p->box;
-    const char *words[] = {_(" more above "), _(" more below ")};
+    const char *words[] = {_("more above"), _("more below")};
     for (int i = 0; i < 2; i++)
         if (i == 0 ? above : below)
-            ceduo_app_label(app, r->left + r->width - 2 - (int)ceduo_utf8_width(words[i]),
-                            i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, "%s", words[i]);
+            ceduo_app_label(app, r->left + r->width - 4 - (int)ceduo_utf8_width(words[i]),
+                            i == 0 ? r->top : r->top + r->height - 1, CEDUO_ROLE_TITLE, " %s ", words[i]);
 }
 
 #define NOTE_LINES 5
@@ -347,8 +347,8 @@ static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
     struct ceduo_area in = draw_frame(app, p, lines + 1, NOTE_LINES);
-    ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search: "));
-    int x = in.left + (int)ceduo_utf8_width(_("search: "));
+    ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
+    int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
     draw_line(app, &p->fields[0], x, in.top, in.left + in.width - x, true);
     in.top++;
     in.height--;

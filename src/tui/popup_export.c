@@ -30,8 +30,10 @@ static void show_command(struct app *app, struct popup *p, const char *value)
     ceduo_text_free(&p->text);
     put_command(app, &p->text);
     if (shown)
-        ceduo_text_format(&p->text, _("\nThe figures on the screen are of %llu rocks%s.\n"),
-                          (unsigned long long)shown->released, app->figures.busy ? _("; more are falling") : "");
+        ceduo_text_format(&p->text,
+                          app->figures.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
+                                            : _("\nThe figures on the screen are of %llu rocks.\n"),
+                          (unsigned long long)shown->released);
     else
         ceduo_text_put(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
     if (ceduo_document_unsaved(&app->document))

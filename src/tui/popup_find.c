@@ -131,10 +131,9 @@ static bool filled_find(struct app *app, struct popup *p)
 
 /* ---- what was found ---- */
 
-static void put_shown(struct text *text, const struct field *f, double value)
+static const char *shown(const struct field *f, double value, char room[CEDUO_NUMBER_ROOM])
 {
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_put(text, f ? ceduo_shown_number(f, value, room) : ceduo_number_shortest(value, room));
+    return f ? ceduo_shown_number(f, value, room) : ceduo_number_shortest(value, room);
 }
 
 static void put_reached(struct text *text, enum ceduo_goal goal, double value)
@@ -147,29 +146,23 @@ static void put_reached(struct text *text, enum ceduo_goal goal, double value)
         ceduo_text_format(text, "%.4g %s", value * goals[row].per, _(goals[row].unit));
 }
 
-static void put_found(struct text *text, const struct popup *p, const struct ceduo_search *s,
-                      const struct ceduo_found *f)
+static void put_found(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
 {
-    const struct field *field = ceduo_schema_at(p->path);
+    char room[CEDUO_NUMBER_ROOM];
     ceduo_shown_path(p->path, text);
-    ceduo_text_put(text, " = ");
-    put_shown(text, field, f->value);
-    ceduo_text_put(text, f->side == CEDUO_SMALLEST ? _(": the smallest value that reaches the goal; ")
-                                                   : _(": the largest value that reaches the goal; "));
-    put_reached(text, s->goal, f->goal_at_value);
+    ceduo_text_then(text, " = ",
+                    f->side == CEDUO_SMALLEST ? _("%s: the smallest value that reaches the goal; %s")
+                                              : _("%s: the largest value that reaches the goal; %s"),
+                    shown(ceduo_schema_at(p->path), f->value, room), reached);
 }
 
-static void put_none(struct text *text, const struct popup *p, const struct ceduo_search *s,
-                     const struct ceduo_found *f)
+static void put_none(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
 {
+    char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text,
                       p->fields[FIND_HI].text);
-    if (isnan(f->nearest))
-        return;
-    ceduo_text_put(text, _("; nearest is "));
-    put_shown(text, ceduo_schema_at(p->path), f->nearest);
-    ceduo_text_put(text, _(" with "));
-    put_reached(text, s->goal, f->goal_at_nearest);
+    if (!isnan(f->nearest))
+        ceduo_text_then(text, "; ", _("nearest is %s with %s"), shown(ceduo_schema_at(p->path), f->nearest, room), reached);
 }
 
 static void put_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f,
@@ -183,21 +176,24 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
                           cell && cell->text[0] ? cell->text : _("as it is"));
         return;
     }
-    (f->found ? put_found : put_none)(text, p, s, f);
-    ceduo_text_format(text,
-                      ceduo_goals[s->goal].below ? _(" (below %g %s is wanted)") : _(" (at most %g %s is wanted)"),
+    struct text reached = {0};
+    put_reached(&reached, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
+    (f->found ? put_found : put_none)(text, p, f, ceduo_text_string(&reached));
+    text->failed |= reached.failed;
+    ceduo_text_free(&reached);
+    ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
                       s->target * goals[row].per, _(goals[row].unit));
     if (!f->monotone)
-        ceduo_text_put(text, _("; not monotone: there may be other values"));
+        ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
 }
 
 /* What a rotation was looked at for: its yield beside the answer. */
 static void put_yield(const struct ceduo_search *s, const struct ceduo_yield *yield, struct text *text)
 {
     if (s->rotation)
-        ceduo_text_put(text, _("; over one whole rotation"));
+        ceduo_text_then(text, "; ", _("over one whole rotation"));
     if (s->rotation && !isnan(yield->cut_per_year))
-        ceduo_text_format(text, _(", yielding %.3g m\xc2\xb3 per ha and year"), yield->cut_per_year);
+        ceduo_text_then(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), yield->cut_per_year);
 }
 
 /* Puts the value that was found into the field, and says it. */
@@ -306,10 +302,12 @@ void ceduo_popup_find(struct app *app)
     if (!p)
         return;
     snprintf(p->path, sizeof p->path, "%s", cell->path);
-    ceduo_text_put(&p->text, _("The value of: "));
-    ceduo_shown_path(cell->path, &p->text);
-    ceduo_text_put(&p->text, _(". The same rocks for every value; the goal counts at the worst control. What is found "
-                               "is put into the field; u takes it back."));
+    struct text path = {0};
+    ceduo_shown_path(cell->path, &path);
+    ceduo_text_format(&p->text, _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
+                                  "What is found is put into the field; u takes it back."), ceduo_text_string(&path));
+    p->text.failed |= path.failed;
+    ceduo_text_free(&path);
     ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
     ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
     ceduo_popup_field(p, _("values from"), ceduo_shown_number(cell->field, lo, lo_room));

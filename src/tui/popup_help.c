@@ -25,7 +25,8 @@ void ceduo_popup_help(struct app *app)
         snprintf(keys, sizeof keys, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
         ceduo_text_format(&p->text, "%-18s%s\n", keys, _(a->help));
     }
-    ceduo_text_put(&p->text, _(" \nA star marks what is assumed and not measured. Dim values are defaults.\n"
+    ceduo_text_put(&p->text, " \n");
+    ceduo_text_put(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
                                "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
                                "0.6 +- 0.1, with a u behind it where all between is alike. A point is x z with a blank "
                                "between.\n"

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 #include "ceduo/material.h"
 #include "io/file.h"
 #include "model/foresee.h"
@@ -39,7 +40,7 @@ static void add_file(struct popup *p, const char *name, const char *value, const
     char line[320];
     if (ceduo_picker_has(&p->picker, value))
         return;
-    snprintf(line, sizeof line, "%-27s %s", name, about);
+    snprintf(line, sizeof line, "%-*s %s", ceduo_utf8_field(name, 27), name, about);
     for (size_t n = strlen(line); n > 0 && line[n - 1] == ' ';)
         line[--n] = '\0';
     ceduo_popup_item_now(p, line, value, now && strcmp(now, value) == 0);
@@ -135,7 +136,7 @@ static void put_light(struct text *text, const char *name, enum ceduo_light ligh
 {
     ceduo_text_format(text, "%s %s", name, ceduo_words_verdict(light));
     if (light != now)
-        ceduo_text_format(text, _(" (now %s)"), ceduo_words_verdict(now));
+        ceduo_text_then(text, " ", _("(now %s)"), ceduo_words_verdict(now));
 }
 
 static void put_lights(struct app *app, struct text *text, const struct foreseen *f)
@@ -144,13 +145,15 @@ static void put_lights(struct app *app, struct text *text, const struct foreseen
     const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
     put_light(text, _("Contact"), f->index.contact, now->contact);
     if (isfinite(f->index.worst_adc))
-        ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
-    put_light(text, _("; free run"), f->index.free_run, now->free_run);
-    put_light(text, _("; energy"), f->index.energy, now->energy);
+        ceduo_text_format(text, ", %.3g m", f->index.worst_adc);
+    ceduo_text_put(text, "; ");
+    put_light(text, _("free run"), f->index.free_run, now->free_run);
+    ceduo_text_put(text, "; ");
+    put_light(text, _("energy"), f->index.energy, now->energy);
     if (!isnan(f->exceed))
-        ceduo_text_format(text, _(", about %.0f of 1000 with too much"), 1000 * f->exceed);
+        ceduo_text_then(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
     else if (!isnan(f->reach))
-        ceduo_text_format(text, _(", about %.0f of 1000 arrive"), 1000 * f->reach);
+        ceduo_text_then(text, ", ", _("about %.0f of 1000 arrive"), 1000 * f->reach);
     ceduo_text_put(text, "\n");
 }
 

@@ -174,8 +174,8 @@ static void add_recovery(struct popup *p, const struct recovery *r)
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
     const char *slash = r->scene ? strrchr(r->scene, '/') : NULL;
-    ceduo_text_format(&line, _("unsaved work of %s: %s%s%s"), date, r->title[0] ? r->title : _("no title"),
-                      slash ? ", " : "", slash ? slash + 1 : _(", never saved"));
+    ceduo_text_format(&line, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
+                      slash ? slash + 1 : _("never saved"));
     snprintf(value, sizeof value, RECOVERY "%.1100s", r->file);
     ceduo_popup_item(p, ceduo_text_string(&line), value);
     ceduo_text_free(&line);

@@ -119,10 +119,10 @@ static void say_stem(const struct rock_trajectory *s, struct text *text)
         if (!p->hit || s->stem_piece[i] != s->at)
             continue;
         if (isnan(p->dbh))
-            ceduo_text_format(text, _("; a contact takes %.2g of %.3g kJ"), p->taken / 1e3, p->before / 1e3);
+            ceduo_text_then(text, "; ", _("a contact takes %.2g of %.3g kJ"), p->taken / 1e3, p->before / 1e3);
         else
-            ceduo_text_format(text, p->shoot ? _("; hits a shoot of %.2g cm: %.2g of %.3g kJ")
-                                             : _("; hits a tree of %.2g cm: %.2g of %.3g kJ"),
+            ceduo_text_then(text, "; ", p->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
+                                                 : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
                               p->dbh * 100, p->taken / 1e3, p->before / 1e3);
     }
 }
@@ -135,7 +135,7 @@ static void say_end(const struct rock_trajectory *s, double origin, struct text 
     ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock, _(end),
                       s->way.x + origin, (unsigned long long)s->way.contacts);
     if (s->way.stems_drawn > 0)
-        ceduo_text_format(text, _(", %llu stems hit"), (unsigned long long)s->way.stems_hit);
+        ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->way.stems_hit);
 }
 
 void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
@@ -149,12 +149,12 @@ void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ced
     double up = p->vz > 0 && !p->rolls ? p->vz / scene->simulation.gravity : 0;
     up = up < p->seconds ? up : p->seconds;
     double x = p->x + p->vx * up, z = p->z + (p->vz - scene->simulation.gravity / 2 * up) * up;
-    ceduo_text_format(text, _("rock %llu, piece %zu of %zu: "), (unsigned long long)s->rock, s->at, s->n);
+    ceduo_text_format(text, _("rock %llu, piece %zu of %zu"), (unsigned long long)s->rock, s->at, s->n);
     if (p->rolls)
-        ceduo_text_format(text, _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
+        ceduo_text_then(text, ": ", _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
                           hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
     else
-        ceduo_text_format(text, _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"),
+        ceduo_text_then(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"),
                           p->x + origin, p->x1 + origin, hypot(p->vx1, p->vz1),
                           fmax(0, z - ceduo_slope_height(&scene->slope, x)));
     say_stem(s, text);

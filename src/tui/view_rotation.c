@@ -62,11 +62,11 @@ static void say_belt(struct text *text, const struct ceduo_belt *belt)
     if (s->shoots_count > 0)
         ceduo_text_format(text, _("%.0f stools"), s->stools_per_ha);
     for (size_t i = 0; i < s->shoots_count; i++)
-        ceduo_text_format(text, _(", %.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha, s->shoots[i].dbh * 100,
-                          s->shoots[i].height);
+        ceduo_text_then(text, ", ", _("%.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha, s->shoots[i].dbh * 100,
+                        s->shoots[i].height);
     for (size_t i = 0; i < s->trees_count; i++)
-        ceduo_text_format(text, _("%s%.0f trees of %.0f cm, %.0f m"), s->shoots_count + i > 0 ? ", " : "",
-                          s->trees[i].per_ha, s->trees[i].dbh * 100, s->trees[i].height);
+        ceduo_text_then(text, s->shoots_count + i > 0 ? ", " : "", _("%.0f trees of %.0f cm, %.0f m"), s->trees[i].per_ha,
+                        s->trees[i].dbh * 100, s->trees[i].height);
     ceduo_text_put(text, ". ");
 }
 
@@ -76,9 +76,11 @@ static void say_felled(const struct app *app, unsigned year, struct text *text)
     const struct ceduo_verdict *v = &app->figures.verdict;
     const struct ceduo_yield *yield = app->option < v->n ? &v->choices[app->option].yield : NULL;
     for (size_t i = 0; yield && i < yield->fellings_count; i++)
-        if (yield->fellings[i].year == year)
-            ceduo_text_format(text, _("Felled: %.0f m\xc2\xb3 per ha, %.0f stems. "), yield->fellings[i].volume,
+        if (yield->fellings[i].year == year) {
+            ceduo_text_format(text, _("Felled: %.0f m\xc2\xb3 per ha, %.0f stems."), yield->fellings[i].volume,
                               yield->fellings[i].stems_per_ha);
+            ceduo_text_char(text, ' ');
+        }
 }
 
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
@@ -86,23 +88,21 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
     size_t c = app->figures.result->last_control;
     const struct ceduo_control *control = &app->figures.result->scene->controls[c];
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
-    ceduo_text_format(text, y->cut ? _("Year %u, cut: ") : _("Year %u: "), y->year);
+    ceduo_text_format(text, y->cut ? _("Year %u, cut:") : _("Year %u:"), y->year);
+    ceduo_text_char(text, ' ');
     if (y->wooded.rocks > 0) {
         const struct ceduo_arrivals *a = &y->wooded.arrivals[c];
         struct ceduo_portion share = ceduo_share_at(a);
         ceduo_text_format(text,
-                          isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive; ")
-                                                       : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ; "),
+                          isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive")
+                                                       : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ"),
                           share.mean * 1000, ceil(1000 * share.half), control->accepted * KILO);
+        ceduo_text_put(text, "; ");
     }
-    ceduo_text_put(text, _("mean distance between stem hits (ADC) "));
-    ceduo_words_number(text, y->controls[c].worst_adc, 3);
-    ceduo_text_put(text, " m");
-    if (ceduo_index_hangs_on_thin(&y->controls[c])) {
-        ceduo_text_put(text, _(", of stems from 8 cm on "));
-        ceduo_words_number(text, y->controls[c].thick.worst_adc, 3);
-        ceduo_text_put(text, isinf(y->controls[c].thick.worst_adc) ? "" : " m");
-    }
+    double thick = y->controls[c].thick.worst_adc;
+    ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), SHOWN(y->controls[c].worst_adc, 3));
+    if (ceduo_index_hangs_on_thin(&y->controls[c]))
+        ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"), SHOWN(thick, 3));
     ceduo_text_put(text, ". ");
     say_felled(app, y->year, text);
     for (size_t i = 0; i < y->option.belts_count; i++)
@@ -113,17 +113,18 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
 static void say_others(struct app *app, unsigned year, struct text *text)
 {
     const struct ceduo_result *r = app->figures.result;
-    size_t said = 0;
+    struct text others = {0};
     for (size_t i = 0; i < r->options_count; i++) {
         const struct ceduo_years *years = ceduo_figures_years(&app->figures, r->scene, i);
         for (size_t k = 0; years && i != app->option && k < years->count; k++)
             if (years->years[k].year == year && years->years[k].wooded.rocks > 0)
-                ceduo_text_format(text, "%s'%s' %.0f", said++ == 0 ? _("In that year ") : ", ",
-                                  r->scene->options[i].name,
-                                  1000 * ceduo_share_of(&years->years[k].wooded.arrivals[r->last_control]));
+                ceduo_text_then(&others, others.length > 0 ? ", " : "", "'%s' %.0f", r->scene->options[i].name,
+                                1000 * ceduo_share_of(&years->years[k].wooded.arrivals[r->last_control]));
     }
-    if (said > 0)
-        ceduo_text_put(text, _(" of 1000."));
+    if (others.length > 0)
+        ceduo_text_format(text, _("In that year %s of 1000."), ceduo_text_string(&others));
+    text->failed |= others.failed;
+    ceduo_text_free(&others);
 }
 
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
@@ -134,24 +135,25 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     struct ceduo_paired mean = says ? s.exceed : s.reach;
     ceduo_words_window(text, ceduo_app_option(app), w);
     if (w->kind == CEDUO_WINDOW_ALIKE)
-        ceduo_text_put(text, _(" Each: "));
+        ceduo_text_then(text, " ", _("Each:"));
     else
-        ceduo_text_format(
-            text, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u: ") : _("Years %u to %u: "),
-            w->first, w->last);
+        ceduo_text_format(text, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
+                          w->first, w->last);
     if (s.flown > 0)
-        ceduo_text_format(text, _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u). "), mean.mean * 1000,
-                          ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
-    ceduo_text_put(text, _("Years that fail: "));
+        ceduo_text_then(text, " ", _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u)."), mean.mean * 1000,
+                        ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
     if (s.flown > 0 && says)
-        ceduo_text_format(text, _("energy %zu, "), s.unprotected_energy);
-    ceduo_text_format(text, _("contact %zu, free run %zu of %zu. "), s.unprotected_contact, s.unprotected_free_run,
-                      s.years);
-    if (!isnan(s.passes_per_year))
-        ceduo_text_format(text, _("Expected a year: %.3g pass"), s.passes_per_year);
-    if (!isnan(s.exceeds_per_year))
-        ceduo_text_format(text, _(", %.3g with too much"), s.exceeds_per_year);
-    ceduo_text_put(text, isnan(s.passes_per_year) ? "" : ". ");
+        ceduo_text_then(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."), s.unprotected_energy,
+                        s.unprotected_contact, s.unprotected_free_run, s.years);
+    else
+        ceduo_text_then(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
+                        s.unprotected_free_run, s.years);
+    ceduo_text_char(text, ' ');
+    if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
+        ceduo_text_format(text, _("Expected a year: %.3g pass, %.3g with too much."), s.passes_per_year, s.exceeds_per_year);
+    else if (!isnan(s.passes_per_year))
+        ceduo_text_format(text, _("Expected a year: %.3g pass."), s.passes_per_year);
+    ceduo_text_put(text, isnan(s.passes_per_year) ? "" : " ");
     const struct ceduo_verdict *v = &app->figures.verdict;
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
         ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);

@@ -57,7 +57,8 @@ static void draw_figures(struct app *app, struct ceduo_area area)
         return;
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, &o->belts[app->belt]);
     struct text text = {0};
-    ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha. "), r.stems_per_ha, r.basal_area);
+    ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
+    ceduo_text_char(&text, ' ');
     if (!r.bare)
         ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g)"),
                           r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,

@@ -95,11 +95,11 @@ static void draw_bar(const struct adc_picture *p, double metres, enum ceduo_role
                          isfinite(metres) ? _("%s m") : "%s", ceduo_plot_number(metres, 3, room));
 }
 
-static void put_verdict(const struct adc_picture *p, const struct ceduo_stand_result *r, const char *before)
+static void put_verdict(const struct adc_picture *p, const struct ceduo_stand_result *r, bool in_words)
 {
     int column = bar_left(p) + p->bar + VALUE + 1;
     ceduo_plot_say(p->canvas, column, p->row, p->area->left + p->area->width - column,
-                   r->passes_threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, "%s%s", before,
+                   r->passes_threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, in_words ? _("applied: %s") : "%s",
                    r->passes_threshold ? _("passes") : _("NO"));
 }
 
@@ -109,10 +109,10 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
     char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
     struct text name = {0};
     ceduo_plot_belt_name(&name, belt);
-    ceduo_text_format(&name, _(", %s\xe2\x80\x93%s m"), ceduo_number_shortest(belt->from_given, from),
+    ceduo_text_then(&name, ", ", "%s\xe2\x80\x93%s m", ceduo_number_shortest(belt->from_given, from),
                       ceduo_number_shortest(belt->to_given, to));
     if (r->bare)
-        ceduo_text_put(&name, _(": no stems, nothing to meet: NO"));
+        ceduo_text_then(&name, ": ", _("no stems, nothing to meet: NO"));
     ceduo_plot_put_fitting(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, 1, &name);
     for (int f = 0; f < RULES && !r->bare; f++, p->row++) {
         enum ceduo_rule rule = (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f);
@@ -123,7 +123,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
                        applied ? "\xe2\x96\xb6 " : "  ", ceduo_rule_words.names[rule]);
         draw_bar(p, value, applied ? role : CEDUO_ROLE_DIM);
         if (applied)
-            put_verdict(p, r, p->word >= 16 ? _("applied: ") : "");
+            put_verdict(p, r, p->word >= 16);
     }
 }
 
@@ -134,7 +134,7 @@ static void draw_belt_briefly(struct adc_picture *p, const struct ceduo_belt *be
     ceduo_plot_belt_name(&name, belt);
     ceduo_plot_put_fitting(p->canvas, p->area->left, p->row, p->name, CEDUO_ROLE_BELT, 1, &name);
     draw_bar(p, r->adc_m, r->passes_threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD);
-    put_verdict(p, r, "");
+    put_verdict(p, r, false);
     p->row++;
 }
 

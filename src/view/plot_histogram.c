@@ -204,7 +204,7 @@ static void write_wooded_heads(const struct histogram *h, struct text *heads)
     ceduo_text_format(&heads[2], _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     ceduo_text_format(&heads[3], _("of 1000: %.0f (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
-        ceduo_text_format(&heads[i], i == 1 ? _(", %.0f (%.0f) with more than %g kJ") : _(", %.0f (%.0f) > %g kJ"),
+        ceduo_text_then(&heads[i], ", ", i == 1 ? _("%.0f (%.0f) with more than %g kJ") : "%.0f (%.0f) > %g kJ",
                           exceed, bare_exceed, h->control->accepted * KILO);
 }
 
@@ -217,8 +217,8 @@ static void write_bare_heads(const struct histogram *h, struct text *heads)
     ceduo_text_format(&heads[2], _("n = %llu of %llu"), reached, released);
     ceduo_text_format(&heads[3], _("n = %llu"), reached);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
-        ceduo_text_format(&heads[i],
-                          i == 1 ? _("; of 1000 released, %.0f with more than %g kJ") : _("; of 1000: %.0f > %g kJ"),
+        ceduo_text_then(&heads[i], "; ",
+                        i == 1 ? _("of 1000 released, %.0f with more than %g kJ") : _("of 1000: %.0f > %g kJ"),
                           exceed, h->control->accepted * KILO);
 }
 
@@ -231,7 +231,7 @@ static void put_head(const struct histogram *h)
         write_bare_heads(h, heads);
     ceduo_text_put(&heads[0], ceduo_text_string(&heads[1]));
     if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))
-        ceduo_text_format(&heads[0], _("; drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
+        ceduo_text_then(&heads[0], "; ", _("drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
     ceduo_plot_put_fitting(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT, HEADS, heads);
 }
 

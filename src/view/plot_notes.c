@@ -14,6 +14,13 @@ struct notes {
     int left, width, row, end;
 };
 
+static void put_line(struct notes *n, enum ceduo_role role, struct text *line)
+{
+    bool room = n->row < n->end;
+    ceduo_plot_put_fitting(n->canvas, n->left, n->row, room ? n->width : 0, role, 1, line);
+    n->row += room;
+}
+
 __attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ceduo_role role, const char *format, ...)
 {
     struct text line = {0};
@@ -21,9 +28,19 @@ __attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ced
     va_start(args, format);
     ceduo_text_vformat(&line, format, args);
     va_end(args);
-    bool room = n->row < n->end;
-    ceduo_plot_put_fitting(n->canvas, n->left, n->row, room ? n->width : 0, role, 1, &line);
-    n->row += room;
+    put_line(n, role, &line);
+}
+
+/* Under a heading, set in by a blank. */
+__attribute__((format(printf, 2, 3))) static void note_in(struct notes *n, const char *format, ...)
+{
+    struct text line = {0};
+    va_list args;
+    ceduo_text_char(&line, ' ');
+    va_start(args, format);
+    ceduo_text_vformat(&line, format, args);
+    va_end(args);
+    put_line(n, CEDUO_ROLE_TEXT, &line);
 }
 
 static void note_scale(struct notes *n, double factor)
@@ -64,15 +81,15 @@ static void note_belt(struct notes *n, const struct ceduo_belt *belt)
         n->row++;
     note(n, CEDUO_ROLE_BELT, "%s", ceduo_text_string(&name));
     ceduo_text_free(&name);
-    note(n, CEDUO_ROLE_TEXT, _(" %s\xe2\x80\x93%s m"), ceduo_number_shortest(belt->from_given, from),
+    note(n, CEDUO_ROLE_TEXT, " %s\xe2\x80\x93%s m", ceduo_number_shortest(belt->from_given, from),
          ceduo_number_shortest(belt->to_given, to));
     double count = ceduo_stand_shoots(&belt->stand) + ceduo_stand_trees(&belt->stand);
     if (!(count > 0)) {
-        note(n, CEDUO_ROLE_TEXT, _(" no stems"));
+        note(n, CEDUO_ROLE_TEXT, " %s", _("no stems"));
         return;
     }
-    note(n, CEDUO_ROLE_TEXT, _(" %.*f stems/ha"), count < 10 ? 1 : 0, count);
-    note(n, CEDUO_ROLE_TEXT, _(" up to %g m high"), ceduo_plot_tallest(&belt->stand));
+    note_in(n, _("%.*f stems/ha"), count < 10 ? 1 : 0, count);
+    note_in(n, _("up to %g m high"), ceduo_plot_tallest(&belt->stand));
 }
 
 static void note_control(struct notes *n, size_t c)
@@ -86,17 +103,15 @@ static void note_control(struct notes *n, size_t c)
     ceduo_number_shortest(n->picture->scene->controls[c].x_given, room);
     if (ceduo_plot_wooded(n->picture)) {
         note(n, CEDUO_ROLE_CONTROL, _("At %s m, wood (bare)"), room);
-        note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) of 1000"), a->reach_probability * 1000,
-             bare->reach_probability * 1000);
+        note_in(n, _("%.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
         if (!isnan(a->exceed_probability))
-            note(n, CEDUO_ROLE_TEXT, _(" %.0f (%.0f) > %g kJ"), a->exceed_probability * 1000,
-                 bare->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
+            note_in(n, "%.0f (%.0f) > %g kJ", a->exceed_probability * 1000, bare->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
         return;
     }
     note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"), room);
-    note(n, CEDUO_ROLE_TEXT, _(" %.0f of 1000 arrive"), a->reach_probability * 1000);
+    note_in(n, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
     if (!isnan(a->exceed_probability))
-        note(n, CEDUO_ROLE_TEXT, _(" %.0f with > %g kJ"), a->exceed_probability * 1000,
+        note_in(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000,
              n->picture->scene->controls[c].accepted * KILO);
 }
 
@@ -104,12 +119,14 @@ static void note_control(struct notes *n, size_t c)
 static void put_factor(struct ceduo_canvas *canvas, const struct ceduo_area *area, double factor)
 {
     bool words = area->width >= 30;
+    struct text text = {0};
+    if (factor == 1)
+        return;
     if (factor > 1)
-        ceduo_plot_say_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
-                             words ? _(" heights drawn %g times") : " \xc3\x97%g", factor);
-    else if (factor < 1)
-        ceduo_plot_say_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN,
-                             words ? _(" heights drawn at %g %%") : " %g %%", 100 * factor);
+        ceduo_text_then(&text, " ", words ? _("heights drawn %g times") : "\xc3\x97%g", factor);
+    else
+        ceduo_text_then(&text, " ", words ? _("heights drawn at %g %%") : "%g %%", 100 * factor);
+    ceduo_plot_put_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN, &text);
 }
 
 bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,

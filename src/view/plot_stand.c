@@ -241,8 +241,8 @@ static void put_words_of_way(const struct plan *p, const struct ceduo_area *area
     for (int i = 0; i < 2; i++) {
         ceduo_text_put(&words[i], ceduo_text_string(&words[2]));
         if (t->flown_over > 0 && i == 0)
-            ceduo_text_format(&words[i], _(", %zu flown over"), t->flown_over);
-        ceduo_text_format(&words[i], _("; across \xc3\x97%.2g"), t->factor);
+            ceduo_text_then(&words[i], ", ", _("%zu flown over"), t->flown_over);
+        ceduo_text_then(&words[i], "; ", _("across \xc3\x97%.2g"), t->factor);
     }
     ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
 }

@@ -326,11 +326,12 @@ static int put_legend(const struct strip *s, int column, int room)
     static const struct {
         enum ceduo_role role;
         const char *text;
-    } parts[] = {{CEDUO_ROLE_WOOD, N_("  \xe2\x94\x80\xe2\x94\x80 wood")},
-                 {CEDUO_ROLE_BARE, N_("  \xc2\xb7\xc2\xb7 bare")}};
+    } parts[] = {{CEDUO_ROLE_WOOD, N_("\xe2\x94\x80\xe2\x94\x80 wood")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
     int used = 0;
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
+        used += ceduo_canvas_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, "  ");
         used += ceduo_canvas_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, _(parts[i].text));
+    }
     return used;
 }
 
@@ -342,9 +343,9 @@ static void put_cut(const struct strip *s, const struct peak *peak, int column, 
     struct text words[3] = {{0}};
     ceduo_plot_number(peak->largest, 3, value);
     ceduo_plot_number(peak->at + s->picture->scene->slope.origin_x, 3, at);
-    ceduo_text_format(&words[0], _("; %s beyond the top: %s %s at %s m"), name, value, unit, at);
-    ceduo_text_format(&words[1], _("; %s up to %s %s"), name, value, unit);
-    ceduo_text_format(&words[2], _("; up to %s"), value);
+    ceduo_text_then(&words[0], "; ", _("%s beyond the top: %s %s at %s m"), name, value, unit, at);
+    ceduo_text_then(&words[1], "; ", _("%s up to %s %s"), name, value, unit);
+    ceduo_text_then(&words[2], "; ", _("up to %s"), value);
     ceduo_plot_put_fitting(s->canvas, column, s->area->top, room, CEDUO_ROLE_WARN, 3, words);
 }
 
