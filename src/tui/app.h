@@ -51,6 +51,13 @@ struct view_state {
     int scroll;                  /* of text that is longer than its pane */
 };
 
+/* A cursor along the slope of view 1. */
+struct place {
+    double x; /* m, relative */
+    int zoom; /* 2^zoom times as near as the whole slope */
+    bool put; /* it was moved: x holds */
+};
+
 struct app {
     struct document document;
     struct problems problems; /* of the edit that is under way */
@@ -63,6 +70,7 @@ struct app {
     struct view_state views[VIEW_COUNT];
     size_t option, belt;   /* that the views show */
     size_t year;           /* index of the one under the cursor */
+    struct place place;    /* the cursor along the slope */
     uint64_t rock;         /* whose trajectory is shown */
     struct rock_trajectory way; /* that trajectory */
     bool editing;

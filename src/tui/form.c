@@ -281,6 +281,16 @@ static bool matches(const struct form_row *row, const char *what, size_t *column
     return false;
 }
 
+void ceduo_form_go(struct form *form, const char *list, size_t index)
+{
+    size_t last = form->row;
+    for (size_t i = 0; i < form->n; i++)
+        if (form->rows[i].kind == FORM_FIELDS && strcmp(form->rows[i].list, list) == 0 && form->rows[i].index <= index)
+            last = i;
+    form->row = last;
+    ceduo_form_settle(form);
+}
+
 bool ceduo_form_search(struct form *form, const char *word)
 {
     for (size_t i = 1; word[0] && i <= form->n; i++) {

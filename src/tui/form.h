@@ -70,6 +70,9 @@ void ceduo_form_move(struct form *form, int lines, int columns);
 /* Moves the cursor to the next line whose name, or a cell whose text or path holds a word; false where there is none. */
 bool ceduo_form_search(struct form *form, const char *word);
 
+/* Moves the cursor to item `index` of a list, or the last before it; it stays where the form has no such list. */
+void ceduo_form_go(struct form *form, const char *list, size_t index);
+
 /* The cell under the cursor; NULL where there is none. */
 struct form_cell *ceduo_form_cell(struct form *form);
 struct form_row *ceduo_form_row(struct form *form);

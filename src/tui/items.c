@@ -16,6 +16,7 @@ struct item {
     const char *key;      /* last word of that path */
     size_t index;
     bool there;           /* false: the list is empty */
+    double at;            /* where along the slope, m, as given; NAN: in the middle of what is split */
 };
 
 static bool find_item(struct app *app, struct item *item)
@@ -28,6 +29,7 @@ static bool find_item(struct app *app, struct item *item)
     item->key = dot ? dot + 1 : item->list;
     item->index = row->index;
     item->there = row->n > 0;
+    item->at = NAN;
     return true;
 }
 
@@ -52,13 +54,14 @@ static bool split_stretch(struct app *app, const struct item *item)
 {
     char first[FORM_PATH + 64], second[FORM_PATH + 64];
     double middle = (number_of(app, item, item->index, "from_m") + number_of(app, item, item->index, "to_m")) / 2;
+    middle = isnan(item->at) ? middle : item->at;
     snprintf(first, sizeof first, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
     snprintf(second, sizeof second, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
     return ceduo_document_split(&app->document, item->list, item->index, first, second, &app->problems);
 }
 
-/* A point in the middle of a segment of the profile. */
-static bool split_at(struct app *app, size_t segment, bool apart)
+/* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
+static bool split_at(struct app *app, size_t segment, bool apart, double at)
 {
     char vertex[96];
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
@@ -73,7 +76,8 @@ static bool split_at(struct app *app, size_t segment, bool apart)
             !read_scalar(point->items[1], &z[i]))
             return false;
     }
-    snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", (x[0] + x[1]) / 2, (z[0] + z[1]) / 2);
+    double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
+    snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
     return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
 }
 
@@ -83,7 +87,8 @@ static bool split_segment(struct app *app, const struct item *item)
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
     bool all = segments && segments->n == 1;
-    return split_at(app, all ? ceduo_slope_segment(s, s->x[s->vertices - 1] / 2) : item->index, true);
+    double at = isnan(item->at) ? s->x[s->vertices - 1] / 2 : item->at - s->origin_x;
+    return split_at(app, all ? ceduo_slope_segment(s, at) : item->index, true, item->at);
 }
 
 /* A point between this one and the next, or before the last. */
@@ -91,7 +96,7 @@ static bool split_point(struct app *app, const struct item *item)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     bool last = vertices && item->index + 1 == vertices->n;
-    return split_at(app, item->index - (last && item->index > 0), false);
+    return split_at(app, item->index - (last && item->index > 0), false, item->at);
 }
 
 /* ---- adding ---- */
@@ -140,9 +145,10 @@ static bool add_control(struct app *app, const struct item *item)
     for (size_t i = 1; i < s->controls_count; i++)
         last = s->controls[i].x > last ? s->controls[i].x : last;
     double start = s->release.x.mean + s->release.x.spread * 3;
-    double x = last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2;
+    double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
+    bool plain = strcmp(item->key, "controls_m") == 0;
     char control[64];
-    snprintf(control, sizeof control, "{x_m: %.6g}", x + app->document.file.scene.slope.origin_x);
+    snprintf(control, sizeof control, plain ? "%.6g" : "{x_m: %.6g}", isnan(item->at) ? x : item->at);
     return ceduo_document_insert(&app->document, item->list, 1000000, control, &app->problems);
 }
 
@@ -226,6 +232,7 @@ static const struct {
     item_function *add, *duplicate;
 } kinds[] = {{"forest", add_belt, split_stretch},
              {"controls", add_control, add_control},
+             {"controls_m", add_control, add_control},
              {"materials", add_ground, split_stretch},
              {"segments", split_segment, split_segment},
              {"vertices_m", split_point, split_point},
@@ -240,24 +247,13 @@ static item_function *function_for(const struct item *item, bool add)
     return copy_item;
 }
 
-static void go_to(struct app *app, const char *list, size_t index)
-{
-    struct form *form = ceduo_app_form(app);
-    size_t last = form->row;
-    for (size_t i = 0; i < form->n; i++)
-        if (form->rows[i].kind == FORM_FIELDS && strcmp(form->rows[i].list, list) == 0 && form->rows[i].index <= index)
-            last = i;
-    form->row = last;
-    ceduo_form_settle(form);
-}
-
 /* The cursor goes to the new item, or the last where it was put before others. */
 static void put_item(struct app *app, const struct item *item, bool good)
 {
     if (!good && app->problems.count == 0 && !app->problems.memory && app->message[0])
         return; /* it is said already */
     if (ceduo_app_edited(app, good))
-        go_to(app, item->list, item->there ? item->index + 1 : 0);
+        ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
 }
 
 void ceduo_items_add(struct app *app)
@@ -270,6 +266,15 @@ void ceduo_items_add(struct app *app)
     put_item(app, &item, function_for(&item, true)(app, &item));
     if (item.key && strcmp(item.key, "forest") == 0 && !app->message[0])
         ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
+}
+
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at)
+{
+    struct item item = {.index = index, .there = true, .at = at};
+    snprintf(item.list, sizeof item.list, "%s", list);
+    const char *dot = strrchr(item.list, '.');
+    item.key = dot ? dot + 1 : item.list;
+    put_item(app, &item, function_for(&item, false)(app, &item));
 }
 
 void ceduo_items_delete(struct app *app)

@@ -80,6 +80,8 @@ enum key {
     X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \
     X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                       \
     X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                 \
+    X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"))                 \
+    X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"))                                   \
     X(SEARCH, '/', "/", K_F3, "F3", 0, N_("search"))                                                   \
     X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                              \
     X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names")) \

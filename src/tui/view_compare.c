@@ -319,9 +319,34 @@ static void say_verdict(struct app *app, struct text *words)
                           CEDUO_EXCEED_MOST * 1000);
 }
 
-#define PICTURE_LEAST 11 /* lines of the picture of protection against yield */
+enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
-static void draw(struct app *app, struct ceduo_area area)
+#define TRADEOFF_LEAST 11  /* lines of the picture of protection against yield */
+#define COMPARE_MORE   4   /* lines of the picture of the options besides one for each */
+#define BESIDE_LEAST   128 /* columns that hold the table and a picture beside it */
+#define TABLE_WIDTH    84
+
+static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_area area)
+{
+    struct ceduo_picture p = ceduo_app_picture(app);
+    ceduo_plot_draw(plot, &app->cells->canvas, &area, &p);
+}
+
+/* The pictures that have room below the table. */
+static void draw_below(struct app *app, struct ceduo_area area, bool compare)
+{
+    int rows = (int)app->figures.verdict.n + COMPARE_MORE;
+    bool tradeoff = area.height >= TRADEOFF_LEAST;
+    compare = compare && area.height >= rows + (tradeoff ? TRADEOFF_LEAST + 1 : 0);
+    if (compare)
+        draw_picture(app, CEDUO_PLOT_COMPARE, (struct ceduo_area){area.left, area.top, area.width, rows});
+    area.top += compare ? rows + 1 : 0;
+    area.height -= compare ? rows + 1 : 0;
+    if (tradeoff)
+        draw_picture(app, CEDUO_PLOT_TRADEOFF, area);
+}
+
+static void draw_table(struct app *app, struct ceduo_area area, bool compare)
 {
     size_t n = app->figures.verdict.n;
     struct layout l = lay_out(app, area);
@@ -339,11 +364,24 @@ static void draw(struct app *app, struct ceduo_area area)
     bool gap = rest > said;
     struct ceduo_area below = {area.left, y + gap, area.width, rest - gap};
     ceduo_app_put(app, below, CEDUO_ROLE_TEXT, &words);
-    struct ceduo_area picture = {area.left, y + gap + said + 1, area.width, rest - gap - said - 1};
-    if (n > 1 && picture.height >= PICTURE_LEAST) {
-        struct ceduo_picture p = ceduo_app_picture(app);
-        ceduo_plot_draw(CEDUO_PLOT_TRADEOFF, &app->cells->canvas, &picture, &p);
+    if (n > 1)
+        draw_below(app, (struct ceduo_area){area.left, y + gap + said + 1, area.width, rest - gap - said - 1}, compare);
+}
+
+/* The table with the pictures that have room beside and below it, or one picture alone. */
+static void draw(struct app *app, struct ceduo_area area)
+{
+    int pane = ceduo_app_state(app)->pane;
+    bool beside = area.width >= BESIDE_LEAST && app->figures.verdict.n > 1;
+    if (pane != PANE_TABLE) {
+        draw_picture(app, pane == PANE_COMPARE ? CEDUO_PLOT_COMPARE : CEDUO_PLOT_TRADEOFF, area);
+        return;
     }
+    struct ceduo_area table = {area.left, area.top, beside ? TABLE_WIDTH : area.width, area.height};
+    draw_table(app, table, !beside);
+    if (beside)
+        draw_picture(app, CEDUO_PLOT_COMPARE,
+                     (struct ceduo_area){area.left + TABLE_WIDTH + 2, area.top, area.width - TABLE_WIDTH - 2, area.height});
 }
 
 static void choose(struct app *app, long i)
@@ -440,4 +478,4 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_compare = {
-    .title = N_("compare"), .panes = 1, .years = true, .result = true, .build = build, .draw = draw, .act = act};
+    .title = N_("compare"), .panes = PANES, .years = true, .result = true, .build = build, .draw = draw, .act = act};

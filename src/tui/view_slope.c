@@ -3,6 +3,7 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "place.h"
 
 static void build_ground(struct app *app, struct form *form)
 {
@@ -61,20 +62,36 @@ static void build(struct app *app, struct form *form)
     build_vertices(app, form);
 }
 
+enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
+
+static void say_how(struct app *app)
+{
+    if (ceduo_app_state(app)->pane == PANE_ROCKS)
+        ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: along the slope"));
+    else
+        ceduo_place_say(app);
+}
+
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
 {
     ceduo_app_follow_rock(app);
     struct ceduo_span span;
     struct ceduo_picture picture = ceduo_app_picture(app);
+    double mark = ceduo_place_x(app);
     picture.span = &span;
-    bool alone = ceduo_app_state(app)->pane == 1;
+    bool alone = ceduo_app_state(app)->pane != PANE_FORM;
+    if (app->place.zoom > 0)
+        ceduo_place_stretch(app, &picture.from, &picture.to);
     int form_height = alone ? 0 : area.height / 3;
+    bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
     int room = area.height - form_height;
-    int strips = room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    int strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    if (place)
+        picture.mark = &mark;
     int strip = room >= 24 ? room / 4 : 5;
     if (alone && !app->message[0])
-        ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: back to the form"));
+        say_how(app);
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &profile, &picture);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
@@ -90,11 +107,23 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, below, true);
 }
 
-/* In the picture left and right go from rock to rock, up and down along its trajectory. */
-static bool act(struct app *app, enum action action)
+/* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
+static bool act_on_place(struct app *app, enum action action)
 {
-    if (ceduo_app_state(app)->pane != 1)
-        return false;
+    switch (action) {
+    case ACTION_RIGHT: ceduo_place_move(app, 1); return true;
+    case ACTION_LEFT: ceduo_place_move(app, -1); return true;
+    case ACTION_DOWN: ceduo_place_jump(app, 1); return true;
+    case ACTION_UP: ceduo_place_jump(app, -1); return true;
+    case ACTION_EDIT:
+    case ACTION_ADD: ceduo_place_choose(app); return true;
+    default: return false;
+    }
+}
+
+/* In the picture left and right go from rock to rock, up and down along its trajectory. */
+static bool act_on_rocks(struct app *app, enum action action)
+{
     switch (action) {
     case ACTION_RIGHT: ceduo_app_next_rock(app, 1); return true;
     case ACTION_LEFT: ceduo_app_next_rock(app, -1); return true;
@@ -104,4 +133,16 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct view ceduo_view_slope = {.title = N_("slope"), .panes = 2, .build = build, .draw = draw, .act = act};
+static bool act(struct app *app, enum action action)
+{
+    int pane = ceduo_app_state(app)->pane;
+    if (action == ACTION_ZOOM || action == ACTION_UNZOOM) {
+        ceduo_app_state(app)->pane = pane == PANE_FORM ? PANE_PLACE : pane;
+        ceduo_place_zoom(app, action == ACTION_ZOOM ? 1 : -1);
+        return true;
+    }
+    return pane == PANE_PLACE ? act_on_place(app, action) : pane == PANE_ROCKS && act_on_rocks(app, action);
+}
+
+const struct view ceduo_view_slope = {
+    .title = N_("slope"), .panes = PANES, .build = build, .draw = draw, .act = act};

@@ -64,7 +64,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_then(place, ", ", _("bears %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
+        ceduo_text_then(place, ", ", _("withstands %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
                           where.bytes && ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
     ceduo_text_free(&where);
 }
@@ -111,7 +111,7 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, SHOWN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
     if (!isnan(a->exceed_probability))
-        ceduo_text_then(line, ", ", _("%s with more than it bears"),
+        ceduo_text_then(line, ", ", _("%s with more than it withstands"),
                         SHOWN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi));
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("of those that arrive the mean is %s \xc2\xb1 %s kJ, 95 %% below %s"),

@@ -205,7 +205,7 @@ static void write_last_head(const struct comparison *c, struct text *heads)
     for (int i = 0; i < HEADS; i++)
         ceduo_text_put(&heads[i], c->wooded ? _("mean, kJ") : _("left, kJ"));
     if (!isnan(accepted)) {
-        ceduo_text_then(&heads[0], " ", _("(\xe2\x94\x82 bears %g)"), accepted);
+        ceduo_text_then(&heads[0], " ", _("(\xe2\x94\x82 withstands %g)"), accepted);
         ceduo_text_then(&heads[1], " ", "(\xe2\x94\x82 %g)", accepted);
     }
 }

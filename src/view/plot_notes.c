@@ -69,7 +69,7 @@ static void note_ways(struct notes *n)
                             : _("the forest"));
     }
     if (p->stems_count > 0)
-        note(n, CEDUO_ROLE_WAY, _("stems this rock came to"));
+        note(n, CEDUO_ROLE_STEM, _("stems this rock came to"));
 }
 
 static void note_belt(struct notes *n, const struct ceduo_belt *belt)

@@ -174,7 +174,7 @@ static void draw_passed(const struct profile *p)
         if (!(stem->x >= slope->x[0] && stem->x <= slope->x[slope->vertices - 1]))
             continue;
         double z = ceduo_slope_height(slope, stem->x);
-        ceduo_canvas_line(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x, z, stem->x,
+        ceduo_canvas_line(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM, stem->x, z, stem->x,
                           z + height_of(p, stem));
     }
 }
@@ -361,6 +361,8 @@ const char *ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_a
     draw_ways(&p);
     ceduo_canvas_polyline(canvas, &p.frame, CEDUO_ROLE_GROUND, slope->vertices, slope->x, slope->z);
     mark_release(&p);
+    if (picture->mark)
+        ceduo_canvas_rule_x(canvas, &p.frame, CEDUO_ROLE_TITLE, *picture->mark);
     bool noted = ceduo_plot_profile_notes(canvas, area, picture, &p.frame, p.factor);
     draw_controls(&p);
     if (p.names && !noted)

@@ -276,7 +276,7 @@ static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
         return;
     ceduo_canvas_line(s->canvas, &s->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
     struct text label = {0};
-    ceduo_text_format(&label, _("bears %g kJ"), accepted);
+    ceduo_text_format(&label, _("withstands %g kJ"), accepted);
     int width = label.bytes ? ceduo_canvas_label_width(s->canvas, label.bytes) : 0, left, right;
     ceduo_frame_cell(&s->frame, s->canvas, fmax(c->x - reach, s->frame.x0), accepted, &left, &row);
     ceduo_frame_cell(&s->frame, s->canvas, fmin(c->x + reach, s->frame.x1), accepted, &right, &row);
@@ -396,6 +396,8 @@ static const char *draw_strip(struct strip *s)
     for (int i = 0; i < s->content->count; i++)
         draw_curve(s, &s->content->curves[i]);
     draw_controls(s);
+    if (s->picture->mark)
+        ceduo_canvas_rule_x(s->canvas, &s->frame, CEDUO_ROLE_TITLE, *s->picture->mark);
     name_curves(s);
     ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, s->picture->no_x_axis ? NULL : _("m"));
     return NULL;

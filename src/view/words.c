@@ -274,7 +274,7 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
     if (!result->wooded) {
         ceduo_text_put(text, _("The index alone says nothing of single rocks (contact_model: index)."));
     } else if (isnan(c->accepted)) {
-        ceduo_text_put(text, _("It is not said what the place bears (accepted_kJ)."));
+        ceduo_text_put(text, _("It is not said what the place withstands (accepted_kJ)."));
     } else if (!a) {
         ceduo_text_put(text, _("Not computed yet."));
     } else {

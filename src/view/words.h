@@ -46,7 +46,7 @@ void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
 const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */
 
-/* What a place bears, in kJ, as its file says it: 3.3, which a product with 0.001 makes 3.3000000000000003. */
+/* What a place withstands, in kJ, as its file says it: 3.3, which a product with 0.001 makes 3.3000000000000003. */
 double ceduo_words_accepted(const struct ceduo_control *control);
 
 /* "991 (984–995)": of 1000 rocks, with the 95 % interval. */

@@ -116,7 +116,7 @@ def test_worst_control():
         for target, reached in ((0.026, True), (0.025, True), (0.014, False), (0.012, False)):
             expect_equal(is_found(drop(controls=controls), "energy", target), reached, f"{target} kJ, {controls}")
         for accepted, reached in ((0.026, True), (0.02, False), (0.01, False)):
-            expect_equal(is_found(drop(accepted, controls), "exceed", 0.5), reached, f"bears {accepted} kJ, {controls}")
+            expect_equal(is_found(drop(accepted, controls), "exceed", 0.5), reached, f"withstands {accepted} kJ, {controls}")
 
 
 def test_from_none():

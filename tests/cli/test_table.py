@@ -34,7 +34,7 @@ def test_table_order():
                      digits(arrivals["speed_m_s"]["mean"], 3), digits(arrivals["height_m"]["p95"], 2))
     expect_in(f"Energy: FAILS. {of_1000('exceed', control['wooded'])} of 1000 arrive with more than 50 kJ",
               re.sub(r"\s+", " ", text), "the energy light's reason")
-    expect_in("bears 50 kJ*", text, "mark of the assumed accepted energy")
+    expect_in("withstands 50 kJ*", text, "mark of the assumed accepted energy")
     expect_width(text)
 
 
@@ -140,7 +140,7 @@ def test_table_warnings_once():
 
 
 def test_table_lights():
-    """Table: every light with its reason: no forest, a gap, a thin belt, nothing said of what a place bears, the index"""
+    """Table: every light with its reason: no forest, a gap, a thin belt, nothing said of what a place withstands, the index"""
     def said(*arguments, scene_mapping=None, where=-1):
         with Folder() as f:
             text = good("--batch", f.write("s.yaml", scene_mapping or wooded_scene()), *arguments).out
@@ -159,7 +159,7 @@ def test_table_lights():
     lights = said("-s", "controls[1].accepted_kJ=1000")
     expect(re.fullmatch(r"passes\. 0 \(0–\d+\) of 1000 arrive with more than 1000 kJ \(50 are allowed\)\.", lights["Energy"]),
            lights)
-    expect(re.match(r"unknown\. .*not said what the place bears \(accepted_kJ\)", said(where=0)["Energy"]), "no accepted_kJ")
+    expect(re.match(r"unknown\. .*not said what the place withstands \(accepted_kJ\)", said(where=0)["Energy"]), "no accepted_kJ")
     expect(re.match(r"unknown\. The index .*contact_model: index", said(*through("index"))["Energy"]), "index")
     lights = said("-s", "forest=[]")
     expect(re.match(r"FAILS\. There is no forest", lights["Contact"]) and re.match(r"FAILS\. No stem", lights["Free run"]), lights)
@@ -286,7 +286,7 @@ def test_table_changed():
             text = " ".join(good("--batch", path, "-s", f"controls[0].{change}").out.split())
             expect_in(f"all a guess{said} (controls[", text, change)
         for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ\n")):
-            expect_in(f"bears {star}", good("--batch", path, "-s", f"controls[0].{change}").out, "its star")
+            expect_in(f"withstands {star}", good("--batch", path, "-s", f"controls[0].{change}").out, "its star")
         twice = good("--batch", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
         expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
         whole = good("--batch", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out

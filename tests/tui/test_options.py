@@ -159,7 +159,7 @@ def test_reorder_at_once():
 
 
 def test_compare_arrive():
-    """View 5 where it is not said what the place bears: those that arrive are compared, the energy lights are unknown"""
+    """View 5 where it is not said what the place withstands: those that arrive are compared, the energy lights are unknown"""
     with Place() as place:
         place.write("cuts.yaml", play.CUTS.replace(", accepted_kJ: 250", ""))
         screen = place.play("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml")[0]
