@@ -14,7 +14,7 @@
 /* Exit statuses, as the manual has them. */
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
-enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_SENSITIVITY, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_HELP, MODE_VERSION };
+enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_SENSITIVITY, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_SURVEY, MODE_HELP, MODE_VERSION };
 
 struct arguments {
     enum mode mode;
@@ -43,6 +43,7 @@ struct arguments {
     enum ceduo_goal goal;
     double goal_value;  /* NaN: the light's own limit */
     size_t points;      /* of --sensitivity */
+    const char *survey; /* a CSV file of plots; NULL: none */
     uint64_t shard, shards; /* only this part of so many, from 1; 0: all */
 };
 

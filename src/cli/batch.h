@@ -12,6 +12,7 @@ enum exit_status ceduo_batch_sensitivity(const struct arguments *arguments);
 enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
+enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 
 /* Reads each scene and hands it to `one`, which adds its answer; `header` begins a CSV. The answers are printed together,
  * but not after an interruption. */

@@ -50,6 +50,7 @@ void ceduo_arguments_help(struct text *text)
                            "       ceduo --shard I/N [OPTION...] SCENE.yaml...\n"
                            "       ceduo --merge [OPTION...] PART...\n"
                            "       ceduo --check SCENE.yaml...\n"
+                           "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
                            "       ceduo --list-parameters | --list-profiles\n\n"
                            "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
     size_t n;
@@ -105,11 +106,30 @@ static enum exit_status check_unused(const struct arguments *a)
     return EXIT_DONE;
 }
 
+/* A survey becomes a stand, and nothing else is done. */
+static enum exit_status check_survey(const struct arguments *a)
+{
+    static const char *const with[] = {"survey", "output", "quiet", "language"};
+    size_t n;
+    const struct option_row *rows = ceduo_option_rows(&n);
+    for (size_t i = 0; i < n; i++) {
+        bool goes = !(a->given >> i & 1);
+        for (size_t k = 0; k < sizeof with / sizeof with[0]; k++)
+            goes |= strcmp(rows[i].name, with[k]) == 0;
+        if (!goes)
+            return ceduo_usage(NULL, _("--survey cannot be used with --%s: it writes a stand"), rows[i].name);
+    }
+    return a->scenes_count == 0 ? EXIT_DONE
+                                : ceduo_usage(NULL, _("--survey takes one CSV file, and no scene: '%s'"), a->scenes[0]);
+}
+
 /* Whether the options go together, and as many scenes are named as they want. */
 static enum exit_status check_arguments(struct arguments *a)
 {
     if (a->mode < MODE_HELP && check_parts(a) != EXIT_DONE)
         return EXIT_USAGE;
+    if (a->mode == MODE_SURVEY)
+        return check_survey(a);
     if (a->mode == MODE_CHECK && check_with(a, "check", NOT_CHECK, _("it computes nothing")) != EXIT_DONE)
         return EXIT_USAGE;
     if (a->mode == MODE_MERGE && a->scenes_count == 0)

@@ -52,6 +52,8 @@ static enum exit_status act(const struct arguments *a)
         return ceduo_batch_parameters(a);
     case MODE_PROFILES:
         return ceduo_batch_profiles(a);
+    case MODE_SURVEY:
+        return ceduo_batch_survey(a);
     case MODE_HELP:
         return print(a, ceduo_arguments_help);
     case MODE_VERSION:

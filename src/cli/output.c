@@ -53,6 +53,7 @@ bool ceduo_output_check(const struct arguments *a)
             path = ceduo_file_find(&arena, path, NULL, "scenes");
         good = !ceduo_output_is(a, path);
     }
+    good = good && !(a->survey && ceduo_output_is(a, a->survey));
     ceduo_arena_free(&arena);
     return good;
 }

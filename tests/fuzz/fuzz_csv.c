@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A CSV profile: what is read rises, and is refused with a word. */
+/* A CSV profile: what is read rises, and is refused with a word. A CSV survey: what is read makes a stand that is read. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,6 +8,45 @@
 
 #include "fuzz.h"
 #include "io/derive.h"
+#include "io/survey_file.h"
+
+/* The stand of a survey is one that a scene takes. */
+static void check_stand(struct arena *arena, const struct survey_file *survey, struct problems *problems)
+{
+    struct text yaml = {0};
+    if (ceduo_survey_stand(survey, &yaml, problems)) {
+        struct ceduo_belt belt;
+        struct bad_values bad = {0};
+        const struct source_note *notes = NULL;
+        const struct source source = {.name = "stand", .bytes = yaml.bytes, .length = yaml.length};
+        const struct node *root = ceduo_yaml_read(arena, &source, problems);
+        ceduo_schema_init(ceduo_schema_stand(), &belt.stand);
+        if (root)
+            ceduo_bind(arena, ceduo_schema_stand(), root, &belt.stand, problems, &notes, &bad);
+        if (!root || problems->count > 0) {
+            fprintf(stderr, "%s%s", ceduo_text_string(&problems->text), yaml.bytes);
+            abort();
+        }
+        if (ceduo_stand_shoots(&belt.stand) < belt.stand.stools_per_ha)
+            abort();
+    } else if (problems->count == 0) {
+        abort();
+    }
+    ceduo_text_free(&yaml);
+}
+
+static void check_survey(const char *path)
+{
+    struct arena arena = {0};
+    struct problems problems = {0};
+    struct survey_file survey;
+    if (ceduo_survey_read(&survey, &arena, path, &problems))
+        check_stand(&arena, &survey, &problems);
+    else if (problems.count == 0)
+        abort();
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -28,6 +67,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
+    check_survey(path);
     close(fd);
     return 0;
 }

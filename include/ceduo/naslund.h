@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_NASLUND_H
+#define CEDUO_NASLUND_H
+
+#include <stddef.h>
+
+#include "status.h"
+
+#define CEDUO_BREAST_HEIGHT 1.3 /* m */
+#define CEDUO_NASLUND_LEAST 5   /* heights that a curve is fitted to */
+
+/* Näslund's curve of height over diameter: h = 1.3 + d2/(a + b d)2, h in m, d in cm. */
+struct ceduo_naslund {
+    double a, b;
+    double rmse; /* m */
+};
+
+/* Fits the curve to n pairs of dbh (m) and height (m, above 1.3) by least squares of the heights. CEDUO_NO_MEMORY;
+ * CEDUO_BAD_PART where no curve that rises and stays finite fits: too few pairs, dbh all alike, heights that fall. */
+enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve);
+
+/* Height (m) at a dbh (m). */
+double ceduo_naslund_height(const struct ceduo_naslund *curve, double dbh);
+
+#endif

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SURVEY_H
+#define CEDUO_SURVEY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "naslund.h"
+#include "stand.h"
+#include "status.h"
+
+/* From the stems on sample plots to a stand. Each plot gives its own figures per hectare; a stand has their mean, and the
+ * standard error of that mean over the plots. */
+
+#define CEDUO_SURVEY_KINDS(X) \
+    X(SHOOT, "shoot")         \
+    X(STANDARD, "standard")   \
+    X(TREE, "tree")           \
+    X(STUMP, "stump")
+
+enum ceduo_survey_kind {
+#define X(NAME, word) CEDUO_SURVEY_##NAME,
+    CEDUO_SURVEY_KINDS(X)
+#undef X
+    CEDUO_SURVEY_KINDS_COUNT
+};
+
+struct ceduo_survey_stem {
+    size_t plot;
+    enum ceduo_survey_kind kind;
+    int species;    /* index into ceduo_species_list(); -1: not said */
+    size_t stool;   /* of a shoot: which one of all plots */
+    double dbh;     /* m, > 0; of a stump: its diameter */
+    double height;  /* m; NaN: not measured */
+    double spacing; /* m, of a shoot: between neighbouring shoots of its stool; NaN: not measured */
+};
+
+struct ceduo_survey {
+    size_t plots_count;  /* >= 1 */
+    const double *areas; /* m2, horizontal, > 0 */
+    size_t stools_count;
+    size_t stems_count;
+    const struct ceduo_survey_stem *stems;
+};
+
+/* A plot of `area` m2 laid along a slope covers this on the map. */
+double ceduo_survey_horizontal(double area, double slope_rad);
+
+/* A mean with its standard error and its 95 % interval (Student). With one value these are NaN. */
+struct ceduo_estimate {
+    double mean, se, lo, hi;
+};
+
+#define CEDUO_SURVEY_CLASS 0.05 /* m of dbh: the width of a class */
+#define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool where nobody measured it: assumed, as in the presets */
+
+/* Stems of one kind and one class of dbh. */
+struct ceduo_survey_class {
+    enum ceduo_survey_kind kind;
+    double from; /* m: its lower end, which is in it */
+    size_t stems;
+    struct ceduo_estimate per_ha;
+    double dbh, dbh_sd;      /* m; sd: 0 with one stem */
+    double height;           /* m */
+    double volume;           /* m3, mean of each stem's by its own species; NaN: of stumps */
+    size_t form_factor;      /* stems whose volume is outside of the equation of their species, */
+    size_t form_factor_main; /* of these of the main species */
+};
+
+enum ceduo_survey_heights_from {
+    CEDUO_HEIGHTS_MEASURED, /* all of them */
+    CEDUO_HEIGHTS_CURVE,    /* those that are missing lie on Näslund's curve */
+    CEDUO_HEIGHTS_MEAN      /* those that are missing are the mean of those given: assumed */
+};
+
+/* Heights of shoots, and of standards and trees together. */
+struct ceduo_survey_heights {
+    size_t given, missing;
+    enum ceduo_survey_heights_from from;
+    struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE */
+    double mean;                /* m, of those given; NaN: none is */
+};
+
+struct ceduo_survey_answer {
+    struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;
+    struct ceduo_estimate spacing; /* m, over the stools where it was measured; its mean is NaN where it was not */
+    int species;                   /* that has most basal area; -1: none is said */
+    struct ceduo_survey_heights shoots, trees;
+    size_t classes_count; /* by kind, then by dbh */
+    struct ceduo_survey_class *classes;
+    double stump_height; /* m, the mean; NaN: not measured */
+};
+
+/* Of a kind other than stumps at least one height must be given: otherwise heights are NaN. CEDUO_NO_MEMORY or CEDUO_OK;
+ * release it in the latter case. */
+enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer);
+void ceduo_survey_free(struct ceduo_survey_answer *answer);
+
+#endif

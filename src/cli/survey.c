@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* --survey: the stand of a CSV file of sample plots. */
+#include "batch.h"
+#include "io/survey_file.h"
+#include "output.h"
+#include "say.h"
+
+enum exit_status ceduo_batch_survey(const struct arguments *a)
+{
+    struct arena arena = {0};
+    struct problems problems = {0};
+    struct survey_file file;
+    struct text yaml = {0};
+    bool good = ceduo_survey_read(&file, &arena, a->survey, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    ceduo_problems_close(&problems);
+    ceduo_say(&problems.text);
+    enum exit_status status = good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
+    ceduo_problems_free(&problems);
+    ceduo_text_free(&yaml);
+    ceduo_arena_free(&arena);
+    return status;
+}

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Näslund's curve: a line through d/sqrt(h - 1.3) begins the search, and least squares of the heights end it. */
+#include "ceduo/naslund.h"
+
+#include <gsl/gsl_fit.h>
+#include <gsl/gsl_multifit_nlinear.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#define STEPS_MOST 200
+#define EXACT 1e-12
+
+struct pairs {
+    size_t n;
+    const double *dbh, *height; /* m */
+};
+
+double ceduo_naslund_height(const struct ceduo_naslund *curve, double dbh)
+{
+    double d = dbh * 100, root = d / (curve->a + curve->b * d);
+    return CEDUO_BREAST_HEIGHT + root * root;
+}
+
+static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
+{
+    const struct pairs *p = context;
+    const struct ceduo_naslund curve = {.a = gsl_vector_get(x, 0), .b = gsl_vector_get(x, 1)};
+    for (size_t i = 0; i < p->n; i++)
+        gsl_vector_set(f, i, ceduo_naslund_height(&curve, p->dbh[i]) - p->height[i]);
+    return GSL_SUCCESS;
+}
+
+static int slopes(const gsl_vector *x, void *context, gsl_matrix *j)
+{
+    const struct pairs *p = context;
+    for (size_t i = 0; i < p->n; i++) {
+        double d = p->dbh[i] * 100, below = gsl_vector_get(x, 0) + gsl_vector_get(x, 1) * d;
+        double by_a = -2 * d * d / (below * below * below);
+        gsl_matrix_set(j, i, 0, by_a);
+        gsl_matrix_set(j, i, 1, by_a * d);
+    }
+    return GSL_SUCCESS;
+}
+
+/* The line d/sqrt(h - 1.3) = a + b d. False where there is none. */
+static bool begin(const struct pairs *p, double *x)
+{
+    double *d = malloc(2 * p->n * sizeof *d), ignored[4];
+    if (!d)
+        return false;
+    for (size_t i = 0; i < p->n; i++) {
+        d[i] = p->dbh[i] * 100;
+        d[p->n + i] = d[i] / sqrt(p->height[i] - CEDUO_BREAST_HEIGHT);
+    }
+    gsl_fit_linear(d, 1, d + p->n, 1, p->n, &x[0], &x[1], &ignored[0], &ignored[1], &ignored[2], &ignored[3]);
+    free(d);
+    return true;
+}
+
+static double range_of(const double *values, size_t n)
+{
+    double lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        lo = fmin(lo, values[i]);
+        hi = fmax(hi, values[i]);
+    }
+    return hi - lo;
+}
+
+enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve)
+{
+    struct pairs pairs = {n, dbh, height};
+    double x[2];
+    if (n < CEDUO_NASLUND_LEAST || !(range_of(dbh, n) > 0))
+        return CEDUO_BAD_PART;
+    if (!begin(&pairs, x))
+        return CEDUO_NO_MEMORY;
+    gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
+    gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, n, 2);
+    if (!w)
+        return CEDUO_NO_MEMORY;
+    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .df = slopes, .n = n, .p = 2, .params = &pairs};
+    gsl_vector_view start = gsl_vector_view_array(x, 2);
+    int why;
+    gsl_multifit_nlinear_init(&start.vector, &fdf, w);
+    gsl_multifit_nlinear_driver(STEPS_MOST, EXACT, EXACT, 0, NULL, NULL, &why, w);
+    curve->a = gsl_vector_get(gsl_multifit_nlinear_position(w), 0);
+    curve->b = gsl_vector_get(gsl_multifit_nlinear_position(w), 1);
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        double left = ceduo_naslund_height(curve, dbh[i]) - height[i];
+        sum += left * left;
+    }
+    curve->rmse = sqrt(sum / (double)n);
+    gsl_multifit_nlinear_free(w);
+    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_BAD_PART;
+}

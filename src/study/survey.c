@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From plots to a stand: counts become densities of each plot, and these a mean with its error. */
+#include "ceduo/survey.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+
+#define HECTARE 10000
+#define CLASSES_MOST 1000 /* of dbh; thicker stems share the last */
+
+struct surveyor {
+    const struct ceduo_survey *survey;
+    struct ceduo_survey_answer *answer;
+    double *counts;  /* of each plot */
+    double *heights; /* of each stem, m: measured or made */
+    double *pairs;   /* room for the dbh and the heights that were measured */
+};
+
+double ceduo_survey_horizontal(double area, double slope_rad)
+{
+    return area * cos(slope_rad);
+}
+
+/* Mean, standard error and interval of n >= 1 values. */
+static struct ceduo_estimate estimate_of(const double *values, size_t n)
+{
+    double sum = 0, squares = 0, count = (double)n;
+    for (size_t i = 0; i < n; i++)
+        sum += values[i];
+    double mean = sum / count;
+    for (size_t i = 0; i < n; i++)
+        squares += (values[i] - mean) * (values[i] - mean);
+    double se = n > 1 ? sqrt(squares / (count - 1) / count) : NAN;
+    double half = n > 1 ? gsl_cdf_tdist_Pinv(0.975, count - 1) * se : NAN;
+    return (struct ceduo_estimate){mean, se, mean - half, mean + half};
+}
+
+/* ---- densities ---- */
+
+static struct ceduo_estimate density(struct surveyor *s)
+{
+    for (size_t i = 0; i < s->survey->plots_count; i++)
+        s->counts[i] *= HECTARE / s->survey->areas[i];
+    return estimate_of(s->counts, s->survey->plots_count);
+}
+
+static void begin_counts(struct surveyor *s)
+{
+    for (size_t i = 0; i < s->survey->plots_count; i++)
+        s->counts[i] = 0;
+}
+
+static struct ceduo_estimate density_of_kind(struct surveyor *s, enum ceduo_survey_kind kind)
+{
+    begin_counts(s);
+    for (size_t i = 0; i < s->survey->stems_count; i++)
+        s->counts[s->survey->stems[i].plot] += s->survey->stems[i].kind == kind ? 1 : 0;
+    return density(s);
+}
+
+/* Stools with shoots, and the mean spacing of those where it was measured. False without memory. */
+static bool count_stools(struct surveyor *s)
+{
+    const struct ceduo_survey *survey = s->survey;
+    struct {
+        double spacing;
+        size_t measured;
+        bool counted;
+    } *stools = calloc(survey->stools_count + 1, sizeof *stools);
+    double *spacings = calloc(survey->stools_count + 1, sizeof *spacings);
+    size_t n = 0;
+    begin_counts(s);
+    for (size_t i = 0; stools && i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        if (stem->kind != CEDUO_SURVEY_SHOOT)
+            continue;
+        s->counts[stem->plot] += stools[stem->stool].counted ? 0 : 1;
+        stools[stem->stool].counted = true;
+        stools[stem->stool].measured += isnan(stem->spacing) ? 0 : 1;
+        stools[stem->stool].spacing += isnan(stem->spacing) ? 0 : stem->spacing;
+    }
+    for (size_t i = 0; stools && spacings && i < survey->stools_count; i++)
+        if (stools[i].measured > 0)
+            spacings[n++] = stools[i].spacing / (double)stools[i].measured;
+    s->answer->stools = density(s);
+    s->answer->spacing = n > 0 ? estimate_of(spacings, n) : (struct ceduo_estimate){NAN, NAN, NAN, NAN};
+    bool good = stools && spacings;
+    free(stools);
+    free(spacings);
+    return good;
+}
+
+/* ---- species ---- */
+
+static int main_species(const struct ceduo_survey *survey)
+{
+    size_t count;
+    ceduo_species_list(&count);
+    int best = -1;
+    double most = 0;
+    for (int k = 0; k < (int)count; k++) {
+        double area = 0;
+        for (size_t i = 0; i < survey->stems_count; i++) {
+            const struct ceduo_survey_stem *stem = &survey->stems[i];
+            bool is_of = stem->species == k && stem->kind != CEDUO_SURVEY_STUMP;
+            area += is_of ? stem->dbh * stem->dbh / survey->areas[stem->plot] : 0;
+        }
+        best = area > most ? k : best;
+        most = fmax(area, most);
+    }
+    return best;
+}
+
+/* ---- heights ---- */
+
+static bool is_among(const struct ceduo_survey_stem *stem, bool shoots)
+{
+    return stem->kind != CEDUO_SURVEY_STUMP && (stem->kind == CEDUO_SURVEY_SHOOT) == shoots;
+}
+
+static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_survey_heights *h)
+{
+    const struct ceduo_survey *survey = s->survey;
+    double *dbh = s->pairs, *height = s->pairs + survey->stems_count, sum = 0;
+    *h = (struct ceduo_survey_heights){0};
+    for (size_t i = 0; i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        if (!is_among(stem, shoots))
+            continue;
+        if (isnan(stem->height)) {
+            h->missing++;
+            continue;
+        }
+        dbh[h->given] = stem->dbh;
+        height[h->given++] = stem->height;
+        sum += stem->height;
+    }
+    h->mean = h->given > 0 ? sum / (double)h->given : NAN;
+    enum ceduo_status fitted = h->missing > 0 ? ceduo_naslund_fit(h->given, dbh, height, &h->curve) : CEDUO_BAD_PART;
+    h->from = h->missing == 0 ? CEDUO_HEIGHTS_MEASURED : fitted == CEDUO_OK ? CEDUO_HEIGHTS_CURVE : CEDUO_HEIGHTS_MEAN;
+    for (size_t i = 0; i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        if (is_among(stem, shoots))
+            s->heights[i] = !isnan(stem->height)              ? stem->height
+                            : h->from == CEDUO_HEIGHTS_CURVE ? ceduo_naslund_height(&h->curve, stem->dbh)
+                                                             : h->mean;
+    }
+    return fitted != CEDUO_NO_MEMORY;
+}
+
+static double stump_height(const struct ceduo_survey *survey)
+{
+    double sum = 0, n = 0;
+    for (size_t i = 0; i < survey->stems_count; i++)
+        if (survey->stems[i].kind == CEDUO_SURVEY_STUMP && !isnan(survey->stems[i].height)) {
+            sum += survey->stems[i].height;
+            n++;
+        }
+    return n > 0 ? sum / n : NAN;
+}
+
+/* ---- classes ---- */
+
+static size_t class_of(const struct ceduo_survey_stem *stem)
+{
+    double k = floor(stem->dbh / CEDUO_SURVEY_CLASS + 1e-9); /* 0.15 m is in the class that begins there */
+    return k < CLASSES_MOST ? (size_t)k : CLASSES_MOST - 1;
+}
+
+static void add_volume(struct ceduo_survey_class *c, const struct ceduo_survey_stem *stem, double height, int main_one)
+{
+    enum ceduo_volume_from from;
+    const struct ceduo_stand stand = {.species = stem->species};
+    const struct ceduo_stems one = {.dbh = stem->dbh, .height = height, .volume = NAN};
+    c->volume += ceduo_stem_volume(&stand, &one, &from);
+    c->form_factor += from == CEDUO_VOLUME_FORM_FACTOR;
+    c->form_factor_main += from == CEDUO_VOLUME_FORM_FACTOR && stem->species == main_one && main_one >= 0;
+}
+
+/* Fills a class of a kind; false where it has no stem. */
+static bool fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ceduo_survey_kind kind, size_t k)
+{
+    const struct ceduo_survey *survey = s->survey;
+    double squares = 0;
+    *c = (struct ceduo_survey_class){.kind = kind, .from = (double)k * CEDUO_SURVEY_CLASS};
+    begin_counts(s);
+    for (size_t i = 0; i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        if (stem->kind != kind || class_of(stem) != k)
+            continue;
+        s->counts[stem->plot]++;
+        double step = stem->dbh - c->dbh; /* Welford's mean and sum of squares */
+        c->dbh += step / (double)++c->stems;
+        squares += step * (stem->dbh - c->dbh);
+        c->height += kind == CEDUO_SURVEY_STUMP ? 0 : s->heights[i];
+        if (kind != CEDUO_SURVEY_STUMP)
+            add_volume(c, stem, s->heights[i], s->answer->species);
+    }
+    if (c->stems == 0)
+        return false;
+    double n = (double)c->stems;
+    c->per_ha = density(s);
+    c->dbh_sd = c->stems > 1 ? sqrt(squares / (n - 1)) : 0;
+    c->height = kind == CEDUO_SURVEY_STUMP ? s->answer->stump_height : c->height / n;
+    c->volume = kind == CEDUO_SURVEY_STUMP ? NAN : c->volume / n;
+    return true;
+}
+
+static bool make_classes(struct surveyor *s)
+{
+    const struct ceduo_survey *survey = s->survey;
+    bool *present = calloc(CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST, sizeof *present);
+    size_t n = 0;
+    for (size_t i = 0; present && i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        bool *here = &present[(size_t)stem->kind * CLASSES_MOST + class_of(stem)];
+        n += !*here;
+        *here = true;
+    }
+    struct ceduo_survey_class *classes = present ? calloc(n + 1, sizeof *classes) : NULL;
+    s->answer->classes = classes;
+    for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST; k++)
+        if (present[k])
+            s->answer->classes_count +=
+                fill_class(s, &classes[s->answer->classes_count], k / CLASSES_MOST, k % CLASSES_MOST);
+    free(present);
+    return classes != NULL;
+}
+
+/* ---- the whole ---- */
+
+static bool compute(struct surveyor *s)
+{
+    struct ceduo_survey_answer *a = s->answer;
+    for (int kind = 0; kind < CEDUO_SURVEY_KINDS_COUNT; kind++)
+        a->per_ha[kind] = density_of_kind(s, (enum ceduo_survey_kind)kind);
+    a->species = main_species(s->survey);
+    a->stump_height = stump_height(s->survey);
+    return count_stools(s) && complete_heights(s, true, &a->shoots) && complete_heights(s, false, &a->trees) &&
+           make_classes(s);
+}
+
+enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer)
+{
+    struct surveyor s = {.survey = survey, .answer = answer};
+    *answer = (struct ceduo_survey_answer){0};
+    s.counts = calloc(survey->plots_count + 1, sizeof *s.counts);
+    s.heights = calloc(survey->stems_count + 1, sizeof *s.heights);
+    s.pairs = calloc(2 * survey->stems_count + 1, sizeof *s.pairs);
+    bool good = s.counts && s.heights && s.pairs && compute(&s);
+    free(s.counts);
+    free(s.heights);
+    free(s.pairs);
+    if (!good)
+        ceduo_survey_free(answer);
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
+void ceduo_survey_free(struct ceduo_survey_answer *answer)
+{
+    free(answer->classes);
+    *answer = (struct ceduo_survey_answer){0};
+}

@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--survey: from a CSV of sample plots to a stand that scenes take, and what is refused."""
+import json
+import math
+import statistics
+
+from harness import DONE, INPUT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, run_all, scene
+
+HEAD = "plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m,spacing_m"
+STEMS = {  # plot: (area, slope, [(species, kind, stool, dbh, height, spacing)])
+    "A": (200, 35, [("ostrya-carpinifolia", "shoot", 1, 6.2, 6.4, 0.3), ("ostrya-carpinifolia", "shoot", 1, 7.1, "", ""),
+                    ("ostrya-carpinifolia", "shoot", 2, 5.5, 6.0, ""), ("quercus-cerris", "standard", "", 22.4, 12.5, "")]),
+    "B": (150, 0, [("ostrya-carpinifolia", "shoot", 1, 8.8, 7.9, ""), ("ostrya-carpinifolia", "shoot", 1, 6.6, 6.7, 0.4),
+                   ("ostrya-carpinifolia", "shoot", 3, 9.9, 8.3, ""), ("quercus-cerris", "standard", "", 24.1, 13.0, ""),
+                   ("quercus-cerris", "tree", "", 12.0, 9.0, "")]),
+    "C": (200, 30, []),
+}
+
+
+def table(stems=STEMS, separator=",", comma=False, head=HEAD):
+    rows = [head.replace(",", separator)]
+    for plot, (area, slope, list_of_stems) in stems.items():
+        for i, stem in enumerate(list_of_stems or [("",) * 6]):
+            cells = [plot, *((area, slope) if i == 0 else ("", "")), *stem]
+            rows.append(separator.join(str(c).replace(".", ",") if comma else str(c) for c in cells))
+    return "\n".join(rows) + "\n"
+
+
+def survey(f, content, *arguments, **more):
+    return ceduo("--survey", f.write("plots.csv", content), *arguments, **more)
+
+
+def stand_of(f, text):
+    """The stand as the program reads it: --set takes YAML, and JSON of the scene's stands has its figures."""
+    f.write("stand.yaml", text)
+    site = scene(slope={"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}, controls=[{"x_m": 90}],
+                 forest=[{"from_m": 0, "to_m": 60, "stand": "stand.yaml"}])
+    path = f.write("s.yaml", site)
+    expect_equal(ceduo("--check", path).status, DONE, ceduo("--check", path).err)
+    r = ceduo("--batch", "-n", 20, "-f", "json", path)
+    return json.loads(r.out)["options"][0]["stands"][0], path
+
+
+def by_hand(pick):
+    """Mean and standard error over the plots of what is counted, per hectare of the map"""
+    each = [len(pick(stems)) / (area * math.cos(math.radians(slope))) * 10000 for area, slope, stems in STEMS.values()]
+    return statistics.mean(each), statistics.stdev(each) / math.sqrt(len(each))
+
+
+def of_kind(*kinds):
+    return lambda stems: [s for s in stems if s[1] in kinds]
+
+
+def stools(stems):
+    return {s[2] for s in stems if s[1] == "shoot"}
+
+
+def test_densities():
+    """Stools, shoots and trees per hectare of the map, a plot without stems among them; the standard errors are its doubt"""
+    with Folder() as f:
+        text = survey(f, table()).out
+        stand, path = stand_of(f, text)
+        expect_near(stand["stools_per_ha"], by_hand(stools)[0], 1e-3)
+        expect_near(stand["stems_per_ha"], by_hand(of_kind("shoot", "standard", "tree"))[0], 1e-2)
+        expect_near(stand["trees_per_ha"], by_hand(of_kind("standard", "tree"))[0], 1e-2)
+        r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
+        inputs = {i["path"]: i for i in json.loads(r.out)["figures"][0]["inputs"]}
+        mean, se = by_hand(stools)
+        half = 3 * se if mean > 3 * se else math.sqrt(3) * se
+        found = inputs["forest[0].stand.stools.per_ha"]
+        expect_near(found["hi"], mean + half, 1e-2)
+        expect_in("forest[0].stand.trees[1].per_ha", list(inputs))
+        expect_in("stools.spacing_m, mean: 0.35, sd: 0.05", text)  # of 0.3 and 0.4
+
+
+def test_same_bytes():
+    """An Italian spreadsheet, other words, CRLF, a mark, tabs and another language give the same bytes"""
+    with Folder() as f:
+        wanted = survey(f, table()).out
+        italian = "saggio,superficie_m2,pendenza_gradi,specie,tipo,ceppaia,diametro_cm,altezza_m,distanza_m"
+        german = "Probefl\u00e4che,Fl\u00e4che_m2,Neigung_Grad,Baumart,Typ,Stock,BHD_cm,H\u00f6he_m,Abstand_m"
+        words = table(separator=";", comma=True, head=italian)
+        for english, other in (("shoot", "pollone"), ("standard", "Matricina"), ("tree", "allievo")):
+            words = words.replace(english, other)
+        for content in (table(separator=";", comma=True, head=italian), words, table(separator=";", comma=True, head=german),
+                        table().replace("\n", "\r\n"), "\ufeff" + table(), table(separator="\t"),
+                        table().replace("ostrya-carpinifolia", "Ostrya carpinifolia").replace("quercus-cerris", "Turkey oak")):
+            expect_equal(survey(f, content).out, wanted, content)
+        expect_equal(survey(f, table(), "--language", "it").out, wanted)
+        expect_equal(ceduo("--survey", "-", stdin=table().encode()).out, wanted.replace("plots", "survey", 1)
+                     .replace("name: plots", "name: survey"))
+
+
+def test_areas():
+    """A radius is as good as an area; 400 m2 along 40 degrees are 306.418 m2 of the map"""
+    with Folder() as f:
+        one = "1,{},40,,tree,,20,12\n2,{},40,,tree,,20,12\n2,,,,tree,,21,12\n"
+        head = "plot,{},slope_deg,species,kind,stool,dbh_cm,height_m\n"
+        by_area = survey(f, head.format("area_m2") + one.format(400, 400)).out
+        radius = math.sqrt(400 / math.pi)
+        expect_equal(survey(f, head.format("radius_m") + one.format(radius, radius)).out, by_area)
+        stand, _ = stand_of(f, by_area)
+        expect_near(stand["trees_per_ha"], 1.5 * 10000 / 306.4178, 1e-3)
+
+
+def test_heights():
+    """With five heights those that are missing lie on Naslund's curve; with fewer they are the mean, and that is marked"""
+    with Folder() as f:
+        def naslund(d):
+            return 1.3 + (d / (1.2 + 0.25 * d)) ** 2
+        rows = [f"1,500,,,tree,,{d},{naslund(d)}" for d in (11, 16, 22, 27, 33)] + ["1,,,,tree,,41,", "2,500,,,tree,,41,"]
+        head = "plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m"
+        text = survey(f, "\n".join([head, *rows])).out
+        expect_in("5 measured; 2 by", text)
+        expect_in(f"dbh_m: 0.41, height_m: {naslund(41):.6g},", text)
+        text = survey(f, "\n".join([head, *rows[:3], *rows[5:]])).out
+        expect_in(f"height_m: {statistics.mean(naslund(d) for d in (11, 16, 22)):.6g}", text)
+        expect_in("missing heights: the mean of 3", text)
+        expect_equal(text.count("kind: assumed"), 4, text)  # each class of trees
+
+
+def test_what_is_assumed():
+    """A spacing that nobody measured, volumes outside an equation, one plot alone: each is named and marked"""
+    with Folder() as f:
+        text = survey(f, table().replace(",0.3\n", ",\n").replace(",0.4\n", ",\n")).out
+        expect_in("spacing_m: 0.35", text)
+        expect_in("kind: assumed, text: \"n = 4; the spacing of the shoots was not measured", text)
+        thin = table().replace(",6.2,6.4,", ",3.2,4,").replace("plot", "plot", 1)
+        text = survey(f, thin).out
+        expect_in("1 of 1 shoots of 0 to 5 cm lie outside the equation of their species", text)
+        line = next(row for row in text.splitlines() if "dbh_m: 0.032" in row)
+        expect("volume_m3" not in line, line)  # the program takes the form factor, and says so
+        one = {"A": STEMS["A"]}
+        text = survey(f, table(one)).out
+        expect_in("One plot has no standard error", text)
+        expect("doubt:" not in text or "spacing" in text.split("doubt:")[1], text)
+        expect_in("one plot, no standard error", text)
+        stand_of(f, text)
+
+
+def test_stumps():
+    """Stumps are counted, and what a stump takes is asked for"""
+    with Folder() as f:
+        text = survey(f, table() + "A,,,,stump,,30,0.2\nB,,,,ceppo,,20,\n").out
+        expect_in("# stumps: {per_ha: ", text)
+        expect_in("diameter_m: 0.25, height_m: 0.2, energy_kJ: ?}", text)
+        stand_of(f, text)
+
+
+def test_bare():
+    """Plots without a stem are a stand without stems"""
+    with Folder() as f:
+        text = survey(f, HEAD + "\nA,200,,,,,,,\nB,200,,,,,,,\n").out
+        expect_in("system: bare", text)
+        stand_of(f, text)
+
+
+def test_columns():
+    """Columns that say nothing to the program are named; one that is nearly right is refused"""
+    with Folder() as f:
+        text = survey(f, table().replace("\n", ",x\n").replace("spacing_m,x", "spacing_m,weather")).out
+        expect_in("# columns that were not used: weather", text)
+        r = survey(f, table().replace("slope_deg", "slope_degr"))
+        expect_equal(r.status, INPUT, r)
+        expect_in("plots.csv:1:14: 'slope_degr': unknown column; did you mean 'slope_deg'?", r.err)
+
+
+def test_output():
+    """-o writes the stand; the survey itself is not written over"""
+    with Folder() as f:
+        wanted = survey(f, table()).out
+        expect_equal(survey(f, table(), "-o", "out.yaml", cwd=f.path).out, "")
+        expect_equal((f.path / "out.yaml").read_text(), wanted)
+        r = ceduo("--survey", "plots.csv", "-o", "./plots.csv", cwd=f.path)
+        expect_equal(r.status, 4, r)
+        expect_equal((f.path / "plots.csv").read_text(), table())
+
+
+ROW = "A,200,35,,tree,,20,12,\n"
+BAD = [  # (content, place, words)
+    ("", "", "the file is empty"), ("x\n1\n", ":1:1", "must name the column 'plot'"),
+    ("plot,kind\nA,tree\n", ":1:1", "'dbh_cm'"), ("plot,kind,dbh_cm\nA,tree,3\n", ":1:1", "'area_m2' or 'radius_m'"),
+    ("plot,plot,area_m2,kind,dbh_cm\n", ":1:1", "'plot' is there twice"), (HEAD + "\n", "", "there is no plot"),
+    (HEAD + "\n" + ROW.replace("A", "", 1), ":2:1", "the plot is missing"),
+    (HEAD + "\n" + ROW.replace("200", ""), ":2:1", "no area_m2 and no radius_m"),
+    (HEAD + "\n" + ROW.replace("200", "0"), ":2:3", "below 1 m2"),
+    (HEAD + "\n" + ROW.replace("200", "-5"), ":2:3", "below 1 m2"),
+    (HEAD + "\n" + ROW.replace("200", "1e9"), ":2:3", "beyond 1e+06 m2"),
+    (HEAD + "\n" + ROW.replace("200", "much"), ":2:3", "'much' is not a number"),
+    (HEAD + "\n" + ROW.replace("35", "95"), ":2:7", "beyond 85 degrees"),
+    (HEAD + "\n" + ROW + ROW.replace("200", "300"), ":3:3", "'area_m2' is 200 elsewhere for this plot, here 300"),
+    (HEAD + "\n" + ROW + ROW.replace("35", "36"), ":3:7", "'slope_deg' is 35 elsewhere for this plot, here 36"),
+    (HEAD.replace("slope_deg", "radius_m") + "\n" + ROW, ":2:7", "area_m2 already says this"),
+    (HEAD + "\n" + ROW.replace("tree", "bush"), ":2:11", "'bush' is no kind of stem: shoot, standard, tree or stump"),
+    (HEAD + "\n" + ROW.replace("tree", ""), ":2:11", "the kind is missing"),
+    (HEAD + "\n" + ROW.replace(",,tree", ",oak,tree"), ":2:10", "'oak' is an unknown species; leave it empty, or one of: ostrya"),
+    (HEAD + "\n" + ROW.replace(",20,", ",,"), ":2:17", "the diameter is missing"),
+    (HEAD + "\n" + ROW.replace(",20,", ",0,"), ":2:17", "below 0.1 cm"),
+    (HEAD + "\n" + ROW.replace(",20,", ",2000,"), ":2:17", "beyond 1000 cm"),
+    (HEAD + "\n" + ROW.replace(",20,", ",nan,"), ":2:17", "'nan' is not a number"),
+    (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m: a stem with a diameter at breast height is higher than 1.3 m"),
+    (HEAD + "\n" + ROW.replace(",12,", ",-1,"), ":2:20", "below 0 m"),
+    (HEAD + "\n" + ROW.replace(",12,", ",,"), "", "no standard and no tree has a height_m"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "shoot,1,6,"), "", "no shoot has a height_m"),
+    (HEAD + "\n" + ROW.replace("tree", "shoot"), ":2:17", "the stool of this shoot is missing"),
+    (HEAD + "\n" + ROW.replace(",12,", ",12,0.3"), ":2:23", "spacing_m is the distance between the shoots of a stool"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12,", "shoot,1,6,5,0"), ":2:23", "below 0.01 m"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "the height must be above 0"),
+    (HEAD.replace(",", ";") + "\n" + ROW.replace(",", ";").replace("20;12", "20,5;1.2e1"), ":2:22", "not both"),
+    (HEAD + "\nA,1,,,tree,,20,12,\n" + "A,,,,tree,,20,12,\n" * 101, "", "are the areas in m2?"),
+    ("\n".join([HEAD] + [f"P{i},200,,,,,,," for i in range(1001)]), ":1002:1", "more than 1000 plots"),
+]
+
+
+def test_bad():
+    """What is wrong is told with file, row and column; nothing is written"""
+    with Folder() as f:
+        for content, place, words in BAD:
+            r = survey(f, content, "-o", str(f.path / "none.yaml"))
+            expect_equal(r.status, INPUT, (content, r))
+            expect_in(words, r.err, content)
+            expect_in((f"plots.csv{place}: " if place else "plots"), r.err, content)
+            expect_equal(r.out, "")
+            expect(not (f.path / "none.yaml").exists(), content)
+        r = ceduo("--survey", "not-there.csv")
+        expect_equal(r.status, INPUT, r)
+
+
+def test_many_wrong():
+    """All that is wrong is told at once"""
+    with Folder() as f:
+        r = survey(f, HEAD + "\n" + ROW.replace("tree", "bush") + ROW.replace(",20,", ",x,") + ROW.replace(",12,", ",1,"))
+        for place in (":2:11:", ":3:17:", ":4:20:"):
+            expect_in(place, r.err)
+
+
+def test_usage():
+    """What cannot be used with --survey is named"""
+    with Folder() as f:
+        for arguments, words in ((["-n", 3], "--survey cannot be used with --rocks"), (["-f", "json"], "--format"),
+                                 (["s.yaml"], "no scene: 's.yaml'"), (["--batch"], "--batch"), (["--check"], "--check")):
+            r = survey(f, table(), *arguments)
+            expect_equal(r.status, USAGE, r)
+            expect_in(words, r.err)
+        expect_equal(ceduo("--survey").status, USAGE)
+
+
+if __name__ == "__main__":
+    run_all(__name__)

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From plots to a stand: densities and their errors on a forest that is known, heights, classes, volumes. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "ceduo/survey.h"
+#include "expect.h"
+
+#define SIDE 500.0 /* m of the made-up forest */
+#define STOOLS 20000
+#define PLOTS 6
+#define SAMPLES 200
+#define RADIUS 8.0
+
+static uint64_t state;
+
+/* Uniform in [0, 1): SplitMix64. */
+static double uniform(void)
+{
+    uint64_t z = state += 0x9e3779b97f4a7c15;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+}
+
+struct forest {
+    double x[STOOLS], y[STOOLS];
+    int shoots[STOOLS];
+    double shoots_per_ha, stools_per_ha;
+};
+
+static void make_forest(struct forest *f)
+{
+    double shoots = 0;
+    for (size_t i = 0; i < STOOLS; i++) {
+        f->x[i] = uniform() * SIDE;
+        f->y[i] = uniform() * SIDE;
+        f->shoots[i] = 1 + (int)(uniform() * 4);
+        shoots += f->shoots[i];
+    }
+    f->stools_per_ha = STOOLS / (SIDE * SIDE) * 10000;
+    f->shoots_per_ha = shoots / (SIDE * SIDE) * 10000;
+}
+
+/* The stems on plots at random places. */
+static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, size_t *stools)
+{
+    size_t n = 0;
+    *stools = 0;
+    for (size_t p = 0; p < PLOTS; p++) {
+        double x = RADIUS + uniform() * (SIDE - 2 * RADIUS), y = RADIUS + uniform() * (SIDE - 2 * RADIUS);
+        for (size_t i = 0; i < STOOLS; i++) {
+            if (hypot(f->x[i] - x, f->y[i] - y) > RADIUS)
+                continue;
+            for (int k = 0; k < f->shoots[i]; k++)
+                stems[n++] = (struct ceduo_survey_stem){
+                    .plot = p, .kind = CEDUO_SURVEY_SHOOT, .species = 0, .stool = *stools, .dbh = .06, .height = 6, .spacing = NAN};
+            ++*stools;
+        }
+    }
+    return n;
+}
+
+/* The interval of 95 % holds the truth in 92 to 97 % of 200 surveys of six plots. */
+static void intervals_hold_the_truth(void **context)
+{
+    (void)context;
+    struct forest *f = calloc(1, sizeof *f);
+    struct ceduo_survey_stem *stems = calloc(100000, sizeof *stems);
+    double areas[PLOTS];
+    int shoots = 0, stools = 0;
+    double mean = 0;
+    assert_non_null(f);
+    assert_non_null(stems);
+    state = 20091122;
+    make_forest(f);
+    for (size_t p = 0; p < PLOTS; p++)
+        areas[p] = M_PI * RADIUS * RADIUS;
+    for (int i = 0; i < SAMPLES; i++) {
+        struct ceduo_survey s = {.plots_count = PLOTS, .areas = areas, .stems = stems};
+        struct ceduo_survey_answer a;
+        s.stems_count = visit(f, stems, &s.stools_count);
+        assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+        const struct ceduo_estimate *n = &a.per_ha[CEDUO_SURVEY_SHOOT];
+        shoots += n->lo <= f->shoots_per_ha && f->shoots_per_ha <= n->hi;
+        stools += a.stools.lo <= f->stools_per_ha && f->stools_per_ha <= a.stools.hi;
+        mean += n->mean / SAMPLES;
+        ceduo_survey_free(&a);
+    }
+    EXPECT(shoots, >=, 0.92 * SAMPLES);
+    EXPECT(shoots, <=, 0.97 * SAMPLES);
+    EXPECT(stools, >=, 0.92 * SAMPLES);
+    EXPECT(stools, <=, 0.97 * SAMPLES);
+    EXPECT(fabs(mean / f->shoots_per_ha - 1), <, 0.02); /* 1200 plots of some 43 shoots in clumps: 0.6 % */
+    free(stems);
+    free(f);
+}
+
+/* Three plots of 100, 200 and 400 m2 with 2, 2 and 12 trees: 200, 100 and 300 per ha. */
+static void densities_by_hand(void **context)
+{
+    (void)context;
+    const double areas[] = {100, 200, 400};
+    const size_t count[] = {2, 2, 12};
+    struct ceduo_survey_stem stems[16];
+    size_t n = 0;
+    for (size_t p = 0; p < 3; p++)
+        for (size_t i = 0; i < count[p]; i++)
+            stems[n++] = (struct ceduo_survey_stem){.plot = p, .kind = CEDUO_SURVEY_TREE, .species = -1, .dbh = .12, .height = 9, .spacing = NAN};
+    struct ceduo_survey s = {.plots_count = 3, .areas = areas, .stems_count = n, .stems = stems};
+    struct ceduo_survey_answer a;
+    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    const struct ceduo_estimate *e = &a.per_ha[CEDUO_SURVEY_TREE];
+    EXPECT_NEAR(e->mean, 200, 1e-12);
+    EXPECT_NEAR(e->se, 100 / sqrt(3), 1e-12);
+    EXPECT_NEAR(e->hi - e->mean, .95 / sqrt(2 * .975 * .025) * 100 / sqrt(3), 1e-8); /* Student, 2 degrees of freedom */
+    EXPECT_NEAR(e->mean - e->lo, .95 / sqrt(2 * .975 * .025) * 100 / sqrt(3), 1e-8);
+    EXPECT_NEAR(a.per_ha[CEDUO_SURVEY_SHOOT].mean, 0, 0);
+    EXPECT_NEAR(a.stools.mean, 0, 0);
+    assert_int_equal(a.species, -1);
+    assert_int_equal(a.classes_count, 1);
+    assert_int_equal(a.classes[0].form_factor, 16);
+    EXPECT_NEAR(a.classes[0].volume, 0.5 * M_PI / 4 * .12 * .12 * 9, 1e-12);
+    ceduo_survey_free(&a);
+    s.plots_count = 1;
+    s.stems_count = 2;
+    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    EXPECT_NEAR(a.per_ha[CEDUO_SURVEY_TREE].mean, 200, 1e-12);
+    assert_true(isnan(a.per_ha[CEDUO_SURVEY_TREE].se));
+    ceduo_survey_free(&a);
+}
+
+/* 400 m2 measured along a slope of 40 degrees are 306.418 m2 of the map. */
+static void slopes_by_hand(void **context)
+{
+    (void)context;
+    EXPECT_NEAR(ceduo_survey_horizontal(400, 40 * M_PI / 180), 306.418, 5e-4);
+    EXPECT_NEAR(ceduo_survey_horizontal(400, 0), 400, 0);
+}
+
+static void naslund_is_recovered(void **context)
+{
+    (void)context;
+    enum { N = 400 };
+    const struct ceduo_naslund truth = {.a = 1.3, .b = 0.21};
+    double dbh[N], height[N], noisy[N];
+    struct ceduo_naslund found;
+    state = 7;
+    for (size_t i = 0; i < N; i++) {
+        dbh[i] = 0.02 + 0.3 * uniform();
+        height[i] = 1.3 + pow(100 * dbh[i] / (truth.a + truth.b * 100 * dbh[i]), 2);
+        noisy[i] = height[i] + sqrt(12) * (uniform() - 0.5) * 0.4; /* sd 0.4 m */
+        EXPECT_NEAR(ceduo_naslund_height(&truth, dbh[i]), height[i], 1e-12);
+    }
+    assert_int_equal(ceduo_naslund_fit(N, dbh, height, &found), CEDUO_OK);
+    EXPECT_NEAR(found.a, truth.a, 1e-8);
+    EXPECT_NEAR(found.b, truth.b, 1e-8);
+    EXPECT(found.rmse, <, 1e-8);
+    assert_int_equal(ceduo_naslund_fit(5, dbh, height, &found), CEDUO_OK);
+    EXPECT_NEAR(found.a, truth.a, 1e-7);
+    assert_int_equal(ceduo_naslund_fit(N, dbh, noisy, &found), CEDUO_OK);
+    EXPECT_NEAR(found.rmse, 0.4, 0.06);
+    for (double d = 0.04; d < 0.32; d += 0.04) /* of 400 heights the mean is known to some 0.03 m */
+        EXPECT_NEAR(ceduo_naslund_height(&found, d), ceduo_naslund_height(&truth, d), 0.12);
+}
+
+/* No curve: too few heights, one diameter alone, heights that fall. */
+static void naslund_is_refused(void **context)
+{
+    (void)context;
+    const double dbh[] = {.05, .1, .15, .2, .25}, same[] = {.1, .1, .1, .1, .1};
+    const double rises[] = {5, 8, 10, 11, 12}, falls[] = {12, 9, 6, 4, 2};
+    struct ceduo_naslund curve;
+    assert_int_equal(ceduo_naslund_fit(4, dbh, rises, &curve), CEDUO_BAD_PART);
+    assert_int_equal(ceduo_naslund_fit(5, same, rises, &curve), CEDUO_BAD_PART);
+    assert_int_equal(ceduo_naslund_fit(5, dbh, falls, &curve), CEDUO_BAD_PART);
+    assert_int_equal(ceduo_naslund_fit(5, dbh, rises, &curve), CEDUO_OK);
+}
+
+static struct ceduo_survey_stem stem(enum ceduo_survey_kind kind, int species, double dbh, double height)
+{
+    return (struct ceduo_survey_stem){.kind = kind, .species = species, .dbh = dbh, .height = height, .spacing = NAN};
+}
+
+/* Classes of 5 cm, each kind by itself, with mean, sd and the volume of each stem by its own species. */
+static void classes_by_hand(void **context)
+{
+    (void)context;
+    const int cerris = ceduo_species_find("quercus-cerris"), beech = ceduo_species_find("fagus-sylvatica");
+    const double area = 100;
+    struct ceduo_survey_stem stems[] = {stem(CEDUO_SURVEY_STANDARD, cerris, .15, 10), stem(CEDUO_SURVEY_STANDARD, beech, .19, 12),
+                                        stem(CEDUO_SURVEY_TREE, cerris, .16, 11),     stem(CEDUO_SURVEY_SHOOT, beech, .049, 4),
+                                        stem(CEDUO_SURVEY_SHOOT, beech, .03, 3),      stem(CEDUO_SURVEY_STUMP, -1, .4, .2),
+                                        stem(CEDUO_SURVEY_STUMP, -1, 80, NAN)};
+    stems[3].stool = stems[4].stool = 0;
+    stems[4].spacing = .3;
+    struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 7, .stems = stems};
+    struct ceduo_survey_answer a;
+    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    assert_int_equal(a.species, cerris);
+    assert_int_equal(a.classes_count, 5);
+    const struct ceduo_survey_class *c = a.classes;
+    assert_int_equal(c[0].kind, CEDUO_SURVEY_SHOOT);
+    assert_int_equal(c[0].stems, 2);
+    assert_int_equal(c[0].form_factor, 2);
+    assert_int_equal(c[0].form_factor_main, 0);
+    EXPECT_NEAR(c[0].height, 3.5, 1e-12);
+    assert_int_equal(c[1].kind, CEDUO_SURVEY_STANDARD);
+    EXPECT_NEAR(c[1].from, .15, 1e-12);
+    EXPECT_NEAR(c[1].per_ha.mean, 200, 1e-9);
+    EXPECT_NEAR(c[1].dbh, .17, 1e-12);
+    EXPECT_NEAR(c[1].dbh_sd, .04 / sqrt(2), 1e-12);
+    double v1 = (-0.043221 + 0.038079 * 225 * 10) / 1000, v2 = (0.81151 + 0.038965 * 361 * 12) / 1000; /* Tabacchi et al. 2011 */
+    EXPECT_NEAR(c[1].volume, (v1 + v2) / 2, 1e-12);
+    assert_int_equal(c[1].form_factor, 0);
+    assert_int_equal(c[2].kind, CEDUO_SURVEY_TREE);
+    EXPECT_NEAR(c[2].dbh_sd, 0, 0);
+    assert_int_equal(c[4].kind, CEDUO_SURVEY_STUMP);
+    assert_true(isnan(c[4].volume));
+    EXPECT_NEAR(a.stump_height, .2, 1e-12);
+    EXPECT_NEAR(a.spacing.mean, .3, 1e-12);
+    EXPECT_NEAR(a.stools.mean, 100, 1e-9);
+    ceduo_survey_free(&a);
+}
+
+/* Heights that are missing: on the curve with five of them, the mean with fewer; shoots and trees each by their own. */
+static void heights_that_are_missing(void **context)
+{
+    (void)context;
+    const struct ceduo_naslund truth = {.a = 1.1, .b = 0.26};
+    const double area = 1000;
+    struct ceduo_survey_stem stems[9];
+    for (size_t i = 0; i < 6; i++) {
+        double dbh = .051 + .007 * (double)i;
+        stems[i] = stem(CEDUO_SURVEY_SHOOT, 0, dbh, i == 5 ? NAN : ceduo_naslund_height(&truth, dbh));
+        stems[i].stool = i;
+    }
+    stems[6] = stem(CEDUO_SURVEY_TREE, 0, .2, 12);
+    stems[7] = stem(CEDUO_SURVEY_STANDARD, 0, .3, 15);
+    stems[8] = stem(CEDUO_SURVEY_TREE, 0, .4, NAN);
+    struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 6, .stems_count = 9, .stems = stems};
+    struct ceduo_survey_answer a;
+    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_CURVE);
+    assert_int_equal(a.shoots.given, 5);
+    assert_int_equal(a.shoots.missing, 1);
+    double sum = 0;
+    for (size_t i = 0; i < 6; i++)
+        sum += ceduo_naslund_height(&truth, stems[i].dbh) / 6;
+    EXPECT_NEAR(a.classes[0].height, sum, 1e-7);
+    assert_int_equal(a.trees.from, CEDUO_HEIGHTS_MEAN);
+    EXPECT_NEAR(a.trees.mean, 13.5, 1e-12);
+    EXPECT_NEAR(a.classes[a.classes_count - 1].height, 13.5, 1e-12);
+    ceduo_survey_free(&a);
+    s.stems_count = 5;
+    assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
+    assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_MEASURED);
+    assert_true(isnan(a.trees.mean));
+    ceduo_survey_free(&a);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(intervals_hold_the_truth), cmocka_unit_test(densities_by_hand),
+        cmocka_unit_test(slopes_by_hand),           cmocka_unit_test(naslund_is_recovered),
+        cmocka_unit_test(naslund_is_refused),       cmocka_unit_test(classes_by_hand),
+        cmocka_unit_test(heights_that_are_missing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
