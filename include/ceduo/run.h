@@ -128,4 +128,10 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
  * the first. Returns how many were written; 0 where the samples are not kept. */
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
 
+/* What each rock brought to a control, in the order of the rocks, NaN where it did not arrive; and where each stopped, NaN
+ * where it did not. False where samples are not kept. */
+enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY };
+bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sample what, double *to);
+bool ceduo_run_stops(const struct ceduo_run *run, double *to);
+
 #endif

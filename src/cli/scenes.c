@@ -51,6 +51,8 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
         if (!is_wanted(a, ceduo_node_text(list->items[k], "name")))
             list = ceduo_node_removed(&file->arena, list, k);
     const struct node *root = list ? ceduo_node_with(&file->arena, file->root, "options", list) : NULL;
+    if (root && ceduo_node_get(root, "observed")) /* may be of an option that is left out */
+        root = ceduo_node_without(&file->arena, root, "observed");
     struct problems problems = {0};
     file->root = root;
     bool good = root && ceduo_scene_bind(file, &problems);

@@ -466,7 +466,8 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
 
 static void add_note(struct binder *b, const char *path, const char *kind, const char *text)
 {
-    if (ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[")) /* of a range, not of a value */
+    bool of_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
+    if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
         return;
     struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
     char *own_path = ceduo_arena_string(b->arena, path), *own_text = ceduo_arena_string(b->arena, text);

@@ -114,15 +114,26 @@ static bool belongs_to(enum ceduo_shape shape, const char *key)
     return false;
 }
 
-static void refuse_other_sizes(struct deriver *d, enum ceduo_shape shape)
+/* A rock and where it stands: the scene's, or that of something seen. */
+struct rock_place {
+    const char *path;
+    const struct node *node;
+};
+
+static bool is_given(struct deriver *d, const struct rock_place *rock, const char *key)
+{
+    return ceduo_node_get(rock->node, key) || !ceduo_derive_known(d, "%s.%s", rock->path, key);
+}
+
+static void refuse_other_sizes(struct deriver *d, const struct rock_place *rock, enum ceduo_shape shape)
 {
     static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
-    const struct node *rock = ceduo_node_get(d->root, "rock"), *said = ceduo_node_get(rock, "shape");
+    const struct node *said = ceduo_node_get(rock->node, "shape");
     const char *name = ceduo_shape_words.names[shape];
     for (size_t i = 0; i < 4; i++) {
-        if (belongs_to(shape, sizes[i]) || !ceduo_node_get(rock, sizes[i]))
+        if (belongs_to(shape, sizes[i]) || !ceduo_node_get(rock->node, sizes[i]))
             continue;
-        const char *path = ceduo_derive_text(d, "rock.%s", sizes[i]);
+        const char *path = ceduo_derive_text(d, "%s.%s", rock->path, sizes[i]);
         if (said && said->source->is_option) /* nothing of the file can be taken out there */
             ceduo_derive_complain(
                 d, path, _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name,
@@ -132,53 +143,55 @@ static void refuse_other_sizes(struct deriver *d, enum ceduo_shape shape)
     }
 }
 
-static void check_sizes(struct deriver *d, enum ceduo_shape shape)
+static void check_sizes(struct deriver *d, const struct rock_place *rock, enum ceduo_shape shape)
 {
     int n = 0;
-    refuse_other_sizes(d, shape);
+    refuse_other_sizes(d, rock, shape);
     for (size_t i = 0; shapes[shape].keys[i]; i++) {
-        bool given = ceduo_derive_given(d, "rock", shapes[shape].keys[i]);
+        bool given = is_given(d, rock, shapes[shape].keys[i]);
         n += given;
         if (!given && shape != CEDUO_SPHERE)
-            ceduo_derive_complain(d, "rock", _("'%s' is missing: the shape '%s' needs it"), shapes[shape].keys[i],
+            ceduo_derive_complain(d, rock->path, _("'%s' is missing: the shape '%s' needs it"), shapes[shape].keys[i],
                                   ceduo_shape_words.names[shape]);
     }
     if (shape == CEDUO_SPHERE && n != 1)
-        ceduo_derive_complain(d, "rock",
+        ceduo_derive_complain(d, rock->path,
                               _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
-    const struct node *rock = ceduo_node_get(d->root, "rock");
-    if (shape != CEDUO_SPHERE && ceduo_node_get(rock, "mass_kg") && ceduo_node_get(rock, "density_kg_m3"))
-        ceduo_derive_complain(d, "rock.density_kg_m3", _("mass_kg already says this; keep one of the two"));
+    if (shape != CEDUO_SPHERE && ceduo_node_get(rock->node, "mass_kg") && ceduo_node_get(rock->node, "density_kg_m3"))
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.density_kg_m3", rock->path), _("mass_kg already says this; keep one of the two"));
 }
 
-static void derive_rock(struct deriver *d)
+void ceduo_derive_rock(struct deriver *d, const char *path, const struct node *node, const struct ceduo_rock_def *def)
 {
     size_t before = d->problems->met;
-    const struct ceduo_rock_def *def = &d->draft.scene.rock;
-    if (!ceduo_derive_known(d, "rock.shape"))
+    const struct rock_place place = {path, node};
+    if (!ceduo_derive_known(d, "%s.shape", path))
         return;
-    check_sizes(d, def->shape);
-    bool by_mass = def->shape != CEDUO_SPHERE && ceduo_derive_given(d, "rock", "mass_kg");
-    if (!ceduo_derive_given(d, "rock", "density_kg_m3") && !by_mass)
+    check_sizes(d, &place, def->shape);
+    bool by_mass = def->shape != CEDUO_SPHERE && is_given(d, &place, "mass_kg");
+    bool of_scene = strcmp(path, "rock") == 0;
+    if (of_scene && !is_given(d, &place, "density_kg_m3") && !by_mass)
         ceduo_derive_assume(
             d, "rock.density_kg_m3",
             ceduo_derive_text(d, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
     struct ceduo_rock rock;
-    if (before == d->problems->met && ceduo_derive_sound(d, "rock") && ceduo_rock_of_means(def, &rock) != CEDUO_OK)
-        ceduo_derive_complain(d, "rock", _("the rock is too small or too large to compute"));
+    if (before == d->problems->met && ceduo_derive_sound(d, path) && ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+        ceduo_derive_complain(d, path, _("the rock is too small or too large to compute"));
 }
 
 bool ceduo_derive(struct deriver *d)
 {
     ceduo_schema_init(ceduo_schema_scene(), &d->draft);
+    ceduo_observed_arrange(d);
     ceduo_bind(d->arena, ceduo_schema_scene(), d->root, &d->draft, d->problems, &d->notes, &d->bad);
     if (d->bad.n > CEDUO_BAD_MOST || d->problems->memory)
         return false;
-    derive_rock(d);
+    ceduo_derive_rock(d, "rock", ceduo_node_get(d->root, "rock"), &d->draft.scene.rock);
     ceduo_derive_slope(d);
-    ceduo_derive_release(d);
+    ceduo_derive_release(d, "release", &d->draft.scene.release);
     ceduo_derive_controls(d);
     ceduo_derive_options(d);
     ceduo_derive_doubts(d);
+    ceduo_derive_observed(d);
     return true;
 }

@@ -5,6 +5,7 @@
 #include "bind.h"
 #include "ceduo/doubt.h"
 #include "ceduo/material.h"
+#include "ceduo/observe.h"
 
 /* What follows from the values of a scene once they are read into its draft: places relative to the slope's first vertex,
  * ground from materials, controls from controls_m, options from forest, and whether the parts fit together. What is wrong
@@ -22,6 +23,8 @@ struct deriver {
     size_t inputs_count; /* what the scene says is not known, then what its stands say */
     size_t inputs_of_scene;
     struct ceduo_input *inputs;
+    size_t observations_count;
+    struct ceduo_observation *observations;
     double origin;       /* what was taken off every x */
 };
 
@@ -51,10 +54,15 @@ struct points {
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
 
 void ceduo_derive_slope(struct deriver *d);
-void ceduo_derive_release(struct deriver *d);
+void ceduo_derive_rock(struct deriver *d, const char *path, const struct node *node, const struct ceduo_rock_def *def);
+void ceduo_derive_release(struct deriver *d, const char *path, struct ceduo_release *release);
 void ceduo_derive_controls(struct deriver *d);
 void ceduo_derive_options(struct deriver *d);
 void ceduo_derive_doubts(struct deriver *d);
+void ceduo_derive_observed(struct deriver *d);
+
+/* What was seen may be written in several forms: brings them into the one that the table of keys has. */
+void ceduo_observed_arrange(struct deriver *d);
 
 /* ---- for its steps ---- */
 

@@ -12,18 +12,19 @@
 
 /* ---- release and controls ---- */
 
-void ceduo_derive_release(struct deriver *d)
+void ceduo_derive_release(struct deriver *d, const char *path, struct ceduo_release *release)
 {
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM], c[CEDUO_NUMBER_ROOM];
-    struct ceduo_scene *scene = &d->draft.scene;
-    struct ceduo_number *x = &scene->release.x;
+    const struct ceduo_scene *scene = &d->draft.scene;
+    struct ceduo_number *x = &release->x;
+    path = ceduo_derive_text(d, "%s.x_m", path);
     x->mean = isnan(x->mean) ? 0 : x->mean - d->origin;
-    if (!d->profile || !ceduo_derive_sound(d, "release.x_m"))
+    if (!d->profile || !ceduo_derive_sound(d, path))
         return;
     double end = scene->slope.x[scene->slope.vertices - 1];
     double first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
-        ceduo_derive_complain(d, "release.x_m",
+        ceduo_derive_complain(d, path,
                               _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
                               ceduo_number_shortest((first >= 0 ? last : first) + d->origin, a),
                               ceduo_number_shortest(d->origin, b), ceduo_number_shortest(end + d->origin, c));

@@ -38,6 +38,8 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->inputs = d.inputs;
     file->inputs_count = d.inputs_count;
     file->inputs_of_scene = d.inputs_of_scene;
+    file->observations = d.observations;
+    file->observations_count = d.observations_count;
     file->scene = d.draft.scene;
     file->scene.title = (char *)(uintptr_t)title_of(file, file->scene.title);
     bool good = problems->count == before && !problems->memory;

@@ -17,6 +17,8 @@ struct scene_file {
     size_t inputs_count; /* what it says is not known, then what its stands say */
     size_t inputs_of_scene;
     const struct ceduo_input *inputs;
+    size_t observations_count; /* what was seen there */
+    const struct ceduo_observation *observations;
     bool ground_assumed;             /* the slope's file says no ground: talus was taken */
 };
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "ceduo/observe.h"
 #include "ceduo/scene.h"
 
 /* One list of words for each X-macro; those of species and materials stand beside their rows. */
@@ -17,6 +18,7 @@ WORDS(system, CEDUO_SYSTEMS);
 WORDS(rule, CEDUO_RULES);
 WORDS(contact_model, CEDUO_CONTACT_MODELS);
 WORDS(spread, CEDUO_SPREAD_KINDS);
+WORDS(use, CEDUO_OBSERVED_USES);
 WORDS(offset, CEDUO_ENERGY_OFFSETS);
 
 /* A flag that need not be said. */

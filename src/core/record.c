@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rocks followed one by one (trajectory.c), with all pieces of their trajectories. Within a piece everything has a closed
+ * form: a flight is a parabola over straight pieces of ground, and along a roll the square of the speed is linear in x. */
+#include "ceduo/record.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/grow.h"
+
+/* Sums along a stretch; they become means at the end. */
+struct along {
+    double length, speed, height, speed2, spin2; /* integrals over x */
+};
+
+struct recorder {
+    const struct ceduo_record_def *def;
+    struct ceduo_record *record;
+    struct ceduo_rock_record *rock;
+    struct along *along; /* [stretch] */
+    size_t blows_room;
+    bool no_memory;
+};
+
+static double square(double x)
+{
+    return x * x;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* ---- the height of a flight above the ground ---- */
+
+static double rise(const struct ceduo_piece *p, double gravity, double t)
+{
+    return p->z + t * (p->vz - gravity / 2 * t);
+}
+
+static double ground_at(const struct ceduo_slope *s, size_t j, double x)
+{
+    return s->z[j] + (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]) * (x - s->x[j]);
+}
+
+/* A part of a flight, from t0 to t1, that lies above segment j. */
+struct part_of_flight {
+    size_t j;
+    double t0, t1;
+};
+
+/* The part of a flight above segment j, between `from` and `to`; false where there is none. */
+static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p, size_t j, double from, double to,
+                       struct part_of_flight *part)
+{
+    double lo = larger(s->x[j], from), hi = fmin(s->x[j + 1], to);
+    double first = p->vx > 0 ? lo : hi, last = p->vx > 0 ? hi : lo;
+    *part = (struct part_of_flight){j, fmax(0, (first - p->x) / p->vx), fmin(p->seconds, (last - p->x) / p->vx)};
+    return hi > lo && part->t1 > part->t0;
+}
+
+static double height_in(const struct ceduo_slope *s, const struct ceduo_piece *p, double gravity, size_t j, double t)
+{
+    return rise(p, gravity, t) - ground_at(s, j, p->x + p->vx * t);
+}
+
+/* Over one segment it is largest at an end, or where the flight is parallel to the ground. */
+static double largest_in(const struct ceduo_slope *s, const struct ceduo_piece *p, double gravity,
+                         const struct part_of_flight *part)
+{
+    double m = (s->z[part->j + 1] - s->z[part->j]) / (s->x[part->j + 1] - s->x[part->j]);
+    double top = (p->vz - m * p->vx) / gravity;
+    double most = larger(height_in(s, p, gravity, part->j, part->t0), height_in(s, p, gravity, part->j, part->t1));
+    return top > part->t0 && top < part->t1 ? larger(most, height_in(s, p, gravity, part->j, top)) : most;
+}
+
+static double largest_height(const struct ceduo_scene *scene, const struct ceduo_piece *p)
+{
+    const struct ceduo_slope *s = &scene->slope;
+    struct part_of_flight part;
+    double most = p->z - ceduo_slope_height(s, p->x), left = fmin(p->x, p->x1), right = larger(p->x, p->x1);
+    size_t last = ceduo_slope_segment(s, right);
+    for (size_t j = ceduo_slope_segment(s, left); right > left && j <= last; j++)
+        if (part_above(s, p, j, left, right, &part))
+            most = larger(most, largest_in(s, p, scene->simulation.gravity, &part));
+    return most;
+}
+
+/* ---- means along a stretch ---- */
+
+/* The integral of the height from the first piece of ground to the last, over time. */
+static double height_over_time(const struct ceduo_scene *scene, const struct ceduo_piece *p, double from, double to)
+{
+    const struct ceduo_slope *s = &scene->slope;
+    struct part_of_flight part;
+    double sum = 0, gravity = scene->simulation.gravity;
+    size_t last = ceduo_slope_segment(s, to);
+    for (size_t j = ceduo_slope_segment(s, from); j <= last; j++)
+        if (part_above(s, p, j, from, to, &part)) { /* Simpson's rule is exact for a parabola */
+            double middle = (part.t0 + part.t1) / 2;
+            sum += (part.t1 - part.t0) / 6 *
+                   (height_in(s, p, gravity, j, part.t0) + 4 * height_in(s, p, gravity, j, middle) +
+                    height_in(s, p, gravity, j, part.t1));
+        }
+    return sum;
+}
+
+/* The integral of sqrt(vx2 + s2) over the vertical speed s, from 0. */
+static double speed_integral(double vx, double s)
+{
+    return (s * sqrt(vx * vx + s * s) + vx * vx * asinh(s / fabs(vx))) / 2;
+}
+
+static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece *p, double lo, double hi,
+                       struct along *a)
+{
+    double gravity = scene->simulation.gravity, v = fabs(p->vx);
+    double first = ((p->vx > 0 ? lo : hi) - p->x) / p->vx, last = ((p->vx > 0 ? hi : lo) - p->x) / p->vx;
+    double s0 = p->vz - gravity * first, s1 = p->vz - gravity * last;
+    a->speed += v / gravity * (speed_integral(p->vx, s0) - speed_integral(p->vx, s1));
+    a->speed2 += v * (v * v * (last - first) + (s0 * s0 * s0 - s1 * s1 * s1) / (3 * gravity));
+    a->spin2 += square(p->spin) * (hi - lo);
+    a->height += v * height_over_time(scene, p, lo, hi);
+}
+
+static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct along *a)
+{
+    double start = square(p->vx) + square(p->vz), rate = (square(p->vx1) + square(p->vz1) - start) / (p->x1 - p->x);
+    double a2 = fmax(0, start + rate * (lo - p->x)), b2 = fmax(0, start + rate * (hi - p->x));
+    double sum = sqrt(a2) + sqrt(b2);
+    a->speed += sum > 0 ? (hi - lo) * 2 / 3 * (a2 + sqrt(a2 * b2) + b2) / sum : 0;
+    a->speed2 += (hi - lo) * (a2 + b2) / 2;
+    a->spin2 += start > 0 ? (hi - lo) * (a2 + b2) / 2 * square(p->spin) / start : 0;
+}
+
+static void add_piece(const struct ceduo_scene *scene, const struct ceduo_piece *p, const struct ceduo_stretch *stretch,
+                      struct along *a)
+{
+    double lo = larger(fmin(p->x, p->x1), stretch->from), hi = fmin(larger(p->x, p->x1), stretch->to);
+    if (!(hi > lo))
+        return;
+    a->length += hi - lo;
+    if (p->rolls)
+        add_roll(p, lo, hi, a);
+    else
+        add_flight(scene, p, lo, hi, a);
+}
+
+static struct ceduo_stretch_means means_of(const struct along *a, const struct ceduo_rock *rock)
+{
+    if (!(a->length > 0))
+        return (struct ceduo_stretch_means){0, NAN, NAN, NAN};
+    double energy = (rock->mass * a->speed2 + rock->moment * a->spin2) / 2;
+    return (struct ceduo_stretch_means){a->length, a->speed / a->length, a->height / a->length, energy / a->length};
+}
+
+/* ---- one rock ---- */
+
+static void on_piece(void *context, const struct ceduo_piece *p)
+{
+    struct recorder *r = context;
+    const struct ceduo_record_def *def = r->def;
+    double speed = sqrt(larger(square(p->vx) + square(p->vz), square(p->vx1) + square(p->vz1)));
+    r->rock->largest_speed = larger(r->rock->largest_speed, speed);
+    if (!p->rolls)
+        r->rock->largest_height = larger(r->rock->largest_height, largest_height(def->scene, p));
+    for (size_t i = 0; i < def->stretches_count; i++)
+        add_piece(def->scene, p, &def->stretches[i], &r->along[i]);
+}
+
+static void on_stem(void *context, const struct ceduo_stem_passed *stem)
+{
+    struct recorder *r = context;
+    struct ceduo_record *record = r->record;
+    if (!stem->hit)
+        return;
+    struct ceduo_blow *grown = ceduo_grow(record->blows, record->blows_count, &r->blows_room, sizeof *grown);
+    if (!grown) {
+        r->no_memory = true;
+        return;
+    }
+    record->blows = grown;
+    record->blows[record->blows_count++] = (struct ceduo_blow){(uint64_t)(r->rock - record->rocks), stem->x, stem->clearance};
+}
+
+static bool is_cancelled(void *context)
+{
+    const struct recorder *r = context;
+    return r->no_memory || (r->def->cancel && atomic_load_explicit(r->def->cancel, memory_order_relaxed));
+}
+
+static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *follower, uint64_t rock)
+{
+    const struct ceduo_record_def *def = r->def;
+    const struct ceduo_watch watch = {
+        .enough = is_cancelled, .piece = on_piece, .stem = def->blows ? on_stem : NULL, .context = r};
+    struct ceduo_trajectory way;
+    size_t first = r->record->blows_count;
+    if (is_cancelled(r))
+        return CEDUO_CANCELLED;
+    r->rock = &r->record->rocks[rock];
+    *r->rock = (struct ceduo_rock_record){.stop_x = NAN};
+    for (size_t i = 0; i < def->stretches_count; i++)
+        r->along[i] = (struct along){0};
+    enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way,
+                                                     &r->record->crossings[rock * def->scene->controls_count]);
+    if (status != CEDUO_OK || r->no_memory)
+        return r->no_memory ? CEDUO_NO_MEMORY : status;
+    r->rock->mass = way.rock.mass;
+    r->rock->moment = way.rock.moment;
+    r->rock->stop_x = way.end == CEDUO_AT_REST || way.end == CEDUO_STOPPED_BY_STEMS ? way.x : NAN;
+    for (size_t i = 0; i < def->stretches_count; i++)
+        r->record->means[rock * def->stretches_count + i] = means_of(&r->along[i], &way.rock);
+    for (size_t i = first; i < r->record->blows_count; i++)
+        r->record->blows[i].height += way.rock.radius;
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_record(const struct ceduo_record_def *def, struct ceduo_record *record)
+{
+    struct recorder r = {.def = def, .record = record};
+    struct ceduo_follower *follower = ceduo_follower_create(def->scene, def->option);
+    size_t n = (size_t)def->rocks;
+    *record = (struct ceduo_record){.rocks_count = def->rocks};
+    record->rocks = calloc(n + 1, sizeof *record->rocks);
+    record->crossings = calloc(n * def->scene->controls_count + 1, sizeof *record->crossings);
+    record->means = calloc(n * def->stretches_count + 1, sizeof *record->means);
+    r.along = calloc(def->stretches_count + 1, sizeof *r.along);
+    bool ready = follower && record->rocks && record->crossings && record->means && r.along;
+    enum ceduo_status status = ready ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (uint64_t i = 0; status == CEDUO_OK && i < def->rocks; i++)
+        status = record_rock(&r, follower, i);
+    free(r.along);
+    ceduo_follower_free(follower);
+    if (status != CEDUO_OK)
+        ceduo_record_release(record);
+    return status;
+}
+
+void ceduo_record_release(struct ceduo_record *record)
+{
+    free(record->rocks);
+    free(record->crossings);
+    free(record->means);
+    free(record->blows);
+    *record = (struct ceduo_record){0};
+}

@@ -1,0 +1,414 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Simulated rocks beside those that were seen. Observations of the same rock, release and option share their rocks: a
+ * setting. Of a setting a run is made, whose controls are the places of the observations; or, where something is asked for
+ * that a run does not keep, its rocks are followed one by one (record.c). Of every observation this gives one value for each
+ * rock, NaN where it has none, and those are compared with what was seen. */
+#include "ceduo/observe.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "ceduo/record.h"
+#include "ceduo/run.h"
+
+#define IMPOSSIBLE (-1e4) /* log-likelihood of what no simulated rock does at all */
+#define FEW_IN_CLASS 10   /* simulated rocks for each class, below which a list counts as rarer than it is */
+
+/* What is asked of one setting. */
+struct setting {
+    const struct ceduo_rock_def *rock;
+    const struct ceduo_release *release;
+    size_t option;
+    size_t controls_count, stretches_count;
+    struct ceduo_control *controls;
+    struct ceduo_stretch *stretches;
+    bool follows; /* rocks one by one */
+    bool blows;
+};
+
+/* How an observation is compared. */
+struct plan {
+    const struct ceduo_observation *seen;
+    size_t setting, control, stretch;
+    size_t bounds_count;
+    double bounds[CEDUO_CLASSES_MOST]; /* between classes: a value on a bound is below it */
+    size_t classes;
+    double counts[CEDUO_CLASSES_MOST];
+};
+
+struct ceduo_observer {
+    struct arena arena;
+    size_t n, settings_count;
+    struct plan *plans;
+    struct setting *settings;
+};
+
+/* ---- making ready ---- */
+
+static bool is_crossing(enum ceduo_observed_kind kind)
+{
+    return kind >= CEDUO_OBSERVED_PASSED && kind <= CEDUO_OBSERVED_ENERGY;
+}
+
+static bool is_stretch(enum ceduo_observed_kind kind)
+{
+    return kind >= CEDUO_OBSERVED_WAY_SPEED;
+}
+
+static struct setting *setting_of(struct ceduo_observer *o, const struct ceduo_observation *seen, size_t *index)
+{
+    for (*index = 0; *index < o->settings_count; ++*index) {
+        struct setting *s = &o->settings[*index];
+        if (s->rock == seen->rock && s->release == seen->release && s->option == seen->option)
+            return s;
+    }
+    struct setting *s = &o->settings[o->settings_count++];
+    *s = (struct setting){.rock = seen->rock, .release = seen->release, .option = seen->option};
+    s->controls = ceduo_arena_take(&o->arena, (o->n + 1) * sizeof *s->controls);
+    s->stretches = ceduo_arena_take(&o->arena, (o->n + 1) * sizeof *s->stretches);
+    return s->controls && s->stretches ? s : NULL;
+}
+
+static size_t control_of(struct setting *s, double x)
+{
+    size_t i = 0;
+    while (i < s->controls_count && s->controls[i].x != x)
+        i++;
+    if (i == s->controls_count)
+        s->controls[s->controls_count++] =
+            (struct ceduo_control){.x = x, .x_given = x, .accepted = NAN, .measured_speed = NAN};
+    return i;
+}
+
+static size_t stretch_of(struct setting *s, double from, double to)
+{
+    s->stretches[s->stretches_count] = (struct ceduo_stretch){from, to};
+    return s->stretches_count++;
+}
+
+static size_t class_of(const struct plan *p, double value)
+{
+    size_t c = 0;
+    while (c < p->bounds_count && value > p->bounds[c])
+        c++;
+    return c;
+}
+
+/* Classes between a list's own quantiles, halfway between two values. Values are sorted. */
+static void make_classes(struct plan *p)
+{
+    const struct ceduo_observation *seen = p->seen;
+    size_t n = seen->n, k = n / 5 < CEDUO_CLASSES_MOST - 1 ? n / 5 : CEDUO_CLASSES_MOST - 1;
+    k = k < 2 ? 2 : k;
+    for (size_t c = 1; c < k; c++) {
+        size_t rank = (c * n + k / 2) / k;
+        double bound = rank == 0 || rank == n ? seen->values[n - 1] : (seen->values[rank - 1] + seen->values[rank]) / 2;
+        if (p->bounds_count == 0 || bound > p->bounds[p->bounds_count - 1])
+            p->bounds[p->bounds_count++] = bound;
+    }
+    p->classes = p->bounds_count + 1;
+    for (size_t i = 0; i < n; i++)
+        p->counts[class_of(p, seen->values[i])]++;
+    if (seen->kind == CEDUO_OBSERVED_STOPS && seen->of > 0)
+        p->counts[p->classes++] = (double)(seen->of - n);
+}
+
+static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *seen, struct plan *p)
+{
+    struct setting *s = setting_of(o, seen, &p->setting);
+    if (!s)
+        return false;
+    p->seen = seen;
+    if (is_crossing(seen->kind))
+        p->control = control_of(s, seen->x);
+    if (is_stretch(seen->kind))
+        p->stretch = stretch_of(s, seen->from, seen->to);
+    s->follows |= seen->kind >= CEDUO_OBSERVED_LARGEST_SPEED;
+    s->blows |= seen->kind == CEDUO_OBSERVED_SCARS;
+    if (seen->values) {
+        make_classes(p);
+    } else if (seen->kind == CEDUO_OBSERVED_PASSED) {
+        p->classes = 2;
+        p->counts[0] = (double)seen->count;
+        p->counts[1] = (double)(seen->of - seen->count);
+    }
+    return true;
+}
+
+enum ceduo_status ceduo_observer_create(const struct ceduo_observation *observations, size_t n,
+                                        struct ceduo_observer **observer)
+{
+    struct ceduo_observer *o = *observer = calloc(1, sizeof *o);
+    if (!o)
+        return CEDUO_NO_MEMORY;
+    o->n = n;
+    o->plans = ceduo_arena_take(&o->arena, (n + 1) * sizeof *o->plans);
+    o->settings = ceduo_arena_take(&o->arena, (n + 1) * sizeof *o->settings);
+    bool good = o->plans && o->settings;
+    for (size_t i = 0; good && i < n; i++)
+        good = make_plan(o, &observations[i], &o->plans[i]);
+    if (good)
+        return CEDUO_OK;
+    ceduo_observer_free(o);
+    *observer = NULL;
+    return CEDUO_NO_MEMORY;
+}
+
+void ceduo_observer_free(struct ceduo_observer *o)
+{
+    if (!o)
+        return;
+    ceduo_arena_free(&o->arena);
+    free(o);
+}
+
+/* ---- rocks ---- */
+
+/* The rocks of one setting: a run, or a record. */
+struct flown {
+    const struct setting *setting;
+    struct ceduo_scene scene;
+    uint64_t rocks;
+    struct ceduo_run *run;
+    struct ceduo_record record;
+};
+
+static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *scene, uint64_t rocks,
+                             const atomic_bool *cancel, struct flown *f)
+{
+    *f = (struct flown){.setting = s, .scene = *scene, .rocks = rocks};
+    f->scene.rock = s->rock ? *s->rock : scene->rock;
+    f->scene.release = s->release ? *s->release : scene->release;
+    f->scene.controls_count = s->controls_count;
+    f->scene.controls = s->controls;
+    const struct ceduo_option *option = s->option < scene->options_count ? &f->scene.options[s->option] : NULL;
+    bool bare = scene->simulation.contact_model == CEDUO_INDEX;
+    enum ceduo_status status = ceduo_scene_check(&f->scene, NULL);
+    if (status == CEDUO_OK && s->follows) {
+        struct ceduo_record_def def = {.scene = &f->scene,
+                                       .option = bare ? NULL : option,
+                                       .rocks = rocks,
+                                       .stretches_count = s->stretches_count,
+                                       .stretches = s->stretches,
+                                       .blows = s->blows,
+                                       .cancel = cancel};
+        return ceduo_record(&def, &f->record);
+    }
+    struct ceduo_run_def def = ceduo_run_def_default(&f->scene);
+    def.option = bare ? NULL : option;
+    def.rocks_most = rocks;
+    def.cancel = cancel;
+    status = status == CEDUO_OK ? ceduo_run_create(&def, &f->run) : status;
+    return status == CEDUO_OK ? ceduo_run_extend(f->run, rocks) : status;
+}
+
+static void land(struct flown *f)
+{
+    ceduo_run_free(f->run);
+    ceduo_record_release(&f->record);
+}
+
+static double of_crossing(const struct flown *f, uint64_t rock, const struct plan *p)
+{
+    const struct ceduo_crossing *c = &f->record.crossings[rock * f->setting->controls_count + p->control];
+    const struct ceduo_rock_record *r = &f->record.rocks[rock];
+    double speed2 = c->vx * c->vx + c->vz * c->vz;
+    if (!c->reached)
+        return NAN;
+    return p->seen->kind == CEDUO_OBSERVED_HEIGHT   ? c->height
+           : p->seen->kind == CEDUO_OBSERVED_ENERGY ? (r->mass * speed2 + r->moment * (c->spin * c->spin)) / 2
+                                                    : sqrt(speed2);
+}
+
+static double of_record(const struct flown *f, uint64_t rock, const struct plan *p)
+{
+    const struct ceduo_rock_record *r = &f->record.rocks[rock];
+    const struct ceduo_stretch_means *m = &f->record.means[rock * f->setting->stretches_count + p->stretch];
+    switch (p->seen->kind) {
+    case CEDUO_OBSERVED_STOPS:
+        return r->stop_x;
+    case CEDUO_OBSERVED_LARGEST_SPEED:
+        return r->largest_speed;
+    case CEDUO_OBSERVED_LARGEST_HEIGHT:
+        return r->largest_height;
+    case CEDUO_OBSERVED_WAY_SPEED:
+        return m->speed;
+    case CEDUO_OBSERVED_WAY_HEIGHT:
+        return m->height;
+    case CEDUO_OBSERVED_WAY_ENERGY:
+        return m->energy;
+    default:
+        return of_crossing(f, rock, p);
+    }
+}
+
+static bool on_stretch(const struct ceduo_blow *b, const struct plan *p)
+{
+    return b->x >= p->seen->from && b->x <= p->seen->to;
+}
+
+static size_t take_blows(const struct flown *f, const struct plan *p, double *values)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < f->record.blows_count; i++)
+        if (on_stretch(&f->record.blows[i], p))
+            values[n++] = f->record.blows[i].height;
+    return n;
+}
+
+static size_t values_most(const struct flown *f, const struct plan *p)
+{
+    return p->seen->kind == CEDUO_OBSERVED_SCARS ? f->record.blows_count : (size_t)f->rocks;
+}
+
+/* The values of one observation, as many as values_most() at the most; returns how many. */
+static size_t take_values(const struct flown *f, const struct plan *p, double *values)
+{
+    size_t n = (size_t)f->rocks;
+    if (p->seen->kind == CEDUO_OBSERVED_SCARS)
+        return take_blows(f, p, values);
+    if (f->run && p->seen->kind == CEDUO_OBSERVED_STOPS)
+        ceduo_run_stops(f->run, values);
+    else if (f->run)
+        ceduo_run_values(f->run, p->control,
+                         p->seen->kind == CEDUO_OBSERVED_HEIGHT   ? CEDUO_SAMPLE_HEIGHT
+                         : p->seen->kind == CEDUO_OBSERVED_ENERGY ? CEDUO_SAMPLE_ENERGY
+                                                                  : CEDUO_SAMPLE_SPEED,
+                         values);
+    else
+        for (size_t i = 0; i < n; i++)
+            values[i] = of_record(f, i, p);
+    if (p->seen->kind == CEDUO_OBSERVED_STOPS && !isnan(p->seen->from))
+        for (size_t i = 0; i < n; i++)
+            values[i] = values[i] < p->seen->from ? NAN : values[i];
+    return n;
+}
+
+/* ---- comparing ---- */
+
+/* A multinomial sample; of simulated classes half a rock more in each than there are, so that none is impossible. Where few
+ * rocks do what was seen, the classes do not get what the missing ones would bring. */
+static void compare_classes(struct ceduo_counterpart *c)
+{
+    double simulated = 0, seen = 0, rocks, log_p = 0, deviance = 0, ways = 0;
+    for (size_t i = 0; i < c->classes; i++) {
+        simulated += c->count[i];
+        seen += c->seen[i];
+    }
+    rocks = fmax(simulated, FEW_IN_CLASS * (double)c->classes) + (double)c->classes / 2;
+    ways = lgamma(seen + 1);
+    for (size_t i = 0; i < c->classes; i++) {
+        double p = (c->count[i] + 0.5) / rocks;
+        log_p += c->seen[i] * log(p);
+        deviance += c->seen[i] > 0 ? 2 * c->seen[i] * log(c->seen[i] / (seen * p)) : 0;
+        ways -= lgamma(c->seen[i] + 1);
+    }
+    c->log_likelihood += log_p + ways;
+    c->deviance += deviance;
+}
+
+/* A normal law of a difference. */
+static void compare_normal(struct ceduo_counterpart *c, double difference, double variance)
+{
+    double z2 = difference * difference / variance;
+    bool known = isfinite(z2);
+    c->log_likelihood += known ? -z2 / 2 - log(2 * M_PI * variance) / 2 : IMPOSSIBLE;
+    c->deviance += known ? z2 : -2 * IMPOSSIBLE;
+}
+
+static void sum_values(const struct plan *p, const double *values, size_t n, struct ceduo_counterpart *c)
+{
+    struct ceduo_moments m = {0};
+    bool rest = p->classes > p->bounds_count + 1 || p->seen->kind == CEDUO_OBSERVED_PASSED;
+    for (size_t i = 0; i < n; i++) {
+        if (!isnan(values[i]))
+            ceduo_moments_add(&m, values[i]);
+        if (p->classes > 0 && !isnan(values[i]))
+            c->count[p->seen->kind == CEDUO_OBSERVED_PASSED ? 0 : class_of(p, values[i])]++;
+        else if (p->classes > 0 && rest)
+            c->count[p->classes - 1]++;
+    }
+    c->rocks = rest ? (uint64_t)n : m.n;
+    c->mean = m.n > 0 ? m.mean : NAN;
+    c->sd = ceduo_moments_sd(&m);
+}
+
+static double mean_seen(const struct ceduo_observation *seen)
+{
+    double sum = 0;
+    for (size_t i = 0; seen->values && i < seen->n; i++)
+        sum += seen->values[i];
+    return seen->values ? sum / (double)seen->n : seen->mean;
+}
+
+/* How many scars the rocks released leave: their number differs from rock to rock, and the survey finds a share. */
+static bool compare_scars(const struct plan *p, const struct flown *f, struct ceduo_counterpart *c)
+{
+    const struct ceduo_observation *seen = p->seen;
+    double share = isnan(seen->share_seen) ? 1 : seen->share_seen, of = (double)seen->of, n = (double)f->rocks;
+    double *each = calloc((size_t)f->rocks + 1, sizeof *each);
+    struct ceduo_moments m = {0};
+    if (!each)
+        return false;
+    for (size_t i = 0; i < f->record.blows_count; i++)
+        each[f->record.blows[i].rock] += on_stretch(&f->record.blows[i], p);
+    for (uint64_t i = 0; i < f->rocks; i++)
+        ceduo_moments_add(&m, each[i]);
+    free(each);
+    double variance = m.n > 1 ? m.m2 / (n - 1) : NAN;
+    c->scars = of * m.mean * share;
+    c->scars_variance = share * share * variance * of * (1 + of / n) + of * m.mean * share * (1 - share);
+    compare_normal(c, (double)seen->n - c->scars, c->scars_variance);
+    return true;
+}
+
+/* False without memory. */
+static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n,
+                    struct ceduo_counterpart *c)
+{
+    const struct ceduo_observation *seen = p->seen;
+    *c = (struct ceduo_counterpart){.classes = p->classes, .seen_mean = mean_seen(seen), .scars = NAN, .scars_variance = NAN};
+    memcpy(c->seen, p->counts, sizeof c->seen);
+    sum_values(p, values, n, c);
+    c->variance = seen->sd * seen->sd / (double)seen->n + c->sd * c->sd / (double)c->rocks;
+    if (p->classes > 0)
+        compare_classes(c);
+    else
+        compare_normal(c, c->seen_mean - c->mean, c->variance);
+    return seen->kind != CEDUO_OBSERVED_SCARS || seen->of == 0 || compare_scars(p, f, c);
+}
+
+enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,
+                                      const atomic_bool *cancel, struct ceduo_counterpart *to)
+{
+    enum ceduo_status status = CEDUO_OK;
+    for (size_t s = 0; s < o->settings_count && status == CEDUO_OK; s++) {
+        struct flown f;
+        status = fly(&o->settings[s], scene, rocks, cancel, &f);
+        for (size_t i = 0; i < o->n && status == CEDUO_OK; i++) {
+            const struct plan *p = &o->plans[i];
+            double *values = p->setting == s ? malloc((values_most(&f, p) + 1) * sizeof *values) : NULL;
+            if (p->setting == s && (!values || !compare(p, &f, values, take_values(&f, p, values), &to[i])))
+                status = CEDUO_NO_MEMORY;
+            free(values);
+        }
+        land(&f);
+    }
+    return status;
+}
+
+enum ceduo_status ceduo_observer_values(const struct ceduo_observer *o, const struct ceduo_scene *scene, size_t which,
+                                        uint64_t rocks, double **values, size_t *n)
+{
+    const struct plan *p = &o->plans[which];
+    struct flown f;
+    *values = NULL;
+    *n = 0;
+    enum ceduo_status status = fly(&o->settings[p->setting], scene, rocks, NULL, &f);
+    if (status == CEDUO_OK && (*values = malloc((values_most(&f, p) + 1) * sizeof **values)))
+        *n = take_values(&f, p, *values);
+    land(&f);
+    return status == CEDUO_OK && !*values ? CEDUO_NO_MEMORY : status;
+}

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What was seen of real rocks: the forms in which a scene may say it, and what is refused."""
+from harness import DONE, INPUT, Folder, ceduo, expect, expect_equal, expect_in, run_all, scene
+
+TABLE = "id,Distance,block\n1,41.5,a\n2,44,a\n3,52.25,b\n4,61,a\n"
+
+
+def quarry(observed, **changes):
+    return scene(**{"slope": {"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2}]},
+                    "rock": {"diameter_m": 0.7}, "observed": observed, **changes})
+
+
+def check(observed, *files, **changes):
+    with Folder() as f:
+        for name, text in files:
+            f.write(name, text)
+        return ceduo("--check", f.write("s.yaml", quarry(observed, **changes)))
+
+
+def accepted(observed, *files, **changes):
+    r = check(observed, *files, **changes)
+    expect_equal((r.status, r.err), (DONE, ""), r)
+
+
+def refused(what, observed, *files, **changes):
+    r = check(observed, *files, **changes)
+    expect_equal(r.status, INPUT, r)
+    expect_in(what, r.err)
+
+
+STOPS = {"stops": {"x_m": [40, 50, 60], "of": 5}}
+
+
+def test_forms():
+    """A list of rows and a mapping of kinds; what belongs beside a kind may stand within it"""
+    accepted([STOPS])
+    accepted(STOPS)
+    accepted([{"stops": {"x_m": [40, 50, 60]}, "use": "check", "name": "spring"}])
+    accepted({"stops": {"x_m": [40, 50, 60], "use": "check", "name": "spring"}})
+    accepted({"passed": [{"x_m": 50, "count": 3, "of": 5}, {"x_m": 60, "count": 0, "of": 5, "use": "check"}]})
+    accepted([])
+
+
+def test_kinds():
+    """All kinds, as values or as their mean, sd and number"""
+    mean = {"mean": 10, "sd": 2, "n": 5}
+    for kind in ("speed", "height", "energy"):
+        accepted([{kind: {"x_m": 50, "values": [3, 4, 5]}}])
+        accepted([{kind: {"x_m": 50, **mean}}])
+    for key in ("speed_m_s", "height_m"):
+        accepted([{"largest": {key: mean}}])
+        accepted([{"on_the_way": {"from_m": 20, "to_m": 40, key: {"values": [1, 2]}}}])
+    accepted([{"on_the_way": {"from_m": 20, "to_m": 40, "energy_kJ": mean}}])
+    accepted([{"scars": {"from_m": 20, "to_m": 40, "height_m": [0.5, 1.2], "share_seen": 0.7, "of": 10}}])
+    refused("give values, or their mean, sd and n", [{"speed": {"x_m": 50}}])
+    refused("a mean needs sd and n too", [{"speed": {"x_m": 50, "mean": 3}}])
+    refused("values and their mean together; keep one", [{"speed": {"x_m": 50, "values": [3], **mean}}])
+    refused("observed[0].speed.n: 0 is below 1", [{"speed": {"x_m": 50, "mean": 3, "sd": 1, "n": 0}}])
+    refused("observed[0].passed.of: 0 is below 1", [{"passed": {"x_m": 50, "count": 0, "of": 0}}])
+    refused("observed[0].stops.x_m: the list is empty", [{"stops": {"x_m": []}}])
+    refused("say what was seen", [{"use": "fit"}])
+    refused("unknown key", [{"stop": {"x_m": [40]}}])
+    refused("-1 is below 0", [{"height": {"x_m": 50, "values": [2, -1]}}])
+
+
+def test_places():
+    """What lies off the profile, before the release or where nobody looked"""
+    refused("s.yaml:", [{"stops": {"x_m": [40, 120]}}])
+    refused("120 lies beyond the slope, which ends at 100 m", [{"stops": {"x_m": [40, 120]}}])
+    refused("-3 lies before the slope, which begins at 0 m", {"stops": {"x_m": [-3, 40]}})
+    refused("40 lies before seen_from_m, 45", {"stops": {"x_m": [40], "seen_from_m": 45}})
+    refused("300 lies beyond the slope", {"stops": {"x_m": [40], "seen_from_m": 300}})
+    refused("does not lie beyond the release, 0 m", {"passed": {"x_m": 0, "count": 1, "of": 2}})
+    refused("does not lie beyond the release, 60 m", {"passed": {"x_m": 50, "count": 1, "of": 2, "release": {"x_m": 60}}})
+    refused("20 does not lie beyond from_m, 40", {"scars": {"from_m": 40, "to_m": 20, "height_m": [1]}})
+    refused("20 does not lie beyond from_m, 40", {"on_the_way": {"from_m": 40, "to_m": 20, "speed_m_s": {"values": [1]}}})
+    refused("beyond the slope", {"on_the_way": {"from_m": 40, "to_m": 200, "speed_m_s": {"values": [1]}}})
+
+
+def test_counts():
+    """More seen than released; names and options"""
+    refused("observed[0].stops.of: 3 were seen of 2 released", [{"stops": {"x_m": [40, 50, 60], "of": 2}}])
+    refused("9 were seen of 8 released", {"passed": {"x_m": 50, "count": 9, "of": 8}})
+    refused("'a' is given twice; names must differ", [{**STOPS, "name": "a"}, {**STOPS, "name": "a"}])
+    refused("the scene has no option 'cut'; it has: current", [{**STOPS, "option": "cut"}])
+    refused("'fitted' is unknown; did you mean 'fit'?", [{**STOPS, "use": "fitted"}])
+
+
+def test_rocks():
+    """A rock and a release of its own; what the release does not say is as in the scene"""
+    accepted([{**STOPS, "rock": {"shape": "block", "axes_m": [0.4, 0.3, 0.2], "mass_kg": 60}}])
+    refused("a sphere is given by one of", [{**STOPS, "rock": {"density_kg_m3": 2500}}])
+    refused("does not belong to the shape 'sphere'", [{**STOPS, "rock": {"diameter_m": 1, "height_m": 2}}])
+    refused("release: 500 lies beyond the slope".replace("release: ", "release.x_m: "), [{**STOPS, "release": {"x_m": 500}}])
+    accepted([{"passed": {"x_m": 40, "count": 1, "of": 2}, "release": {"vx_m_s": 3}}], release={"x_m": 30, "height_m": 1})
+    refused("does not lie beyond the release, 30 m", [{"passed": {"x_m": 20, "count": 1, "of": 2}, "release": {"vx_m_s": 3}}],
+            release={"x_m": 30, "height_m": 1})
+
+
+def test_tables():
+    """Lists from a table, its column by name; only some of its rows"""
+    table = ("stops.csv", TABLE)
+    accepted({"stops": {"csv": "stops.csv"}}, table)
+    accepted({"stops": {"x_m": "stops.csv", "column": "distance"}}, table)
+    accepted({"stops": {"csv": "stops.csv", "only": "block=b", "of": 1}}, table)
+    accepted({"stops": {"csv": "stops.csv", "of": 2}}, ("stops.csv", "where\n40\n41,5\n".replace(",", ".")))
+    accepted({"stops": {"csv": "stops.csv", "column": "x"}}, ("stops.csv", "id;x\n1;40,5\n2;41,5\n"))
+    refused("3 were seen of 2 released", {"stops": {"csv": "stops.csv", "only": "block=a", "of": 2}}, table)
+    refused("the table has no column 'length'; it has: id, Distance, block", {"stops": {"csv": "stops.csv", "column": "length"}}, table)
+    refused("name the column that holds the values (column); the table has: a, b", {"stops": {"csv": "t.csv"}}, ("t.csv", "a,b\n1,2\n"))
+    refused("the table has this column twice", {"stops": {"csv": "t.csv", "column": "a"}}, ("t.csv", "a,a\n1,2\n"))
+    refused("the table has no such row", {"stops": {"csv": "stops.csv", "only": "block=z"}}, table)
+    refused("is not COLUMN=WORD", {"stops": {"csv": "stops.csv", "only": "block"}}, table)
+    refused("the table has no column 'rock'", {"stops": {"csv": "stops.csv", "only": "rock=1"}}, table)
+    refused("stops.csv:3:3: 'far' is not a number", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "id,x\n1,40\n2,far\n"))
+    refused("stops.csv:3:1: too few columns", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "id,x\n1,40\n2\n"))
+    refused("cannot find 'none.csv' beside this file", {"stops": {"csv": "none.csv"}})
+    refused("the file is empty", {"stops": {"csv": "stops.csv"}}, ("stops.csv", ""))
+    refused("x_m already says this; keep one of the two", {"stops": {"csv": "stops.csv", "x_m": [40]}}, table)
+    refused("names something of a table", {"stops": {"x_m": [40], "column": "a"}})
+    refused("120 lies beyond the slope", {"stops": {"csv": "stops.csv"}}, ("stops.csv", "x\n120\n"))
+    refused("-2 is below 0", {"speed": {"x_m": 50, "csv": "v.csv"}}, ("v.csv", "speed\n4\n-2\n"))
+    accepted({"speed": {"x_m": 50, "values": "v.csv", "column": "v"}}, ("v.csv", "t,v\n1,4\n2,5\n"))
+
+
+def test_others_do_not_mind():
+    """A scene with observations is computed as without; --option may leave out what they are of"""
+    with Folder() as f:
+        forest = [{"name": n, "forest": []} for n in ("a", "b")]
+        both = f.write("s.yaml", quarry([{**STOPS, "option": "b"}], options=forest, forest=None))
+        plain = f.write("t.yaml", quarry([], options=forest, forest=None))
+        for arguments in ((), ("--option", "a")):
+            seen, without = (ceduo("-b", "-f", "csv", "-n", 200, *arguments, path) for path in (both, plain))
+            expect_equal(seen.status, DONE, seen)
+            expect_equal(seen.out.replace("s.yaml", "t.yaml"), without.out)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
