@@ -73,7 +73,7 @@ static bool enter_list(struct finder *f, const struct field *list)
     if (list->object == ceduo_schema_belt() && list->flags & FIELD_DRAFT) /* the forest is the only option */
         return f->scene->options_count == 1 &&
                enter_item(f, list->object, (char *)f->scene->options[0].belts, f->scene->options[0].belts_count);
-    if (list->flags & FIELD_DRAFT)
+    if (list->flags & (FIELD_DRAFT | FIELD_NOWHERE))
         return false;
     memcpy(&items, f->item + list->offset, sizeof items);
     memcpy(&n, f->item + list->beside, sizeof n);
