@@ -12,6 +12,7 @@
 #include "material.h"
 #include "number.h"
 #include "observe.h"
+#include "other.h"
 #include "part.h"
 #include "pool.h"
 #include "question.h"

@@ -22,7 +22,7 @@ enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_p
 enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_option *option, struct ceduo_run **run);
 
 /* All that a scene's results need: for each option the run without forest, and unless the contact model is index that
- * through its forest. Once more for one scene it does nothing. CEDUO_NO_MEMORY or CEDUO_OK. */
+ * through its forest, and where the pool is for that also under the other energy law. Once more for one scene it does nothing. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool);
 
 /* The run of that forest if the pool has it, otherwise NULL. */

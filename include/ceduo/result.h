@@ -3,6 +3,7 @@
 #define CEDUO_RESULT_H
 
 #include "assess.h"
+#include "other.h"
 #include "pool.h"
 
 /* What a run found, read from it: plain columns, one entry for each control. */
@@ -25,6 +26,7 @@ struct ceduo_option_result {
     struct ceduo_index *controls;      /* one for each control, in the scene's order */
     struct ceduo_flown wooded;         /* through its forest; with the contact model index: without forest */
     struct ceduo_difference *differences; /* of that to the first option; all NaN where not known */
+    struct ceduo_other_energy *others; /* one for each control: the same rocks under the other energy law */
 };
 
 /* All that is found for a scene: plain columns, to be shown or written. */
@@ -45,11 +47,12 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
                                       struct ceduo_result **result);
 
 /* The same from what was read before: without forest, and of each option through its forest, NULL where that is not known
- * yet. `differences`: one for each option and control, in rows by option. With the contact model index neither of the two
- * is looked at. */
+ * yet. `differences` and `others` (may be NULL): one for each option and control, in rows by option. With the contact model
+ * index none of the three is looked at. */
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
                                       const struct ceduo_flown *const *wooded,
-                                      const struct ceduo_difference *differences, struct ceduo_result **result);
+                                      const struct ceduo_difference *differences,
+                                      const struct ceduo_other_energy *others, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
 /* Assesses an option by what was simulated: each belt to `stands`, each control to `controls`. `wooded` without rocks: not

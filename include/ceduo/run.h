@@ -30,6 +30,7 @@ struct ceduo_run_def {
     const double *cell_x;            /* rising, on the slope */
     bool arrivals_only;              /* trajectories stop behind the last control or cell: their ends are not known */
     size_t exact_bytes;              /* beyond this percentiles come from a histogram */
+    bool other_energy;               /* of a pool: each forest under the other energy law as well, see other.h */
     bool part;                       /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
     uint64_t first;                  /* a multiple of CEDUO_BLOCK_ROCKS */
     const atomic_bool *cancel;       /* may be NULL; raised by another thread: the call returns soon */
@@ -78,6 +79,14 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 
 /* Only the moments, without percentiles: cheap. */
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
+
+/* As cheap: shares of all released, and means (J). */
+struct ceduo_brief {
+    double reach_probability, exceed_probability; /* exceed: NaN without an accepted energy */
+    double energy;                                /* of those that reached; NaN where none did */
+    double energy_per_released;
+};
+struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control);
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
 struct ceduo_paired {

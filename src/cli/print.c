@@ -177,6 +177,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene
     struct ceduo_pool *pool = NULL;
     double cell_x[CEDUO_OUTLOOK_CELLS];
     enum exit_status done = EXIT_DONE;
+    q.run.other_energy = false;
     q.run.cells = ceduo_plot_kinds[a->plot].needs_cells ? ceduo_outlook_places(&file->scene, cell_x) : 0;
     q.run.cell_x = cell_x;
     q.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;

@@ -7,23 +7,26 @@
 /* Dorren et al. 2006: FE·38.7·dbh_cm^2.31 J for a hit in the middle of the stem, less for one beside it. */
 struct energy_dorren {
     double fracture_ratio, dbh; /* FE; m, of the mean stem */
+    double whole;               /* J, of that stem hit in its middle: most hits are of stems that are all alike */
 };
 
 #define DORREN_DBH_LEAST 0.1 /* m: thinner stems lie outside the data */
 
 static inline struct energy_dorren energy_dorren(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    return (struct energy_dorren){ceduo_stand_fracture_ratio(stand), stems->dbh};
+    double ratio = ceduo_stand_fracture_ratio(stand);
+    return (struct energy_dorren){ratio, stems->dbh, ceduo_dorren_energy(stems->dbh, ratio)};
 }
 
 static inline double dorren_mean(const struct energy_dorren *e)
 {
-    return ceduo_dorren_mean_share() * ceduo_dorren_energy(e->dbh, e->fracture_ratio);
+    return ceduo_dorren_mean_share() * e->whole;
 }
 
 static inline double dorren_hit(const struct energy_dorren *e, double dbh, double eccentricity)
 {
-    return ceduo_dorren_share(eccentricity) * ceduo_dorren_energy(dbh, e->fracture_ratio);
+    double whole = dbh == e->dbh ? e->whole : ceduo_dorren_energy(dbh, e->fracture_ratio);
+    return ceduo_dorren_share(eccentricity) * whole;
 }
 
 static inline double dorren_mean_share(const struct energy_dorren *e, double mass)

@@ -7,12 +7,14 @@
 
 #include "base/grow.h"
 #include "ceduo/key.h"
+#include "ceduo/other.h"
 #include "ceduo/part.h"
 #include "run_pack.h"
 
 struct pooled {
     uint64_t key;
     uint64_t asked; /* when it was asked for last */
+    bool beside;    /* of the other energy law alone: it goes with the scene, and no tolerance waits for it */
     struct ceduo_run *run;
 };
 
@@ -77,7 +79,7 @@ static enum ceduo_status add_run(struct ceduo_pool *pool, const struct ceduo_opt
     def.option = key != 0 ? option : NULL;
     enum ceduo_status status = ceduo_run_create(&def, run);
     if (status == CEDUO_OK)
-        pool->runs[pool->count++] = (struct pooled){key, ++pool->asked, *run};
+        pool->runs[pool->count++] = (struct pooled){.key = key, .asked = ++pool->asked, .run = *run};
     return status;
 }
 
@@ -114,12 +116,12 @@ enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_opt
     return status == CEDUO_OK ? ceduo_run_extend(*run, rocks) : status;
 }
 
-static bool is_needed(const struct ceduo_pool *pool, uint64_t key)
+static bool is_needed(const struct ceduo_pool *pool, const struct pooled *p)
 {
-    for (size_t i = 0; i < pool->scene.options_count; i++)
-        if (ceduo_option_key(&pool->scene, &pool->scene.options[i]) == key)
+    for (size_t i = 0; i < pool->scene.options_count && !p->beside; i++)
+        if (ceduo_option_key(&pool->scene, &pool->scene.options[i]) == p->key)
             return true;
-    return key == 0;
+    return p->beside || p->key == 0;
 }
 
 static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
@@ -137,7 +139,7 @@ static void drop_oldest(struct ceduo_pool *pool)
 {
     size_t oldest = SIZE_MAX;
     for (size_t i = 0; i < pool->count; i++)
-        if (!is_needed(pool, pool->runs[i].key) &&
+        if (!is_needed(pool, &pool->runs[i]) &&
             (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
             oldest = i;
     add_work(&pool->dropped, pool->runs[oldest].run);
@@ -150,7 +152,7 @@ static size_t spare_runs(const struct ceduo_pool *pool)
 {
     size_t spare = 0;
     for (size_t i = 0; i < pool->count; i++)
-        spare += !is_needed(pool, pool->runs[i].key);
+        spare += !is_needed(pool, &pool->runs[i]);
     return spare;
 }
 
@@ -177,16 +179,40 @@ void ceduo_pool_trim(struct ceduo_pool *pool)
         drop_oldest(pool);
 }
 
+/* Of the other law arrivals are asked for alone, and a few samples that give the errors of differences. */
+static enum ceduo_status fill_other(struct ceduo_pool *pool, const struct ceduo_option *option)
+{
+    struct ceduo_option other;
+    struct ceduo_run *run;
+    enum ceduo_status status = ceduo_other_option(option, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    uint64_t key = status == CEDUO_OK ? ceduo_option_key(&pool->scene, &other) : 0;
+    if (status == CEDUO_OK && key != 0 && !find(pool, key)) {
+        struct ceduo_run_def whole = pool->def;
+        pool->def.arrivals_only = true;
+        pool->def.cells = 0;
+        pool->def.exact_bytes /= 4;
+        status = add_run(pool, &other, key, &run);
+        pool->def = whole;
+        if (status == CEDUO_OK)
+            pool->runs[pool->count - 1].beside = true;
+    }
+    ceduo_other_release(&other);
+    return status;
+}
+
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
 {
+    size_t n = pool->scene.options_count;
     bool wooded = pool->scene.simulation.contact_model != CEDUO_INDEX;
     enum ceduo_status status = CEDUO_OK;
     struct ceduo_run *run;
-    for (size_t i = 0; i < pool->scene.options_count && status == CEDUO_OK && !pool->filled; i++) {
+    for (size_t i = 0; i < n && status == CEDUO_OK && !pool->filled; i++) {
         status = ceduo_pool_run(pool, NULL, &run);
         if (status == CEDUO_OK && wooded)
             status = ceduo_pool_run(pool, &pool->scene.options[i], &run);
     }
+    for (size_t i = 0; i < n && status == CEDUO_OK && !pool->filled && wooded && pool->def.other_energy; i++)
+        status = fill_other(pool, &pool->scene.options[i]);
     pool->filled = status == CEDUO_OK;
     return status;
 }
@@ -226,7 +252,7 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
             return status;
         *met = true;
         for (size_t i = 0; i < pool->count && *met; i++)
-            *met = precise(pool->runs[i].run, pool->scene.controls_count, tolerance);
+            *met = pool->runs[i].beside || precise(pool->runs[i].run, pool->scene.controls_count, tolerance);
         if (rocks >= most)
             break;
     }

@@ -94,7 +94,8 @@ static bool allocate_option(const struct ceduo_scene *scene, size_t i, struct ce
     o->stands = calloc(scene->options[i].belts_count + 1, sizeof *o->stands);
     o->controls = calloc(scene->controls_count + 1, sizeof *o->controls);
     o->differences = calloc(scene->controls_count + 1, sizeof *o->differences);
-    return o->stands && o->controls && o->differences;
+    o->others = calloc(scene->controls_count + 1, sizeof *o->others);
+    return o->stands && o->controls && o->differences && o->others;
 }
 
 static struct ceduo_result *allocate(const struct ceduo_scene *scene)
@@ -141,7 +142,8 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
 
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
                                       const struct ceduo_flown *const *wooded,
-                                      const struct ceduo_difference *differences, struct ceduo_result **result)
+                                      const struct ceduo_difference *differences,
+                                      const struct ceduo_other_energy *others, struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
     struct ceduo_result *r = allocate(scene);
@@ -151,10 +153,27 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
     enum ceduo_status status = copy(bare, &r->bare);
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         memcpy(r->options[i].differences, differences + i * controls, controls * sizeof *differences);
+        if (others)
+            memcpy(r->options[i].others, others + i * controls, controls * sizeof *others);
         if (wooded[i])
             status = copy(wooded[i], &r->options[i].wooded);
     }
     return finish(r, status, result);
+}
+
+/* What a pool knows of the other energy law. */
+static enum ceduo_status read_others(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
+                                     struct ceduo_option_result *options)
+{
+    struct ceduo_scene other;
+    bool good = ceduo_other_scene(scene, &other);
+    const struct ceduo_run *first = good ? ceduo_pool_find(pool, &other.options[0]) : NULL;
+    for (size_t i = 0; good && i < scene->options_count; i++)
+        for (size_t c = 0; c < scene->controls_count; c++)
+            options[i].others[c] =
+                ceduo_other_read(&scene->options[i], ceduo_pool_find(pool, &other.options[i]), first, c);
+    ceduo_other_scene_release(&other);
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
@@ -174,6 +193,8 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
         if (run)
             status = ceduo_flown_read(run, controls, &r->options[i].wooded);
     }
+    if (r->wooded && status == CEDUO_OK)
+        status = read_others(scene, pool, r->options);
     return finish(r, status, result);
 }
 
@@ -185,6 +206,7 @@ void ceduo_result_free(struct ceduo_result *result)
         free(result->options[i].stands);
         free(result->options[i].controls);
         free(result->options[i].differences);
+        free(result->options[i].others);
         ceduo_flown_free(&result->options[i].wooded);
     }
     free(result->options);

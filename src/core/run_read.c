@@ -89,6 +89,19 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     return CEDUO_OK;
 }
 
+struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
+{
+    struct sums s = ceduo_run_sums_at(run, control);
+    const struct ceduo_moments *energy = &s.of[ENERGY];
+    bool accepts = !isnan(run->ready.scene.controls[control].accepted);
+    double n = (double)run->rocks, per_rock, se;
+    per_released(energy, run->rocks, &per_rock, &se);
+    return (struct ceduo_brief){.reach_probability = (double)energy->n / n,
+                                .exceed_probability = accepts ? (double)s.exceeded / n : NAN,
+                                .energy = energy->n > 0 ? energy->mean : NAN,
+                                .energy_per_released = per_rock};
+}
+
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
 {
     struct sums s = ceduo_run_sums_at(run, control);

@@ -9,7 +9,8 @@ struct flights {
     unsigned threads;
     const atomic_bool *cancel;
     uint64_t scene_key;
-    struct ceduo_pool *pictures, *figures, *years;
+    struct ceduo_pool *pictures, *figures, *years, *others;
+    struct ceduo_scene other; /* that the pool of the others is turned to */
     double cells[CEDUO_OUTLOOK_CELLS];
     size_t cells_count;
     struct ceduo_outlook *last; /* what was last made of the runs */
@@ -30,7 +31,9 @@ void ceduo_flights_free(struct flights *f)
     ceduo_outlook_free(f->last);
     ceduo_pool_free(f->figures);
     ceduo_pool_free(f->years);
+    ceduo_pool_free(f->others);
     ceduo_pool_free(f->pictures);
+    ceduo_other_scene_release(&f->other);
     free(f);
 }
 
@@ -128,6 +131,45 @@ enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_sc
         status = hand_over(f, scene, publish, context);
     if (status == CEDUO_OK)
         *enough = rocks * 10 > FLIGHTS_MOST || (rocks >= FLIGHTS_PICTURE && precise(f->last));
+    return status;
+}
+
+/* ---- the other energy law ---- */
+
+/* Turns its pool, and its pool alone. */
+static enum ceduo_status turn_others(struct flights *f, const struct ceduo_scene *scene)
+{
+    struct ceduo_scene other;
+    enum ceduo_status status = ceduo_other_scene(scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    struct ceduo_run_def def = ceduo_run_def_default(&other);
+    def.threads = f->threads;
+    def.rocks_most = FLIGHTS_MOST;
+    def.cancel = f->cancel;
+    def.arrivals_only = true;
+    if (status == CEDUO_OK)
+        status = ceduo_pool_for(&def, &f->others);
+    if (status != CEDUO_OK) {
+        ceduo_other_scene_release(&other);
+        return status;
+    }
+    ceduo_other_scene_release(&f->other);
+    f->other = other;
+    return CEDUO_OK;
+}
+
+enum ceduo_status ceduo_flights_others(struct flights *f, const struct ceduo_scene *scene, uint64_t rocks,
+                                       struct ceduo_other_energy *others)
+{
+    enum ceduo_status status = turn_others(f, scene);
+    size_t n = scene->options_count, controls = scene->controls_count;
+    struct ceduo_run *first = NULL;
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        struct ceduo_run *run;
+        status = ceduo_pool_fly(f->others, &f->other.options[i], rocks, &run);
+        first = i == 0 ? run : first;
+        for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
+            others[i * controls + c] = ceduo_other_read(&scene->options[i], run, first, c);
+    }
     return status;
 }
 

@@ -12,6 +12,7 @@ struct flights;
 #define FLIGHTS_FIRST     1024   /* rocks of the first step; each further one simulates ten times as many */
 #define FLIGHTS_PICTURE   10240  /* enough for envelopes */
 #define FLIGHTS_YEAR      10240  /* of each year */
+#define FLIGHTS_OTHERS    10240  /* of each forest under the other energy law */
 #define FLIGHTS_MOST      102400 /* of each forest */
 #define FLIGHTS_TOLERANCE 0.004  /* fewer once mean energies are known to this (95 %) */
 
@@ -25,6 +26,11 @@ typedef void flights_publish(void *context, struct ceduo_outlook *outlook);
  * finer step is needed. CEDUO_CANCELLED: the next call continues. */
 enum ceduo_status ceduo_flights_figures(struct flights *flights, const struct ceduo_scene *scene, size_t shown,
                                         uint64_t rocks, flights_publish *publish, void *context, bool *enough);
+
+/* One step of the other energy law: so many rocks through every option under it. To `others`, one for each option and
+ * control, in rows by option. */
+enum ceduo_status ceduo_flights_others(struct flights *flights, const struct ceduo_scene *scene, uint64_t rocks,
+                                       struct ceduo_other_energy *others);
 
 /* A number for all that decides about the years of an option. */
 uint64_t ceduo_flights_years_key(const struct ceduo_scene *scene, size_t option);

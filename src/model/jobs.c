@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "ceduo/key.h"
 
-enum kind { SEEK, FORESEE, FIGURES, YEARS, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
+enum kind { SEEK, FORESEE, FIGURES, OTHERS, YEARS, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
 
 struct job {
     bool wanted;     /* not done */
@@ -97,6 +97,25 @@ static enum ceduo_status step_figures(struct jobs *q, struct job *job)
         ceduo_flights_figures(q->flights, &job->scene, job->option, job->rocks, publish, &publisher, &enough);
     job->wanted = !enough;
     return status;
+}
+
+static enum ceduo_status step_others(struct jobs *q, struct job *job)
+{
+    size_t options = job->scene.options_count, controls = job->scene.controls_count;
+    struct ceduo_other_energy *others = calloc(options * controls + 1, sizeof *others);
+    enum ceduo_status status =
+        others ? ceduo_flights_others(q->flights, &job->scene, job->rocks, others) : CEDUO_NO_MEMORY;
+    job->wanted = job->rocks < FLIGHTS_OTHERS;
+    if (status != CEDUO_OK || !lock_result(q, OTHERS, job->number)) {
+        free(others);
+        return status;
+    }
+    free(q->news.others);
+    q->news.others = others;
+    q->news.others_options = options;
+    q->news.others_controls = controls;
+    unlock_result(q);
+    return CEDUO_OK;
 }
 
 void ceduo_jobs_free_years(struct ceduo_years **years, size_t n)
@@ -223,8 +242,8 @@ static void end_step(struct jobs *q, enum kind kind, const struct job *done, enu
 
 static void *work(void *argument)
 {
-    static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {step_seek, step_foresee,
-                                                                                         step_figures, step_years};
+    static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {
+        step_seek, step_foresee, step_figures, step_others, step_years};
     struct jobs *q = argument;
     pthread_mutex_lock(&q->lock);
     while (!q->quit) {
@@ -255,6 +274,7 @@ static void release(struct jobs *q)
     ceduo_flights_free(q->flights);
     ceduo_outlook_free(q->news.outlook);
     drop_years(&q->news);
+    free(q->news.others);
     ceduo_sought_free(q->news.sought);
     if (q->pipe[0] >= 0) {
         close(q->pipe[0]);
@@ -333,9 +353,21 @@ static void drop(struct jobs *q, enum kind kind)
         atomic_store(&q->cancel, true);
 }
 
+/* A number for all that decides about the other energy law; 0: it is not asked for, or there is no memory. */
+static uint64_t others_key(const struct ceduo_scene *scene, uint64_t key)
+{
+    struct ceduo_scene other;
+    bool wooded = scene->simulation.contact_model != CEDUO_INDEX, good = ceduo_other_scene(scene, &other);
+    uint64_t all = wooded && good ? key * 1099511628211u ^ ceduo_jobs_key(&other) : 0;
+    ceduo_other_scene_release(&other);
+    return all;
+}
+
 bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, uint64_t key, size_t shown, bool years)
 {
     struct job figures = {.key = key, .rocks = FLIGHTS_FIRST, .option = shown, .scene = *scene}, coming = figures;
+    struct job others = figures;
+    others.key = others_key(scene, key);
     for (size_t i = 0; years && i < scene->options_count; i++)
         coming.key = coming.key * 1099511628211u ^ ceduo_flights_years_key(scene, i);
     pthread_mutex_lock(&q->lock);
@@ -345,6 +377,10 @@ bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, uint64_t k
         q->news.outlook = NULL;
         ask(q, FIGURES, &figures);
     }
+    if (others.key == 0)
+        drop(q, OTHERS);
+    else if (q->jobs[OTHERS].number == 0 || q->jobs[OTHERS].key != others.key)
+        ask(q, OTHERS, &others);
     if (!years)
         drop(q, YEARS);
     else if (q->jobs[YEARS].number == 0 || q->jobs[YEARS].key != coming.key)
@@ -404,6 +440,7 @@ struct jobs_news ceduo_jobs_news(struct jobs *q)
     q->news.outlook = NULL;
     q->news.years = NULL;
     q->news.years_count = 0;
+    q->news.others = NULL;
     q->news.sought = NULL;
     q->news.foresaw = false;
     pthread_mutex_unlock(&q->lock);

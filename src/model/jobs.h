@@ -54,6 +54,9 @@ struct jobs_news {
     struct ceduo_years **years;    /* newest of each option, as far as there are new ones; NULL: there are none. The
                                     * caller's from now on */
     size_t years_count;            /* options */
+    struct ceduo_other_energy *others; /* newest under the other energy law, one for each option and control, in rows by
+                                        * option; NULL: none are new. The caller's from now on */
+    size_t others_options, others_controls;
     size_t done, all;              /* of the step under way in the years: options, of so many; all 0: none is */
     uint64_t rocks;                /* of each run of that step, or of the figures' */
     struct sought *sought;         /* NULL: none is done; the caller's from now on */

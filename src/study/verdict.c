@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/grow.h"
+
 double ceduo_share_of(const struct ceduo_arrivals *arrivals)
 {
     return isnan(arrivals->exceed_probability) ? arrivals->reach_probability : arrivals->exceed_probability;
@@ -18,10 +20,21 @@ struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
     return (struct ceduo_portion){share, half};
 }
 
+double ceduo_share_by_other_law(const struct ceduo_other_energy *other)
+{
+    bool accepts = other->known && !isnan(other->exceed_probability);
+    return !other->known ? NAN : accepts ? other->exceed_probability : other->reach_probability;
+}
+
+/* The difference of what is compared. */
+static struct ceduo_paired compared(const struct ceduo_result *r, const struct ceduo_difference *d)
+{
+    return isnan(r->scene->controls[r->last_control].accepted) ? d->reach_probability : d->exceed_probability;
+}
+
 static struct ceduo_paired to_first(const struct ceduo_result *r, size_t option)
 {
-    const struct ceduo_difference *d = &r->options[option].differences[r->last_control];
-    return isnan(r->scene->controls[r->last_control].accepted) ? d->reach_probability : d->exceed_probability;
+    return compared(r, &r->options[option].differences[r->last_control]);
 }
 
 struct ceduo_portion ceduo_share_to_first(const struct ceduo_result *r, size_t option)
@@ -62,6 +75,18 @@ static void find_best(difference_of *difference, const void *context, size_t n, 
 static struct ceduo_paired difference_today(const void *context, size_t option, size_t less)
 {
     struct ceduo_paired a = to_first(context, option), b = to_first(context, less);
+    return (struct ceduo_paired){a.mean - b.mean, hypot(a.se, b.se)};
+}
+
+static struct ceduo_paired difference_by_other_law(const void *context, size_t option, size_t less)
+{
+    const struct ceduo_result *r = context;
+    const struct ceduo_other_energy *one = &r->options[option].others[r->last_control];
+    const struct ceduo_other_energy *two = &r->options[less].others[r->last_control];
+    bool alike = one->known && two->known && (one->model == two->model || !one->stems || !two->stems);
+    if (!alike)
+        return (struct ceduo_paired){NAN, NAN};
+    struct ceduo_paired a = compared(r, &one->to_first), b = compared(r, &two->to_first);
     return (struct ceduo_paired){a.mean - b.mean, hypot(a.se, b.se)};
 }
 
@@ -132,7 +157,39 @@ static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdi
     return false;
 }
 
-static void judge(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
+/* How many standard errors worse than `better` an option is. */
+static double errors_worse(difference_of *difference, const void *context, size_t option, size_t better)
+{
+    struct ceduo_paired d = difference(context, option, better);
+    return d.mean / d.se;
+}
+
+/* Under one law the order is clear, and under the other it is the other way round by more than chance makes likely. */
+static bool turns(const struct ceduo_result *r, size_t better, size_t than)
+{
+    double now = errors_worse(difference_today, r, than, better);
+    double other = errors_worse(difference_by_other_law, r, better, than);
+    return fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR;
+}
+
+/* False without memory. */
+static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
+{
+    size_t room = 0;
+    for (size_t i = 0; i < v->n; i++)
+        for (size_t k = 0; k < v->n; k++) {
+            if (i == k || !turns(r, i, k))
+                continue;
+            struct ceduo_turned *grown = ceduo_grow(v->turned, v->turned_count, &room, sizeof *grown);
+            if (!grown)
+                return false;
+            v->turned = grown;
+            v->turned[v->turned_count++] = (struct ceduo_turned){i, k};
+        }
+    return true;
+}
+
+static enum ceduo_status judge(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
 {
     v->today.known = all_are_known(v, false);
     for (size_t i = 0; i < v->n && v->today.known; i++)
@@ -144,6 +201,7 @@ static void judge(const struct ceduo_result *r, struct ceduo_years *const *years
         find_best(difference_over_years, years, v->n, &v->rotation);
     for (size_t i = 0; i < v->n && v->rotation.known; i++)
         v->choices[i].beaten = is_beaten(years, v, i);
+    return !v->wooded || find_turned(r, v) ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years,
@@ -162,8 +220,8 @@ enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_
         v->n = i + (status == CEDUO_OK);
     }
     if (status == CEDUO_OK)
-        judge(r, years, v);
-    else
+        status = judge(r, years, v);
+    if (status != CEDUO_OK)
         ceduo_verdict_release(v);
     return status;
 }
@@ -175,5 +233,6 @@ void ceduo_verdict_release(struct ceduo_verdict *v)
     free(v->choices);
     free(v->today.rival);
     free(v->rotation.rival);
+    free(v->turned);
     *v = (struct ceduo_verdict){0};
 }

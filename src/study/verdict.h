@@ -23,6 +23,9 @@ struct ceduo_portion {
 };
 struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *arrivals); /* NULL is allowed */
 
+/* The same share under the other energy law; NaN: not known. */
+double ceduo_share_by_other_law(const struct ceduo_other_energy *other);
+
 /* The same of an option less that of the first option; NaN also where the two have not as many rocks. */
 struct ceduo_portion ceduo_share_to_first(const struct ceduo_result *result, size_t option);
 
@@ -47,11 +50,19 @@ struct ceduo_leader {
     bool *rival;   /* which: one for each option */
 };
 
+/* Two options whose order today depends on the energy law (other.h): clear under one of the two laws, and the other way
+ * round, by more than a standard error, under the other. */
+struct ceduo_turned {
+    size_t better, than; /* under the law of the scene; under the other law it is the other way round */
+};
+
 struct ceduo_verdict {
     bool wooded, accepted; /* rocks fly through the forests; an accepted energy is given */
     size_t n;
     struct ceduo_choice *choices;
     struct ceduo_leader today, rotation;
+    size_t turned_count;
+    struct ceduo_turned *turned;
 };
 
 /* What a result says, and the years of each option as far as they are there: `years`, and each of them, may be NULL.

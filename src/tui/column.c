@@ -8,6 +8,7 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
+#include "scene/words.h"
 
 #define HEIGHT_FOR_ALL  24 /* lines with room for everything and some warnings */
 #define HEIGHT_FOR_MOST 17 /* with room for the lights behind all but the heights */
@@ -103,22 +104,36 @@ static void put_missed(struct pen *pen, const char *name, enum ceduo_end end, co
     put_pair_in(pen, name, a, b);
 }
 
+/* The share in the line above, under the other energy law; `other` may be NULL. */
+static void put_other(struct pen *pen, const struct ceduo_other_energy *other)
+{
+    char a[32], name[32];
+    if (!other || !other->known || !other->stems)
+        return;
+    share(a, sizeof a, ceduo_share_by_other_law(other), 0, 0, false);
+    snprintf(name, sizeof name, "  %s", ceduo_energy_words.names[other->model]);
+    put_pair(pen, CEDUO_ROLE_DIM, name, a, "");
+}
+
 /* Where all released end: on the way, or here. */
-static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare,
+                         const struct ceduo_other_energy *other)
 {
     char a[32], b[32];
     share(a, sizeof a, wood->reach_probability, wood->reach_lo, wood->reach_hi, pen->area.width >= 34);
     share(b, sizeof b, bare->reach_probability, 0, 0, false);
     put_pair_in(pen, _("arrive"), a, b);
+    put_other(pen, other);
     put_missed(pen, _("stems stop"), CEDUO_STOPPED_BY_STEMS, wood, bare, true);
     put_missed(pen, _("at rest"), CEDUO_AT_REST, wood, bare, true);
     put_missed(pen, _("left"), CEDUO_LEFT_SLOPE, wood, bare, false);
     put_missed(pen, _("unfinished"), CEDUO_UNFINISHED, wood, bare, false);
 }
 
-/* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). */
+/* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). `other`
+ * may be NULL. */
 static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
-                         const struct ceduo_arrivals *bare)
+                         const struct ceduo_arrivals *bare, const struct ceduo_other_energy *other)
 {
     const struct ceduo_distribution none = ceduo_distribution_none();
     const struct ceduo_arrivals nothing = {.reach_probability = NAN,
@@ -130,12 +145,13 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     char a[32], b[32], limit[32];
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
-    put_released(pen, wood, bare);
+    put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
     if (!isnan(c->accepted)) {
         share(a, sizeof a, wood->exceed_probability, wood->exceed_lo, wood->exceed_hi, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
         snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * KILO);
         put_pair_in(pen, limit, a, b);
+        put_other(pen, other);
     }
     put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
     put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
@@ -234,7 +250,7 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     else
         line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "",
              index->dissipated * KILO, index->residual * KILO);
-    if (!isnan(index->measured))
+    if (!isnan(index->measured) && pen->area.height >= HEIGHT_FOR_ALL)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * KILO);
 }
 
@@ -305,7 +321,8 @@ void ceduo_column_draw(struct app *app, struct ceduo_area area)
     const struct forest f = forest_shown(app);
     if (f.year)
         line(&pen, CEDUO_ROLE_TITLE, f.year->cut ? _("Year %u, just cut") : _("Year %u"), f.year->year);
-    put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c]);
+    put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c],
+                 f.year ? NULL : &ceduo_app_found(app)->others[c]);
     put_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);
     put_mark(&pen, f.wood ? f.wood : ceduo_app_shown(app));
     put_index(&pen, f.index);

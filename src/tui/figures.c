@@ -15,6 +15,7 @@ void ceduo_figures_free(struct figures *f)
     ceduo_jobs_free(f->jobs);
     ceduo_result_free(f->result);
     ceduo_outlook_free(f->outlook);
+    free(f->others);
     ceduo_jobs_free_years(f->years, f->years_count);
     ceduo_verdict_release(&f->verdict);
     ceduo_sought_free(f->sought);
@@ -42,6 +43,17 @@ struct ceduo_years *ceduo_figures_years(const struct figures *f, const struct ce
     return years && years->scene.controls_count == scene->controls_count ? years : NULL;
 }
 
+/* The other energy law as far as it fits: what was seen before an edit stays until better is known, but for that of
+ * another law. */
+static const struct ceduo_other_energy *fitting_others(struct figures *f, const struct ceduo_scene *scene)
+{
+    if (f->others_options != scene->options_count || f->others_controls != scene->controls_count)
+        return NULL;
+    for (size_t i = 0; f->others && i < f->others_options * f->others_controls; i++)
+        f->others[i].known &= f->others[i].model == ceduo_other_law(&scene->options[i / f->others_controls]);
+    return f->others;
+}
+
 /* Assesses the scene by what was flown through the forests of each option. */
 static void assess(struct figures *f, const struct ceduo_scene *scene, const struct ceduo_outlook *o)
 {
@@ -58,7 +70,8 @@ static void assess(struct figures *f, const struct ceduo_scene *scene, const str
     for (size_t i = 0; differences && i < n * controls; i++)
         differences[i] = in_order ? o->differences[i] : (struct ceduo_difference){unknown, unknown, unknown};
     if (!wooded || !differences ||
-        ceduo_result_assess(scene, &o->bare->flown, wooded, differences, &f->result) != CEDUO_OK)
+        ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(f, scene),
+                             &f->result) != CEDUO_OK)
         f->result = NULL;
     free(differences);
     free(wooded);
@@ -122,7 +135,7 @@ void ceduo_figures_follow(struct figures *f, const struct ceduo_scene *scene, si
 bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool *failed)
 {
     struct jobs_news news = ceduo_jobs_news(f->jobs);
-    bool changed = news.busy != f->busy || news.outlook || news.years || news.sought || news.foresaw || news.failed;
+    bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.sought || news.foresaw || news.failed;
     f->busy = news.busy;
     *failed = news.failed;
     if (news.outlook) {
@@ -137,6 +150,13 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
     bool years = news.years != NULL;
     if (years)
         take_years(f, &news);
+    bool others = news.others != NULL;
+    if (others) {
+        free(f->others);
+        f->others = news.others;
+        f->others_options = news.others_options;
+        f->others_controls = news.others_controls;
+    }
     if (news.foresaw) {
         f->foresaw = true;
         f->foreseen = news.foreseen;
@@ -145,7 +165,7 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
         ceduo_sought_free(f->sought);
         f->sought = news.sought;
     }
-    if (news.outlook || years)
+    if (news.outlook || years || others)
         refresh(f, scene);
     return changed;
 }

@@ -11,6 +11,8 @@ struct figures {
     struct jobs *jobs;
     struct ceduo_outlook *outlook; /* newest; NULL before the first */
     struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
+    struct ceduo_other_energy *others; /* newest, as jobs_news has them; NULL before the first */
+    size_t others_options, others_controls;
     struct ceduo_years **years;    /* newest of each option, NULL: not computed */
     size_t years_count;            /* options that there is room for */
     struct ceduo_verdict verdict;  /* of the result and of the years that fit the scene; n 0: none */

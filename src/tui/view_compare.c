@@ -305,6 +305,7 @@ static void say_verdict(struct app *app, struct text *words)
             ceduo_text_char(words, '\n');
         if (!v->rotation.known && v->wooded)
             ceduo_text_put(words, _("The years of the rotation are being computed.\n"));
+        ceduo_words_turned(r, v, add_sentence, words);
     }
     ceduo_words_windows(r->scene, v, add_sentence, words);
     if (v->wooded && !v->accepted)

@@ -33,6 +33,7 @@ READ(flag_at, bool, IS(m))
 READ(text_at, char *, WORD(m))
 READ(fixed_text_at, char const *, WORD(m))
 READ(light_at, enum ceduo_light, WORD(ceduo_words_light(m)))
+READ(energy_model_at, enum ceduo_energy_model, WORD(ceduo_energy_words.names[m]))
 
 /* A member of a struct, read by its type; numbers in an object of their own there. */
 #define AT(object, member)                                                                                             \
@@ -91,6 +92,13 @@ static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p
     return p->year->wooded.rocks > 0 ? &p->year->wooded.arrivals[p->control] : NULL;
 }
 
+/* Of today alone; NULL where no stem stands. */
+static const struct ceduo_other_energy *other_law(const struct ceduo_place *p)
+{
+    const struct ceduo_other_energy *other = &p->report->result->options[p->option].others[p->control];
+    return !p->year && other->known && other->stems ? other : NULL;
+}
+
 /* NULL where growth or cuts are not known. */
 static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 {
@@ -121,6 +129,7 @@ OBJECT(index_of, &indices_of(p)[p->control])
 OBJECT(last_index_of, &indices_of(p)[r->last_control])
 OBJECT(bare_of, &r->bare.arrivals[p->control])
 OBJECT(wooded_of, through_the_wood(p))
+OBJECT(other_of, other_law(p))
 OBJECT(flown_of, wood_of(p))
 OBJECT(stops_of, wood_of(p)->ends.stop_x.n > 0 ? p : NULL)
 OBJECT(difference_of, p->option > 0 && !p->year ? &r->options[p->option].differences[p->control] : NULL)
@@ -386,6 +395,16 @@ static const struct ceduo_figure lights[] = {
     {"free_run_8cm", "", "free_run, counting likewise", LIGHT_AT(thick.free_run)},
     END};
 
+static const struct ceduo_figure other_energy[] = {
+    {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
+     .offset = offsetof(struct ceduo_other_energy, model)},
+    {"reach_probability", "", "share of all released that reach the control", AT(other_energy, reach_probability)},
+    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
+     AT(other_energy, exceed_probability), .null = UNSAID},
+    {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = KILO,
+     .null = NO_ROCK},
+    END};
+
 static const struct ceduo_figure control[] = {
     {"x_m", "m", "as in the scene", .from = control_of, AT(control, x_given)},
     {"name", "", "as in the scene", .from = control_of, AT(control, name), .null = "the control has none"},
@@ -394,6 +413,8 @@ static const struct ceduo_figure control[] = {
     {"index", "", "the index of the paper", .from = index_of, .of = by_index},
     {"wooded", "", "what arrives through the forest of this option", .from = wooded_of, .of = wooded,
      .null = "contact_model is index"},
+    {"other_energy", "", "the same rocks under the other energy law of stems", .from = other_of, .of = other_energy,
+     .null = "the option has no stems, contact_model is index, and in a year of --years"},
     {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
      .from = index_of, .of = lights},
     END};
@@ -511,7 +532,8 @@ static const struct ceduo_figure scene[] = {
     END};
 
 static const struct ceduo_figure work[] = {
-    {"rocks_flown", "", "rocks of all runs: one without forest, and one for each forest that differs", AT(report, work.rocks)},
+    {"rocks_flown", "", "rocks of all runs: one without forest, and one for each forest that differs, under "
+     "each energy law", AT(report, work.rocks)},
     {"contacts", "", "contacts with the ground, of all rocks", AT(report, work.contacts)},
     {"stems_drawn", "", "stems made up along their ways, hit or not", AT(report, work.stems.drawn)},
     {"runs", "", "runs computed", AT(report, work.runs)},

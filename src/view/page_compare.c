@@ -155,6 +155,7 @@ static void say_best(struct ceduo_page *page, const struct ceduo_result *r, cons
         add_note(page, second);
     page->failed |= best.failed;
     ceduo_text_free(&best);
+    ceduo_words_turned(r, v, add_note, page);
     if (v->choices[0].years > 0)
         ceduo_words_windows(r->scene, v, add_note, page);
     if (v->wooded && !v->accepted)

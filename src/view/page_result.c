@@ -197,6 +197,8 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     ceduo_words_contact(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     ceduo_words_free_run(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+    if (r->options[option].others[control].known && r->options[option].others[control].stems)
+        ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
 }
 
 /* ---- an option ---- */

@@ -31,6 +31,13 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 
+/* What the same rocks do under the other energy law; nothing where that is not known, or no stem stands. */
+void ceduo_words_other(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+
+/* Which options the two energy laws put in another order, one sentence for each pair, of the first few. */
+void ceduo_words_turned(const struct ceduo_result *result, const struct ceduo_verdict *verdict, ceduo_words_say *say,
+                        void *context);
+
 /* Which option is best over the years and which today, at the last control, in one or two sentences, each in a line of its
  * own; nothing of what is not known. Then which options have no rotation, and why. */
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *verdict);

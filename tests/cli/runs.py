@@ -20,7 +20,9 @@ ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUM
             "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED}
 INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
+OTHER = {"model": TEXT, "reach_probability": NUMBER, "exceed_probability": MAYBE, "energy_kJ_mean": MAYBE}  # null without stems
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
+           "other_energy": OTHER,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT}}
 STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
          "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
@@ -68,7 +70,7 @@ def expect_shape(value, shape, path="$"):
         expect(shape or not value, f"{path}: {value!r} is not empty")
         for i, item in enumerate(value):
             expect_shape(item, shape[0], f"{path}[{i}]")
-    elif shape in (STOPS, YIELD) and value is None:
+    elif shape in (STOPS, YIELD, OTHER) and value is None:
         return
     else:
         expect(isinstance(value, dict), f"{path}: {value!r} is no object")
@@ -81,7 +83,7 @@ def expect_shape(value, shape, path="$"):
 
 def by_index(shape):
     """The shape of a run with contact_model index: nothing is known of the wood."""
-    if shape is WOODED:
+    if shape is WOODED or shape is OTHER:
         return NULL
     if isinstance(shape, list):
         return [by_index(item) for item in shape]
@@ -170,7 +172,7 @@ def flat(prefix, shape):
 SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
                "threshold_m", "option"]
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
-                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) +
+                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
                  ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
                   "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", {k: PAIR for k in DIFFERENCES}) +

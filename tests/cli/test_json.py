@@ -43,7 +43,7 @@ def test_json_shape_everywhere():
         for model in MODELS:
             run = result(path, "-n", 50, *through(model))
             expect_run(run, model)
-    for model, runs in (("index", 1), ("stems", 9)):
+    for model, runs in (("index", 1), ("stems", 17)):
         run = result(FOUR, "-n", 50, *through(model))
         expect_equal(len(run["options"]), 8)
         expect(all("measured_kJ" not in c["index"] for o in run["options"] for c in o["controls"]), "measured_kJ")

@@ -216,7 +216,8 @@ def test_glancing():
         return result("paper-site", "-s", f"forest[0].stand.energy={stand}", "-s", f"forest[1].stand.energy={stand}", "-n", 5000)
 
     def rest(run):
-        return {k: v for k, v in run.items() if k != "work"}
+        controls = run["options"][0]["controls"]
+        return [{k: v for k, v in c.items() if k != "other_energy"} for c in controls], run["options"][0]["ends"]
 
     with_share = {"offset": "dorren"}
     expect_equal(rest(run()), rest(run(glancing=False)), "brauner, whole")

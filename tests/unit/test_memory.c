@@ -330,7 +330,7 @@ static bool assess(void)
     const struct ceduo_difference difference = {.reach_probability = {-.6, .1}};
     struct ceduo_result *result;
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_flown *){&flown[1]},
-                                                   &difference, &result);
+                                                   &difference, &(const struct ceduo_other_energy){0}, &result);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     assert_int_equal(result != NULL, status == CEDUO_OK);
     if (status == CEDUO_OK) {

@@ -46,7 +46,7 @@ static struct ceduo_result *assess(void)
         flown[i] = (struct ceduo_flown){.rocks = 1000, .controls = 1, .arrivals = &arrivals[i]};
         wooded[i] = &flown[i];
     }
-    assert_int_equal(ceduo_result_assess(&scene.scene, &flown[0], wooded, differences, &result), CEDUO_OK);
+    assert_int_equal(ceduo_result_assess(&scene.scene, &flown[0], wooded, differences, NULL, &result), CEDUO_OK);
     return result;
 }
 

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_OTHER_H
+#define CEDUO_OTHER_H
+
+#include "run.h"
+
+/* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005;
+ * Dorren et al. 2006), and nobody knows yet which of them holds there; so what follows from both is shown. */
+
+/* What another law makes of an option at one control. */
+struct ceduo_other_energy {
+    bool known;
+    bool stems; /* there are any; otherwise no law changes anything */
+    enum ceduo_energy_model model;
+    double reach_probability, exceed_probability; /* of all released; exceed: NaN without an accepted energy */
+    double energy;                                /* J, mean of those that reach it; NaN where none does */
+    struct ceduo_difference to_first;             /* to the first option under its other law; NaN: not known */
+};
+
+/* The other law of an option: brauner where all its stems follow dorren, otherwise dorren. */
+enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option);
+
+/* The option with that law in every stand. Its belts are its own, all else is shared with `option`. False without
+ * memory. Release it in any case. */
+bool ceduo_other_option(const struct ceduo_option *option, struct ceduo_option *other);
+void ceduo_other_release(struct ceduo_option *other);
+
+/* The scene with all options so. */
+bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
+void ceduo_other_scene_release(struct ceduo_scene *other);
+
+/* Reads a control of the run of an option under its other law. `first`: that of the first option. Both may be missing. */
+struct ceduo_other_energy ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
+                                           const struct ceduo_run *first, size_t control);
+
+#endif

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same rocks under the other energy law of stems: in JSON, on the page, and where the options change their order."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
+from runs import FOUR, PAPER, through
+
+TWO_CUTS = ("--option", "selection coppice, just cut", "--option", "large reserves, just cut")
+
+
+def law(name, belts=2):
+    return [word for i in range(belts) for word in ("-s", f"forest[{i}].stand.energy.model={name}")]
+
+
+def expect_other(run, turned, model):
+    """What is said of the other law is what the run under that law finds."""
+    for option, under in zip(run["options"], turned["options"]):
+        for control, at in zip(option["controls"], under["controls"]):
+            wooded = at["wooded"]
+            expect_equal(control["other_energy"], {"model": model, "reach_probability": wooded["reach_probability"],
+                                                   "exceed_probability": wooded["exceed_probability"],
+                                                   "energy_kJ_mean": wooded["energy_kJ"]["mean"]})
+
+
+def test_both_ways():
+    """JSON: the other law's figures are those of the same rocks under that law, to the last bit, both ways"""
+    brauner, dorren = (result(PAPER, "-n", 3000, *law(name)) for name in ("brauner", "dorren"))
+    expect_other(brauner, dorren, "dorren")
+    expect_other(dorren, brauner, "brauner")
+    mixed = result(PAPER, "-n", 3000, "-s", "forest[0].stand.energy.model=dorren")
+    expect_other(mixed, dorren, "dorren")
+    poisson = [result(PAPER, "-n", 500, *through("poisson"), *law(name)) for name in ("brauner", "dorren")]
+    expect_other(*poisson, "dorren")
+
+
+def test_none():
+    """JSON: null by the index, without stems and in years; without an accepted energy there is none to exceed"""
+    expect_equal(result(PAPER, *through("index"))["options"][0]["controls"][0]["other_energy"], None)
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(forest=None, options=[
+            {"name": "thick", "forest": [belt(10, 95, shoots=[{"per_ha": 5000, "dbh_m": 0.3, "height_m": 20, "volume_m3": 9}])]},
+            {"name": "none"}]))
+        run = result(path, "-n", 200)
+        thick, none = (o["controls"][0]["other_energy"] for o in run["options"])
+        expect_equal(none, None)
+        expect_equal((thick["model"], thick["exceed_probability"]), ("dorren", None))
+        page = good("--batch", "-n", 200, path).out
+        expect_in("With the energy law dorren", page)
+        expect_equal(page.count("With the energy law"), 2, "an option without stems has no other law")
+    years = result(FOUR, "-n", 50, "--years", "0:1", "--option", "large reserves")["options"][0]
+    expect(years["controls"][0]["other_energy"] is not None, "of today")
+    expect_equal([y["controls"][0]["other_energy"] for y in years["years"]], [None, None])
+
+
+def test_page():
+    """Page: a sentence with the shares and the mean under the other law, at each control"""
+    for more, words in (((), r"With the energy law dorren: {reach} of 1000 arrive, {exceed} with more than it bears; the mean of "
+                              r"those that arrive is {mean} kJ\."),
+                        (("-s", "controls=[{x_m: 135}]"),
+                         r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} kJ\.")):
+        other = result(PAPER, "-n", 800, *more)["options"][0]["controls"][0]["other_energy"]
+        page = " ".join(good("--batch", "-n", 800, PAPER, *more).out.split())
+        wanted = words.format(reach=f"{other['reach_probability'] * 1000:.0f}",
+                              exceed=f"{(other['exceed_probability'] or 0) * 1000:.0f}", mean=f"{other['energy_kJ_mean']:.1f}")
+        expect(re.search(wanted, page), wanted, page)
+    none = good("--batch", "-n", 5, PAPER, "-s", "forest[0].stand.trees[0].dbh_m=2", "-s", "forest[0].stand.trees[0].volume_m3=9").out
+    expect_in("With the energy law dorren no rock arrives.", " ".join(none.split()))
+
+
+def test_order():
+    """Page: two options whose order the two laws reverse are undecided; two that both laws rank alike are not named"""
+    run = result(FOUR, "-n", 10000, *TWO_CUTS)
+    shares = [[round(1000 * c[k]["exceed_probability"]) for k in ("wooded", "other_energy")]
+              for c in (o["controls"][0] for o in run["options"])]
+    selection, reserves = shares
+    expect(selection[0] > reserves[0] and selection[1] < reserves[1], "the order turns round", shares)
+    page = " ".join(good("--batch", "-n", 10000, FOUR, *TWO_CUTS).out.split())
+    expect_in("'large reserves, just cut' or 'selection coppice, just cut' is undecided: the order depends on the energy law. "
+              f"As the scene has it {reserves[0]} and {selection[0]} of 1000, with dorren {reserves[1]} and {selection[1]}.", page)
+    alike = good("--batch", "-n", 2000, FOUR, "--option", "simple coppice, 25 years", "--option", "simple coppice, just cut").out
+    expect("undecided" not in alike, alike)
+
+
+def test_tolerance():
+    """-e waits for the printed means of the scene's own law alone"""
+    with Folder() as f:
+        rare = stand(stools=None, shoots=None, trees=[{"per_ha": 400, "dbh_m": 0.12, "height_m": 9, "volume_m3": 0.0001}],
+                     species="quercus-cerris")
+        path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": rare}]))
+        run = result(path, "-e", 0.05, "-n", 100000)
+        wooded = run["options"][0]["controls"][0]["wooded"]["energy_kJ"]
+        expect(1.96 * wooded["se"] <= 0.05 * wooded["mean"] and run["rocks"] < 10000, run["rocks"])
+
+
+run_all(__name__)
