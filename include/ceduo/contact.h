@@ -5,7 +5,8 @@
 /* The laws of an impact on the ground. A new law is a file like src/core/law_crsp.h and a line here. */
 #define CEDUO_LAWS(X) \
     X(LUMPED, lumped) \
-    X(CRSP, crsp)
+    X(CRSP, crsp)     \
+    X(ARM, arm)
 
 enum ceduo_law {
 #define X(NAME, name) CEDUO_LAW_##NAME,

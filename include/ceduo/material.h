@@ -11,6 +11,7 @@ struct ceduo_material {
     double rn, rn_lo, rn_hi;
     double rt, rt_lo, rt_hi;
     double roughness_rad; /* assumed: the sources give none */
+    double mu;            /* likewise, for the law arm */
     bool literature;      /* false: an assumption of ours */
     const char *source;
 };

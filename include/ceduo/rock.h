@@ -38,6 +38,7 @@ struct ceduo_rock {
     double moment;        /* I, kg m2: sphere and ellipsoid 2/5 MR2, cylinder 1/2 MR2, block M(b2 + c2)/12 */
     double k;             /* I/(MR2) */
     double volume;        /* m3 */
+    double axes[3];       /* m, its dimensions: of a sphere d, d, d, of a cylinder d, d, h */
 };
 
 /* The rock whose every size is the mean. CEDUO_BAD_ROCK where a size is missing or not above 0. */

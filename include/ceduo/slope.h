@@ -24,7 +24,8 @@ struct ceduo_segment {
     struct ceduo_number rt; /* tangential restitution, 0…1 */
     double roughness_m;     /* a height S >= 0: largest facet angle atan(S/R) (CRSP); NaN where given as an angle */
     double roughness_rad;   /* the largest facet angle itself, 0…<pi/2; NaN where given as a height */
-    double friction;        /* mu, tan of the angle of rolling friction, >= 0 */
+    double friction;        /* tan of the angle of rolling friction, >= 0 */
+    double mu;              /* Coulomb's friction at the point of contact, >= 0; the law arm's alone */
 };
 
 /* A polyline with its ground. Coordinates are relative to the first vertex, so that survey coordinates lose no digit;

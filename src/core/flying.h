@@ -9,6 +9,7 @@
 #include "one_lane.h"
 /* after the lane */
 #include "hit.h"
+#include "law_arm.h"
 #include "law_crsp.h"
 #include "law_lumped.h"
 #include "walker.h"
@@ -246,6 +247,18 @@ HOT double facet_draw(struct walker *w)
     return w->facets.u[n & 1];
 }
 
+/* How the section is turned at this contact: sine and cosine of an angle in [-pi/2, pi/2), as half a turn changes nothing. */
+HOT void turn_section(struct walker *w, double *sine, double *cosine)
+{
+    uint64_t n = w->contacts;
+    if (w->turns_of != n >> 1) {
+        w->turns_of = n >> 1;
+        w->turns = random_pair(w->seed, w->number, n >> 1, RANDOM_TURN);
+    }
+    double angle = (w->turns.u[n & 1] - 0.5) * HALF_TURN;
+    elementary_sincos(&angle, sine, cosine);
+}
+
 HOT double largest_facet(const struct walker *w, size_t j)
 {
     if (!w->g->theta_varies)
@@ -258,7 +271,8 @@ HOT struct ground_point ground_point(const struct walker *w, size_t j)
 {
     const struct ground_segment *s = &w->g->segments[j];
     struct ground_point p = {
-        .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn};
+        .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn,
+        .mu = s->mu, .friction = s->friction, .section = &w->section};
     if (w->g->rn_varies)
         p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
     if (w->g->rt_varies)
@@ -310,6 +324,8 @@ HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct 
     double sine, cosine;
     strike_facet(w, at->segment, *v, facet, &sine, &cosine);
     struct ground_point point = ground_point(w, at->segment);
+    if (law == CEDUO_LAW_ARM)
+        turn_section(w, &point.sine, &point.cosine);
     double inward = v->along * sine - v->off * cosine;
     struct impact in = {
         .vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};

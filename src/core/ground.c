@@ -33,7 +33,8 @@ static bool same_ground(const struct ceduo_segment *a, const struct ceduo_segmen
 {
     bool rough = isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
                                        : a->roughness_m == b->roughness_m;
-    return rough && a->friction == b->friction && same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
+    return rough && a->friction == b->friction && a->mu == b->mu &&
+           same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
 }
 
 /* Lines from one vertex: steepest and gentlest that pass as near to all vertices so far as rounding allows, and likewise
@@ -104,7 +105,8 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     to->m = dz / dx;
     to->c = dx / length;
     to->s = dz / length;
-    to->mu = from->friction;
+    to->friction = from->friction;
+    to->mu = from->mu;
     to->rn = from->rn.mean;
     to->rt = from->rt.mean;
     if (j > 0 && same_ground(from, g->given[j - 1]))

@@ -15,7 +15,7 @@
 struct ground_segment {
     double m;          /* dz/dx */
     double c, s;       /* unit tangent along +x; the normal upward is (-s, c) */
-    double mu;         /* friction */
+    double friction, mu; /* of a rolling rock; Coulomb's */
     double rn, rt;     /* means */
     double theta;      /* largest facet angle, for the radius of the mean rock */
     bool steep;        /* |m| > 1: z tells where a point lies better than x */

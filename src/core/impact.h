@@ -4,6 +4,8 @@
 
 #include <stdbool.h>
 
+#include "section.h"
+
 /* One impact on the ground, in the axes of the facet. A law turns what comes in into what goes out (vn outward). */
 struct impact {
     double vn, vt; /* m/s: speed into the facet (>= 0), speed along it */
@@ -16,6 +18,9 @@ struct ground_point {
     double radius; /* R, m */
     double k;      /* I/(MR2) */
     bool scale_rn; /* lumped only: Rn divided by 1 + (Vn/K)2 */
+    double mu, friction;           /* arm only */
+    const struct section *section; /* arm only, and how that is turned: */
+    double sine, cosine;
 };
 
 #endif

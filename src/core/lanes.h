@@ -185,6 +185,12 @@ LANE unsigned bits_of(flags p)
     return PART_BITS(p.a) | PART_BITS(p.b) << PART | PART_BITS(p.c) << 2 * PART | PART_BITS(p.d) << 3 * PART;
 }
 
+/* Whether there is a lane of which it holds. */
+LANE bool any(flags p)
+{
+    return bits_of(p) != 0;
+}
+
 EACH(flags, flags_of, (unsigned bits), OF_BITS, PART_FLAGS)
 EACH(reals, pick, (flags m, reals p, reals q), OF_THREE, PART_PICK)
 EACH(ints, pick_ints, (flags m, ints p, ints q), OF_THREE, PART_PICK_INTS)

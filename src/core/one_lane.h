@@ -19,6 +19,8 @@ LANE reals mul(reals p, reals q) { return p * q; }
 LANE reals over(reals p, reals q) { return p / q; }
 LANE reals root_of(reals p) { return sqrt(p); }
 LANE flags less(reals p, reals q) { return p < q; }
+LANE flags but(flags p, flags q) { return p && !q; }
+LANE bool any(flags p) { return p; }
 LANE reals pick(flags m, reals p, reals q) { return m ? p : q; }
 
 #endif

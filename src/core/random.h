@@ -21,8 +21,12 @@ enum random_kind {
     RANDOM_GROUND,  /* events: Rn, Rt */
     RANDOM_STEM,    /* of a stool or tree: its gap, offset, mark and turn; events: stream, side, number */
     RANDOM_SHOOT,   /* cohorts of four shoots of a stool; which four from bit 8 on */
-    RANDOM_DBH      /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
+    RANDOM_DBH,     /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
+    RANDOM_SECTION, /* which section of a rock meets the ground, of law arm */
+    RANDOM_TURN     /* how it is turned at a contact */
 };
+
+#define HALF_TURN 3.141592653589793 /* rad */
 
 struct random_pair {
     double u[2];

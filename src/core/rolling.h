@@ -243,7 +243,7 @@ static void roll_over_segments(struct walker *w, struct roll *r)
             return;
         size_t next = dir > 0 ? j + 1 : j - 1;
         const struct ground_segment *a = &g->segments[j], *b = &g->segments[next];
-        double u2 = r->u2 + pull * (dir * (g->z[j] - g->z[j + 1]) - a->mu * (g->x[j + 1] - g->x[j]));
+        double u2 = r->u2 + pull * (dir * (g->z[j] - g->z[j + 1]) - a->friction * (g->x[j + 1] - g->x[j]));
         if (!(u2 > 0))
             return;
         double turn = dir * (a->c * b->s - a->s * b->c);
@@ -272,7 +272,7 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
         const struct ground_segment *s = &g->segments[j];
         double to_end = ground_length(s, w->at.x, w->at.z, g->x[v], g->z[v]);
         double ds = to_end < r.left ? to_end : r.left;
-        double rate = 2 * g->gravity * (-r.dir * s->s - s->mu * s->c) / (1 + w->k);
+        double rate = 2 * g->gravity * (-r.dir * s->s - s->friction * s->c) / (1 + w->k);
         double u2 = r.u2 + rate * ds;
         bool stands = ds > 0 && rate <= 0 && !(u2 > 0);
         if (stands) {
@@ -358,7 +358,7 @@ static bool in_pit(const struct ground *g, const struct walker *w)
             return false;
         const struct ground_segment *next = &g->segments[j];
         if (dir * next->m > 0)
-            return fabs(side->m) > side->mu && fabs(next->m) > next->mu && rises_to(g, j, dir, w->at.z);
+            return fabs(side->m) > side->friction && fabs(next->m) > next->friction && rises_to(g, j, dir, w->at.z);
         if (level > 0) /* a terrace, no pit */
             return false;
         x = g->x[v];
@@ -369,7 +369,7 @@ static bool in_pit(const struct ground *g, const struct walker *w)
 static bool rests(const struct walker *w)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
-    return !(fabs(s->m) > s->mu) || in_pit(w->g, w);
+    return !(fabs(s->m) > s->friction) || in_pit(w->g, w);
 }
 
 #endif

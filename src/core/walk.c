@@ -26,6 +26,16 @@ static double draw_release(const struct walker *w, struct ceduo_number n, uint64
     return ceduo_number_draw(n, random_open(w->seed, w->number, event, RANDOM_RELEASE), -INFINITY, INFINITY);
 }
 
+/* Under the law arm the rock's inertia is that of the section which it got. */
+static void draw_section(struct walker *w)
+{
+    double u = random_pair(w->seed, w->number, 0, RANDOM_SECTION).u[0];
+    w->section = section_of(&w->rock, (int)(3 * u));
+    w->k = 1 / (w->section.reach * w->section.reach);
+    w->rock.k = w->k;
+    w->rock.moment = w->k * w->rock.mass * w->rock.radius * w->rock.radius;
+}
+
 enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *ready, uint64_t number)
 {
     const struct ceduo_scene *scene = &ready->scene;
@@ -42,6 +52,9 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     double x = draw_release(w, scene->release.x, 0), height = draw_release(w, scene->release.height, 1);
     bool spins = scene->simulation.law != CEDUO_LAW_LUMPED;
     w->k = spins ? w->rock.k : 0;
+    w->has_section = scene->simulation.law == CEDUO_LAW_ARM;
+    if (w->has_section)
+        draw_section(w);
     w->spin = spins ? draw_release(w, scene->release.spin, 4) : 0;
     size_t segment = ceduo_ground_segment(g, x);
     w->at = (struct flight){.x = x,
@@ -54,7 +67,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->pause = next_pause(w);
     w->stems_pause = PAUSE;
     w->cancelled = w->gives_up = false;
-    w->facets_of = UINT64_MAX;
+    w->facets_of = w->turns_of = UINT64_MAX;
     w->next_mark = 0;
     while (w->next_mark < marks->n && marks->at[w->next_mark].x <= x)
         w->next_mark++;
@@ -86,7 +99,9 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->contacts = 0;
     w->pause = first->pause;
     w->cancelled = false;
-    w->facets_of = UINT64_MAX;
+    w->facets_of = w->turns_of = UINT64_MAX;
+    if (w->has_section)
+        draw_section(w);
     w->next_mark = first->next_mark;
     w->next_x = first->next_x;
 }

@@ -10,6 +10,7 @@
 #include "landing.h"
 #include "prepared.h"
 #include "random.h"
+#include "section.h"
 #include "stems.h"
 
 /* One rock on its trajectory. */
@@ -20,6 +21,8 @@ struct walker {
     bool scale_rn;
     struct ceduo_rock rock;
     double k; /* 0 where the law knows no spin */
+    bool has_section;       /* under the law arm */
+    struct section section;
     double rn_u, rt_u; /* quantiles of this rock's ground */
     struct flight at; /* where it is now */
     double along;     /* after a roll: speed along the segment */
@@ -34,6 +37,8 @@ struct walker {
     uint64_t stems_hit, stools_met;
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
+    uint64_t turns_of;
+    struct random_pair turns;  /* likewise, how the section is turned */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_watch *watch; /* NULL: nobody looks */
     void *context;                   /* of cross */

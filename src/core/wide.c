@@ -26,7 +26,8 @@ static void fill_all(struct wide_ground *wide, const struct ground *g)
         fill(&wide->slope, j + 1, s->m, s->theta);
         fill(&wide->tilt, j + 1, s->c, s->s);
         fill(&wide->share, j + 1, s->rn, s->rt);
-        fill(&wide->brake, j + 1, s->mu * s->c, 0);
+        fill(&wide->brake, j + 1, s->friction * s->c, 0);
+        fill(&wide->grip, j + 1, s->mu, s->friction);
     }
 }
 
@@ -36,7 +37,7 @@ struct wide_ground *ceduo_wide_ground_create(const struct ground *g)
     if (!wide)
         return NULL;
     *wide = (struct wide_ground){0};
-    struct wide_table *tables[] = {&wide->place, &wide->slope, &wide->tilt, &wide->share, &wide->brake};
+    struct wide_table *tables[] = {&wide->place, &wide->slope, &wide->tilt, &wide->share, &wide->brake, &wide->grip};
     size_t count = sizeof tables / sizeof tables[0], entries = g->n + 3;
     wide->small = entries <= TABLE_SMALL;
     wide->room = calloc(count * entries, sizeof *wide->room);

@@ -23,7 +23,8 @@ struct wide_ground {
     struct wide_table slope; /* m, largest facet angle */
     struct wide_table tilt;  /* c, s */
     struct wide_table share; /* rn, rt */
-    struct wide_table brake; /* mu c */
+    struct wide_table brake; /* friction c */
+    struct wide_table grip;  /* mu, friction */
     bool small;              /* all fit TABLE_SMALL */
     double (*room)[2];       /* of all pairs */
 };

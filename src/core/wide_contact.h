@@ -7,6 +7,8 @@
 #include "law_crsp.h"
 #include "law_lumped.h"
 #include "wide_lane.h"
+/* after the lanes */
+#include "arm_blow.h"
 
 /* ---- random numbers ---- */
 
@@ -53,28 +55,35 @@ LANE void draw_pair(uint64_t seed, ints rock, ints event, uint64_t kind, reals *
 }
 
 /* Draws two contacts ahead for every lane, in every second step. A lane at an odd contact has its next draw already. */
-LANE void draw_ahead(struct wide *k)
+LANE void draw_ahead(struct wide *k, enum random_kind kind, double draws[3][LANES])
 {
     ints contacts = load_ints(k->contacts), one = all_ints(1);
     flags odd = same(and_ints(contacts, one), one);
-    reals u0, u1, first = load(k->draw[0]);
-    draw_pair(k->seed, load_ints(k->number), shift_right(add_ints(contacts, one), 1), RANDOM_FACET, &u0, &u1);
-    store(k->draw[0], pick(odd, first, u0));
-    store(k->draw[1], pick(odd, u0, u1));
-    store(k->draw[2], u1);
+    reals u0, u1, first = load(draws[0]);
+    draw_pair(k->seed, load_ints(k->number), shift_right(add_ints(contacts, one), 1), kind, &u0, &u1);
+    store(draws[0], pick(odd, first, u0));
+    store(draws[1], pick(odd, u0, u1));
+    store(draws[2], u1);
+}
+
+LANE void draw_ahead_of(struct form form, struct wide *k)
+{
+    draw_ahead(k, RANDOM_FACET, k->draw);
+    if (form.law == CEDUO_LAW_ARM)
+        draw_ahead(k, RANDOM_TURN, k->turn);
 }
 
 /* Those in the air keep theirs. */
-LANE reals next_draw(struct form form, struct wide *k)
+LANE reals next_draw(struct form form, const struct wide *k, double draws[3][LANES])
 {
-    reals u = load(k->draw[0]), v = load(k->draw[1]), w = load(k->draw[2]);
+    reals u = load(draws[0]), v = load(draws[1]), w = load(draws[2]);
     if (in_the_air(form, k)) {
         flags air = flags_of(in_the_air(form, k));
         w = pick(air, v, w);
         v = pick(air, u, v);
     }
-    store(k->draw[0], v);
-    store(k->draw[1], w);
+    store(draws[0], v);
+    store(draws[1], w);
     return u;
 }
 
@@ -159,10 +168,28 @@ LANE struct impact_lanes crsp_lanes(struct impact_lanes in, reals rn, reals rt, 
     return (struct impact_lanes){over(mul(rn, in.vn), add(one, mul(s, s))), vt, over(vt, radius)};
 }
 
-LANE struct impact_lanes law_lanes(const struct wide *k, enum ceduo_law law, struct impact_lanes in, reals rn, reals rt)
+/* As law_arm(), turned by turn_section(). */
+LANE struct impact_lanes arm_lanes(struct form form, struct wide *k, struct impact_lanes in, ints segment, reals e)
 {
-    if (law == CEDUO_LAW_LUMPED)
+    reals gyration = load(k->section.gyration), minus = all(-1);
+    struct arm_blow blow = {.wide = load(k->section.wide),
+                            .high = load(k->section.high),
+                            .reach = load(k->section.reach),
+                            .e = e};
+    look_up(&k->ground->grip, segment, form.small, &blow.mu, &blow.friction);
+    reals angle = mul(sub(next_draw(form, k, k->turn), all(0.5)), all(HALF_TURN));
+    sincos_lanes(angle, &blow.sine, &blow.cosine);
+    struct arm_state to = {.along = in.vt, .off = mul(minus, in.vn), .turn = mul(minus, mul(in.spin, gyration))};
+    to = arm_struck(&blow, to);
+    return (struct impact_lanes){to.off, to.along, mul(minus, over(to.turn, gyration))};
+}
+
+LANE struct impact_lanes law_lanes(struct form form, struct wide *k, struct impact_lanes in, ints segment, reals rn, reals rt)
+{
+    if (form.law == CEDUO_LAW_LUMPED)
         return lumped_lanes(in, rn, rt, k->scale_rn);
+    if (form.law == CEDUO_LAW_ARM)
+        return arm_lanes(form, k, in, segment, rn);
     return crsp_lanes(in, rn, rt, load(k->radius), load(k->k));
 }
 
@@ -248,12 +275,12 @@ LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct
     } else {
         look_up(&k->ground->share, r->segment, form.small, &rn, &rt);
     }
-    facet_lanes(k, next_draw(form, k), load(k->theta), v->along, v->off, &sine, &cosine);
+    facet_lanes(k, next_draw(form, k, k->draw), load(k->theta), v->along, v->off, &sine, &cosine);
     reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
     struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),
                               .vt = add(mul(v->along, cosine), mul(v->off, sine)),
                               .spin = load(k->spin)};
-    struct impact_lanes out = law_lanes(k, form.law, in, rn, rt);
+    struct impact_lanes out = law_lanes(form, k, in, r->segment, rn, rt);
     v->along = sub(mul(out.vt, cosine), mul(out.vn, sine));
     v->off = add(mul(out.vt, sine), mul(out.vn, cosine));
     v->off = pick(less(zero, v->off), v->off, zero);

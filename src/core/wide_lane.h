@@ -35,7 +35,11 @@ struct wide {
     uint64_t to[LANES];
     double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES], theta[LANES];
     double along[LANES];   /* of those that roll */
-    double draw[3][LANES]; /* for the facets of the next contacts */
+    double draw[3][LANES]; /* for the facets of the next contacts, */
+    double turn[3][LANES]; /* and for how the sections are turned there */
+    struct {
+        double wide[LANES], high[LANES], reach[LANES], gyration[LANES];
+    } section;
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
     double height[LANES]; /* of the next stem ahead; */
     double cost[LANES], part[LANES]; /* what a hit of it takes: see struct hit */
@@ -66,12 +70,28 @@ LANE unsigned in_the_air(struct form form, const struct wide *k)
 
 /* ---- one lane and its walker ---- */
 
+static void load_draws_of(const struct walker *w, enum random_kind kind, double draws[3][LANES], size_t i)
+{
+    struct random_pair pair = random_pair(w->seed, w->number, w->contacts >> 1, kind);
+    draws[0][i] = pair.u[w->contacts & 1];
+    draws[1][i] = pair.u[1];
+}
+
 static void load_draws(struct wide *k, size_t i)
 {
     const struct walker *w = &k->job->walkers[i];
-    struct random_pair pair = random_pair(w->seed, w->number, w->contacts >> 1, RANDOM_FACET);
-    k->draw[0][i] = pair.u[w->contacts & 1];
-    k->draw[1][i] = pair.u[1];
+    load_draws_of(w, RANDOM_FACET, k->draw, i);
+    if (w->has_section)
+        load_draws_of(w, RANDOM_TURN, k->turn, i);
+}
+
+static void load_section(struct wide *k, size_t i)
+{
+    const struct section *section = &k->job->walkers[i].section;
+    k->section.wide[i] = section->wide;
+    k->section.high[i] = section->high;
+    k->section.reach[i] = section->reach;
+    k->section.gyration[i] = section->gyration;
 }
 
 /* The next stem ahead, which is known. */
@@ -196,6 +216,8 @@ static void refill(struct wide *k, size_t i)
             k->mass[i] = w->rock.mass;
             k->moment[i] = w->rock.moment;
             k->number[i] = w->number;
+            if (w->has_section)
+                load_section(k, i);
             k->fresh |= bit;
             k->same_start = known || (job->alike && w->next_mark == mark);
             return;

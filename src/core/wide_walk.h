@@ -69,7 +69,7 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     for (; alone; alone &= alone - 1)
         come_down_alone(k, (size_t)__builtin_ctz(alone));
     if (even)
-        draw_ahead(k);
+        draw_ahead_of(form, k);
     else
         for (; k->fresh; k->fresh &= k->fresh - 1)
             load_draws(k, (size_t)__builtin_ctz(k->fresh));
@@ -138,10 +138,14 @@ HOT void walk_among(enum ceduo_law law, bool small, bool wood, struct wide *k)
         walk_lanes((struct form){CEDUO_LAW_LUMPED, true, LOOK_UP_WRAPS, wood}, k);
     else if (law == CEDUO_LAW_LUMPED)
         walk_lanes((struct form){CEDUO_LAW_LUMPED, false, false, wood}, k);
-    else if (small)
+    else if (law == CEDUO_LAW_CRSP && small)
         walk_lanes((struct form){CEDUO_LAW_CRSP, true, LOOK_UP_WRAPS, wood}, k);
-    else
+    else if (law == CEDUO_LAW_CRSP)
         walk_lanes((struct form){CEDUO_LAW_CRSP, false, false, wood}, k);
+    else if (small)
+        walk_lanes((struct form){CEDUO_LAW_ARM, true, LOOK_UP_WRAPS, wood}, k);
+    else
+        walk_lanes((struct form){CEDUO_LAW_ARM, false, false, wood}, k);
 }
 
 static void wide_walk(const struct wide_job *job)

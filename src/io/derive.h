@@ -34,6 +34,7 @@ struct derived {
     struct ceduo_slope slope;
     const struct source_note *notes;
     bool ground_assumed;
+    enum ceduo_law law;
 };
 
 /* False where there is so much wrong, or no memory, that there is nothing to go on with. */

@@ -96,17 +96,33 @@ static void check_segments(struct deriver *d, size_t n)
     }
 }
 
+static bool uses_mu(const struct deriver *d)
+{
+    return d->draft.scene.simulation.law == CEDUO_LAW_ARM;
+}
+
+static const char *text_of_mu(struct deriver *d)
+{
+    return ceduo_derive_text(d, _("friction mu %g where a rock strikes"), ceduo_segment_default().mu);
+}
+
+/* The first segment that does not say `key`. */
+static void note_missing(struct deriver *d, const char *key, const char *text)
+{
+    const struct node *nodes = ceduo_node_get(ceduo_node_get(d->root, "slope"), "segments");
+    size_t i = 0;
+    while (i < nodes->n && ceduo_node_get(nodes->items[i], key))
+        i++;
+    if (i < nodes->n)
+        ceduo_derive_assume(d, ceduo_derive_text(d, "slope.segments[%zu]", i), text);
+}
+
 static void make_segments(struct deriver *d)
 {
     struct ceduo_slope *s = &d->draft.scene.slope;
-    const struct node *nodes = ceduo_node_get(ceduo_node_get(d->root, "slope"), "segments");
-    for (size_t i = 0; i < nodes->n; i++)
-        if (!ceduo_node_get(nodes->items[i], "friction")) {
-            ceduo_derive_assume(
-                d, ceduo_derive_text(d, "slope.segments[%zu]", i),
-                ceduo_derive_text(d, _("friction %g of a rolling rock"), ceduo_segment_default().friction));
-            break;
-        }
+    note_missing(d, "friction", ceduo_derive_text(d, _("friction %g of a rolling rock"), ceduo_segment_default().friction));
+    if (uses_mu(d))
+        note_missing(d, "mu", text_of_mu(d));
     if (s->segments_given != 1)
         return;
     const struct ceduo_segment all = s->segments[0];
@@ -121,6 +137,7 @@ static struct ceduo_segment segment_of(const struct ceduo_material *row)
     segment.rn = ceduo_number(row->rn);
     segment.rt = ceduo_number(row->rt);
     segment.roughness_rad = row->roughness_rad;
+    segment.mu = row->mu;
     return segment;
 }
 
@@ -174,6 +191,8 @@ static void make_materials(struct deriver *d)
         return;
     ceduo_derive_assume(d, "slope.materials",
                         _("roughness and friction of the library's grounds, and all of its rows -v4"));
+    if (uses_mu(d))
+        ceduo_derive_assume(d, "slope.materials", text_of_mu(d));
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
         while (row + 1 < n && s->x[j] >= rows[row + 1].from - d->origin)
             row++;
@@ -186,6 +205,8 @@ static void make_talus(struct deriver *d)
     struct ceduo_slope *s = &d->draft.scene.slope;
     d->ground_assumed = true;
     ceduo_derive_assume(d, "slope", _("talus everywhere, its roughness and friction too"));
+    if (uses_mu(d))
+        ceduo_derive_assume(d, "slope", text_of_mu(d));
     s->segments = ceduo_bind_take(d->arena, s->vertices - 1, sizeof *s->segments, d->problems);
     for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
         s->segments[j] = segment_of(ceduo_material_talus());
@@ -196,7 +217,8 @@ static void make_talus(struct deriver *d)
 static bool reuse_slope(struct deriver *d)
 {
     const struct node *node = ceduo_node_get(d->root, "slope");
-    if (!node || node != d->last->slope_node)
+    bool same_law = d->last->law == d->draft.scene.simulation.law; /* which decides what is assumed */
+    if (!node || node != d->last->slope_node || !same_law)
         return false;
     d->draft.scene.slope = d->last->slope;
     d->origin = d->last->slope.origin_x;

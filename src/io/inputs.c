@@ -82,12 +82,19 @@ static bool is_assumed(struct finder *f, const char *path)
     return ceduo_scene_assumes_value(f->file, path);
 }
 
+/* Whether the scene's law of contacts knows a value of the ground. */
+static bool law_knows(const struct finder *f, const char *key)
+{
+    bool arm = f->file->scene.simulation.law == CEDUO_LAW_ARM;
+    return strcmp(key, "mu") == 0 ? arm : strcmp(key, "rt") != 0 || !arm;
+}
+
 static void consider(struct finder *f, const struct field *field, const struct node *node)
 {
     const struct range *range = ceduo_range_of(field);
     const char *path = range ? text_of(f, "%s", ceduo_text_string(&f->path)) : NULL;
     struct value v;
-    if (!path || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
+    if (!path || !law_knows(f, field->key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
         return;
     bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
     const struct ceduo_stand *stand = law ? stand_of(f, path) : NULL;
@@ -162,10 +169,12 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
 
 static void add_ground(struct finder *f, const struct ceduo_material *m, bool everywhere)
 {
-    static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction"};
+    static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction", "mu"};
     size_t stretches = f->file->scene.slope.vertices - 1;
     const char **places = ceduo_arena_take(f->arena, (stretches + 1) * sizeof *places);
-    for (size_t k = 0; places && k < 4; k++) {
+    for (size_t k = 0; places && k < sizeof keys / sizeof keys[0]; k++) {
+        if (!law_knows(f, keys[k]))
+            continue;
         size_t n = ceduo_input_ground(f->arena, f->file->root, &f->file->scene, m->name, keys[k], places);
         for (size_t j = 0; everywhere && j < stretches; j++)
             places[n++] = text_of(f, "slope.segments[%zu].%s", j, keys[k]);

@@ -24,7 +24,8 @@ static const char *title_of(struct scene_file *file, const char *title)
 
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
-    const struct derived last = {file->slope_node, file->scene.slope, file->notes, file->ground_assumed};
+    const struct derived last = {file->slope_node, file->scene.slope, file->notes, file->ground_assumed,
+                                 file->scene.simulation.law};
     struct deriver d = {.arena = &file->arena, .root = file->root, .problems = problems, .last = &last};
     size_t before = problems->count;
     file->notes = NULL;

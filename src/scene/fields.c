@@ -117,6 +117,9 @@ static const struct field segment_fields[] = {
     NUMBER("friction", NAMED(N_("friction"), NULL),
         AT(ceduo_segment, friction), "", 0, 100, 0, "0.5",
            N_("tangent of the angle of rolling friction; the default is an assumption")),
+    NUMBER("mu", NAMED(N_("grip mu"), N_("mu")),
+        AT(ceduo_segment, mu), "", 0, 3, 0, "0.6",
+           N_("arm: Coulomb's friction where the rock strikes; the default is an assumption")),
 };
 static const struct object segment_object = OBJECT(ceduo_segment, segment_fields, NULL);
 

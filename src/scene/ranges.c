@@ -17,6 +17,7 @@ static const struct range ranges[] = {
     {"slope.segments[0].roughness_rad", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
     {"slope.segments[0].roughness_m", CEDUO_INPUT_FACTOR, 0.5, 1.5, {0}, ASSUMED},
     {"slope.segments[0].friction", CEDUO_INPUT_RANGE, 0.3, 0.8, {0}, ASSUMED},
+    {"slope.segments[0].mu", CEDUO_INPUT_RANGE, 0.4, 0.9, {0}, ASSUMED},
     {"forest[0].stand.stools.per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
     {STEMS "per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed")},
     {STEMS "dbh_m", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, N_("error of a few sample plots; assumed")},

@@ -21,6 +21,13 @@ static const struct ceduo_number *number_of(const struct ceduo_rock_def *def, si
     return numbers[i];
 }
 
+static void set_axes(struct ceduo_rock *rock, double a, double b, double c)
+{
+    rock->axes[0] = a;
+    rock->axes[1] = b;
+    rock->axes[2] = c;
+}
+
 static void complete_sphere(union sizes *s, struct ceduo_rock *rock)
 {
     if (isnan(s->diameter)) {
@@ -29,6 +36,7 @@ static void complete_sphere(union sizes *s, struct ceduo_rock *rock)
     }
     rock->volume = M_PI / 6 * s->diameter * s->diameter * s->diameter;
     rock->mean_diameter = s->diameter;
+    set_axes(rock, s->diameter, s->diameter, s->diameter);
     rock->k = 2.0 / 5;
 }
 
@@ -37,6 +45,7 @@ static void complete_block(const union sizes *s, struct ceduo_rock *rock)
     const double *a = s->axes;
     double longest = fmax(a[0], fmax(a[1], a[2]));
     double squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - longest * longest;
+    set_axes(rock, a[0], a[1], a[2]);
     rock->volume = a[0] * a[1] * a[2];
     rock->mean_diameter = (a[0] + a[1] + a[2]) / 3;
     double radius = rock->mean_diameter / 2;
@@ -67,9 +76,11 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, union sizes *s,
     case CEDUO_CYLINDER:
         rock->volume = M_PI / 4 * s->diameter * s->diameter * s->height;
         rock->mean_diameter = (s->diameter + s->height) / 2;
+        set_axes(rock, s->diameter, s->diameter, s->height);
         rock->k = 1.0 / 2;
         break;
     case CEDUO_ELLIPSOID:
+        set_axes(rock, s->axes[0], s->axes[1], s->axes[2]);
         rock->volume = M_PI / 6 * s->axes[0] * s->axes[1] * s->axes[2];
         rock->mean_diameter = (s->axes[0] + s->axes[1] + s->axes[2]) / 3;
         rock->k = 2.0 / 5;
@@ -96,7 +107,7 @@ enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct c
 struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def)
 {
     struct ceduo_rock rock;
-    return ceduo_rock_of_means(def, &rock) == CEDUO_OK ? rock : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN};
+    return ceduo_rock_of_means(def, &rock) == CEDUO_OK ? rock : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN}};
 }
 
 bool ceduo_rock_varies(const struct ceduo_rock_def *def)

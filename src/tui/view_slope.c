@@ -7,8 +7,6 @@
 
 static void build_ground(struct app *app, struct form *form)
 {
-    static const char *const ground[] = {"rn", "rt", "roughness_rad", "friction", NULL};
-    static const char *const heights[] = {"rn", "rt", "roughness_m", "friction", NULL};
     static const char *const materials[] = {"from_m", "to_m", "material", NULL};
     const struct document *d = &app->document;
     const struct object *slope = ceduo_schema_slope();
@@ -21,8 +19,10 @@ static void build_ground(struct app *app, struct form *form)
         ceduo_form_table(form, d, ceduo_schema_field(slope, "materials")->object, "slope.materials", materials, "");
     if (segments) {
         bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");
-        ceduo_form_table(form, d, ceduo_schema_field(slope, "segments")->object, "slope.segments",
-                         by_height ? heights : ground, "");
+        bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* which knows mu, the others Rt */
+        const char *const ground[] = {"rn", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad", "friction",
+                                      NULL};
+        ceduo_form_table(form, d, ceduo_schema_field(slope, "segments")->object, "slope.segments", ground, "");
     }
 }
 

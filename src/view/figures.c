@@ -526,7 +526,7 @@ static const struct ceduo_figure scene[] = {
     {"title", "", "title of the scene, or the name of its file", .from = scene_of, AT(scene, title)},
     {"seed", "", "seed of the random numbers", .from = scene_of, AT(scene, simulation.seed)},
     {"rocks", "", "rocks flown", .from = report_of, .value = rocks_of},
-    {"law", "", "law of the impacts: lumped or crsp", .from = scene_of, .value = law_of},
+    {"law", "", "law of the impacts: lumped, crsp or arm", .from = scene_of, .value = law_of},
     {"rock", "", "the rock; with spreads, that of the means", .from = rock_of, .of = rock},
     {"threshold_m", "m", "ADC below which a stand protects", .from = scene_of, AT(scene, simulation.threshold)},
     END};

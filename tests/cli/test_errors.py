@@ -349,7 +349,7 @@ CASES = {
     "0 is not above 0 m": sc("diameter_m: 0.5", "diameter_m: @@0"),
     "1.83 is above 1": sl("rn: 0.35", "rn: @@1.83"),
     "1.5707963267948966 is not below 1.5707963267948966 rad": sl("roughness_rad: 0.1", "roughness_rad: @@1.5707963267948966"),
-    "'lumpd' is unknown; did you mean 'lumped'? (lumped, crsp)": sc("law: lumped", "law: @@lumpd"),
+    "'lumpd' is unknown; did you mean 'lumped'? (lumped, crsp, arm)": sc("law: lumped", "law: @@lumpd"),
     "'sand' is unknown; one of: ...": sl(MATERIALS, "materials: [{from_m: 0, to_m: 100, material: @@sand}]\n"),
     "'yes': expected true or false": sc("scale_rn: false", "scale_rn: @@yes"),
     "expected a number, not a list": st("per_ha: 5000", "per_ha: @@[5000]"),

@@ -35,7 +35,7 @@ def test_list_parameters():
                         ("forest[].stand.trees[].dbh_m", "m"), ("forest[].stand.energy.u_J_m3", "J/m3"),
                         ("options[].name", "text"), ("simulation.threshold_m", "m 30"), ("simulation.rocks", "count"),
                         ("simulation.contact_model", "index|poisson|stems stems"), ("simulation.scale_rn", "false"),
-                        ("simulation.law", "lumped|crsp"), ("simulation.gravity_m_s2", "9.81")):
+                        ("simulation.law", "lumped|crsp|arm"), ("simulation.gravity_m_s2", "9.81")):
         expect(path in table, f"{path} is missing")
         for word in words.split():
             expect_in(word, table[path].split(), path)

@@ -206,7 +206,11 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     struct watch w = {.scene = s, .smooth = is_smooth(s)};
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);
     assert_int_equal(ceduo_rock_of_means(&s->scene.rock, &w.rock), CEDUO_OK);
-    w.k = s->scene.simulation.law == CEDUO_LAW_CRSP ? w.rock.k : 0;
+    if (s->scene.simulation.law == CEDUO_LAW_ARM) { /* whose section is drawn */
+        assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11, NULL, &way, NULL), CEDUO_OK);
+        w.rock = way.rock;
+    }
+    w.k = s->scene.simulation.law == CEDUO_LAW_LUMPED ? 0 : w.rock.k;
     assert_int_equal(ceduo_trajectory_follow(&s->scene, NULL, number % 11,
                                       &(struct ceduo_watch){.piece = look_at_piece, .context = &w}, &way, &crossing),
                      CEDUO_OK);

@@ -175,11 +175,28 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
     scene->controls_count = 1;
 }
 
+void line_scene_arm(struct line_scene *s, uint64_t number)
+{
+    struct line_random random = {.state = number * 0x2545f4914f6cdd1dU + 3}, *r = &random;
+    struct ceduo_rock_def *rock = &s->scene.rock;
+    double size = rock->diameter.mean;
+    s->scene.simulation.law = CEDUO_LAW_ARM;
+    rock->shape = line_chance(r, 0.2) ? CEDUO_SPHERE : line_chance(r, 0.5) ? CEDUO_ELLIPSOID : CEDUO_CYLINDER;
+    rock->height = ceduo_number(size * line_uniform(r, 0.3, 3));
+    for (int i = 0; i < 3; i++)
+        rock->axes[i] = ceduo_number(size * line_uniform(r, 0.4, 2));
+    bool alike = line_chance(r, 0.5);
+    for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++)
+        s->segments[j].mu = alike && j > 0 ? s->segments[0].mu : line_chance(r, 0.05) ? 0 : line_uniform(r, 0, 3);
+}
+
 bool line_scene_lasts(const struct line_scene *s)
 {
     const struct ceduo_simulation *sim = &s->scene.simulation;
     for (size_t j = 0; j + 1 < s->scene.slope.vertices; j++) {
         const struct ceduo_segment *at = &s->segments[j];
+        if (sim->law == CEDUO_LAW_ARM && (at->rn.mean == 1 || at->friction == 0))
+            return true;
         bool bounces = at->rn.mean == 1 && sim->law == CEDUO_LAW_LUMPED && !sim->scale_rn;
         if (bounces || (at->rt.mean == 1 && at->friction == 0))
             return true;
@@ -189,7 +206,7 @@ bool line_scene_lasts(const struct line_scene *s)
 
 /* ---- following ---- */
 
-static void keep_piece(void *context, const struct ceduo_piece *piece)
+void line_keep_piece(void *context, const struct ceduo_piece *piece)
 {
     struct line_way *to = context;
     if (to->count < LINE_PIECES_MOST)
@@ -199,6 +216,6 @@ static void keep_piece(void *context, const struct ceduo_piece *piece)
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to)
 {
     to->count = 0;
-    return ceduo_trajectory_follow(&s->scene, NULL, 0, &(struct ceduo_watch){.piece = keep_piece, .context = to}, &to->way,
+    return ceduo_trajectory_follow(&s->scene, NULL, 0, &(struct ceduo_watch){.piece = line_keep_piece, .context = to}, &to->way,
                             &to->crossing);
 }

@@ -43,6 +43,9 @@ double line_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);
  * friction, Rn and Rt from 0 on. One in `lasting_every` (0: none) has Rn or Rt 1, so that a rock may go on for ever. */
 void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_every);
 
+/* Makes it one of the law arm, mostly of a rock that is not round. */
+void line_scene_arm(struct line_scene *s, uint64_t number);
+
 /* Whether nothing need take energy from a rock somewhere: it may bounce or roll for ever. */
 bool line_scene_lasts(const struct line_scene *s);
 
@@ -53,6 +56,7 @@ struct line_way {
     size_t count;
     struct ceduo_piece pieces[LINE_PIECES_MOST];
 };
+void line_keep_piece(void *way, const struct ceduo_piece *piece);
 enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way *to);
 
 #endif

@@ -507,16 +507,17 @@ static void a_shift_that_loses_no_bit_changes_no_bit(void **state)
     }
 }
 
-/* Lengths × 4 and speeds × 2 leave v2/(g l) as it is; the lumped law has no speed of its own. */
-static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **state)
+/* Lengths × 4 and speeds × 2 leave v2/(g l) as it is; the laws lumped and arm have no speed of their own. */
+static void expect_the_same_way_in_other_sizes(bool arm)
 {
-    (void)state;
     size_t bounces = 0;
     for (uint64_t n = 0; n < 3000; n++) {
         line_scene_random(&scene, n, 0);
         struct ceduo_scene *s = &scene.scene;
         s->simulation.law = CEDUO_LAW_LUMPED;
         s->simulation.scale_rn = false;
+        if (arm)
+            line_scene_arm(&scene, n);
         for (size_t j = 0; j + 1 < s->slope.vertices; j++)
             scene.segments[j].rt.mean = fmin(scene.segments[j].rt.mean, .9);
         follow();
@@ -527,8 +528,11 @@ static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **
             scene.segments[i < s->slope.vertices - 1 ? i : 0].roughness_m *= i < s->slope.vertices - 1 ? 4 : 1;
         }
         s->rock.diameter.mean *= 4;
+        s->rock.height.mean *= 4;
+        for (int i = 0; i < 3; i++)
+            s->rock.axes[i].mean *= 4;
         struct ceduo_release *r = &s->release;
-        line_scene_release(&scene, r->x.mean * 4, r->height.mean * 4, r->vx.mean * 2, r->vz.mean * 2, 0);
+        line_scene_release(&scene, r->x.mean * 4, r->height.mean * 4, r->vx.mean * 2, r->vz.mean * 2, r->spin.mean / 2);
         scene.control.x *= 4;
         struct ceduo_crossing before = way.crossing;
         assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
@@ -539,6 +543,13 @@ static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **
         EXPECT(before.vz * 2, ==, other.crossing.vz);
     }
     EXPECT(bounces, >, 10000);
+}
+
+static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **state)
+{
+    (void)state;
+    expect_the_same_way_in_other_sizes(false);
+    expect_the_same_way_in_other_sizes(true);
 }
 
 /* ---- probabilities ---- */

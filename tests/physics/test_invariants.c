@@ -15,6 +15,10 @@ static void invariants_hold_over_random_scenes(void **state)
     for (uint64_t number = 0; number < SCENES; number++) {
         line_scene_random(&scene, number, LASTING_EVERY);
         invariants_expect(&scene, number, &t);
+        if (number % 4 == 0) {
+            line_scene_arm(&scene, number);
+            invariants_expect(&scene, number, &t);
+        }
     }
     print_message("%d scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack); %ju contacts, "
                   "%ju pieces, %ju "

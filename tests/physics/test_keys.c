@@ -183,7 +183,7 @@ static const struct field slope_fields[] = {
 static const struct field segment_fields[] = {
     FIELD(ceduo_segment, rn, SPREAD, FLIGHT),          FIELD(ceduo_segment, rt, SPREAD, FLIGHT),
     FIELD(ceduo_segment, roughness_m, NUMBER, FLIGHT), FIELD(ceduo_segment, roughness_rad, NUMBER, FLIGHT),
-    FIELD(ceduo_segment, friction, NUMBER, FLIGHT),
+    FIELD(ceduo_segment, friction, NUMBER, FLIGHT),    FIELD(ceduo_segment, mu, NUMBER, FLIGHT),
 };
 
 static const struct field control_fields[] = {

@@ -239,10 +239,12 @@ static void add_stems(struct wild *w, struct line_random *r)
     }
 }
 
-static void wild_init(struct wild *w, uint64_t number)
+static void wild_init(struct wild *w, uint64_t number, bool arm)
 {
     struct line_random random = {.state = number * 0x9e3779b97f4a7c15U + 5}, *r = &random;
     line_scene_random(&w->line, number, LASTING_EVERY);
+    if (arm)
+        line_scene_arm(&w->line, number);
     w->def = ceduo_run_def_default(&w->line.scene);
     w->def.threads = (unsigned)line_uniform(r, 1, 3.999);
     if (line_chance(r, 0.4))
@@ -257,15 +259,14 @@ static void wild_init(struct wild *w, uint64_t number)
     w->first = (uint64_t)line_uniform(r, 0, (double)w->rocks);
 }
 
-static void random_scenes(void **state)
+static void compare_random_scenes(uint64_t count, bool arm)
 {
-    (void)state;
     static struct wild w;
     uint64_t contacts = 0, scenes = 0;
-    for (uint64_t number = 0; number < SCENES; number++) {
+    for (uint64_t number = 0; number < count; number++) {
         char name[40];
         snprintf(name, sizeof name, "scene %ju", (uintmax_t)number);
-        wild_init(&w, number);
+        wild_init(&w, number, arm);
         if (ceduo_scene_check(&w.line.scene, NULL) != CEDUO_OK)
             continue; /* a spread leads off the slope */
         contacts += expect_same(name, &w.def, w.first, w.rocks);
@@ -274,8 +275,20 @@ static void random_scenes(void **state)
     print_message("%ju scenes, %ju contacts, of which %ju lie behind the last control and cell\n", (uintmax_t)scenes,
                   (uintmax_t)contacts, (uintmax_t)saved);
     EXPECT(saved, >, contacts / 100);
-    EXPECT(scenes, >, SCENES * 9 / 10);
-    EXPECT(contacts, >, 1000 * SCENES);
+    EXPECT(scenes, >, count * 9 / 10);
+    EXPECT(contacts, >, 500 * count);
+}
+
+static void random_scenes(void **state)
+{
+    (void)state;
+    compare_random_scenes(SCENES, false);
+}
+
+static void random_scenes_of_rocks_that_are_not_round(void **state)
+{
+    (void)state;
+    compare_random_scenes(SCENES / 2, true);
 }
 
 /* ---- scenes of their own ---- */
@@ -288,17 +301,17 @@ static void the_papers_site(void **state)
     for (int i = 0; i < 50; i++)
         cell_x[i] = paper_x[PAPER_SEGMENTS] * (i + 1) / 50;
     const uint64_t rocks = FULL_OR(3000, 1000);
-    for (unsigned i = 0; i < 2 * 2 * 2 * 2 * 4; i++) {
+    for (unsigned i = 0; i < CEDUO_LAW_COUNT * 2 * 2 * 2 * 4; i++) {
         struct paper_site site;
         char name[40];
         snprintf(name, sizeof name, "paper's site %u", i);
         paper_site_init(&site);
         struct ceduo_simulation *simulation = &site.scene.simulation;
-        simulation->law = i & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
-        paper_site_read_theta(&site, i & 2 ? PAPER_HEIGHT : PAPER_ANGLE);
-        site.scene.slope.facets = i & 4 ? CEDUO_BOTH : CEDUO_AGAINST;
-        simulation->scale_rn = i & 8;
-        unsigned forest = i >> 4;
+        simulation->law = (enum ceduo_law)(i % CEDUO_LAW_COUNT);
+        unsigned reading = i / CEDUO_LAW_COUNT, forest = reading >> 3;
+        paper_site_read_theta(&site, reading & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
+        site.scene.slope.facets = reading & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
+        simulation->scale_rn = reading & 4;
         simulation->contact_model = forest == 1 ? CEDUO_POISSON : CEDUO_STEMS;
         if (forest == 3)
             site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
@@ -388,6 +401,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_scenes),
+        cmocka_unit_test(random_scenes_of_rocks_that_are_not_round),
         cmocka_unit_test(the_papers_site),
         cmocka_unit_test(a_long_profile),
         cmocka_unit_test(a_raised_flag_is_seen_by_rocks_under_way),

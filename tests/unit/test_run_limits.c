@@ -243,7 +243,7 @@ static void a_rock_without_end(void **state)
     struct ceduo_slope *slope = &site.scene.slope;
     slope->vertices = 2;
     slope->z[1] = slope->z[0];
-    slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5};
+    slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5, .6};
     site.control.x = slope->x[1];
     site.scene.release = (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0)};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);

@@ -60,7 +60,7 @@ static void wrong_scenes_are_told(void **state)
         {"simulation: {rocks: 10.5}", "simulation.rocks: '10.5' is not a whole number"},
         {"simulation: {law: [1]}", "simulation.law: expected a word, not a list"},
         {"simulation: {law: lumpy}", "did you mean 'lumped'?"},
-        {"simulation: {law: zzzzzzzzzz}", "'zzzzzzzzzz' is unknown; one of: lumped, crsp"},
+        {"simulation: {law: zzzzzzzzzz}", "'zzzzzzzzzz' is unknown; one of: lumped, crsp, arm"},
         {"simulation: {scale_rn: {a: 1}}", "simulation.scale_rn: expected true or false, not a mapping"},
         {"simulation: {scale_rn: 'true'}", "'true': expected true or false"},
         {"simulation: {scale_rn: yes}", "'yes': expected true or false"},
@@ -206,7 +206,7 @@ static void long_words_are_told(void **state)
     bool good;
     snprintf(line, sizeof line, "simulation: {law: %s}", long_word);
     char *told = problems_of(line, &good);
-    assert_non_null(strstr(told, "is unknown; one of: lumped, crsp"));
+    assert_non_null(strstr(told, "is unknown; one of: lumped, crsp, arm"));
     free(told);
     snprintf(line, sizeof line, "simulation: {%s: 1}", long_word);
     told = problems_of(line, &good);

@@ -163,6 +163,7 @@ static void every_default_lies_in_its_range(void **state)
     assert_true(isnan(scene.rocks_per_year));
     assert_int_equal(scene.simulation.contact_model, CEDUO_STEMS);
     EXPECT(ceduo_segment_default().friction, ==, .5);
+    EXPECT(ceduo_segment_default().mu, ==, .6);
     assert_true(isnan(ceduo_segment_default().rn.mean));
 }
 
