@@ -26,6 +26,12 @@ enum view_number {
 struct app;
 struct popup; /* what lies over the views: help, lists, questions */
 
+/* A key that a view wants in the bar, and what it does there, marked for translation. */
+struct bar_key {
+    enum action action;
+    const char *word;
+};
+
 /* Describes a view: what it shows and how it handles keys. */
 struct view {
     const char *title; /* marked for translation */
@@ -36,6 +42,7 @@ struct view {
     void (*draw)(struct app *app, struct ceduo_area area);
     bool (*act)(struct app *app, enum action action); /* true: done; NULL: no keys of its own */
     void (*follow)(struct app *app);                  /* after each key; NULL: nothing */
+    struct bar_key bar[8]; /* its own keys, the most needed first; a word of NULL ends them */
 };
 
 #define V(NAME, name, key, word, help) extern const struct view ceduo_view_##name;

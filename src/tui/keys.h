@@ -60,22 +60,22 @@ enum key {
     X(BOTTOM, K_END, "End", 'G', "G", 0, N_("to the last line"))                                       \
     X(PAGE_UP, K_PAGE_UP, "PgUp", K_NONE, "", 0, N_("a page up"))                                    \
     X(PAGE_DOWN, K_PAGE_DOWN, "PgDn", K_NONE, "", 0, N_("a page down"))                              \
-    X(EDIT, K_ENTER, "Enter", K_NONE, "", 2, N_("edit"))                                              \
+    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 0, N_("pane"))                                             \
+    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                     \
+    X(EDIT, K_ENTER, "Enter", K_NONE, "", 1, N_("edit"))                                              \
     X(MORE, '+', "+", '=', "=", 0, N_("a step more"))                                                    \
     X(LESS, '-', "-", '_', "_", 0, N_("a step less"))                                                    \
-    X(ADD, 'a', "a", K_NONE, "", 2, N_("add"))                                                          \
-    X(DELETE, 'd', "d", K_DELETE, "Del", 1, N_("delete"))                                               \
-    X(DUPLICATE, 'y', "y", K_NONE, "", 1, N_("duplicate"))                                              \
+    X(ADD, 'a', "a", K_NONE, "", 1, N_("add"))                                                          \
+    X(DELETE, 'd', "d", K_DELETE, "Del", 0, N_("delete"))                                               \
+    X(DUPLICATE, 'y', "y", K_NONE, "", 0, N_("duplicate"))                                              \
     X(EARLIER, '<', "<", K_NONE, "", 0, N_("move this item before the one before it"))                 \
     X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"))                             \
     X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"))                                                        \
     X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"))                                           \
-    X(PRESETS, 'p', "p", K_F5, "F5", 2, N_("presets"))                                                  \
+    X(PRESETS, 'p', "p", K_F5, "F5", 1, N_("presets"))                                                  \
     X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                   \
-    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 1, N_("pane"))                                             \
-    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                     \
     VIEWS(VIEW_ACTION)                                                                                 \
-    X(FIND, 'f', "f", K_NONE, "", 0, N_("find the value here that reaches a goal"))                    \
+    X(FIND, 'f', "f", K_NONE, "", 1, N_("find the value here that reaches a goal"))                    \
     X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                   \
     X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \
     X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                       \
@@ -107,7 +107,7 @@ enum action {
 struct action_info {
     int key, key2;
     const char *word, *word2;
-    int bar; /* 2: always in the bar, 1: where there is room */
+    int bar; /* 2: always in the bar, 1: where the view's own keys leave room */
     const char *help; /* marked for translation */
 };
 

@@ -4,6 +4,54 @@
 #include "popup.h"
 #include "popups.h"
 
+/* The first action of each group, in the order of the table, and its heading. */
+static const struct {
+    enum action first;
+    const char *heading;
+} groups[] = {{ACTION_UP, N_("Moving")},
+              {ACTION_EDIT, N_("Changing")},
+              {ACTION_VIEW_SLOPE, N_("Views")},
+              {ACTION_FIND, N_("Looking further")},
+              {ACTION_NEW, N_("Files")},
+              {ACTION_CHARSET, N_("Screen")}};
+
+/* What words and signs of the field mean here. */
+static const struct {
+    const char *word, *meaning;
+} glossary[] = {
+    {N_("ADC"), N_("mean distance between stem hits along the fall line; less than 30 m passes")},
+    {N_("free run"), N_("chance that a rock meets no stem over 30 m of forest")},
+    {N_("withstands"), N_("the energy that the road or house can take, kJ")},
+    {N_("belt"), N_("a stretch of slope with one stand")},
+    {N_("control"), N_("a place where rocks are counted: a road, a house, the end of the forest")},
+    {N_("stool"), N_("the stump of a coppice with its shoots")},
+    {N_("standard"), N_("a tree left standing when the shoots around it are cut")},
+    {N_("dbh"), N_("diameter of a stem at 1.3 m")},
+    {N_("Rn, Rt"), N_("share of the speed kept across and along the ground at a contact")},
+    {N_("U"), N_("energy that a cubic metre of stem takes, J/m3")},
+    {N_("index"), N_("the paper's way: so many contacts, each takes one mean stem's energy")},
+    {N_("p95"), N_("of 100 rocks 95 stay below it")},
+    {N_("doubt"), N_("what is not known, such as the ground; more rocks do not cure it")},
+};
+
+static void put_action(struct text *text, enum action action)
+{
+    const struct action_info *a = &ceduo_actions[action];
+    char keys[32];
+    for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
+        if (groups[i].first == action)
+            ceduo_text_format(text, "%s%s\n", i > 0 ? " \n" : "", _(groups[i].heading));
+    snprintf(keys, sizeof keys, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
+    ceduo_text_format(text, "  %-16s%s\n", keys, _(a->help));
+}
+
+static void put_glossary(struct text *text)
+{
+    ceduo_text_format(text, " \n%s\n", _("Words"));
+    for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
+        ceduo_text_format(text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
+}
+
 void ceduo_popup_help(struct app *app)
 {
     struct popup *p = ceduo_popup_text(app, _("Keys"));
@@ -19,12 +67,8 @@ void ceduo_popup_help(struct app *app)
     }
     ceduo_text_free(&field);
     ceduo_text_put(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
-    for (int i = 0; i < ACTION_COUNT; i++) {
-        const struct action_info *a = &ceduo_actions[i];
-        char keys[32];
-        snprintf(keys, sizeof keys, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
-        ceduo_text_format(&p->text, "%-18s%s\n", keys, _(a->help));
-    }
+    for (int i = 0; i < ACTION_COUNT; i++)
+        put_action(&p->text, (enum action)i);
     ceduo_text_put(&p->text, " \n");
     ceduo_text_put(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
                                "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
@@ -36,4 +80,5 @@ void ceduo_popup_help(struct app *app)
                                "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
                                "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
                                "terminal itself selects text.\n"));
+    put_glossary(&p->text);
 }

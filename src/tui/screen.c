@@ -61,7 +61,8 @@ static void draw_explanation(struct app *app)
         ceduo_form_explain(&app->document, cell, &text);
     }
     ceduo_text_safe(&safe, ceduo_text_string(&text));
-    bool two_lines = safe.bytes && app->message[0] && (int)ceduo_utf8_width(safe.bytes) > app->width;
+    bool two_lines = safe.bytes && (int)ceduo_utf8_width(safe.bytes) > app->width &&
+                     (app->message[0] || ceduo_app_text_lines(app, safe.bytes, app->width) <= 2);
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
     if (two_lines)
         ceduo_app_text(app, lines, role, safe.bytes, NULL);
@@ -71,34 +72,59 @@ static void draw_explanation(struct app *app)
     ceduo_text_free(&safe);
 }
 
-static int bar_width(const struct action_info *a)
+static int bar_width(const struct bar_key *k)
 {
-    return (int)ceduo_utf8_width(a->word) + (int)ceduo_utf8_width(_(a->help)) + 3;
+    return (int)ceduo_utf8_width(ceduo_actions[k->action].word) + (int)ceduo_utf8_width(_(k->word)) + 3;
 }
 
+static int put_key(struct app *app, int x, const struct bar_key *k)
+{
+    const char *word = ceduo_actions[k->action].word;
+    ceduo_app_label(app, x, app->height - 1, CEDUO_ROLE_TITLE, "%s", word);
+    ceduo_app_label(app, x + (int)ceduo_utf8_width(word) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", _(k->word));
+    return x + bar_width(k);
+}
+
+static bool is_own(const struct view *view, enum action action)
+{
+    bool own = false;
+    for (const struct bar_key *k = view->bar; k->word; k++)
+        own |= k->action == action;
+    return own;
+}
+
+/* Puts the keys of all views with this rank, as long as there is room. */
+static int put_common(struct app *app, int x, int rank, int *room)
+{
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        struct bar_key k = {(enum action)i, ceduo_actions[i].help};
+        if (ceduo_actions[i].bar != rank || is_own(ceduo_views[app->view], k.action) || bar_width(&k) > *room)
+            continue;
+        *room -= bar_width(&k);
+        x = put_key(app, x, &k);
+    }
+    return x;
+}
+
+/* The view's own keys, then those of every view, of which the last ones always have room. */
 static void draw_bar(struct app *app)
 {
-    int x = 0;
+    int x = 0, always = 0, room = app->width + 2;
     if (app->popup || app->editing) {
         ceduo_app_label(app, 0, app->height - 1, CEDUO_ROLE_DIM, "%s",
                         app->popup ? ceduo_popup_bar(app)
                                    : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
         return;
     }
-    int room = app->width + 2;
     for (int i = 0; i < ACTION_COUNT; i++)
-        room -= ceduo_actions[i].bar == 2 ? bar_width(&ceduo_actions[i]) : 0;
-    for (int i = 0; i < ACTION_COUNT; i++) {
-        const struct action_info *a = &ceduo_actions[i];
-        const char *help = _(a->help);
-        int n = bar_width(a);
-        if (!a->bar || (a->bar == 1 && n > room))
-            continue;
-        room -= a->bar == 1 ? n : 0;
-        ceduo_app_label(app, x, app->height - 1, CEDUO_ROLE_TITLE, "%s", a->word);
-        ceduo_app_label(app, x + (int)ceduo_utf8_width(a->word) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", help);
-        x += n;
+        always += ceduo_actions[i].bar == 2 ? bar_width(&(struct bar_key){(enum action)i, ceduo_actions[i].help}) : 0;
+    room -= always;
+    for (const struct bar_key *k = ceduo_views[app->view]->bar; k->word && bar_width(k) <= room; k++) {
+        room -= bar_width(k);
+        x = put_key(app, x, k);
     }
+    x = put_common(app, x, 1, &room);
+    put_common(app, x, 2, &always);
 }
 
 void ceduo_screen_draw(struct app *app)

@@ -31,4 +31,6 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_text_free(&text);
 }
 
-const struct view ceduo_view_results = {.title = N_("results"), .panes = 1, .result = true, .draw = draw};
+const struct view ceduo_view_results = {
+    .title = N_("results"), .panes = 1, .result = true, .draw = draw,
+    .bar = {{ACTION_DOWN, N_("read on")}, {ACTION_EXPORT, N_("export")}, {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -47,18 +47,28 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", NULL);
 }
 
+#define WIDE 70 /* columns that leave room for a remark */
+
 static void draw(struct app *app, struct ceduo_area area)
 {
     struct ceduo_rock rock = ceduo_rock_mean(&app->document.file.scene.rock);
-    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - 3}, true);
-    if (isnan(rock.mass))
-        return;
     struct text text = {0};
-    ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2; the lumped law knows neither "
-                               "mass nor shape: on the ground they scale the energy alone."),
-                      rock.mass, rock.volume, rock.mean_diameter, rock.moment);
-    struct ceduo_area foot = {area.left, area.top + area.height - 2, area.width, 2};
+    if (isnan(rock.mass)) {
+        ceduo_app_draw_form(app, area, true);
+        return;
+    }
+    ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
+                      rock.mean_diameter, rock.moment);
+    if (area.width >= WIDE && app->document.file.scene.simulation.law == CEDUO_LAW_LUMPED)
+        ceduo_text_then(&text, " ", "%s", _("The lumped law knows neither mass nor shape: on the ground they scale the "
+                                            "energy alone."));
+    int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
+    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1}, true);
+    struct ceduo_area foot = {area.left, area.top + area.height - lines, area.width, lines};
     ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
-const struct view ceduo_view_rock = {.title = N_("rock"), .panes = 1, .build = build, .draw = draw};
+const struct view ceduo_view_rock = {
+    .title = N_("rock"), .panes = 1, .build = build, .draw = draw,
+    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")},
+            {ACTION_PRESETS, N_("presets")}}};

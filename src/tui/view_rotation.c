@@ -159,6 +159,21 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
         ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
 }
 
+/* Takes whole sentences off the end until the rest has room. */
+static void keep_fitting(struct app *app, struct text *text, int width, int lines)
+{
+    while (ceduo_app_text_lines(app, ceduo_text_string(text), width) > lines) {
+        char *end = NULL;
+        for (char *p = text->bytes; p + 2 < text->bytes + text->length; p++)
+            if (p[0] == '.' && (p[1] == ' ' || p[1] == '\n'))
+                end = p + 1;
+        if (!end)
+            return;
+        *end = '\0';
+        text->length = (size_t)(end - text->bytes);
+    }
+}
+
 #define PICTURE_LEAST     9 /* lines of the picture with one strip */
 #define FORM_LEAST        3
 #define HEIGHT_FOR_OTHERS 30
@@ -175,8 +190,9 @@ static void draw(struct app *app, struct ceduo_area area)
         if (area.height >= HEIGHT_FOR_OTHERS && app->year < picture.years->count)
             say_others(app, picture.years->years[app->year].year, &text);
     }
-    int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     int least = PICTURE_LEAST + (alone ? 0 : FORM_LEAST);
+    keep_fitting(app, &text, area.width, area.height - least);
+    int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     words = words > area.height - least ? area.height - least : words;
     int form = alone ? 0 : (area.height - words) / 3;
     form = form > area.height - words - PICTURE_LEAST ? area.height - words - PICTURE_LEAST : form;
@@ -219,10 +235,6 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct view ceduo_view_rotation = {.title = N_("rotation"),
-                                         .panes = 2,
-                                         .years = true,
-                                         .build = build,
-                                         .draw = draw,
-                                         .act = act,
-                                         .follow = ceduo_app_follow_belt};
+const struct view ceduo_view_rotation = {
+    .title = N_("rotation"), .panes = 2, .years = true, .build = build, .draw = draw, .act = act, .follow = ceduo_app_follow_belt,
+    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_NEXT_PANE, N_("years")}, {ACTION_NEXT_OPTION, N_("next option")}}};
