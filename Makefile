@@ -101,7 +101,7 @@ TEMPLATE := $(BUILD)/ceduo.pot
 .PHONY: $(TEMPLATE)
 $(TEMPLATE):
 	@mkdir -p $(@D)
-	@ls src/*/*.[ch] | LC_ALL=C sort | xgettext -f - -o $@ --force-po --from-code=UTF-8 -L C -k_ -kN_ -kngettext:1,2 --add-location=file -c'Translators:' \
+	@ls src/*/*.[ch] | LC_ALL=C sort | xgettext -f - -o $@ --force-po --from-code=UTF-8 -L C -k -k_ -kN_ -kngettext:1,2 -kP_:1c,2 -kNP_:1c,2 --flag=N_:1:no-c-format --add-location=file -c'Translators:' \
 	    --package-name=ceduo --copyright-holder=
 
 po: $(TEMPLATE)

@@ -267,7 +267,7 @@ static const struct option_row rows[] = {
     {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, NOT_MERGE | NOT_CHECK,
      N_("number of rocks; with --tolerance the maximum")},
     {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, NOT_PART | NOT_CHECK,
-     /* xgettext:no-c-format */ N_("simulate until the 95 % error of each mean energy is below REL of it")},
+     N_("simulate until the 95 % error of each mean energy is below REL of it")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
      N_("what each row of CSV describes (controls)")},
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},

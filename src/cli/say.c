@@ -13,9 +13,13 @@ bool ceduo_say_utf8(void)
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
-/* What is written in place of the signs that the program itself uses; none is longer. */
+/* What is written in place of the signs that the program itself uses, and of accented letters, so that columns stay; none is
+ * longer. */
 static const char *const plain_signs[][2] = {
-    {"\xe2\x80\xa6", "..."}, {"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
+    {"\xe2\x80\xa6", "..."}, {"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}, {"\xc3\xa0", "a"},
+    {"\xc3\xa8", "e"},       {"\xc3\xa9", "e"},      {"\xc3\xac", "i"},      {"\xc3\xb2", "o"},  {"\xc3\xb9", "u"},
+    {"\xc3\x80", "A"},       {"\xc3\x88", "E"},      {"\xc2\xb3", "3"},      {"\xc2\xb2", "2"}};
+#define PLAIN_SIGNS (sizeof plain_signs / sizeof plain_signs[0])
 
 /* For a terminal that knows ASCII alone: what it cannot show otherwise becomes a question mark. */
 static void make_plain(struct text *text)
@@ -24,9 +28,9 @@ static void make_plain(struct text *text)
     for (size_t i = 0; i < text->length; i++) {
         unsigned char c = (unsigned char)text->bytes[i];
         size_t sign = 0;
-        while (sign < 4 && strncmp(text->bytes + i, plain_signs[sign][0], strlen(plain_signs[sign][0])) != 0)
+        while (sign < PLAIN_SIGNS && strncmp(text->bytes + i, plain_signs[sign][0], strlen(plain_signs[sign][0])) != 0)
             sign++;
-        if (sign < 4) {
+        if (sign < PLAIN_SIGNS) {
             size_t n = strlen(plain_signs[sign][1]);
             memcpy(text->bytes + to, plain_signs[sign][1], n);
             to += n;

@@ -22,11 +22,11 @@
 static const char *how_common(const char *name)
 {
     static const char *const texts[] = {
-        [CEDUO_SIMPLE_COPPICE] = /* xgettext:no-c-format */ N_("87 050 ha, 43.4 % of Marche: with reserves"),
-        [CEDUO_COPPICE_WITH_STANDARDS] = /* xgettext:no-c-format */ N_("13 250 ha, 6.6 % of Marche: with standards"),
-        [CEDUO_SELECTION_COPPICE] = /* xgettext:no-c-format */ N_("350 ha, 0.2 % of Marche: selection system"),
-        [CEDUO_LARGE_RESERVES] = /* xgettext:no-c-format */ N_("30 275 ha, 15.1 % of Marche: a lot of reserves"),
-        [CEDUO_HIGH_FOREST] = /* xgettext:no-c-format */ N_("28 550 ha, 14.2 % of Marche: natural high forest")};
+        [CEDUO_SIMPLE_COPPICE] = N_("87 050 ha, 43.4 % of Marche: with reserves"),
+        [CEDUO_COPPICE_WITH_STANDARDS] = N_("13 250 ha, 6.6 % of Marche: with standards"),
+        [CEDUO_SELECTION_COPPICE] = N_("350 ha, 0.2 % of Marche: selection system"),
+        [CEDUO_LARGE_RESERVES] = N_("30 275 ha, 15.1 % of Marche: a lot of reserves"),
+        [CEDUO_HIGH_FOREST] = N_("28 550 ha, 14.2 % of Marche: natural high forest")};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
         if (strncmp(name, ceduo_system_words.names[i], strlen(ceduo_system_words.names[i])) == 0)
             return _(texts[i]);

@@ -49,7 +49,7 @@ void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *c
     for (size_t i = 0; i < n; i++) {
         struct text *head = ceduo_page_text(page);
         if (columns[i].head && columns[i].head[0])
-            ceduo_text_put(head, _(columns[i].head));
+            ceduo_text_put(head, ceduo_translate_in(columns[i].head));
     }
 }
 

@@ -40,7 +40,7 @@ static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_
 }
 
 #define BY_CONTACT                                                                                                     \
-    {N_("option"), 23, 2, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {N_("free run"), -7, 0, CEDUO_SPAN},             \
+    {N_("option"), 23, 2, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN},             \
     {                                                                                                                  \
         "", 5, 1, 0                                                                                                    \
     }
@@ -48,9 +48,9 @@ static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
-        BY_CONTACT, {NULL, -10, 0, 0}, {N_("to first"), -11, 0, 0}, {N_("energy"), 4, 2, 0}};
+        BY_CONTACT, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 4, 2, 0}};
     static const struct ceduo_page_column by_index[] = {
-        BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {N_("left kJ"), -10, 0, 0}};
+        BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
     if (r->wooded) {
         ceduo_page_table(page, wooded, sizeof wooded / sizeof wooded[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));
@@ -62,7 +62,7 @@ static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 }
 
 /* A test that all options pass, or none, says nothing about which to choose. */
-static void say_separation(struct ceduo_page *page, const struct ceduo_result *r, const char *test, size_t light)
+static void say_separation(struct ceduo_page *page, const struct ceduo_result *r, size_t light, const char *all, const char *none)
 {
     size_t n = r->scene->options_count, pass = 0;
     for (size_t i = 0; i < n; i++) {
@@ -70,12 +70,8 @@ static void say_separation(struct ceduo_page *page, const struct ceduo_result *r
         const enum ceduo_light lights[] = {s->contact, s->free_run, s->energy};
         pass += lights[light] == CEDUO_PASS;
     }
-    if (pass == n)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                          _("Today all options pass the test of %s: it does not separate them."), test);
-    else if (pass == 0)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                          _("Today no option passes the test of %s: it does not separate them."), test);
+    if (pass == n || pass == 0)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), pass == n ? all : none);
 }
 
 /* ---- over the years ---- */
@@ -111,11 +107,11 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     static const struct ceduo_page_column flown[] = {
-        {N_("option"), 23, 2, 0},   {NULL, -9, 0, 0},         {N_("worst year"), -11, 0, 0}, {N_("contact"), -8, 0, 0},
-        {N_("free run"), -9, 0, 0}, {N_("energy"), -7, 0, 0}, {N_("m3/y"), -5, 0, 0},        {N_("m3"), -6, 0, 0}};
-    static const struct ceduo_page_column by_index[] = {{N_("option"), 23, 2, 0},  {N_("ADC m, worst"), -14, 0, 0},
-                                                        {N_("contact"), -8, 0, 0}, {N_("free run"), -9, 0, 0},
-                                                        {N_("m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
+        {N_("option"), 23, 2, 0},   {NULL, -9, 0, 0},         {NP_("head", "worst year"), -11, 0, 0}, {NP_("head", "contact"), -8, 0, 0},
+        {NP_("head", "free run"), -9, 0, 0}, {NP_("head", "energy"), -7, 0, 0}, {NP_("head", "m3/y"), -5, 0, 0},        {N_("m3"), -6, 0, 0}};
+    static const struct ceduo_page_column by_index[] = {{N_("option"), 23, 2, 0},  {NP_("head", "ADC m, worst"), -14, 0, 0},
+                                                        {NP_("head", "contact"), -8, 0, 0}, {NP_("head", "free run"), -9, 0, 0},
+                                                        {NP_("head", "m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     struct text span = {0};
     ceduo_words_span(&span, v);
@@ -174,10 +170,13 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                       ceduo_number_shortest(c->x_given, room));
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Today:"));
     add_table(page, r);
-    say_separation(page, r, _("contact"), 0);
-    say_separation(page, r, _("free run"), 1);
+    say_separation(page, r, 0, _("Today all options pass the test of contact: it does not separate them."),
+                   _("Today no option passes the test of contact: it does not separate them."));
+    say_separation(page, r, 1, _("Today all options pass the test of free run: it does not separate them."),
+                   _("Today no option passes the test of free run: it does not separate them."));
     if (r->wooded && !isnan(c->accepted))
-        say_separation(page, r, _("energy"), 2);
+        say_separation(page, r, 2, _("Today all options pass the test of energy: it does not separate them."),
+                       _("Today no option passes the test of energy: it does not separate them."));
     if (v && v->choices[0].years > 0)
         add_years_table(page, r, v);
     if (v)

@@ -27,7 +27,7 @@ static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *s
 {
     static const struct ceduo_page_column columns[] = {
         {N_("m"), 10, 4, CEDUO_WHOLE}, {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
-        {N_("free run"), -9, 0, 0},    {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
+        {NP_("head", "free run"), -9, 0, 0},    {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", ceduo_number_shortest(scene->simulation.threshold, room));

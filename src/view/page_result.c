@@ -9,6 +9,11 @@
 
 /* ---- head ---- */
 
+/* Words of files, as they are shown. */
+static const char *const shapes[] = {
+    [CEDUO_SPHERE] = N_("sphere"), [CEDUO_CYLINDER] = N_("cylinder"), [CEDUO_ELLIPSOID] = N_("ellipsoid"), [CEDUO_BLOCK] = N_("block")};
+static const char *const facets[] = {[CEDUO_AGAINST] = N_("against"), [CEDUO_BOTH] = N_("both")};
+
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)
 {
     return ceduo_notes_assume(report->file->notes, path) ? "*" : "";
@@ -21,7 +26,7 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_text_format(line,
                       ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
                                                          : _("%s, %s kg, mean diameter %s m"),
-                      _(ceduo_shape_words.names[r->scene->rock.shape]), SHOWN(r->rock.mass, 4), SHOWN(r->rock.mean_diameter, 3));
+                      _(shapes[r->scene->rock.shape]), SHOWN(r->rock.mass, 4), SHOWN(r->rock.mean_diameter, 3));
     ceduo_text_put(line, assumed_mark(report, "rock"));
 }
 
@@ -39,7 +44,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
                       ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
                                "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
                       SHOWN(slope->x[slope->vertices - 1], 4), SHOWN(high - low, 4), slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
-                      ceduo_facets_words.names[slope->facets], assumed_mark(report, "slope"));
+                      _(facets[slope->facets]), assumed_mark(report, "slope"));
 }
 
 static void add_head(struct ceduo_page *page, const struct ceduo_report *report)
@@ -96,8 +101,8 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
                                const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {N_("arriving kJ"), -12, 0, 0},
-        {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0},     {N_("m up"), -5, 0, 0}};
+        {NP_("head", "of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {NP_("head", "arriving kJ"), -12, 0, 0},
+        {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0},     {NP_("head", "m up"), -5, 0, 0}};
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_page_limit(page, c, "");
     if (wooded)

@@ -16,7 +16,7 @@ static void add_year(struct ceduo_page *page, const struct ceduo_year *y, size_t
 {
     const struct ceduo_index *s = &y->controls[control];
     const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[control] : NULL;
-    ceduo_text_format(ceduo_page_text(page), "%4u %s", y->year, y->cut ? _("cut") : "");
+    ceduo_text_format(ceduo_page_text(page), "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
     ceduo_page_number(page, s->worst_adc, 3);
     ceduo_page_verdict(page, s->contact);
     ceduo_page_percent(page, s->worst_free_run);
@@ -30,9 +30,9 @@ static void add_year(struct ceduo_page *page, const struct ceduo_year *y, size_t
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("year"), 9, 4, 0},  {N_("ADC m"), -7, 0, 0},    {"", 5, 1, 0},     {N_("free run"), -7, 0, CEDUO_SPAN},
-        {"", 5, 1, 0},          {N_("kJ/100 m"), -9, 0, 0}, {NULL, -16, 0, 0}, {N_("arr. kJ"), -8, 0, 0},
-        {N_("energy"), 0, 2, 0}};
+        {N_("year"), 9, 4, 0},  {N_("ADC m"), -7, 0, 0},    {"", 5, 1, 0},     {NP_("head", "free run"), -7, 0, CEDUO_SPAN},
+        {"", 5, 1, 0},          {N_("kJ/100 m"), -9, 0, 0}, {NULL, -16, 0, 0}, {NP_("head", "arr. kJ"), -8, 0, 0},
+        {NP_("head", "energy"), 0, 2, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Year by year, up to %s m:"),
                       ceduo_number_shortest(last_control(r)->x_given, room));

@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#include "base/language.h"
 #include "figures.h"
 
 /* A row, or the header that names its cells: the same tables make both. */
@@ -66,7 +67,9 @@ static void put_cell(struct row *row, const struct ceduo_figure *f, const void *
     } else if (f->value) {
         put_value(row->text, ceduo_figure_value(f, object, scale));
     } else {
+        ceduo_language_of_data(true);
         f->say(object, join, &all);
+        ceduo_language_of_data(false);
         put_value(row->text, (struct ceduo_value){.kind = all.bytes ? CEDUO_VALUE_TEXT : CEDUO_NULL, .text = all.bytes});
         ceduo_text_free(&all);
     }

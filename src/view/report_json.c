@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
+#include "base/language.h"
 #include "figures.h"
 
 static void put_sentence(void *context, const char *sentence)
@@ -68,7 +69,9 @@ static void put_figures(struct json *j, const struct ceduo_figure *f, const void
             put_object(j, f, ceduo_figure_object(f, object), scale);
         } else {
             ceduo_json_open(j, f->key, '[');
+            ceduo_language_of_data(true);
             f->say(object, put_sentence, j);
+            ceduo_language_of_data(false);
             ceduo_json_close(j, ']');
         }
     }

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "language.h"
+
+#include <locale.h>
+#include <string.h>
+
+static _Thread_local bool of_data;
+
+void ceduo_language_of_data(bool on)
+{
+    of_data = on;
+}
+
+const char *ceduo_translate(const char *string)
+{
+    return of_data ? string : gettext(string);
+}
+
+const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)
+{
+    return of_data ? n == 1 ? one : many : dcngettext(NULL, one, many, n, LC_MESSAGES);
+}
+
+const char *ceduo_translate_in(const char *marked)
+{
+    const char *found = ceduo_translate(marked), *context = strchr(marked, '\004');
+    return found == marked && context ? context + 1 : found;
+}
