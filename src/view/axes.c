@@ -133,6 +133,14 @@ struct scale {
     int start[CEDUO_TICKS_MAX], end[CEDUO_TICKS_MAX];
 };
 
+/* What the surface is given of a tick; its label begins at `start`. */
+static struct ceduo_tick tick_of(const struct scale *scale, int i, double at, int start)
+{
+    struct ceduo_tick tick = {.cell = scale->tick[i], .at = at, .start = start};
+    ceduo_tick_label(scale->value[i], scale->interval, sizeof tick.label, tick.label);
+    return tick;
+}
+
 /* False if two labels would stand closer than they should. */
 static bool left_scale_fits(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
@@ -185,13 +193,15 @@ void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_fram
         return;
     int column = frame->left - 1;
     struct scale scale = left_scale(frame, canvas);
-    canvas->surface->axis_left(canvas->to, frame, scale.count, scale.tick);
+    struct ceduo_tick ticks[CEDUO_TICKS_MAX];
     for (int i = 0; i < scale.count; ++i) {
-        char text[CEDUO_TICK_LABEL_SIZE];
-        int length = (int)ceduo_tick_label(scale.value[i], scale.interval, sizeof text, text);
-        if (length <= column)
-            ceduo_canvas_label_right(canvas, column - 1, scale.tick[i], CEDUO_ROLE_AXIS, text);
+        double across, down;
+        ceduo_frame_place(frame, canvas, frame->x0, scale.value[i], &across, &down);
+        ticks[i] = tick_of(&scale, i, down, -1);
+        int length = (int)strlen(ticks[i].label);
+        ticks[i].start = length <= column ? column - length : -1;
     }
+    canvas->surface->axis_left(canvas->to, frame, scale.count, ticks);
 }
 
 /* Which label stands i-th from the left. */
@@ -267,12 +277,13 @@ void ceduo_canvas_axis_bottom(struct ceduo_canvas *canvas, const struct ceduo_fr
     int unit_start;
     int unit_width = unit == NULL ? 0 : ceduo_canvas_label_width(canvas, unit);
     struct scale scale = bottom_scale(frame, canvas, unit_width, &unit_start);
-    canvas->surface->axis_bottom(canvas->to, frame, scale.count, scale.tick);
+    struct ceduo_tick ticks[CEDUO_TICKS_MAX];
     for (int i = 0; i < scale.count; ++i) {
-        char text[CEDUO_TICK_LABEL_SIZE];
-        ceduo_tick_label(scale.value[i], scale.interval, sizeof text, text);
-        ceduo_canvas_label(canvas, scale.start[i], row, CEDUO_ROLE_AXIS, text);
+        double across, down;
+        ceduo_frame_place(frame, canvas, scale.value[i], frame->y0, &across, &down);
+        ticks[i] = tick_of(&scale, i, across, scale.start[i]);
     }
+    canvas->surface->axis_bottom(canvas->to, frame, scale.count, ticks);
     if (unit != NULL && unit_start >= 0)
-        ceduo_canvas_label(canvas, unit_start, row, CEDUO_ROLE_AXIS, unit);
+        canvas->surface->axis_unit(canvas->to, unit_start, row, unit);
 }

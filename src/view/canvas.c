@@ -91,6 +91,18 @@ bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas
     return true;
 }
 
+bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
+                       double *across, double *down)
+{
+    struct ceduo_raster raster = raster_of(canvas, frame);
+    struct ceduo_position p;
+    if (!ceduo_frame_valid(frame) || !place(frame, &raster, x, y, &p))
+        return false;
+    *across = (raster.left + p.x + 0.5) / canvas->dots_x;
+    *down = (raster.top + p.y + 0.5) / canvas->dots_y;
+    return true;
+}
+
 /* ---- Lines ---- */
 
 /* One edge of Liang and Barsky's clipping (1984): keeps the part lo..hi of the line with p t <= q. */
@@ -186,9 +198,26 @@ void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *
     }
 }
 
+/* Where the surface draws discs itself. */
+static void draw_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
+                      double y, double radius)
+{
+    struct ceduo_raster raster = raster_of(canvas, frame);
+    struct ceduo_position centre;
+    if (!ceduo_frame_valid(frame) || !place(frame, &raster, x, y, &centre) || !inside(&raster, centre))
+        return;
+    struct ceduo_position radii = {fabs(radius / (frame->x1 - frame->x0)) * (raster.nx - 1),
+                                   fabs(radius / (frame->y1 - frame->y0)) * (raster.ny - 1)};
+    canvas->surface->disc(canvas->to, &raster, role, centre, radii);
+}
+
 void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
                        double y, double radius)
 {
+    if (canvas->surface->disc) {
+        draw_disc(canvas, frame, role, x, y, radius);
+        return;
+    }
     double dot = fabs(frame->y1 - frame->y0) / (frame->height * canvas->dots_y - 1);
     int rows = (int)floor(radius / dot);
     for (int i = -rows; i <= rows; ++i) {

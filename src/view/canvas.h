@@ -103,17 +103,29 @@ struct ceduo_pen {
     int last_x, last_y; /* for the surface; INT_MIN before its first line */
 };
 
+/* A tick of an axis. */
+struct ceduo_tick {
+    int cell;  /* column or row */
+    double at; /* the same in parts of a cell: 3.5 is the middle of cell 3 */
+    int start; /* column where the label begins, -1 where it has no room */
+    char label[CEDUO_TICK_LABEL_SIZE];
+};
+
 struct ceduo_surface {
     int (*label)(void *to, int column, int row, enum ceduo_role role, const char *text);
     int (*label_width)(const void *to, const char *text);
     bool (*is_blank)(const void *to, int column, int row);
     void (*line)(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b); /* within the raster */
     void (*bar)(void *to, int column, int row, int width, double fraction, enum ceduo_role role);
-    /* A line with ticks: in the column left of the frame, in the row below it. */
-    void (*axis_left)(void *to, const struct ceduo_frame *frame, int count, const int *rows);
-    void (*axis_bottom)(void *to, const struct ceduo_frame *frame, int count, const int *columns);
+    /* A line with ticks, in the column left of the frame or in the row below it, and the ticks' labels beside it. */
+    void (*axis_left)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
+    void (*axis_bottom)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
+    void (*axis_unit)(void *to, int column, int row, const char *unit); /* among the labels of the bottom axis */
     bool (*cloud_start)(void *to);
     void (*cloud_show)(void *to, double quantile);
+    /* A disc, its radii across and down in dots; NULL: it is drawn as lines. */
+    void (*disc)(void *to, const struct ceduo_raster *raster, enum ceduo_role role, struct ceduo_position centre,
+                 struct ceduo_position radii);
 };
 
 /* ---- Frames ---- */
@@ -130,6 +142,10 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
 /* The cell in which the data point (x, y) is drawn. False, and nothing written, if outside the frame. */
 bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
                       int *column, int *row);
+
+/* The same in parts of cells; outside the frame, too. False where the point has no place. */
+bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
+                       double *across, double *down);
 
 /* ---- Drawing data: every function cuts at the edges of the frame ---- */
 

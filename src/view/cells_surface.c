@@ -54,16 +54,21 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
         ceduo_cells_set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
 }
 
-static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const int *rows)
+static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count,
+                           const struct ceduo_tick *ticks)
 {
     for (int row = frame->top; row < frame->top + frame->height; ++row)
         ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
-    for (int i = 0; i < count; ++i)
-        ceduo_cells_label(to, frame->left - 1, rows[i], CEDUO_ROLE_AXIS, "\xe2\x94\xa4");
+    for (int i = 0; i < count; ++i) {
+        ceduo_cells_label(to, frame->left - 1, ticks[i].cell, CEDUO_ROLE_AXIS, "\xe2\x94\xa4");
+        if (ticks[i].start >= 0)
+            ceduo_cells_label(to, ticks[i].start, ticks[i].cell, CEDUO_ROLE_AXIS, ticks[i].label);
+    }
 }
 
 /* Meets the left axis in a corner if that was drawn before. */
-static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count, const int *columns)
+static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count,
+                             const struct ceduo_tick *ticks)
 {
     int row = frame->top + frame->height;
     const struct ceduo_cell *above = ceduo_cells_at(to, frame->left - 1, row - 1);
@@ -71,8 +76,15 @@ static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int coun
         ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x94");
     for (int column = frame->left; column < frame->left + frame->width; ++column)
         ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, "\xe2\x94\x80");
-    for (int i = 0; i < count; ++i)
-        ceduo_cells_label(to, columns[i], row, CEDUO_ROLE_AXIS, "\xe2\x94\xac");
+    for (int i = 0; i < count; ++i) {
+        ceduo_cells_label(to, ticks[i].cell, row, CEDUO_ROLE_AXIS, "\xe2\x94\xac");
+        ceduo_cells_label(to, ticks[i].start, row + 1, CEDUO_ROLE_AXIS, ticks[i].label);
+    }
+}
+
+static void draw_axis_unit(void *to, int column, int row, const char *unit)
+{
+    ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, unit);
 }
 
 static bool start_cloud(void *to)
@@ -141,5 +153,15 @@ static bool is_blank(const void *to, int column, int row)
     return ceduo_cells_glyph(to, column, row) == ' ';
 }
 
-const struct ceduo_surface ceduo_cells_surface = {put_label,      label_width,      is_blank,    draw_line, draw_bar,
-                                             draw_axis_left, draw_axis_bottom, start_cloud, show_cloud};
+const struct ceduo_surface ceduo_cells_surface = {
+    .label = put_label,
+    .label_width = label_width,
+    .is_blank = is_blank,
+    .line = draw_line,
+    .bar = draw_bar,
+    .axis_left = draw_axis_left,
+    .axis_bottom = draw_axis_bottom,
+    .axis_unit = draw_axis_unit,
+    .cloud_start = start_cloud,
+    .cloud_show = show_cloud,
+};

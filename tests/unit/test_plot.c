@@ -1114,10 +1114,15 @@ static void page_bar(void *to, int column, int row, int width, double fraction, 
     page->strayed |= !(fraction > 0 && fraction <= 1);
 }
 
-static void page_axis(void *to, const struct ceduo_frame *frame, int count, const int *ticks)
+static void page_axis(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
 {
     (void)frame, (void)count, (void)ticks;
     ((struct page *)to)->axes++;
+}
+
+static void page_axis_unit(void *to, int column, int row, const char *unit)
+{
+    (void)to, (void)column, (void)row, (void)unit;
 }
 
 static bool page_cloud_start(void *to)
@@ -1134,8 +1139,16 @@ static void page_cloud_show(void *to, double quantile)
 static void pictures_draw_on_another_surface(void **state)
 {
     (void)state;
-    static const struct ceduo_surface surface = {page_label, page_label_width, page_is_blank,    page_line,      page_bar,
-                                                 page_axis,  page_axis,        page_cloud_start, page_cloud_show};
+    static const struct ceduo_surface surface = {.label = page_label,
+                                                 .label_width = page_label_width,
+                                                 .is_blank = page_is_blank,
+                                                 .line = page_line,
+                                                 .bar = page_bar,
+                                                 .axis_left = page_axis,
+                                                 .axis_bottom = page_axis,
+                                                 .axis_unit = page_axis_unit,
+                                                 .cloud_start = page_cloud_start,
+                                                 .cloud_show = page_cloud_show};
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);

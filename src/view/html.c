@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "html.h"
+
+#include <assert.h>
+#include <string.h>
+
+/* Line ends and tabs stay; other control characters are written as \xHH. */
+static void put_escaped(struct text *to, const char *string)
+{
+    while (*string) {
+        size_t n = strcspn(string, "&<>\"'\n\t");
+        ceduo_text_safe_n(to, string, n);
+        string += n;
+        switch (*string) {
+        case '\0':
+            return;
+        case '&':
+            ceduo_text_put(to, "&amp;");
+            break;
+        case '<':
+            ceduo_text_put(to, "&lt;");
+            break;
+        case '>':
+            ceduo_text_put(to, "&gt;");
+            break;
+        case '"':
+            ceduo_text_put(to, "&quot;");
+            break;
+        case '\'':
+            ceduo_text_put(to, "&#39;");
+            break;
+        default:
+            ceduo_text_char(to, *string);
+        }
+        string++;
+    }
+}
+
+static void put_attributes(struct text *to, va_list args)
+{
+    for (const char *name; (name = va_arg(args, const char *)) != NULL;) {
+        const char *value = va_arg(args, const char *);
+        if (!value)
+            continue;
+        ceduo_text_format(to, " %s=\"", name);
+        put_escaped(to, value);
+        ceduo_text_char(to, '"');
+    }
+}
+
+static void begin(struct ceduo_html *html, const char *name, va_list args)
+{
+    ceduo_text_format(html->text, "<%s", name);
+    put_attributes(html->text, args);
+}
+
+void ceduo_html_open(struct ceduo_html *html, const char *name, ...)
+{
+    va_list args;
+    assert(html->depth < CEDUO_HTML_DEEPEST);
+    html->open[html->depth++] = name;
+    va_start(args, name);
+    begin(html, name, args);
+    va_end(args);
+    ceduo_text_char(html->text, '>');
+}
+
+void ceduo_html_close(struct ceduo_html *html)
+{
+    assert(html->depth > 0);
+    ceduo_text_format(html->text, "</%s>\n", html->open[--html->depth]);
+}
+
+void ceduo_html_empty(struct ceduo_html *html, const char *name, ...)
+{
+    va_list args;
+    va_start(args, name);
+    begin(html, name, args);
+    va_end(args);
+    ceduo_text_put(html->text, "/>\n");
+}
+
+void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text, ...)
+{
+    va_list args;
+    va_start(args, text);
+    begin(html, name, args);
+    va_end(args);
+    ceduo_text_char(html->text, '>');
+    put_escaped(html->text, text);
+    ceduo_text_format(html->text, "</%s>\n", name);
+}
+
+void ceduo_html_put(struct ceduo_html *html, const char *text)
+{
+    put_escaped(html->text, text);
+}

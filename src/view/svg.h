@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SVG_H
+#define CEDUO_SVG_H
+
+#include "cells.h"
+#include "html.h"
+
+/*
+ * The second surface of the canvas: vectors for a page. A picture is laid out in the same cells as in a terminal; lines,
+ * axes, bars and discs are drawn where they are and not at the nearest dot, text in the reader's own fonts. A grid of
+ * cells goes along that holds the text and knows which cells are taken.
+ *
+ * Colours have a contrast of 4.5 to white at least, and differ in lightness and stroke, too, so that a grey print can be
+ * read.
+ */
+
+struct ceduo_svg;
+
+/* Its size in cells, as that of ceduo_cells_create(). NULL if there is no memory or a size is out of range. */
+struct ceduo_svg *ceduo_svg_create(int width, int height);
+void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
+
+/* To draw on. */
+struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
+
+/* What is told of a picture beside what is drawn. `id` is unlike that of every other picture of the page. */
+struct ceduo_svg_words {
+    const char *id, *title, *description;
+};
+
+/* Adds the picture as an element of a page. May be called once. */
+void ceduo_svg_put(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words);
+
+/* A screen of the terminal program as a file of its own: its characters and dots, in the colours of a dark terminal. */
+void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const char *title);
+
+#endif
