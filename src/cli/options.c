@@ -228,6 +228,14 @@ static enum exit_status set_sensitivity(struct arguments *a, const struct option
     return status;
 }
 
+/* The file is the output; standard output is where it goes without one. */
+static enum exit_status set_report(struct arguments *a, const struct option_row *row, char *value)
+{
+    (void)row;
+    a->output = strcmp(value, "-") == 0 ? NULL : value;
+    return EXIT_DONE;
+}
+
 /* "I/N" */
 static enum exit_status set_shard(struct arguments *a, const struct option_row *row, char *value)
 {
@@ -283,6 +291,8 @@ static const struct option_row rows[] = {
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
     {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, NOT_PART | NOT_CHECK,
      N_("show how sure the result is, and what that depends on; N base points (256)")},
+    {"report", 0, "FILE", set_report, 0, MODE_REPORT, NOT_PART | NOT_CHECK,
+     N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
     {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE,
      N_("compute part I of N of each scene and write it for --merge")},
     {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},

@@ -9,17 +9,20 @@
 #include "popup.h"
 #include "popups.h"
 #include "screen.h"
+#include "view/page_html.h"
+#include "view/page_report.h"
+#include "view/svg.h"
 
-/* The batch command that gives the same figures. */
-static void put_command(struct app *app, struct text *text)
+/* The command that gives the same figures; `how`: as what. */
+static void put_command(struct app *app, struct text *text, const char *how)
 {
     struct document *d = &app->document;
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
     uint64_t rocks = shown ? shown->released : d->file.scene.simulation.rocks;
-    ceduo_text_format(text, "ceduo --batch -n %llu '", (unsigned long long)rocks);
+    ceduo_text_format(text, "ceduo %s -n %llu '", how, (unsigned long long)rocks);
     for (const char *c = d->path ? d->path : "scene.yaml"; *c; c++)
         ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1); /* as a shell reads it */
-    ceduo_text_put(text, "'\n");
+    ceduo_text_char(text, '\'');
 }
 
 /* More rocks may fall while it is read. */
@@ -28,7 +31,8 @@ static void show_command(struct app *app, struct popup *p, const char *value)
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
     (void)value;
     ceduo_text_free(&p->text);
-    put_command(app, &p->text);
+    put_command(app, &p->text, "--batch");
+    ceduo_text_char(&p->text, '\n');
     if (shown)
         ceduo_text_format(&p->text,
                           app->figures.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
@@ -59,6 +63,46 @@ static void put_json(struct app *app, struct text *text)
     ceduo_report_json(text, &report);
 }
 
+/* Years of the scene as it is, one for each option. */
+static struct ceduo_years **years_shown(const struct app *app)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_years **years = calloc(scene->options_count, sizeof *years);
+    for (size_t i = 0; years && i < scene->options_count; i++)
+        years[i] = ceduo_figures_years(&app->figures, scene, i);
+    return years;
+}
+
+/* Of the figures as they are: nobody waits for doubt while a screen is to be used. */
+static void put_report(struct app *app, struct text *text)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_years **years = years_shown(app);
+    struct ceduo_report report = ceduo_app_report(app);
+    struct ceduo_html html = {.text = text};
+    struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
+    struct text command = {0};
+    put_command(app, &command, "--report report.html");
+    const struct ceduo_chapter chapter = {.report = &report,
+                                          .outlook = ceduo_figures_outlook(&app->figures, scene),
+                                          .years = years,
+                                          .command = ceduo_text_string(&command)};
+    ceduo_page_chapter(&page, &chapter);
+    ceduo_page_html_begin(&html, scene->title);
+    ceduo_page_html(&html, &page, 1);
+    ceduo_page_html_end(&html);
+    text->failed |= command.failed || !years;
+    ceduo_page_free(&page);
+    ceduo_text_free(&command);
+    free(years);
+}
+
+static void put_drawing(struct app *app, struct text *text)
+{
+    ceduo_screen_draw(app);
+    ceduo_svg_screen(text, app->cells, app->document.file.scene.title);
+}
+
 static void put_screen(struct app *app, struct text *text)
 {
     ceduo_screen_draw(app); /* without the popup, which is off already */
@@ -74,6 +118,8 @@ static const struct {
                {"picture", "ceduo-screen.txt", N_("this screen, with its picture, as text"), put_screen},
                {"csv", "ceduo.csv", N_("CSV, a row for each option and control"), put_csv},
                {"json", "ceduo.json", N_("JSON"), put_json},
+               {"report", "ceduo.html", N_("a page to hand in, as HTML"), put_report},
+               {"drawing", "ceduo-screen.svg", N_("this screen as a drawing, SVG"), put_drawing},
                {"command", "", N_("the batch command that gives the same"), NULL}};
 #define EXPORTS (sizeof exports / sizeof exports[0])
 
@@ -93,7 +139,7 @@ static bool filled_export(struct app *app, struct popup *p)
     if (!ceduo_popup_may_write(app, p))
         return false;
     size_t i = export_of(p->path);
-    if (app->figures.result || exports[i].put == put_screen)
+    if (app->figures.result || exports[i].put == put_screen || exports[i].put == put_drawing)
         exports[i].put(app, &text);
     if (!text.bytes) {
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));

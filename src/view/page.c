@@ -5,6 +5,7 @@
 
 #include "base/grow.h"
 #include "base/language.h"
+#include "svg.h"
 
 static void fail(struct ceduo_page *page)
 {
@@ -89,6 +90,32 @@ void ceduo_page_number(struct ceduo_page *page, double value, int digits)
     cell->digits = digits;
 }
 
+struct text *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half, struct text **description)
+{
+    struct ceduo_page_block *block = svg ? add_block(page, CEDUO_PAGE_PICTURE) : NULL;
+    if (!block) {
+        ceduo_svg_free(svg);
+        fail(page);
+        *description = &page->lost.shorter;
+        return &page->lost.text;
+    }
+    block->svg = svg;
+    block->half = half;
+    *description = &block->description;
+    return &block->text;
+}
+
+bool ceduo_page_failed(const struct ceduo_page *page)
+{
+    bool failed = page->failed;
+    for (const struct ceduo_page_block *block = page->first; block; block = block->next) {
+        failed |= block->text.failed || block->description.failed;
+        for (size_t i = 0; i < block->cells_count; i++)
+            failed |= block->cells[i].text.failed || block->cells[i].shorter.failed;
+    }
+    return failed;
+}
+
 void ceduo_page_free(struct ceduo_page *page)
 {
     for (struct ceduo_page_block *block = page->first, *next; block; block = next) {
@@ -98,6 +125,8 @@ void ceduo_page_free(struct ceduo_page *page)
             ceduo_text_free(&block->cells[i].shorter);
         }
         free(block->cells);
+        ceduo_svg_free(block->svg);
+        ceduo_text_free(&block->description);
         ceduo_text_free(&block->text);
         free(block);
     }

@@ -5,7 +5,9 @@
 #include "base/text.h"
 
 /* A page is a list of blocks. page_result.c and its neighbours build it from a result, page_text.c prints it for a
- * terminal. Another sink is one more file that walks the same blocks. */
+ * terminal, page_html.c writes it as HTML. Another sink is one more file that walks the same blocks. */
+
+struct ceduo_svg;
 
 enum ceduo_page_kind {
     CEDUO_PAGE_TITLE,
@@ -19,7 +21,11 @@ enum ceduo_page_kind {
     CEDUO_PAGE_NOTE,     /* of a section */
     CEDUO_PAGE_ITEM,     /* of a list in a section */
     CEDUO_PAGE_WARNING,
-    CEDUO_PAGE_GAP
+    CEDUO_PAGE_GAP,
+    CEDUO_PAGE_QUESTION, /* what the page answers */
+    CEDUO_PAGE_ANSWER,   /* a sentence of the answer */
+    CEDUO_PAGE_PICTURE,  /* only sinks that draw show it; its text is its title */
+    CEDUO_PAGE_CODE      /* lines as they are in a file */
 };
 
 struct ceduo_page_column {
@@ -51,6 +57,9 @@ struct ceduo_page_block {
     size_t columns_count;
     size_t cells_count, cells_room; /* row by row, the heads first */
     struct ceduo_page_cell *cells;
+    struct ceduo_svg *svg;   /* of a picture; the page's own */
+    bool half;               /* two such pictures stand side by side */
+    struct text description; /* of a picture, for who does not see it */
     struct ceduo_page_block *next;
 };
 
@@ -73,7 +82,17 @@ struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
 struct text *ceduo_page_text(struct ceduo_page *page); /* of a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
 
+/* Adds a picture, which is the page's from then on (NULL: there was no memory), and returns its title; its description
+ * is for the caller to fill, too. */
+struct text *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half, struct text **description);
+
 void ceduo_page_free(struct ceduo_page *page);
+
+/* What a cell says, with as many digits as its column has room for. `plain`: its signs in ASCII. */
+void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell, size_t width, bool plain);
+
+/* Whether memory failed for the page or for a text of it. */
+bool ceduo_page_failed(const struct ceduo_page *page);
 
 /* Prints the page, `page->width` columns wide. `plain`: its signs in ASCII. */
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain);

@@ -21,12 +21,10 @@ static double scale_of(const struct ceduo_doubt_report *r)
     return r->answer->main == CEDUO_DOUBT_ENERGY ? KILO : 1000;
 }
 
-static void put_title(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+static void put_section(struct ceduo_page *page, const struct ceduo_doubt_report *r)
 {
     const struct ceduo_control *c = &r->file->scene.controls[ceduo_scene_last_control(&r->file->scene)];
-    struct text *t = ceduo_page_add(page, CEDUO_PAGE_TITLE);
-    ceduo_text_safe(t, r->file->scene.title);
-    t = ceduo_page_add(page, CEDUO_PAGE_SECTION);
+    struct text *t = ceduo_page_add(page, CEDUO_PAGE_SECTION);
     struct text name = {0};
     ceduo_text_safe(&name, c->name ? c->name : "");
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
@@ -152,6 +150,23 @@ static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report 
     }
 }
 
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    put_section(page, r);
+    put_options(page, r);
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    if (r->file->scene.options_count > 1)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), _("What the first option depends on:"));
+    put_inputs(page, r);
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    put_advice(page, r);
+    put_orders(page, r);
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                      _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
+                        "reduces it. %llu scenes were computed."),
+                      (unsigned long long)r->rocks, (unsigned long long)r->answer->evaluations);
+}
+
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)
 {
     struct ceduo_page page = {.width = 80};
@@ -160,22 +175,8 @@ void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, boo
         ceduo_text_put(text, _("\nNothing in this scene is marked as assumed or named by 'doubt'; nothing was computed.\n"));
         return;
     }
-    put_title(&page, r);
-    put_options(&page, r);
-    ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    if (r->file->scene.options_count > 1) {
-        struct text *t = ceduo_page_add(&page, CEDUO_PAGE_SENTENCE);
-        ceduo_text_put(t, _("What the first option depends on:"));
-    }
-    put_inputs(&page, r);
-    ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    put_advice(&page, r);
-    put_orders(&page, r);
-    ceduo_text_format(ceduo_page_add(&page, CEDUO_PAGE_NOTE),
-                      _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
-                        "reduces it. %llu scenes were computed."),
-                      (unsigned long long)r->rocks, (unsigned long long)r->answer->evaluations);
-    text->failed |= page.failed;
+    ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), r->file->scene.title);
+    ceduo_doubt_blocks(&page, r);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }

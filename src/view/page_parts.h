@@ -9,7 +9,11 @@
  * what it would show as a table. */
 #define CEDUO_PAGE_WIDTH 80
 
+/* Rock, slope and rocks, a line each. */
+void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
+
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
+void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t option); /* no heading */
 
 /* The belts of an option and what their stems could take, by the index. */
 void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
@@ -20,6 +24,8 @@ void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *result
 
 /* An option year by year; all options side by side, as filed and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
+/* What is to be said of the years together. */
+void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* Warnings of the whole run, and assumptions. */

@@ -47,10 +47,9 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
                       _(facets[slope->facets]), assumed_mark(report, "slope"));
 }
 
-static void add_head(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), r->scene->title);
     add_rock(page, report);
     add_slope(page, report);
     ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"),
@@ -226,9 +225,14 @@ static void warn_once(void *context, const char *sentence)
 
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), report->result->scene->options[i].name);
+    ceduo_page_option_blocks(page, report, i);
+}
+
+void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+{
     const struct ceduo_result *r = report->result;
     const struct ceduo_option *o = &r->scene->options[i];
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), o->name);
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, r, i, k);
@@ -252,7 +256,8 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
 {
     const struct ceduo_scene *scene = report->result->scene;
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
-    add_head(&page, report);
+    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), scene->title);
+    ceduo_page_facts(&page, report);
     for (size_t i = 0; i < scene->options_count; i++)
         ceduo_page_option(&page, report, i);
     if (scene->options_count > 1 && scene->controls_count > 0)

@@ -195,17 +195,18 @@ static void write_mean(struct text *text, double mean, double half, size_t width
     }
 }
 
-static void write_cell(const struct printer *p, struct text *to, const struct ceduo_page_cell *cell, size_t width)
+void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, size_t width, bool plain)
 {
+    const struct printer p = {.plain = plain};
     if (cell->kind == CEDUO_CELL_NUMBER)
         write_number(to, cell->value, cell->digits, width);
     else if (cell->kind == CEDUO_CELL_MEAN)
-        write_mean(to, cell->value, cell->half, width, p->plain ? "+-" : "\xc2\xb1");
+        write_mean(to, cell->value, cell->half, width, plain ? "+-" : "\xc2\xb1");
     else
-        put_safe(p, to, ceduo_text_string(&cell->text));
+        put_safe(&p, to, ceduo_text_string(&cell->text));
     if (cell->shorter.length > 0 && !fits(to, width)) {
         ceduo_text_free(to);
-        put_safe(p, to, ceduo_text_string(&cell->shorter));
+        put_safe(&p, to, ceduo_text_string(&cell->shorter));
     }
 }
 
@@ -214,7 +215,7 @@ static void put_cell(const struct printer *p, const struct ceduo_page_column *co
 {
     struct text text = {0};
     put_blanks(p->text, (size_t)column->gap);
-    write_cell(p, &text, cell, (size_t)abs(width));
+    ceduo_page_write_cell(&text, cell, (size_t)abs(width), p->plain);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
         ceduo_text_put(p->text, ceduo_text_string(&text));
         ceduo_text_char(p->text, '\n');
@@ -247,16 +248,13 @@ static void put_table(const struct printer *p, const struct ceduo_page_block *ta
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain)
 {
     const struct printer p = {text, page->width, plain};
-    text->failed |= page->failed;
+    text->failed |= ceduo_page_failed(page);
     for (const struct ceduo_page_block *block = page->first; block; block = block->next) {
-        text->failed |= block->text.failed;
-        for (size_t i = 0; i < block->cells_count; i++)
-            text->failed |= block->cells[i].text.failed || block->cells[i].shorter.failed;
         if (block->kind == CEDUO_PAGE_TABLE)
             put_table(&p, block);
         else if (block->kind == CEDUO_PAGE_GAP)
             ceduo_text_char(text, '\n');
-        else
+        else if (block->kind <= CEDUO_PAGE_WARNING)
             put_paragraph(&p, block);
     }
 }

@@ -58,8 +58,7 @@ static void say_expected(struct text *line, const struct ceduo_scene *scene, con
     ceduo_text_char(line, '.');
 }
 
-/* The years together. */
-static void say_years(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
+void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
     const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
     bool says = !isnan(last_control(r)->accepted);
@@ -97,5 +96,5 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
     if (page->width < CEDUO_PAGE_WIDTH)
         return;
     add_years_table(page, report->result, report->years[option]);
-    say_years(page, report->result, report->years[option]);
+    ceduo_page_years_words(page, report->result, report->years[option]);
 }

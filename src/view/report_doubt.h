@@ -26,6 +26,11 @@ void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report 
 /* How sure an order of two options is, in a word. */
 const char *ceduo_doubt_verdict(double probability);
 
+struct ceduo_page;
+
+/* Adds what was found as blocks: a section with tables and what to measure first. */
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report);
+
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
 void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *report); /* one line, "ceduo-sensitivity-1" */
 void ceduo_doubt_csv_header(struct text *text);

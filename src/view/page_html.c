@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes a page as HTML. Blocks of one kind that follow one another become one list; a caption goes into the table after
+ * it. */
+#include "page_html.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "svg.h"
+
+/* Colours of text have a contrast of 4.5 to what is behind them at least. What must stay together on paper is not
+ * broken between two sheets. */
+static const char style[] =
+    "@page{size:A4;margin:14mm 16mm}\n"
+    "*{box-sizing:border-box}\n"
+    "html{background:#fff;color:#1c1c1c;font:9.5pt/1.35 sans-serif;-webkit-print-color-adjust:exact;"
+    "print-color-adjust:exact}\n"
+    "body{max-width:178mm;margin:0 auto;padding:0 4mm}\n"
+    "h1{font-size:17pt;line-height:1.2;margin:5mm 0 2mm;overflow-wrap:anywhere}\n"
+    "h2{font-size:12pt;line-height:1.25;margin:4mm 0 1.5mm;padding-bottom:.5mm;border-bottom:.3mm solid #14532d;color:#14532d;"
+    "overflow-wrap:anywhere}\n"
+    "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
+    "h1,h2,h3,caption{break-after:avoid}\n"
+    "p,li,dd{overflow-wrap:anywhere}\n"
+    "p{margin:1mm 0}\n"
+    ".question{font-size:12pt;font-weight:bold;margin:2mm 0 1.5mm}\n"
+    ".answer{border-left:1.2mm solid #14532d;background:#f1f5ee;padding:2mm 4mm;margin:0 0 3mm}\n"
+    ".answer p{font-size:10.5pt;margin:1mm 0}\n"
+    ".detail{color:#4a4a4a;font-size:9pt}\n"
+    ".warning{border-left:1mm solid #7a4a00;padding-left:2.5mm;color:#5c3800}\n"
+    "dl{display:grid;grid-template-columns:max-content 1fr;gap:.5mm 4mm;margin:1mm 0}\n"
+    "dt{color:#4a4a4a}\n"
+    "dd{margin:0}\n"
+    "ul{margin:1mm 0;padding-left:5mm}\n"
+    "table{border-collapse:collapse;width:100%;margin:1.5mm 0 2.5mm;font-size:8.5pt;line-height:1.3;"
+    "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
+    "caption{text-align:left;padding-bottom:1mm;color:#4a4a4a}\n"
+    "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid #c9cfc4;overflow-wrap:break-word}\n"
+    "thead th,thead td{border-bottom:.35mm solid #4a4a4a;vertical-align:bottom;font-weight:bold}\n"
+    "tbody th{font-weight:normal}\n"
+    ".n{text-align:right;white-space:nowrap}\n"
+    "figure{margin:2mm 0;break-inside:avoid}\n"
+    ".half{display:inline-block;width:49%;vertical-align:top}\n"
+    "figcaption{font-size:9pt;color:#4a4a4a}\n"
+    "svg{display:block;width:100%;height:auto}\n"
+    "pre{font:6.5pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm 3mm;background:#f5f5f2;"
+    "break-inside:avoid;columns:2;column-gap:5mm}\n"
+    "pre.line{columns:1}\n"
+    "section+section{break-before:page}\n"
+    "@media screen{body{padding:0 6mm 10mm}}\n";
+
+void ceduo_page_html_begin(struct ceduo_html *html, const char *title)
+{
+    ceduo_text_put(html->text, "<!DOCTYPE html>\n");
+    /* Translators: the code of your language, as HTML has it. */
+    ceduo_html_open(html, "html", "lang", _("en"), NULL);
+    ceduo_text_char(html->text, '\n');
+    ceduo_html_open(html, "head", NULL);
+    ceduo_html_empty(html, "meta", "charset", "utf-8", NULL);
+    ceduo_html_empty(html, "meta", "name", "viewport", "content", "width=device-width, initial-scale=1", NULL);
+    ceduo_html_leaf(html, "title", title, NULL);
+    ceduo_text_put(html->text, "<style>\n");
+    ceduo_text_put(html->text, style);
+    ceduo_text_put(html->text, "</style>\n");
+    ceduo_html_close(html);
+    ceduo_html_open(html, "body", NULL);
+    ceduo_html_open(html, "main", NULL);
+    ceduo_text_char(html->text, '\n');
+}
+
+void ceduo_page_html_end(struct ceduo_html *html)
+{
+    while (html->depth > 0)
+        ceduo_html_close(html);
+}
+
+/* ---- tables ---- */
+
+#define WIDTH 60 /* characters: room enough for all digits */
+
+static bool is_number(const struct ceduo_page_column *column)
+{
+    return column->width < 0;
+}
+
+static void put_cell(struct ceduo_html *html, const struct ceduo_page_block *table, size_t row, size_t i)
+{
+    const struct ceduo_page_column *column = &table->columns[i];
+    struct text text = {0};
+    ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
+    const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
+    const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
+    bool spans = row == 0 && (column->flags & CEDUO_SPAN);
+    ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class", is_number(column) ? "n" : NULL,
+                    spans ? "colspan" : "class", spans ? "2" : NULL, NULL);
+    html->text->failed |= text.failed;
+    ceduo_text_free(&text);
+}
+
+static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
+{
+    size_t n = table->columns_count;
+    ceduo_html_open(html, "table", NULL);
+    if (caption)
+        ceduo_html_leaf(html, "caption", ceduo_text_string(&caption->text), NULL);
+    for (size_t row = 0; row + n <= table->cells_count; row += n) {
+        if (row <= n)
+            ceduo_html_open(html, row == 0 ? "thead" : "tbody", NULL);
+        ceduo_html_open(html, "tr", NULL);
+        for (size_t i = 0; i < n; i++) {
+            put_cell(html, table, row, i);
+            i += row == 0 && (table->columns[i].flags & CEDUO_SPAN);
+        }
+        ceduo_html_close(html);
+        if (row == 0)
+            ceduo_html_close(html);
+    }
+    if (table->cells_count >= 2 * n)
+        ceduo_html_close(html);
+    ceduo_html_close(html);
+}
+
+/* ---- the other blocks ---- */
+
+static void put_picture(struct ceduo_html *html, const struct ceduo_page_block *block, size_t number, size_t picture)
+{
+    char id[48];
+    snprintf(id, sizeof id, "c%zu-p%zu", number, picture);
+    const struct ceduo_svg_words words = {id, ceduo_text_string(&block->text), ceduo_text_string(&block->description)};
+    ceduo_html_open(html, "figure", "class", block->half ? "half" : NULL, NULL);
+    ceduo_svg_put(html, block->svg, &words);
+    ceduo_html_leaf(html, "figcaption", words.title, NULL);
+    ceduo_html_close(html);
+}
+
+/* What stands around blocks of a kind that follow one another; NULL: nothing. */
+static const char *list_of(enum ceduo_page_kind kind)
+{
+    return kind == CEDUO_PAGE_ITEM ? "ul" : kind == CEDUO_PAGE_FACT ? "dl" : kind == CEDUO_PAGE_ANSWER ? "div" : NULL;
+}
+
+/* The element of a kind, and its class; no element: not shown by this. */
+static const struct {
+    const char *element, *class;
+} elements[] = {[CEDUO_PAGE_TITLE] = {"h1", NULL},         [CEDUO_PAGE_SECTION] = {"h2", NULL},
+                [CEDUO_PAGE_PLACE] = {"h3", NULL},         [CEDUO_PAGE_CAPTION] = {"p", "detail"},
+                [CEDUO_PAGE_SENTENCE] = {"p", NULL},       [CEDUO_PAGE_DETAIL] = {"p", "detail"},
+                [CEDUO_PAGE_NOTE] = {"p", NULL},           [CEDUO_PAGE_ITEM] = {"li", NULL},
+                [CEDUO_PAGE_WARNING] = {"p", "warning"},   [CEDUO_PAGE_QUESTION] = {"p", "question"},
+                [CEDUO_PAGE_ANSWER] = {"p", NULL},         [CEDUO_PAGE_CODE] = {"pre", NULL}};
+
+static void put_block(struct ceduo_html *html, const struct ceduo_page_block *block)
+{
+    const char *text = ceduo_text_string(&block->text);
+    if (block->kind == CEDUO_PAGE_FACT) {
+        ceduo_html_leaf(html, "dt", block->label, NULL);
+        ceduo_html_leaf(html, "dd", text, NULL);
+    } else if (block->kind == CEDUO_PAGE_CODE) {
+        const char *line = strchr(text, '\n');
+        ceduo_html_leaf(html, "pre", text, "class", line && line[1] ? NULL : "line", NULL);
+    } else if (block->kind != CEDUO_PAGE_GAP && text[0]) {
+        ceduo_html_leaf(html, elements[block->kind].element, text, "class", elements[block->kind].class, NULL);
+    }
+}
+
+void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number)
+{
+    size_t pictures = 0;
+    html->text->failed |= ceduo_page_failed(page);
+    ceduo_html_open(html, "section", NULL);
+    ceduo_text_char(html->text, '\n');
+    for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
+        const char *list = list_of(b->kind);
+        bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;
+        if (list && !follows)
+            ceduo_html_open(html, list, "class", b->kind == CEDUO_PAGE_ANSWER ? "answer" : NULL, NULL);
+        if (b->kind == CEDUO_PAGE_TABLE)
+            put_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
+        else if (b->kind == CEDUO_PAGE_PICTURE)
+            put_picture(html, b, number, ++pictures);
+        else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
+            put_block(html, b);
+        if (list && !goes_on)
+            ceduo_html_close(html);
+    }
+    ceduo_html_close(html);
+}

@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A chapter of the report: the blocks of the page in the terminal, with pictures between them. */
+#include "page_report.h"
+
+#include <math.h>
+
+#include "base/language.h"
+#include "ceduo/version.h"
+#include "io/emit.h"
+#include "page_parts.h"
+#include "svg.h"
+
+/* ---- pictures ---- */
+
+#define WHOLE 92 /* cells of a picture across the page */
+#define HALF  46 /* of one that has another beside it */
+
+/* Adds one, so many cells large. */
+static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
+                        const struct ceduo_picture *picture, const char *description)
+{
+    struct ceduo_svg *svg = ceduo_svg_create(columns, rows);
+    struct ceduo_area area = {.width = columns, .height = rows};
+    struct text *told, *title;
+    if (svg)
+        ceduo_plot_draw(plot, ceduo_svg_canvas(svg), &area, picture);
+    title = ceduo_page_picture(page, svg, columns == HALF, &told);
+    ceduo_plot_title(title, plot, picture);
+    ceduo_text_put(told, description);
+}
+
+static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t option)
+{
+    const struct ceduo_result *r = c->report->result;
+    return (struct ceduo_picture){.scene = r->scene,
+                                  .outlook = c->outlook,
+                                  .verdict = c->report->verdict,
+                                  .option = option,
+                                  .control = ceduo_scene_last_control(r->scene),
+                                  .years = c->years ? c->years[option] : NULL,
+                                  .year = SIZE_MAX};
+}
+
+static struct text *section(struct ceduo_page *page, const char *title)
+{
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_SECTION);
+    ceduo_text_put(text, title);
+    return text;
+}
+
+/* ---- sections ---- */
+
+#define SLOPE_ROWS  22
+#define ENERGY_ROWS 13
+
+static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
+    section(page, _("The slope and the rocks"));
+    ceduo_page_facts(page, c->report);
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
+                _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
+                  "upright lines."));
+    if (c->outlook)
+        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
+                    _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
+                      "through the forest and without it."));
+}
+
+static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    const struct ceduo_scene *scene = c->report->result->scene;
+    struct ceduo_picture picture = picture_of(c, 0);
+    int rows = 5 + 2 * (int)(scene->options_count < 12 ? scene->options_count : 12);
+    ceduo_page_comparison(page, c->report);
+    add_picture(page, CEDUO_PLOT_COMPARE, WHOLE, rows, &picture,
+                _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
+                  "energy, and their mean energy."));
+}
+
+static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    if (c->doubt && c->doubt->answer)
+        ceduo_doubt_blocks(page, c->doubt);
+}
+
+#define YEARS_ROWS 20
+
+/* Whether the years of an option differ at all. */
+static bool has_years(const struct ceduo_chapter *c, size_t option)
+{
+    const struct ceduo_verdict *v = c->report->verdict;
+    return c->years && c->years[option] && c->years[option]->count > 1 && v && option < v->n &&
+           v->choices[option].window.kind != CEDUO_WINDOW_ALIKE;
+}
+
+static bool has_yields(const struct ceduo_verdict *v)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < v->n; i++)
+        known += v->choices[i].yield.cut_per_year > 0;
+    return known > 1;
+}
+
+/* The option that is best over the years. */
+static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    const struct ceduo_verdict *v = c->report->verdict;
+    size_t option = v && v->rotation.known ? v->rotation.best : ceduo_chapter_option(c);
+    if (!has_years(c, option))
+        return;
+    struct ceduo_picture picture = picture_of(c, option);
+    const struct ceduo_scene *scene = c->report->result->scene;
+    section(page, _("Year by year"));
+    if (scene->options_count > 1)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_PLACE), scene->options[option].name);
+    ceduo_page_years_words(page, c->report->result, c->years[option]);
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+                   _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
+    bool both = has_yields(v);
+    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
+                _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
+                  "arrive with too much energy, and below them which tests each year passes."));
+    if (both)
+        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, &picture,
+                    _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
+                      "upwards."));
+}
+
+static void add_limits(struct ceduo_page *page)
+{
+    static const char *const limits[] = {
+        N_("Rocks move in one vertical plane: what leaves it to the side, and what lies beside it, is not seen."),
+        N_("Each rock finds the forest undamaged; rocks do not break, and do not hit each other."),
+        N_("Shrubs, falling trees, air and soil that deforms are not in it; a stem is a straight line as wide as its dbh."),
+        N_("What a hit takes from a rock is known from few kinds of trees; for thin stems it is the largest doubt of all."),
+        N_("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall can tell."),
+        N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the situation "
+           "on the ground.")};
+    section(page, _("What the model cannot tell"));
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(limits[i]));
+}
+
+/* As it would stand in its file: with what the command line changed, and the names of other files. */
+static void put_scene(struct text *text, const struct scene_file *file)
+{
+    struct arena arena = {0};
+    const struct node *root = ceduo_emit_unresolve(&arena, file->root);
+    if (root)
+        ceduo_emit(text, root);
+    text->failed |= !root;
+    ceduo_arena_free(&arena);
+}
+
+static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    section(page, _("How to compute this page again"));
+    ceduo_text_format(ceduo_page_fact(page, _("Program")), "ceduo %s", CEDUO_VERSION);
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                   c->doubt ? _("This command gives the same page, to the last byte:")
+                            : _("This command computes the page again, and how sure it is:"));
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CODE), c->command);
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), _("The scene, as its file says it:"));
+    put_scene(ceduo_page_add(page, CEDUO_PAGE_CODE), c->report->file);
+}
+
+void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    const struct ceduo_scene *scene = c->report->result->scene;
+    bool controls = scene->controls_count > 0;
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), scene->title);
+    if (controls)
+        ceduo_page_answer(page, c);
+    add_slope(page, c);
+    if (scene->options_count > 1 && controls) {
+        add_compared(page, c);
+    } else if (scene->options_count == 1) {
+        section(page, _("Through the forest, and without it"));
+        ceduo_page_option_blocks(page, c->report, 0);
+    }
+    if (controls) {
+        add_doubt(page, c);
+        add_years(page, c);
+    }
+    ceduo_page_notes(page, c->report);
+    add_limits(page);
+    add_origin(page, c);
+}

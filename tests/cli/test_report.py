@@ -1,0 +1,194 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--report: one HTML file that is well formed, needs nothing from elsewhere, and is the same each time."""
+import html
+import os
+import re
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from html.parser import HTMLParser
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (INPUT, OUTPUT, PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good,  # noqa: E402
+                     run_all)
+
+FEW = ("-n", 60, "-s", "doubt=none", "-j", 2)
+DOUBT = ("-n", 60, "-s", "doubt=[{path: rock.density_kg_m3, lo: 2400, hi: 2750}]", "--sensitivity=2", "-j", 2)
+VOID = {"meta", "link", "img", "br", "hr", "input", "path", "rect"}
+ODD = "Forst <b>&amp; \"Fels\" 'x' \u00e8 \u2264 </title><script>alert(1)</script>"
+
+
+class Page(HTMLParser):
+    """Elements as they nest, their ids and attributes, the text of each kind."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.ids, self.names, self.attributes, self.text = [], [], [], [], {}
+        self.feed(text)
+        self.close()
+        expect_equal(self.open, [], "elements never closed")
+
+    def handle_starttag(self, tag, attrs):
+        self.open.append(tag)
+        self.note(tag, attrs)
+
+    def handle_startendtag(self, tag, attrs):
+        expect_in(tag, VOID, "closes itself")
+        self.note(tag, attrs)
+
+    def note(self, tag, attrs):
+        names = [name for name, _ in attrs]
+        expect_equal(len(names), len(set(names)), f"attributes of {tag}: {names}")
+        self.names.append(tag)
+        self.attributes += [(tag, name, value) for name, value in attrs]
+        self.ids += [value for name, value in attrs if name == "id"]
+
+    def handle_endtag(self, tag):
+        expect(self.open and self.open[-1] == tag, f"</{tag}> in {self.open}")
+        self.open.pop()
+
+    def handle_data(self, data):
+        for tag in set(self.open):
+            self.text[tag] = self.text.get(tag, "") + data
+
+
+def report(*arguments, few=FEW):
+    out = good("--report", "-", *few, *arguments).out
+    return out, Page(out)
+
+
+def check_page(text, page):
+    expect(text.startswith("<!DOCTYPE html>\n<html lang=\"en\">"), text[:80])
+    expect(not {"script", "link", "img", "iframe", "object", "embed", "base", "form"} & set(page.names), set(page.names))
+    for tag, name, value in page.attributes:
+        expect(name not in ("src", "href", "style", "xmlns", "action") and not name.startswith("on"), tag, name, value)
+    expect(not re.search(r"https?:|url\(|@import|@font-face", text), "something from elsewhere")
+    expect_equal(len(page.ids), len(set(page.ids)), "ids")
+    for tag, name, value in page.attributes:
+        if name in ("aria-labelledby", "aria-describedby"):
+            expect(all(part in page.ids for part in value.split()), tag, name, value)
+    pictures = re.findall(r"<svg.*?</svg>", text, re.S)
+    expect(pictures, "no picture")
+    for picture in pictures:
+        root = ElementTree.fromstring(picture)
+        expect_equal([child.tag for child in root][:2], ["title", "desc"], "first in a picture")
+        expect(all((root.find(tag).text or "").strip() for tag in ("title", "desc")), picture[:300])
+    expect(len(text.encode()) <= 400_000, len(text))
+
+
+def test_structure():
+    """Each shipped scene gives well-formed HTML without script, link or font; pictures have a title and a description"""
+    for scene in sorted((PROFILES / "scenes").glob("*.yaml")):
+        text, page = report(scene)
+        check_page(text, page)
+        for heading in ("The slope and the rocks", "What the model cannot tell", "How to compute this page again"):
+            expect_in(heading, page.text["h2"], scene)
+        expect_equal(page.names.count("h1"), 1, scene)
+
+
+def test_same_bytes():
+    """The same input gives the same bytes, whatever the threads, the locale and the name of the file"""
+    first, _ = report("paper-site")
+    with Folder() as f:
+        good("--report", f.path / "page.html", *FEW[:-2], "-j", 1, "paper-site", env={"LC_ALL": "C"})
+        expect_equal((f.path / "page.html").read_text(encoding="utf-8"), first, "to a file")
+
+
+def test_command():
+    """The command on the page gives the same page"""
+    first, page = report("-s", "title=It's 'so' $HOME", "--option", "large reserves", "four-systems", few=DOUBT)
+    command = page.text["pre"].split("ceduo: scene/1")[0]
+    shell = command.replace("ceduo --report report.html", '"$CEDUO" --report -', 1)
+    env = {**os.environ, "LC_ALL": "C.UTF-8"}
+    again = subprocess.run(["sh", "-c", shell], env=env, cwd=PROFILES.parent, capture_output=True, text=True, check=True).stdout
+    expect_equal(again, first, command)
+    expect_in("ceduo 0.", page.text["dd"])
+
+
+def test_scene_text():
+    """The scene stands on the page as text that can be read again and is the same scene"""
+    with Folder() as f:
+        for name in ("scenes", "slopes", "stands"):
+            shutil.copytree(PROFILES / name, f.path / name)
+        _, page = report("-s", "rock.diameter_m=0.7", f.path / "scenes" / "paper-site.yaml")
+        scene = f.path / "scenes" / "again.yaml"
+        scene.write_text(page.text["pre"][page.text["pre"].index("ceduo: scene/1"):], encoding="utf-8")
+        wanted = good("-b", "-f", "csv", *FEW, "-s", "rock.diameter_m=0.7", f.path / "scenes" / "paper-site.yaml").out
+        found = good("-b", "-f", "csv", "-n", 60, scene).out
+        expect_equal(found.replace("again", "paper-site"), wanted, "the same figures")
+
+
+def test_answer():
+    """The answer has the figures of the batch run, with the error of the rocks and the doubt"""
+    run = good("-b", "-f", "json", *DOUBT[:4], "paper-site").json()[0]
+    wooded = run["options"][0]["controls"][0]["wooded"]
+    _, page = report("paper-site", few=DOUBT)
+    answer = page.text["div"]
+    expect_in(f"of 1000 rocks {1000 * wooded['exceed_probability']:.0f} arrive", answer)
+    expect_in(f"{1000 * wooded['exceed_lo']:.0f}\u2013{1000 * wooded['exceed_hi']:.0f} of 1000 (95 %)", answer)
+    expect_in("Doubt: what is not known of the scene makes it anything from ", answer)
+    for words, scene in (("nothing in this scene is marked as assumed", ("-s", "doubt=none")), ("By the index (Eq. 4 and 5)",
+                         ("-s", "simulation.contact_model=index"))):
+        expect_in(words, report(*scene, "paper-site")[1].text["div"], scene)
+
+
+def test_odd_titles():
+    """Titles and names with signs of HTML stay what they are; control characters become visible"""
+    _, page = report("-s", 'title="' + ODD.replace('"', '\\"') + '"', "paper-site")
+    expect(page.text["title"].startswith(ODD), page.text["title"])
+    expect_in(ODD, page.text["h1"])
+    expect("script" not in page.names, "a script")
+    text, page = report("-s", 'controls[0].name="]]> --> &lt; \\u0007<svg onload=x>"', "paper-site")
+    check_page(text, page)
+    expect_in(html.escape("]]> --> &lt; \\x07<svg onload=x>", quote=True), text)
+
+
+def test_chapters():
+    """Several scenes give chapters in their order; a bad one is told and left out"""
+    text, page = report("paper-site", "terrace", "staggered")
+    check_page(text, page)
+    expect_equal(page.names.count("h1"), 3, "chapters")
+    expect_equal(page.names.count("section"), 3, "sections")
+    with Folder() as f:
+        bad = f.path / "bad.yaml"
+        bad.write_text("ceduo: scene/1\n")
+        done = ceduo("--report", f.path / "page.html", *FEW, bad, "paper-site")
+        expect_equal(done.status, INPUT, done)
+        expect_equal(Page((f.path / "page.html").read_text(encoding="utf-8")).names.count("h1"), 1, "chapters")
+        done = ceduo("--report", f.path / "none.html", *FEW, bad)
+        expect(done.status == INPUT and not (f.path / "none.html").exists(), done)
+
+
+def test_refused():
+    """What the report cannot do is told before anything is computed"""
+    for arguments in (("-o", "x.html"), ("--plot", "profile"), ("-f", "json"), ("--rows", "stands", "-f", "csv"), ("--shard", "1/2"),
+                      ("--find", "rock.diameter_m=1:2", "--goal", "adc")):
+        done = ceduo("--report", "-", *arguments, "paper-site")
+        expect(done.status == USAGE and done.out == "", done)
+    expect_equal(ceduo("--report", "/dev/full", *FEW, "paper-site").status, OUTPUT)
+    expect_equal(ceduo("--report", "/dev/null/page.html", "paper-site").status, OUTPUT)
+    expect_equal(ceduo("--report", "-").status, USAGE)
+
+
+def test_odd_scenes():
+    """Without forest, without accepted energy, of one rock: there is a page all the same"""
+    for changes in (("-s", "forest=[]"), ("-s", "controls=[{x_m: 100}]"), ("-n", "1"),
+                    ("-s", "simulation.contact_model=poisson"), ("--years", "0:3"), ("-s", "release.vx_m_s=0.1", "--seed", "7")):
+        check_page(*report(*changes, "paper-site"))
+
+
+def test_tidy():
+    """tidy finds nothing to mend, where it is installed"""
+    if not shutil.which("tidy"):
+        return
+    for scene, few in (("paper-site", DOUBT), ("rotation", FEW)):
+        text, _ = report(scene, few=few)
+        done = subprocess.run(["tidy", "-q", "-e", "-utf8"], input=text, capture_output=True, text=True, check=False)
+        expect_equal((done.returncode, done.stderr), (0, ""), scene)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
