@@ -165,6 +165,7 @@ static void chose(struct app *app, struct popup *p, const char *value)
     *mark = '\0';
     size_t index = strtoul(mark + 1, NULL, 10);
     ceduo_app_state(app)->pane = 0;
+    app->message[0] = '\0'; /* it was about the cursor */
     if (add)
         ceduo_items_add_at(app, list, index, ceduo_place_x(app) + app->document.file.scene.slope.origin_x);
     else

@@ -38,7 +38,12 @@ static void widen_by_belt(struct range *r, const struct ceduo_slope *slope, cons
             widen(r, slope->z[i] + tallest);
 }
 
-/* All that is to be seen: ground, release, trajectories, stems. */
+static bool is_stretch(const struct ceduo_picture *p)
+{
+    return p->to > p->from;
+}
+
+/* All that is to be seen: ground, release, trajectories, stems; of a stretch stems may reach beyond the top. */
 static struct range range_of(const struct ceduo_picture *p)
 {
     const struct ceduo_slope *slope = &p->scene->slope;
@@ -58,7 +63,7 @@ static struct range range_of(const struct ceduo_picture *p)
     if (p->selected)
         widen_by_line(&r, p->selected);
     const struct ceduo_option *option = ceduo_plot_option(p);
-    for (size_t i = 0; option && i < option->belts_count; i++)
+    for (size_t i = 0; option && !is_stretch(p) && i < option->belts_count; i++)
         widen_by_belt(&r, slope, &option->belts[i]);
     return r;
 }
@@ -92,11 +97,11 @@ static double height_factor(const struct ceduo_frame *frame, const struct ceduo_
     return round[i];
 }
 
-/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. Returns the
- * factor of heights, NaN where nothing can be drawn. */
-static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r)
+/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. A stretch is
+ * always true to scale. Returns the factor of heights, NaN where nothing can be drawn. */
+static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r, bool stretch)
 {
-    double factor = height_factor(f, canvas, r);
+    double factor = stretch ? 1 : height_factor(f, canvas, r);
     if (!fit(f, canvas, r, factor))
         return NAN;
     int needed = (int)ceil(f->width * (r->x_hi - r->x_lo) / (f->x1 - f->x0));
@@ -335,7 +340,7 @@ static void place_frame(struct profile *p)
                                         .top = a->top + p->names,
                                         .width = a->width - axis,
                                         .height = a->height - p->names - p->belts - 2};
-        p->factor = scale(&p->frame, p->canvas, &r);
+        p->factor = scale(&p->frame, p->canvas, &r, is_stretch(p->picture));
         if (isnan(p->factor))
             return;
         struct ceduo_frame given = ceduo_plot_given(&p->frame, slope->origin_x, slope->origin_z);
