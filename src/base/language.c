@@ -13,7 +13,7 @@ void ceduo_language_of_data(bool on)
 
 const char *ceduo_translate(const char *string)
 {
-    return of_data ? string : gettext(string);
+    return of_data || !string[0] ? string : gettext(string); /* the translation of nothing is the header of the file */
 }
 
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)

@@ -326,7 +326,7 @@ static const struct field belt_fields[] = {
     NUMBER("cut_year", NAMED(N_("cut in year"), N_("cut year")),
         AT(ceduo_belt, cut_year), "y", -1000, 1000, YEARS, NULL,
            N_("a year in which it is cut, counted from the stand as filed; without it as soon as it is old enough")),
-    GROUP("stand", NAMED(N_("stand"), NULL),
+    GROUP("stand", NAMED(N_("stand"), NP_("head", "stand")),
         AT(ceduo_belt, stand), REQUIRED | FIELD_FOLLOWS, N_("the stand: a file, or what such a file holds"),
           &stand_object),
 };

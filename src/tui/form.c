@@ -346,7 +346,7 @@ static const char *head_of(const struct form_cell *cell, int span)
 {
     const struct field_shown *shown = &cell->field->shown;
     bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
-    return fits ? _(shown->label) : _(shown->brief);
+    return fits ? _(shown->label) : ceduo_translate_in(shown->brief);
 }
 
 static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width,

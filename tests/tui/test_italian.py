@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The terminal program in Italian: at 80x24 nothing is cut that English shows whole, and columns stand where they stood."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import Place, expect, play  # noqa: E402
+from harness import expect_equal, run_all  # noqa: E402
+
+VIEWS = "\n".join(f"key {i}\nwait idle\ndump" for i in range(1, 7))
+POPUPS = "\n".join(f"key {view}\nkey {key}\ndump\nkey Esc" for view, key in ((2, "?"), (2, "p"), (2, "c"), (4, "e"), (2, "n"), (1, "o")))
+CUT = "\u2026"
+SCENES = ("fast.yaml", "options.yaml", "cuts.yaml", "wood.yaml")
+
+
+def both(script, scene, charset="braille"):
+    """The screens in both languages, side by side."""
+    with Place() as place:
+        return list(zip(*(play(place.path, script, scene, "--language", language, charset=charset) for language in ("en", "it"))))
+
+
+def words_cut(screen):
+    """Words that an ellipsis ends; where figures or a path are not there yet, it stands alone."""
+    return re.findall(r"\w+" + CUT, str(screen))
+
+
+def test_views():
+    """No view cuts more words in Italian than in English, and none is a translation file's header"""
+    for scene in SCENES:
+        for number, (english, italian) in enumerate(both(VIEWS, scene), 1):
+            text = str(italian)
+            expect(len(words_cut(italian)) <= len(words_cut(english)), f"{scene}, view {number}", words_cut(italian), text)
+            expect("nplurals" not in text, text)
+
+
+def test_numbers():
+    """The figures are the same, with a dot, in both languages"""
+    for english, italian in both("key 1\nwait idle\ndump", "fast.yaml"):
+        expect_equal(*(sorted(re.findall(r"\d+\.\d+", str(screen).split("\n", 18)[2])) for screen in (italian, english)))
+
+
+def test_columns():
+    """The rule beside the figures stands in one column, as in English"""
+    for english, italian in both(VIEWS, "options.yaml"):
+        for screen in (english, italian):
+            lines = [line for line in str(screen).split("\n") if "\u2502 di 1000" in line or "\u2502 of 1000" in line]
+            expect_equal({line.index("\u2502 ", 40) for line in lines}, {51}, str(screen))
+
+
+def test_popups():
+    """Popups are in Italian and cut no more words than in English"""
+    for english, italian in both(POPUPS, "fast.yaml"):
+        expect(len(words_cut(italian)) <= len(words_cut(english)), words_cut(italian), italian)
+        expect(str(english) != str(italian), italian)
+
+
+def test_ascii():
+    """Without UTF-8 Italian has no accents and no question marks in their place"""
+    for _, italian in both(VIEWS, "fast.yaml", charset="ascii"):
+        expect(str(italian).isascii(), italian)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
