@@ -26,6 +26,7 @@ struct ceduo_stand_result {
     double dissipated;           /* J over the belt (Eq. 4); NaN where contacts take shares */
     double per_100m;             /* J: of that */
     unsigned warnings;           /* enum ceduo_stand_warning */
+    struct ceduo_compliance rules;
 };
 
 #define CEDUO_THICK_DBH 0.08 /* m: thinner shoots are met, but hardly stop anything; assumed */

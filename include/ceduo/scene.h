@@ -8,6 +8,7 @@
 #include "adc.h"
 #include "contact.h"
 #include "number.h"
+#include "regulation.h"
 #include "rock.h"
 #include "slope.h"
 #include "stand.h"
@@ -89,6 +90,7 @@ struct ceduo_scene {
     double rocks_per_year;          /* that come down; NaN: not said */
     double year_first, year_last;   /* of the years to come that are looked at; NaN: one whole rotation of each option */
     double reserves_minimum;        /* single trees per ha that a forest must keep; NaN: not said */
+    struct ceduo_regulation rules;  /* of the region */
 };
 
 /* Whatever has a default has it; there is no slope, control or option yet. */

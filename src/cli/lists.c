@@ -102,7 +102,8 @@ static void put_profile(struct arena *arena, struct text *rows, const char *fold
     ceduo_text_format(&path, "%s/%s/%s", folder, kind, name);
     if (path.bytes) {
         ceduo_text_safe(rows, path.bytes);
-        ceduo_text_format(rows, "\t%.*s\t", (int)(strlen(kind) - 1), kind);
+        bool rules = strcmp(kind, "rules") == 0; /* the others are in the singular */
+        ceduo_text_format(rows, "\t%.*s\t", (int)(strlen(kind) - (rules ? 0 : 1)), kind);
         ceduo_text_safe(rows, title_of(arena, path.bytes));
         ceduo_text_char(rows, '\n');
     }
@@ -119,12 +120,12 @@ static void list_shelf(struct arena *arena, struct text *rows, const char *folde
 
 enum exit_status ceduo_batch_profiles(const struct arguments *a)
 {
-    static const char *const kinds[] = {"scenes", "slopes", "stands"};
+    static const char *const kinds[] = {"scenes", "slopes", "stands", "rules"};
     struct arena arena = {0};
     struct text rows = {0};
     const char *const *folders = ceduo_file_folders(&arena);
     ceduo_text_format(&rows, "%s\t%s\t%s\n", _("file"), _("kind"), _("title"));
-    for (size_t k = 0; k < 3; k++)
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         for (size_t i = 0; folders && folders[i]; i++)
             list_shelf(&arena, &rows, folders[i], kinds[k]);
     enum exit_status status = print_table(a, &rows, "");

@@ -309,7 +309,7 @@ static const struct option_row rows[] = {
     {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, NOT_PART,
      N_("list path, type, unit, range, default and meaning of each parameter")},
     {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, NOT_PART,
-     N_("list the scenes, slopes and stands that can be named")},
+     N_("list the scenes, slopes, stands and rules that can be named")},
     {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, NOT_PART | NOT_CHECK,
      N_("write the stand of a survey: a CSV file with a row for each stem on sample plots")},
     {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("print no progress")},

@@ -127,6 +127,7 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
     r.dissipated = bare ? 0 : length * ceduo_energy_per_metre(stand, b, rule);
     r.per_100m = r.dissipated / length * 100;
     r.energy_per_contact = bare ? NAN : ceduo_energy_per_metre(stand, b, rule) * r.adc_m;
+    r.rules = ceduo_regulation_check(&scene->rules, stand);
     r.warnings = ceduo_stand_warnings(stand, b, scene->simulation.rule);
     return r;
 }

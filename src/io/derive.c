@@ -179,6 +179,34 @@ void ceduo_derive_rock(struct deriver *d, const char *path, const struct node *n
         ceduo_derive_complain(d, path, _("the rock is too small or too large to compute"));
 }
 
+/* ---- rules ---- */
+
+static void check_item(struct deriver *d, const char *list, size_t i, const struct ceduo_regulation_item *item)
+{
+    const char *at = ceduo_derive_text(d, "rules.%s[%zu]", list, i);
+    struct text all = {0};
+    if (!ceduo_derive_sound(d, at))
+        return;
+    if (item->most < item->least)
+        ceduo_derive_complain(d, at, _("what is asked for at most is less than what is asked for at least"));
+    ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
+    for (size_t k = 0; k < item->species_count; k++)
+        if (ceduo_species_find(item->species[k]) < 0)
+            ceduo_derive_complain(d, ceduo_derive_text(d, "%s.species[%zu]", at, k), _("'%s' is unknown; one of: %s"),
+                                  item->species[k], ceduo_text_string(&all));
+    d->problems->memory |= all.failed;
+    ceduo_text_free(&all);
+}
+
+static void derive_rules(struct deriver *d)
+{
+    const struct ceduo_regulation *r = &d->draft.scene.rules;
+    for (size_t i = 0; i < r->standards_count; i++)
+        check_item(d, "standards", i, &r->standards[i]);
+    for (size_t i = 0; i < r->turns_count; i++)
+        check_item(d, "turns", i, &r->turns[i]);
+}
+
 bool ceduo_derive(struct deriver *d)
 {
     ceduo_schema_init(ceduo_schema_scene(), &d->draft);
@@ -191,6 +219,7 @@ bool ceduo_derive(struct deriver *d)
     ceduo_derive_release(d, "release", &d->draft.scene.release);
     ceduo_derive_controls(d);
     ceduo_derive_options(d);
+    derive_rules(d);
     ceduo_derive_doubts(d);
     ceduo_derive_observed(d);
     return true;

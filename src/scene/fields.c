@@ -155,6 +155,55 @@ static const struct field slope_fields[] = {
 };
 static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slopes");
 
+/* ---- rules ---- */
+
+#define ITEM_FIELDS(least_row, most_row)                                                                                \
+    OTHER(FIELD_WORDS, "species", NAMED(N_("species"), NULL),                                                          \
+        LIST(ceduo_regulation_item, species, species_count), UNFLOWN, NULL,                                            \
+        N_("species that it is about; without it all that no row before names"), NULL, NULL),                          \
+    WORD("system", NAMED(N_("system"), NULL), AT(ceduo_regulation_item, system), UNFLOWN, NULL,                        \
+        N_("silvicultural system that it is about; without it every one"), &ceduo_system_words),                       \
+    least_row, most_row,                                                                                               \
+    TEXT("article", NAMED(N_("article"), NULL), AT(ceduo_regulation_item, article), REQUIRED | UNFLOWN,                \
+        N_("article and act that say so")),                                                                            \
+    NUM(FIELD_COUNT, "year", NAMED(N_("year"), NULL), AT(ceduo_regulation_item, year), "", 1, 1800, 2200,              \
+        REQUIRED | UNFLOWN, NULL, N_("year of that act"))
+
+static const struct field standards_fields[] = {
+    ITEM_FIELDS(NUMBER("per_ha", NAMED(N_("standards per ha"), NULL),
+        AT(ceduo_regulation_item, least), "1/ha", 0, 1e5, REQUIRED | UNFLOWN, NULL,
+           N_("standards that a cut must leave at least")),
+    NUMBER("most_per_ha", NAMED(N_("at most"), NULL),
+        AT(ceduo_regulation_item, most), "1/ha", 0, 1e5, UNFLOWN, NULL,
+           N_("standards that it may leave at most"))),
+};
+static const struct object standards_object = OBJECT(ceduo_regulation_item, standards_fields, NULL);
+
+static const struct field turns_fields[] = {
+    ITEM_FIELDS(NUMBER("least_y", NAMED(N_("years at least"), NULL),
+        AT(ceduo_regulation_item, least), "y", 0, 1000, REQUIRED | UNFLOWN, NULL,
+           N_("age at which shoots may be cut at the earliest")),
+    NUMBER("most_y", NAMED(N_("at most"), NULL),
+        AT(ceduo_regulation_item, most), "y", 0, 1000, UNFLOWN, NULL,
+           N_("age at which they may be cut at the latest"))),
+};
+static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fields, NULL);
+
+static const struct field rules_fields[] = {
+    TAG("rules/1"),
+    TEXT("name", NAMED(N_("region"), NULL),
+        AT(ceduo_regulation, name), REQUIRED | UNFLOWN, N_("name of the region")),
+    TEXT("note", NAMED(N_("note"), NULL),
+        AT(ceduo_regulation, note), UNFLOWN, N_("what must be known beside; it is printed with the rules")),
+    ITEMS("standards", NAMED(N_("standards"), NULL),
+        LIST(ceduo_regulation, standards, standards_count), UNFLOWN,
+          N_("standards that a cut must leave; the first row about a stand counts"), &standards_object),
+    ITEMS("turns", NAMED(N_("turns"), NULL),
+        LIST(ceduo_regulation, turns, turns_count), UNFLOWN,
+          N_("ages at which shoots may be cut; the first row about a stand counts"), &turns_object),
+};
+static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields, "rules");
+
 /* ---- doubt ---- */
 
 #define ANY(key, name, member, meaning) \
@@ -555,6 +604,9 @@ static const struct field scene_fields[] = {
         N_("what was seen of real rocks, for --calibrate; each row is of one kind"), &seen_object),
     GROUP("minimum", NAMED(N_("minimum"), NULL),
         SAME, 0, N_("what a forest must keep"), &minimum_object),
+    GROUP("rules", NAMED(N_("rules"), NULL),
+        AT(scene_draft, scene.rules), FIELD_FOLLOWS | UNFLOWN,
+          N_("what the forest regulation asks: a file, or what such a file holds"), &rules_object),
     GROUP("years", NAMED(N_("years"), NULL),
         SAME, 0, N_("years to look at; the default is one whole rotation of each option after its first cut"),
           &window_object),

@@ -259,6 +259,14 @@ static void add_warning(void *context, const char *sentence)
     ceduo_text_format(context, "! %s\n", sentence);
 }
 
+/* Belts of one stand share their rules. */
+static void add_rule(void *context, bool met, const char *sentence)
+{
+    struct text *text = context;
+    if (!text->bytes || !strstr(text->bytes, sentence))
+        ceduo_text_format(text, "%s%s\n", met ? "" : "! ", sentence);
+}
+
 static void put_warnings(struct pen *pen)
 {
     struct app *app = pen->app;
@@ -269,6 +277,8 @@ static void put_warnings(struct pen *pen)
     ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
+    for (size_t i = 0; i < o->belts_count; i++)
+        ceduo_words_rules(&o->belts[i], &found->stands[i].rules, add_rule, &w);
     struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, pen->area.top + pen->area.height - pen->y};
     ceduo_app_put(app, rest, CEDUO_ROLE_WARN, &w);
 }

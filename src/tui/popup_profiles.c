@@ -368,7 +368,7 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
         return;
     }
     listed_name(app, cell->path, now, sizeof now);
-    add_beside(app, p, "ceduo: slope/", false, now);
+    add_beside(app, p, strcmp(f->object->folder, "rules") == 0 ? "ceduo: rules/" : "ceduo: slope/", false, now);
     add_profiles(p, f->object->folder, now);
 }
 

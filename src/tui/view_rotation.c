@@ -47,6 +47,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_heading(form, _("What comes down, what must stay"));
     ceduo_form_field(form, d, scene, "", "rocks_per_year", _("rocks a year"));
     ceduo_form_field(form, d, scene, "", "minimum.reserves_per_ha", _("trees per ha at least"));
+    ceduo_form_field(form, d, scene, "", "rules", _("rules of the region"));
     ceduo_form_rest(form, d, scene, "", "minimum");
 }
 

@@ -124,6 +124,11 @@ OBJECT(option_of, &r->scene->options[p->option])
 OBJECT(first_option_of, &r->scene->options[0])
 OBJECT(belt_of, &forest_of(p)->belts[p->belt])
 OBJECT(stand_of, &(p->year ? p->year->stands : r->options[p->option].stands)[p->belt])
+static const void *rules_of(const void *place)
+{
+    const struct ceduo_stand_result *s = stand_of(place);
+    return s && s->rules.of ? &s->rules : NULL;
+}
 OBJECT(control_of, &r->scene->controls[p->control])
 OBJECT(index_of, &indices_of(p)[p->control])
 OBJECT(last_index_of, &indices_of(p)[r->last_control])
@@ -240,6 +245,18 @@ VALUE(law_of, scene, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
 VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
 VALUE(rule_of, stand_result, WORD(o->bare ? NULL : ceduo_rule_words.names[o->rule]))
+VALUE(region_of, compliance, WORD(o->of->name))
+#define OF_ITEM(which, value) (o->which ? (value) : NOTHING)
+VALUE(least_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->least)))
+VALUE(most_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->most)))
+VALUE(standards_met, compliance, OF_ITEM(standards_item, IS(o->standards_met)))
+VALUE(standards_article, compliance, OF_ITEM(standards_item, WORD(o->standards_item->article)))
+VALUE(standards_year, compliance, OF_ITEM(standards_item, COUNT(o->standards_item->year)))
+VALUE(least_turn, compliance, OF_ITEM(turn_item, NUMBER(o->turn_item->least)))
+VALUE(most_turn, compliance, OF_ITEM(turn_item, NUMBER(o->turn_item->most)))
+VALUE(turn_met, compliance, OF_ITEM(turn_item && !isnan(o->turn), IS(o->turn_met)))
+VALUE(turn_article, compliance, OF_ITEM(turn_item, WORD(o->turn_item->article)))
+VALUE(turn_year, compliance, OF_ITEM(turn_item, COUNT(o->turn_item->year)))
 VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
@@ -355,12 +372,36 @@ static const struct ceduo_figure stand_result[] = {
     {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO, .null = SHARES},
     END};
 
-static const struct ceduo_figure stand[] = {
+#define SILENT "the rules say nothing of its species"
+#define NEVER_CUT "the stand says nothing of its cutting"
+static const struct ceduo_figure rules[] = {
+    {"region", "", "whose rules", .value = region_of},
+    {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand", AT(compliance, standards)},
+    {"standards_least", "1/ha", "standards asked for at least", .value = least_standards, .null = SILENT},
+    {"standards_most", "1/ha", "at most", .value = most_standards, .null = "there is no such limit"},
+    {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
+    {"standards_article", "", "article and act", .value = standards_article, .null = SILENT},
+    {"standards_year", "", "year of that act", .value = standards_year, .null = SILENT},
+    {"turn_y", "y", "age of the oldest shoots at a cut", AT(compliance, turn), .null = NEVER_CUT},
+    {"turn_least", "y", "age asked for at least", .value = least_turn, .null = SILENT},
+    {"turn_most", "y", "at most", .value = most_turn, .null = "there is no such limit"},
+    {"turn_met", "", "whether that is kept", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
+    {"turn_article", "", "article and act", .value = turn_article, .null = SILENT},
+    {"turn_year", "", "year of that act", .value = turn_year, .null = SILENT},
+    END};
+
+static const struct ceduo_figure stand_columns[] = {
     {"name", "", "name of the stand", .from = belt_of, AT(belt, name)},
     {"from_m", "m", "where the belt begins", .from = belt_of, AT(belt, from_given)},
     {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
     {.from = stand_of, .of = stand_result},
     {"warnings", "", "sentences about this stand", .say = say_of_stand},
+    END};
+
+static const struct ceduo_figure stand[] = {
+    {.of = stand_columns},
+    {"rules", "", "what the rules of the region ask of a coppice, and whether it is kept", .from = rules_of, .of = rules,
+     .optional = true},
     END};
 
 static const struct ceduo_figure summary[] = {
@@ -605,7 +646,7 @@ const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND,
 
 const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
 const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};
-const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand}, END};
+const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand_columns}, END};
 
 /* ---- the manual ---- */
 

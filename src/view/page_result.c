@@ -213,14 +213,29 @@ struct stand_warnings {
     const struct ceduo_page_block *since;
 };
 
-/* Belts of one stand share their warnings: each stands on the page once. */
+/* Belts of one stand share what is said of them: each sentence stands on the page once. */
+static bool is_said(const struct stand_warnings *w, const char *sentence)
+{
+    for (const struct ceduo_page_block *b = w->since ? w->since->next : NULL; b; b = b->next)
+        if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
+            return true;
+    return false;
+}
+
 static void warn_once(void *context, const char *sentence)
 {
     const struct stand_warnings *w = context;
-    for (const struct ceduo_page_block *b = w->since ? w->since->next : NULL; b; b = b->next)
-        if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
-            return;
-    ceduo_page_warn(w->page, sentence);
+    if (!is_said(w, sentence))
+        ceduo_page_warn(w->page, sentence);
+}
+
+static void say_rule_once(void *context, bool met, const char *sentence)
+{
+    const struct stand_warnings *w = context;
+    if (!met)
+        warn_once(context, sentence);
+    else if (!is_said(w, sentence))
+        ceduo_text_put(ceduo_page_add(w->page, CEDUO_PAGE_SENTENCE), sentence);
 }
 
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
@@ -248,6 +263,8 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
     struct stand_warnings w = {page, page->last};
     for (size_t k = 0; k < o->belts_count; k++)
         ceduo_words_stand_warnings(r->scene, &o->belts[k], &r->options[i].stands[k], warn_once, &w);
+    for (size_t k = 0; k < o->belts_count; k++)
+        ceduo_words_rules(&o->belts[k], &r->options[i].stands[k].rules, say_rule_once, &w);
 }
 
 /* ---- the page ---- */

@@ -45,10 +45,14 @@ GROWTH = {which: {"dbh_most_m": 0.5, "dbh_rate_1_y": 0.05, "height_most_m": 20, 
           for which in ("shoots", "trees")}
 
 
+ACT = {"article": "a", "year": 2000}
+
+
 def test_bounds_are_listed():
     """What is beyond the bounds that --list-parameters shows is refused with these bounds, and no other bound is met"""
     mapping = scene(forest=[{"from_m": 10, "to_m": 20, "stand": stand(
-        growth={**GROWTH, "shoots_young": 3, "shoots_old": 2}, cutting={"rotation_years": 20})}], minimum={"reserves_per_ha": 1})
+        growth={**GROWTH, "shoots_young": 3, "shoots_old": 2}, cutting={"rotation_years": 20})}], minimum={"reserves_per_ha": 1},
+        rules={"name": "r", "standards": [{"per_ha": 1, "most_per_ha": 9, **ACT}], "turns": [{"least_y": 1, "most_y": 9, **ACT}]})
     lines = [re.split("  +", line) for line in good("--list-parameters").out.split("\n\n")[0].splitlines()[1:]]
     forms = {"number": "{}", "number~": "{}", "count": "{:.0f}", "numbers": "[{}]", "points": "[[{0}, 0], [1, {0}]]",
              "3 numbers~": "[{0}, {0}, {0}]"}

@@ -109,7 +109,7 @@ static void walk_spread(enum about about, struct ceduo_number *n, const char *na
     expect_decides(about, before, name, ", kind", true);
 }
 
-#define SIZE_MOST 512
+#define SIZE_MOST 1024
 
 static void walk(enum about about, void *structure, size_t size, const struct field *fields, size_t n)
 {
@@ -156,6 +156,7 @@ static const struct field scene_fields[] = {
     FIELD(ceduo_scene, simulation, ELSEWHERE, 0),
     FIELD(ceduo_scene, rocks_per_year, NUMBER, 0),
     FIELD(ceduo_scene, reserves_minimum, NUMBER, 0),
+    FIELD(ceduo_scene, rules, ELSEWHERE, 0),
 };
 
 static const struct field rock_fields[] = {

@@ -234,7 +234,10 @@ static void paths_of_rows(void **state)
     "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900}, "                   \
     "cutting: {rotation_years: 20, cohorts: 2, stay_per_ha: [60, 20]}"
 #define BELT     "{from_m: 110, to_m: 190, cut_year: 3, stand: " STAND
-#define REST     "\nrelease: {x_m: 101, height_m: 1}\nrocks_per_year: 3\nminimum: {reserves_per_ha: 50}\n"
+#define RULES                                                                                                       \
+    "rules: {name: r, note: n, standards: [{species: [acer], system: bare, per_ha: 1, most_per_ha: 9, article: a, " \
+    "year: 2000}], turns: [{species: [acer], system: bare, least_y: 1, most_y: 9, article: a, year: 2000}]}\n"
+#define REST     "\nrelease: {x_m: 101, height_m: 1}\nrocks_per_year: 3\nminimum: {reserves_per_ha: 50}\n" RULES
 #define CONTROLS "controls: [{x_m: 180, name: road, accepted_kJ: 80, measured_speed_m_s: 12}]\n"
 
 /* Together they give every key. */
@@ -308,17 +311,19 @@ static bool keys_with(const char *text, const char *path, const char *value, str
 static size_t other_values(const struct field *f, const char **to)
 {
     static const char *const numbers[] = {"0.55", "1.5", "15",   "150", "350", "2",
-                                          "3",    "0.2", "0.05", "115", "185", "3000"};
-    static const char *const flags[] = {"true", "false"}, *const texts[] = {"other"},
+                                          "3",    "0.2", "0.05", "115", "185", "3000", "2010"};
+    static const char *const flags[] = {"true", "false"}, *const texts[] = {"other"}, *const words[] = {"[quercus-ilex]"},
                              *const files[] = {"a.csv", "b.csv", "a.yaml", "b.yaml"};
     const char *const *from = f->type == FIELD_CHOICE ? f->choices->names
                               : f->type == FIELD_FLAG ? flags
                               : f->type == FIELD_TEXT ? texts
+                              : f->type == FIELD_WORDS ? words
                               : f->type == FIELD_FILE ? files
                                                       : numbers;
     size_t n = f->type == FIELD_CHOICE ? f->choices->n
                : f->type == FIELD_FLAG ? LENGTH(flags)
                : f->type == FIELD_TEXT ? LENGTH(texts)
+               : f->type == FIELD_WORDS ? LENGTH(words)
                : f->type == FIELD_FILE ? LENGTH(files)
                                        : LENGTH(numbers);
     memcpy(to, from, n * sizeof *to);

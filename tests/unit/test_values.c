@@ -24,10 +24,13 @@
     "{stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}], "                 \
     "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}], energy: {model: brauner}, "                                   \
     "growth: {shoots: " CURVE ", trees: " CURVE "}, cutting: {rotation_years: 20, stay_per_ha: [10]}}"
+#define RULES                                                                                              \
+    "rules: {name: r, standards: [{per_ha: 1, most_per_ha: 9, article: a, year: 2000}], turns: [{least_y: 1, " \
+    "most_y: 9, article: a, year: 2000}]}\n"
 static const char *const scenes[] = {
     HEAD "rock: {shape: block, axes_m: [1, 1, 1]}\ncontrols: [{x_m: 90}]\n"
          "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
-         "forest: [{from_m: 10, to_m: 80, stand: " STAND "}]\nminimum: {reserves_per_ha: 5}\n",
+         "forest: [{from_m: 10, to_m: 80, stand: " STAND "}]\nminimum: {reserves_per_ha: 5}\n" RULES,
     HEAD "rock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
          "slope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100, material: talus}]}\n"
          "options: [{name: a, forest: [{from_m: 10, to_m: 80, stand: " STAND "}]}]\n"};

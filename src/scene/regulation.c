@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "ceduo/regulation.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool is_about(const struct ceduo_regulation_item *item, const struct ceduo_stand *stand)
+{
+    size_t count;
+    const char *name = ceduo_species_list(&count)[stand->species].name;
+    bool species = item->species_count == 0;
+    for (size_t i = 0; i < item->species_count; i++)
+        species |= strcmp(item->species[i], name) == 0;
+    return species && (item->system < 0 || item->system == (int)stand->system);
+}
+
+static const struct ceduo_regulation_item *item_about(const struct ceduo_regulation_item *items, size_t n,
+                                                      const struct ceduo_stand *stand)
+{
+    for (size_t i = 0; stand->species >= 0 && i < n; i++)
+        if (is_about(&items[i], stand))
+            return &items[i];
+    return NULL;
+}
+
+static bool meets(const struct ceduo_regulation_item *item, double value)
+{
+    return item && value >= item->least && !(value > item->most);
+}
+
+static double standards_of(const struct ceduo_stand *stand)
+{
+    double kept = 0;
+    for (size_t i = 0; i < stand->cutting.stay_count; i++)
+        kept += stand->cutting.stay_per_ha[i];
+    return stand->cutting.stay_count > 0 ? kept : ceduo_stand_trees(stand);
+}
+
+struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r, const struct ceduo_stand *stand)
+{
+    struct ceduo_compliance c = {.standards = standards_of(stand), .turn = NAN};
+    if (!r->name || !(stand->stools_per_ha > 0))
+        return c;
+    if (stand->cutting.rotation > 0)
+        c.turn = (double)stand->cutting.rotation * (stand->cutting.cohorts > 1 ? stand->cutting.cohorts : 1);
+    c.of = r;
+    c.standards_item = item_about(r->standards, r->standards_count, stand);
+    c.turn_item = item_about(r->turns, r->turns_count, stand);
+    c.standards_met = meets(c.standards_item, c.standards);
+    c.turn_met = meets(c.turn_item, c.turn);
+    return c;
+}

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the rules of a region ask of a coppice: shipped regions, one's own file, and what is refused."""
+from harness import DONE, INPUT, ROOT, Folder, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, stand
+
+ROW = {"article": "art. 1, Act 2", "year": 1999}
+
+
+def coppice(species="ostrya-carpinifolia", standards=60, turn=25, **changes):
+    cut = {"rotation_years": turn, "stay_per_ha": [standards - 20, 20]} if turn else None
+    return stand(**{"species": species, "stools": {"per_ha": 2000, "spacing_m": 0.3},
+                    "shoots": [{"per_ha": 5000, "dbh_m": 0.06, "height_m": 7}],
+                    "trees": [{"per_ha": 75, "dbh_m": 0.2, "height_m": 12}], "cutting": cut,
+                    "growth": None, **changes})
+
+
+def site(what, rules, **changes):
+    return scene(**{"controls": [{"x_m": 90}], "slope": {"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]},
+                    "forest": [{"from_m": 0, "to_m": 60, "stand": what}], "rules": rules, **changes})
+
+
+def rules_of(what, rules, *arguments):
+    with Folder() as f:
+        return result(f.write("s.yaml", site(what, rules)), "-n", 5, *arguments)["options"][0]["stands"][0].get("rules")
+
+
+SHIPPED = [  # region, species, system, standards, turn: at least, met, turn at least, at most, met; from the texts of the acts
+    ("toscana", "ostrya-carpinifolia", "simple-coppice", 60, 25, (60, True, None, None, None)),
+    ("toscana", "quercus-cerris", "simple-coppice", 59, 17, (60, False, 18, None, False)),
+    ("toscana", "castanea-sativa", "simple-coppice", 30, 10, (30, True, 10, None, True)),
+    ("toscana", "robinia-pseudoacacia", "simple-coppice", 20, 8, (0, True, 8, None, True)),
+    ("toscana", "fagus-sylvatica", "coppice-with-standards", 60, 23, (60, True, 24, None, False)),
+    ("umbria", "fagus-sylvatica", "simple-coppice", 119, 36, (120, False, 25, 35, False)),
+    ("umbria", "quercus-ilex", "simple-coppice", 120, 40, (120, True, 25, 40, True)),
+    ("umbria", "quercus-pubescens", "simple-coppice", 80, 18, (80, True, 18, 40, True)),
+    ("umbria", "fraxinus-ornus", "simple-coppice", 79, 14, (80, False, 15, 40, False)),
+    ("umbria", "castanea-sativa", "simple-coppice", 30, 15, (30, True, 15, None, True)),
+    ("umbria", "acer", "simple-coppice", 80, 20, (80, True, None, None, None)),
+    ("marche", "acer", "simple-coppice", 60, 20, (60, True, None, None, None)),
+]
+
+
+def test_shipped():
+    """Toscana, Umbria, Marche: the minimum of the species, its turn, and whether they are kept"""
+    for region, species, system, standards, turn, wanted in SHIPPED:
+        r = rules_of(coppice(species, standards, turn, system=system), region)
+        expect_equal((r["standards_least"], r["standards_met"], r["turn_least"], r["turn_most"], r["turn_met"]), wanted,
+                     (region, species))
+        expect_equal((r["standards_per_ha"], r["turn_y"]), (standards, turn))
+
+
+def test_shipped_say_where_from():
+    """Each row of a shipped region names article and year, and the file is listed"""
+    listed = good("--list-profiles").out
+    for path in sorted((ROOT / "profiles/rules").glob("*.yaml")):
+        text = path.read_text()
+        rows = [row for row in text.splitlines() if row.startswith("  - {")]
+        expect(rows and all("article:" in row and "year:" in row for row in rows), path)
+        expect_in(str(path) + " ", listed)
+    expect_in("rules  Toscana", listed)
+
+
+def test_what_counts():
+    """Standards are those that a cut leaves; without cutting the trees that stand, and there is no turn"""
+    kept = rules_of(coppice(), "umbria")
+    expect_equal((kept["standards_per_ha"], kept["standards_met"]), (60, False))
+    standing = rules_of(coppice(turn=None), "umbria")
+    expect_equal((standing["standards_per_ha"], standing["standards_met"]), (75, False))
+    expect_equal((standing["turn_y"], standing["turn_least"], standing["turn_met"]), (None, 15, None))
+
+
+def test_selection():
+    """In a selection coppice the oldest shoots are cut after all cohorts, and Toscana asks for 40 standards"""
+    sel = coppice("fagus-sylvatica", 40, system="selection-coppice", cutting={"rotation_years": 8, "cohorts": 3, "stay_per_ha": [40]})
+    r = rules_of(sel, "toscana")
+    expect_equal((r["standards_least"], r["standards_met"], r["turn_y"], r["turn_least"], r["turn_met"]), (40, True, 24, 24, True))
+
+
+def test_own_region():
+    """A region is one file: the first row about a stand counts; without a species nothing is known"""
+    own = {"ceduo": "rules/1", "name": "Nowhere", "note": "made up",
+           "standards": [{"species": ["acer"], "system": "large-reserves", "per_ha": 5, "most_per_ha": 7, **ROW},
+                         {"species": ["acer"], "per_ha": 10, **ROW}, {"per_ha": 70, **ROW}]}
+    with Folder() as f:
+        f.write("nowhere.yaml", own)
+        for what, least in ((coppice("acer"), 10), (coppice("acer", system="large-reserves"), 5), (coppice(), 70),
+                            (coppice(None), None)):
+            path = f.write("s.yaml", site(what, "nowhere.yaml"))
+            r = result(path, "-n", 5)["options"][0]["stands"][0]["rules"]
+            expect_equal((r["region"], r["standards_least"]), ("Nowhere", least), what)
+        page = " ".join(good("--batch", "-n", 5, path).out.split())
+        expect_in("the rules of Nowhere as filed say nothing of standards of its species", page)
+        page = " ".join(good("--batch", "-n", 5, f.write("s.yaml", site(coppice("acer"), "nowhere.yaml"))).out.split())
+        expect_in("Nowhere asks for 10 standards a hectare at least (art. 1, Act 2, 1999); 60 are kept: met.", page)
+        expect_in("Nowhere: check the text in force; made up.", page)
+        page = " ".join(good("--batch", "-n", 5, f.write("s.yaml", site(coppice("acer", system="large-reserves"), own))).out.split())
+        expect_in("! coppice: Nowhere asks for 5 to 7 standards a hectare (art. 1, Act 2, 1999); 60 are kept: NOT met.", page)
+
+
+def test_page():
+    """The page says what is met and warns of what is not, once for each stand"""
+    with Folder() as f:
+        path = f.write("s.yaml", site(coppice(), "umbria"))
+        page = " ".join(good("--batch", "-n", 5, path).out.split())
+        expect_in("Umbria asks for 80 standards a hectare at least (art. 33, R.R. 7, 2002); 60 are kept: NOT met.", page)
+        expect_in("Umbria asks for a turn of 15 to 40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
+        expect_equal(page.count("check the text in force"), 1, page)
+
+
+def test_no_coppice():
+    """A high forest, a gap and a scene without rules are asked for nothing; no figure of a run changes"""
+    high = coppice(stools=None, shoots=None)
+    for what, rules in ((high, "umbria"), (coppice(), None)):
+        expect_equal(rules_of(what, rules), None)
+    with Folder() as f:
+        runs = [result(f.write("s.yaml", site(coppice(), rules)), "-n", 50)["options"] for rules in (None, "umbria")]
+        for run in runs:
+            run[0]["stands"][0].pop("rules", None)
+        expect_equal(runs[0], runs[1])
+
+
+BAD = [({"standards": []}, "'name' is missing"), ("lazio", "cannot find 'lazio'"), ("simple-coppice", "cannot find"),
+       ({"name": "X", "standards": [{"per_ha": 3, "year": 2000}]}, "'article' is missing"),
+       ({"name": "X", "standards": [{"per_ha": -3, **ROW}]}, "rules.standards[0].per_ha: -3 is below 0"),
+       ({"name": "X", "turns": [{"least_y": 20, "most_y": 10, **ROW}]}, "at most is less than"),
+       ({"name": "X", "turns": [{"species": ["oak"], "least_y": 20, **ROW}]}, "rules.turns[0].species[0]: 'oak' is unknown"),
+       ({"name": "X", "turns": [{"least_y": 20, **ROW, "year": 20}]}, "rules.turns[0].year"),
+       ({"ceduo": "stand/1", "name": "X"}, "rules/1")]
+
+
+def test_bad():
+    """An unknown region, species or key is told with its place"""
+    with Folder() as f:
+        for rules, words in BAD:
+            r = ceduo("--check", f.write("s.yaml", site(coppice(), rules)))
+            expect_equal(r.status, INPUT, (rules, r))
+            expect_in(words, r.err, rules)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
