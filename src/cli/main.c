@@ -9,6 +9,7 @@
 #include "command_line.h"
 #include "language.h"
 #include "output.h"
+#include "say.h"
 
 /* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
  * it should: /dev/null is opened the wrong way round. */
@@ -23,6 +24,7 @@ static enum exit_status print(const struct arguments *a, void (*fill)(struct tex
 {
     struct text text = {0};
     fill(&text);
+    ceduo_say_plainly(&text);
     enum exit_status status = ceduo_output_write(a, &text);
     ceduo_text_free(&text);
     return status;

@@ -89,8 +89,11 @@ enum exit_status ceduo_usage(const char *option, const char *format, ...)
     va_end(args);
     ceduo_text_safe(&safe, ceduo_text_string(&message));
     bool good = !message.failed && !safe.failed && safe.bytes;
-    if (good)
-        fprintf(stderr, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
+    ceduo_text_free(&message);
+    if (good) {
+        ceduo_text_format(&message, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
+        ceduo_say(&message);
+    }
     ceduo_text_free(&message);
     ceduo_text_free(&safe);
     return good ? EXIT_USAGE : ceduo_usage_no_memory();

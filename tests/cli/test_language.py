@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Text in the language of the locale or of --language; data the same in each."""
+import os
+import re
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import CEDUO, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, good, run_all, subprocess  # noqa: E402
+from harness import CEDUO, PROFILES, ROOT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, good, run_all  # noqa: E402
+from pages import expect_width  # noqa: E402
+from runs import FOUR, PAPER, without_seconds  # noqa: E402
 
 ENGLISH, ITALIAN = "print this help", "stampa questo aiuto"
 
@@ -41,6 +46,76 @@ def test_without_translation():
         done = subprocess.run([program, "--language", "it", "--help"], env=env, capture_output=True, text=True, check=True)
         expect(ENGLISH in done.stdout or ITALIAN in done.stdout, done.stdout)  # Italian where it is installed
         expect_equal(done.stderr, "")
+
+
+def both(*words):
+    """Output in English and in Italian."""
+    return [good(*words, "--language", language).out for language in ("en", "it")]
+
+
+def test_whole():
+    """Every marked text of the sources has its Italian, none of it a guess, and formats agree: make po, then src/po/it.po"""
+    with Folder() as f:
+        # The template of this tree, whatever was built of it; made by the Makefile's own command.
+        env = {k: v for k, v in environment().items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
+        made = subprocess.run(["make", "-s", "-C", ROOT, f"TEMPLATE={f.path}/ceduo.pot", f"{f.path}/ceduo.pot"], env=env,
+                              capture_output=True, text=True, check=False)
+        expect_equal(made.returncode, 0, made.stderr)
+        for language in sorted((ROOT / "src/po").glob("*.po")):
+            merged = f.path / language.name
+            subprocess.run(["msgmerge", "-q", "-N", "-o", merged, language, f.path / "ceduo.pot"], check=True)
+            done = subprocess.run(["msgfmt", "-c", "--statistics", "-o", os.devnull, merged], env=env, capture_output=True,
+                                  text=True, check=False)
+            expect(re.fullmatch(r"\d+ translated messages\.", done.stderr.strip().splitlines()[-1]), language.name, done.stderr)
+            missing = subprocess.run(["msgattrib", "--untranslated", "--no-wrap", merged], capture_output=True, text=True,
+                                     check=True).stdout
+            expect_equal(missing, "", "not translated")
+            fuzzy = subprocess.run(["msgattrib", "--only-fuzzy", "--no-obsolete", language], capture_output=True, text=True,
+                                   check=True).stdout
+            expect_equal(fuzzy, "", "guessed")
+
+
+def test_data():
+    """JSON, CSV and parts are the same bytes in every language"""
+    for form in ("json", "csv"):
+        for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+            expect_equal(*map(without_seconds, both("--batch", "-f", form, "-n", 30, path)), f"{path.name}, {form}")
+        for words in (("--sensitivity=3", "-n", 20, PAPER), ("--batch", "--years", "0:2", "-n", 20, FOUR),
+                      ("--find", "forest[0].stand.stools.per_ha=500:5000", "--goal", "adc=30", PAPER)):
+            expect_equal(*map(without_seconds, both("-f", form, *words)), f"{words}, {form}")
+    parts = [re.sub(r'"(seconds|sum)": ("\w*"|[0-9.e-]*)', "", text) for text in both("--shard", "1/2", "-n", 50, PAPER)]
+    expect_equal(*parts, "a part")
+
+
+def test_pages():
+    """Pages, help and lists are Italian, no wider than in English, with the same numbers"""
+    for path in sorted((PROFILES / "scenes").glob("*.yaml")):
+        for words in (("--batch", "-n", 50, path), ("--batch", "--years", "0:2", "-n", 20, path),
+                      ("--batch", "-n", 20, "-s", "simulation.contact_model=index", path)):
+            english, italian = both(*words)
+            expect_width(italian)
+            expect(english != italian and "nplurals" not in italian, italian)
+            expect_equal(*(sorted(re.findall(r"\d+\.\d+", text)) for text in (italian, english)), f"numbers of {words}")
+            expect_equal(*(len(re.findall(r"\w\u2026", text)) for text in (italian, english)), f"words cut in {words}")
+    for line in good("--help", "--language", "it").out.splitlines():
+        expect(len(line) <= 80, line)
+
+
+def test_pictures():
+    """Pictures have the same shape in both languages"""
+    for what in ("profile", "energy", "height", "histogram", "adc", "stand", "compare"):
+        english, italian = both("--plot", what, "-n", 50, "--option", "coppice with standards", FOUR)
+        expect_width(italian)
+        expect_equal(len(italian.splitlines()), len(english.splitlines()), what)
+
+
+def test_ascii():
+    """LC_ALL=C: Italian is pure ASCII, and nothing of it becomes a question mark"""
+    for words in (("--batch", "-n", 50, PAPER), ("--help",), ("--list-parameters",)):
+        text = good(*words, "--language", "it", env={"LC_ALL": "C"}).out
+        expect(text.isascii(), "not ASCII", *[line for line in text.splitlines() if not line.isascii()][:4])
+        wide = good(*words, "--language", "it").out
+        expect_equal(text.count("?"), wide.count("?"), f"question marks of {words}")
 
 
 if __name__ == "__main__":
