@@ -18,6 +18,8 @@ struct ceduo_flown {
 enum ceduo_status ceduo_flown_read(const struct ceduo_run *run, size_t controls, struct ceduo_flown *flown);
 /* Through a forest without stems nothing is hit: that is known. Sets contacts that are not to 0. */
 void ceduo_flown_meets_nothing(struct ceduo_flown *flown);
+/* Sets what a forest leaves of the hazard of `bare`. */
+void ceduo_flown_compare(struct ceduo_flown *flown, const struct ceduo_flown *bare);
 void ceduo_flown_free(struct ceduo_flown *flown);
 
 /* What is found for one option. */

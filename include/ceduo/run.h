@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
+#include "hazard.h"
 #include "scene.h"
 #include "statistics.h"
 #include "trajectory.h"
@@ -61,16 +62,19 @@ struct ceduo_stem_counts {
 };
 struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);
 
-/* What arrives at a control. Means and percentiles are over the rocks that reached it. */
+/* What arrives at a control. Means and percentiles are over the rocks that reached it. Where the scene has blocks, counts are
+ * of the rocks that were drawn; shares, means and percentiles are of the blocks that come down. */
 struct ceduo_arrivals {
     uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
     uint64_t ended[CEDUO_ENDS];                       /* that did not reach it, by how they ended: with those that
                                                        * reached it, all released */
+    double missed[CEDUO_ENDS];                        /* shares of the same */
     double reach_probability, reach_lo, reach_hi;     /* hi counts the unfinished as reached */
     double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     double energy_per_released, energy_per_released_se;           /* J */
     double contacts, contacts_se;                                 /* with stems, of those that reached; NaN: bare run */
+    struct ceduo_hazard hazard;                                   /* where the scene has blocks */
     bool exact;                                                   /* percentiles from every sample */
 };
 
@@ -113,6 +117,7 @@ uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *m
 /* How the trajectories ended, and where the rocks lie that came to rest or were stopped by stems. */
 struct ceduo_ends {
     uint64_t count[CEDUO_ENDS];
+    double share[CEDUO_ENDS]; /* of all released */
     struct ceduo_moments stop_x;
     double stop_p50, stop_p95, stop_max; /* m, relative; NaN where none stopped */
 };
@@ -132,6 +137,9 @@ struct ceduo_envelope {
 };
 
 void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope);
+
+/* The weights of the rocks, where the scene has blocks; otherwise NULL. */
+const double *ceduo_run_weights(const struct ceduo_run *run);
 
 /* Energies (J) of the rocks that reached a control, in the order of the rocks, for a histogram: at most `most` of them,
  * the first. Returns how many were written; 0 where the samples are not kept. */

@@ -16,6 +16,7 @@
 #define CEDUO_GRAVITY 9.81
 #define CEDUO_THRESHOLD_M 30 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
 #define CEDUO_ROCKS_MOST 10000000
+#define CEDUO_SIZED_ROCKS_MOST 1048576 /* with blocks: each rock is kept, with its weight */
 
 /* How a rock starts. Each number may have a spread. */
 struct ceduo_release {
@@ -76,10 +77,21 @@ struct ceduo_simulation {
     bool scale_rn;    /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
 };
 
+/* Blocks of some sizes that come down. Number above a volume v goes with v^-exponent, cut at the largest; 0: as many in
+ * every range of equal ratio. */
+struct ceduo_block_class {
+    double per_year;      /* > 0 */
+    double exponent;      /* >= 0 */
+    size_t volumes_count; /* 2 */
+    double *volumes;      /* m3: the smallest and the largest */
+};
+
 /* Everything that a run depends on. */
 struct ceduo_scene {
     char *title;
     struct ceduo_rock_def rock;
+    size_t blocks_count;              /* classes that do not overlap; 0: every rock is `rock` */
+    struct ceduo_block_class *blocks; /* sizes that `rock` has, scaled */
     struct ceduo_release release;
     struct ceduo_slope slope;
     size_t controls_count;
@@ -99,6 +111,9 @@ struct ceduo_scene ceduo_scene_default(void);
 /* Checks that the parts fit together: rock, slope, release on it, controls beyond the release and on the slope. `where`
  * (may be NULL) is set to the index of the offending control. */
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where);
+
+/* Whether rocks differ in size, mass or shape. */
+bool ceduo_scene_rock_varies(const struct ceduo_scene *scene);
 
 /* The control farthest along x; 0 where there is none. */
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene);

@@ -47,6 +47,7 @@ void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi);
 /* A distribution as it is reported; NaN where a figure does not exist. */
 struct ceduo_distribution {
     double mean, se, sd, p50, p95, p95_lo, p95_hi, p99, max;
+    double p50_lo, p50_hi, p99_lo, p99_hi;
 };
 
 /* From the moments of n values and the value of each rank 1…n, which is asked for in rising order. */

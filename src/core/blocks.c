@@ -92,6 +92,7 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
     for (size_t i = 0; i < CEDUO_BLOCKS && status == CEDUO_OK; i++) {
         struct ceduo_block *b = &blocks[i];
         struct ceduo_scene other = *scene;
+        other.blocks_count = 0;
         if (!b->own)
             other.rock = ceduo_rock_scaled(&scene->rock, ceduo_cbrt(b->volume / mean.volume));
         status = ceduo_rock_of_means(&other.rock, &rock);
@@ -102,7 +103,7 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
         b->diameter = rock.mean_diameter;
         b->adc = index.worst_adc;
         b->contacts = index.contacts;
-        if (flies && b->own && own && own->released == rocks)
+        if (flies && b->own && own && own->released == rocks && scene->blocks_count == 0)
             b->arrivals = *own;
         else if (flies)
             status = fly_block(&other, option, control, rocks, threads, cancel, b);

@@ -33,15 +33,17 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
-    bool good = ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
+    bool good = ceduo_sizes_init(&to->sizes, scene) &&
+                ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
                 make_marks(&to->marks, scene, cells, cell_x) &&
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
-                                  ceduo_rock_varies(&scene->rock));
+                                  ceduo_scene_rock_varies(scene));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 void ceduo_prepared_release(struct prepared *p)
 {
+    ceduo_sizes_release(&p->sizes);
     ceduo_wood_release(&p->wood);
     free(p->marks.at);
     ceduo_ground_release(&p->ground);

@@ -4,6 +4,7 @@
 
 #include "ceduo/scene.h"
 #include "ground.h"
+#include "sizes.h"
 #include "wood.h"
 
 /* A place where something is noted of a rock's first passage going +x: a control, or a cell of the envelopes. */
@@ -21,6 +22,7 @@ struct marks {
 struct prepared {
     struct ceduo_scene scene;
     struct ceduo_rock mean;
+    struct sizes sizes;
     struct ground ground;
     struct marks marks;
     struct wood wood;

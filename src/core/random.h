@@ -23,7 +23,8 @@ enum random_kind {
     RANDOM_SHOOT,   /* cohorts of four shoots of a stool; which four from bit 8 on */
     RANDOM_DBH,     /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
     RANDOM_SECTION, /* which section of a rock meets the ground, of law arm */
-    RANDOM_TURN     /* how it is turned at a contact */
+    RANDOM_TURN,    /* how it is turned at a contact */
+    RANDOM_SIZE     /* where the sequence of sizes starts, of no rock */
 };
 
 #define HALF_TURN 3.141592653589793 /* rad */

@@ -36,7 +36,7 @@ static enum ceduo_status read_if_there(const struct ceduo_run *run, size_t contr
     if (!allocate_flown(f, controls))
         return CEDUO_NO_MEMORY;
     for (size_t c = 0; c < controls; c++)
-        f->arrivals[c].energy = ceduo_distribution_none();
+        f->arrivals[c].energy = ceduo_distribution_none(), f->arrivals[c].hazard = ceduo_hazard_none();
     return CEDUO_OK;
 }
 
@@ -66,6 +66,12 @@ void ceduo_flown_meets_nothing(struct ceduo_flown *f)
         if (a->reached > 0 && isnan(a->contacts))
             a->contacts = a->contacts_se = 0;
     }
+}
+
+void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
+{
+    for (size_t c = 0; c < f->controls; c++)
+        ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 
 /* Between the same flights. */
@@ -129,6 +135,7 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
             ceduo_flown_meets_nothing(&o->wooded);
         else
             status = copy(&r->bare, &o->wooded);
+        ceduo_flown_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count && !r->wooded; c++)
             o->differences[c] = no_difference(scene->controls[c].accepted);
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);

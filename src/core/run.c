@@ -88,7 +88,10 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->def.threads = def->threads > 0 ? def->threads : 1;
     run->controls = def->scene->controls_count;
     run->exact = true;
-    bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_rock_varies(&def->scene->rock);
+    run->sized = def->scene->blocks_count > 0;
+    if (run->sized && run->def.rocks_most > CEDUO_SIZED_ROCKS_MOST)
+        run->def.rocks_most = CEDUO_SIZED_ROCKS_MOST;
+    bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
     run->kept = one_energy ? HEIGHT + 1 : QUANTITIES;
     run->columns = run->controls * (size_t)run->kept + 1;
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "run_state.h"
 #include "walk.h"
@@ -25,6 +26,7 @@ struct worker {
     uint64_t from, next, to;         /* rocks of the block: the first, the next to begin, behind the last */
     struct arrival *arrivals;        /* [control][CEDUO_BLOCK_ROCKS] */
     double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
+    unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
     struct histogram *bins;
     struct envelope_cell *cells;
     bool no_memory;
@@ -53,6 +55,12 @@ static void keep_sample(struct worker *w, uint64_t rock, size_t control, const d
         run->pairs[control * run->pairs_room + rock] = values[ENERGY];
 }
 
+/* Pictures along the slope show blocks as frequent as they come down. */
+static bool is_shown(const struct ceduo_run *run, uint64_t rock)
+{
+    return !run->sized || ceduo_size_is_typical(&run->ready.sizes, run->ready.scene.simulation.seed, rock);
+}
+
 static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
 {
     struct worker *w = context;
@@ -62,6 +70,8 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
+    if (what >= run->controls && !is_shown(run, walker->number))
+        return;
     if (what >= run->controls) {
         ceduo_envelope_add(&w->cells[what - run->controls], speed, c->height, energy);
         return;
@@ -114,6 +124,7 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     }
     w->block->contacts += walker->contacts;
     w->block->ends[end]++;
+    w->ends[walker->number - w->from] = (unsigned char)end;
     note_missed(w, walker, end);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         note_stop(w, walker->number, walker->at.x);
@@ -179,6 +190,7 @@ static void clear_block(struct worker *w)
         w->arrivals[i].stems_hit = -1;
     for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
         w->stops[i] = NAN;
+    memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
 }
 
 static void sum_arrivals(struct worker *w, size_t control)
@@ -199,8 +211,27 @@ static void sum_arrivals(struct worker *w, size_t control)
     *to = sums;
 }
 
+/* How the rocks of a block ended, by their weights. */
+static void weigh_ends(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    const double *weights = run->weights + (w->from - run->first);
+    for (uint64_t i = 0; i < w->to - w->from; i++) {
+        w->block->ended[w->ends[i]] += weights[i];
+        for (size_t c = 0; c < run->controls; c++) {
+            double hits = w->arrivals[c * CEDUO_BLOCK_ROCKS + i].stems_hit;
+            if (hits < 0)
+                w->block->controls[c].missed[w->ends[i]] += weights[i];
+            else
+                weighted_sum_add(&w->block->controls[c].hits, weights[i], hits);
+        }
+    }
+}
+
 static void sum_block(struct worker *w)
 {
+    if (w->run->sized)
+        weigh_ends(w);
     for (size_t c = 0; c < w->run->controls; c++)
         sum_arrivals(w, c);
     for (uint64_t i = 0; i < w->to - w->from; i++)

@@ -17,7 +17,20 @@ static void pack_moments(struct bytes *b, struct ceduo_moments *m)
     ceduo_bytes_number(b, &m->max);
 }
 
-static void pack_block(struct bytes *b, struct block *block, size_t controls)
+static void pack_weights(struct bytes *b, double weights[CEDUO_ENDS])
+{
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        ceduo_bytes_number(b, &weights[e]);
+}
+
+static void pack_sum(struct bytes *b, struct weighted_sum *s)
+{
+    ceduo_bytes_number(b, &s->t);
+    ceduo_bytes_number(b, &s->tt);
+    ceduo_bytes_number(b, &s->tw);
+}
+
+static void pack_block(const struct ceduo_run *run, struct bytes *b, struct block *block)
 {
     ceduo_bytes_count(b, &block->contacts);
     for (int e = 0; e < CEDUO_ENDS; e++)
@@ -26,7 +39,9 @@ static void pack_block(struct bytes *b, struct block *block, size_t controls)
     ceduo_bytes_count(b, &block->stems.hit);
     ceduo_bytes_count(b, &block->stems.met);
     pack_moments(b, &block->stop_x);
-    for (size_t c = 0; c < controls; c++) {
+    if (run->sized)
+        pack_weights(b, block->ended);
+    for (size_t c = 0; c < run->controls; c++) {
         struct sums *s = &block->controls[c];
         for (int q = 0; q < QUANTITIES; q++)
             pack_moments(b, &s->of[q]);
@@ -34,6 +49,10 @@ static void pack_block(struct bytes *b, struct block *block, size_t controls)
         ceduo_bytes_count(b, &s->exceeded);
         for (int e = 0; e < CEDUO_ENDS; e++)
             ceduo_bytes_count(b, &s->ended[e]);
+        if (!run->sized)
+            continue;
+        pack_weights(b, s->missed);
+        pack_sum(b, &s->hits);
     }
 }
 
@@ -62,17 +81,32 @@ static bool good_ends(const uint64_t ends[CEDUO_ENDS], uint64_t rocks)
     return sum == rocks;
 }
 
+static bool good_weights(const double weights[CEDUO_ENDS])
+{
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        if (!(weights[e] >= 0) || !isfinite(weights[e]))
+            return false;
+    return true;
+}
+
+static bool good_sum(const struct weighted_sum *s)
+{
+    return s->t >= 0 && s->tt >= 0 && s->tw >= 0 && isfinite(s->t) && isfinite(s->tt) && isfinite(s->tw);
+}
+
 /* Whether the counts of a block agree with each other: of so many rocks, and so many that hit stems where there are. */
 static bool good_block(const struct ceduo_run *run, const struct block *block, uint64_t rocks)
 {
     uint64_t stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
-    if (!good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops))
+    if (!good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) ||
+        !good_weights(block->ended))
         return false;
     for (size_t c = 0; c < run->controls; c++) {
         const struct sums *s = &block->controls[c];
         uint64_t reached = s->of[SPEED].n;
         if (reached > rocks || !good_ends(s->ended, rocks - reached) || s->exceeded > reached ||
-            !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached))
+            !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached) ||
+            !good_weights(s->missed) || !good_sum(&s->hits))
             return false;
         for (int q = 0; q < QUANTITIES; q++)
             if (!good_moments(&s->of[q], reached))
@@ -144,10 +178,10 @@ static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first,
 static void save_blocks(const struct ceduo_run *run, struct bytes *b)
 {
     for (size_t i = 0; i < run->kept_count; i++)
-        pack_block(b, &run->kept_blocks[i], run->controls);
+        pack_block(run, b, &run->kept_blocks[i]);
     struct block tail = run->tail;
     if (run->rocks % CEDUO_BLOCK_ROCKS != 0)
-        pack_block(b, &tail, run->controls);
+        pack_block(run, b, &tail);
 }
 
 enum ceduo_status ceduo_run_pack(const struct ceduo_run *run, struct bytes *b)
@@ -171,7 +205,7 @@ static bool read_blocks(struct ceduo_run *run, struct bytes *b, const struct par
     for (uint64_t at = head->first; at < head->end; at += CEDUO_BLOCK_ROCKS) {
         uint64_t rocks = head->end - at < CEDUO_BLOCK_ROCKS ? head->end - at : CEDUO_BLOCK_ROCKS;
         ceduo_run_block_clear(block, run->controls);
-        pack_block(b, block, run->controls);
+        pack_block(run, b, block);
         if (merges) {
             ceduo_run_block_merge(rocks == CEDUO_BLOCK_ROCKS ? &run->whole : &run->tail, block, run->controls);
             continue;

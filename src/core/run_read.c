@@ -31,9 +31,10 @@ static struct ceduo_distribution energy_from_speed(const struct ceduo_distributi
                                                    const struct ceduo_moments *m)
 {
     struct ceduo_distribution d = {.mean = speed->mean, .se = ceduo_moments_se(m), .sd = ceduo_moments_sd(m)};
-    const double from[5] = {speed->p50, speed->p95, speed->p95_lo, speed->p95_hi, speed->p99};
-    double *to[5] = {&d.p50, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99};
-    for (int i = 0; i < 5; i++)
+    const double from[] = {speed->p50,    speed->p50_lo, speed->p50_hi, speed->p95,   speed->p95_lo,
+                           speed->p95_hi, speed->p99,    speed->p99_lo, speed->p99_hi};
+    double *const to[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
+    for (size_t i = 0; i < sizeof to / sizeof to[0]; i++)
         *to[i] = 0.5 * mass * (from[i] * from[i]);
     d.mean = m->n > 0 ? m->mean : NAN;
     d.max = m->n > 0 ? m->max : NAN;
@@ -60,13 +61,18 @@ static void per_released(const struct ceduo_moments *m, uint64_t released, doubl
 
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
+    if (run->sized)
+        return ceduo_run_sized_arrivals(run, control, a);
     struct sums s = ceduo_run_sums_at(run, control);
     *a = (struct ceduo_arrivals){.released = run->rocks,
                                  .reached = s.of[SPEED].n,
                                  .exceeded = s.exceeded,
                                  .unfinished = s.ended[CEDUO_UNFINISHED],
+                                 .hazard = ceduo_hazard_none(),
                                  .exact = run->exact};
     memcpy(a->ended, s.ended, sizeof a->ended);
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        a->missed[e] = (double)s.ended[e] / (double)run->rocks;
     a->reach_probability = share(a->reached, a->unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
     a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
     if (!isnan(run->ready.scene.controls[control].accepted))
@@ -104,6 +110,10 @@ struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
 
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
 {
+    if (run->sized) {
+        ceduo_run_sized_energy(run, control, reached, mean, se);
+        return;
+    }
     struct sums s = ceduo_run_sums_at(run, control);
     *reached = s.of[ENERGY].n;
     *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
@@ -156,6 +166,8 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     bool alike = run && baseline && run->rocks == baseline->rocks;
     if (!alike && !(run && baseline && run->exact && baseline->exact && run->rocks > 0 && baseline->rocks > 0))
         return (struct ceduo_difference){unknown, unknown, unknown};
+    if (run->sized)
+        return ceduo_run_sized_difference(run, baseline, control);
     double n = (double)run->rocks;
     struct pairs p = pair(run, baseline, control);
     struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
@@ -193,12 +205,18 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     if (run->def.arrivals_only)
         return CEDUO_OK;
     ends->stop_x = run->whole.stop_x;
-    for (int e = 0; e < CEDUO_ENDS; e++)
+    for (int e = 0; e < CEDUO_ENDS; e++) {
         ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
+        ends->share[e] = (double)ends->count[e] / (double)run->rocks;
+    }
+    if (run->sized && run->rocks > 0 && ceduo_run_sized_ends(run, ends) != CEDUO_OK)
+        return CEDUO_NO_MEMORY;
     ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);
     if (ends->stop_x.n == 0)
         return CEDUO_OK;
     ends->stop_max = ends->stop_x.max;
+    if (run->sized)
+        return CEDUO_OK;
     size_t n = (size_t)ends->stop_x.n;
     size_t r50 = ceduo_quantile_rank(n, 0.5), r95 = ceduo_quantile_rank(n, 0.95);
     if (!run->exact) {
@@ -221,6 +239,11 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
 void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_envelope *envelope)
 {
     ceduo_envelope_read(&run->cells[cell], envelope);
+}
+
+const double *ceduo_run_weights(const struct ceduo_run *run)
+{
+    return run->weights;
 }
 
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)

@@ -26,8 +26,13 @@ static void merge_sums(struct sums *into, const struct sums *from)
         ceduo_moments_merge(&into->of[q], &from->of[q]);
     ceduo_moments_merge(&into->contacts, &from->contacts);
     into->exceeded += from->exceeded;
-    for (int e = 0; e < CEDUO_ENDS; e++)
+    into->hits.t += from->hits.t;
+    into->hits.tt += from->hits.tt;
+    into->hits.tw += from->hits.tw;
+    for (int e = 0; e < CEDUO_ENDS; e++) {
         into->ended[e] += from->ended[e];
+        into->missed[e] += from->missed[e];
+    }
 }
 
 void ceduo_run_block_merge(struct block *into, const struct block *from, size_t controls)
@@ -36,8 +41,10 @@ void ceduo_run_block_merge(struct block *into, const struct block *from, size_t 
     into->stems.drawn += from->stems.drawn;
     into->stems.hit += from->stems.hit;
     into->stems.met += from->stems.met;
-    for (int e = 0; e < CEDUO_ENDS; e++)
+    for (int e = 0; e < CEDUO_ENDS; e++) {
         into->ends[e] += from->ends[e];
+        into->ended[e] += from->ended[e];
+    }
     ceduo_moments_merge(&into->stop_x, &from->stop_x);
     for (size_t c = 0; c < controls; c++)
         merge_sums(&into->controls[c], &from->controls[c]);
@@ -55,7 +62,18 @@ struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control)
 /* With one column more, in which they are sorted. */
 bool ceduo_run_samples_fit(const struct ceduo_run *run, uint64_t rocks)
 {
-    return (double)rocks * (double)(run->columns + 1) * sizeof(double) <= (double)run->def.exact_bytes;
+    return run->sized || (double)rocks * (double)(run->columns + 1) * sizeof(double) <= (double)run->def.exact_bytes;
+}
+
+static bool grow_weights(struct ceduo_run *run, uint64_t room)
+{
+    double *weights = realloc(run->weights, (size_t)room * sizeof *weights);
+    if (!weights)
+        return false;
+    run->weights = weights;
+    for (uint64_t i = run->room; i < room; i++)
+        weights[i] = ceduo_size_of(&run->ready.sizes, run->first + i).weight;
+    return true;
 }
 
 /* Makes room for the samples of `rocks` rocks. Each column grows by itself: never are all there twice. */
@@ -66,6 +84,8 @@ static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
         return true;
     uint64_t room = 2 * run->room;
     room = room < rocks || !ceduo_run_samples_fit(run, room) ? rocks : room;
+    if (run->sized && !grow_weights(run, room))
+        return false;
     if (!run->samples && !(run->samples = calloc(run->columns, sizeof *run->samples)))
         return false;
     for (size_t i = 0; i < run->columns; i++) {
@@ -83,7 +103,9 @@ void ceduo_run_samples_free(struct ceduo_run *run)
     for (size_t i = 0; run->samples && i < run->columns; i++)
         free(run->samples[i]);
     free(run->samples);
+    free(run->weights);
     run->samples = NULL;
+    run->weights = NULL;
     run->room = 0;
 }
 

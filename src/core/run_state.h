@@ -6,6 +6,7 @@
 #include "envelope.h"
 #include "histogram.h"
 #include "prepared.h"
+#include "weighted.h"
 #include "wide.h"
 
 /* A run from inside; only the run*.c include this.
@@ -15,6 +16,7 @@
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
  *     run_read.c     arrivals, differences and ends, read from sums and samples
+ *     run_sized.c    the same where rocks have weights, read from samples alone
  *     run_pack.c     parts as bytes, and back */
 
 #ifndef CHUNK_BLOCKS
@@ -27,11 +29,14 @@ enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 struct sums {
     struct ceduo_moments of[QUANTITIES], contacts; /* contacts: stems hit before */
     uint64_t exceeded, ended[CEDUO_ENDS]; /* ended: rocks that did not arrive, by how they ended */
+    double missed[CEDUO_ENDS];            /* the same by their weights, where rocks have any */
+    struct weighted_sum hits;             /* contacts by them */
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
 struct block {
     uint64_t contacts, ends[CEDUO_ENDS];
+    double ended[CEDUO_ENDS]; /* ends by the weights of the rocks, where they have any */
     struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;
     struct sums *controls;
@@ -54,6 +59,8 @@ struct ceduo_run {
     struct block whole;    /* all whole blocks */
     struct block tail;     /* the block that is not full yet */
     struct block *slots;   /* CHUNK_BLOCKS in work */
+    bool sized;            /* rocks have weights; their samples are always kept, and read by run_sized.c */
+    double *weights;       /* [room] */
     bool alike;            /* the rocks differ in nothing but their numbers */
     bool exact;            /* samples are kept; otherwise histograms */
     uint64_t room;         /* rocks that the samples have room for */
@@ -97,6 +104,14 @@ bool ceduo_run_samples_bin(struct ceduo_run *run);
 void ceduo_run_samples_free(struct ceduo_run *run);
 /* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
 double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock);
+
+/* ---- rocks with weights ---- */
+
+void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
+enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
+enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
+struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
+                                                   size_t control);
 
 /* ---- flying ---- */
 

@@ -4,6 +4,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
+#include <stdlib.h>
 
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
 {
@@ -88,7 +89,18 @@ void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi)
 
 struct ceduo_distribution ceduo_distribution_none(void)
 {
-    return (struct ceduo_distribution){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    return (struct ceduo_distribution){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+}
+
+struct wanted {
+    size_t rank;
+    double *to;
+};
+
+static int by_rank(const void *a, const void *b)
+{
+    const struct wanted *x = a, *y = b;
+    return (x->rank > y->rank) - (x->rank < y->rank);
 }
 
 struct ceduo_distribution ceduo_distribution_by(double (*value)(void *context, size_t rank), void *context, size_t n,
@@ -101,20 +113,20 @@ struct ceduo_distribution ceduo_distribution_by(double (*value)(void *context, s
     d.sd = ceduo_moments_sd(m);
     d.se = ceduo_moments_se(m);
     d.max = m->max;
-    struct {
-        size_t rank;
-        double *to;
-    } wanted[] = {{ceduo_quantile_rank(n, 0.5), &d.p50}, /* for every n at most the lower bound of the 95 % quantile */
-                  {0, &d.p95_lo},
-                  {ceduo_quantile_rank(n, 0.95), &d.p95},
-                  {0, &d.p95_hi},
-                  {ceduo_quantile_rank(n, 0.99), &d.p99}}, last = wanted[4];
-    ceduo_quantile_interval(n, 0.95, &wanted[1].rank, &wanted[3].rank);
-    if (wanted[3].rank > last.rank) {
-        wanted[4] = wanted[3];
-        wanted[3] = last;
+    const struct {
+        double p, *at, *lo, *hi;
+    } percentiles[] = {{0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi},
+                       {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
+    struct wanted wanted[9];
+    for (size_t i = 0; i < 3; i++) {
+        size_t lo, hi;
+        ceduo_quantile_interval(n, percentiles[i].p, &lo, &hi);
+        wanted[3 * i] = (struct wanted){ceduo_quantile_rank(n, percentiles[i].p), percentiles[i].at};
+        wanted[3 * i + 1] = (struct wanted){lo, percentiles[i].lo};
+        wanted[3 * i + 2] = (struct wanted){hi, percentiles[i].hi};
     }
-    for (size_t i = 0; i < 5; i++)
+    qsort(wanted, 9, sizeof wanted[0], by_rank);
+    for (size_t i = 0; i < 9; i++)
         if (wanted[i].rank > 0 && wanted[i].rank <= n)
             *wanted[i].to = fmin(m->max, value(context, wanted[i].rank));
     return d;

@@ -8,15 +8,20 @@
 
 /* ---- release ---- */
 
-static enum ceduo_status draw_rock(struct walker *w, const struct ceduo_scene *scene, const struct ceduo_rock *mean)
+static enum ceduo_status draw_rock(struct walker *w, const struct prepared *ready)
 {
-    w->rock = *mean;
-    if (!ceduo_rock_varies(&scene->rock))
-        return CEDUO_OK;
-    double u[8];
-    for (uint64_t i = 0; i < 8; i++)
-        u[i] = random_open(w->seed, w->number, i, RANDOM_ROCK);
-    return ceduo_rock_draw(&scene->rock, u, &w->rock);
+    const struct ceduo_rock_def *def = &ready->scene.rock;
+    enum ceduo_status status = CEDUO_OK;
+    w->rock = ready->mean;
+    if (ceduo_rock_varies(def)) {
+        double u[8];
+        for (uint64_t i = 0; i < 8; i++)
+            u[i] = random_open(w->seed, w->number, i, RANDOM_ROCK);
+        status = ceduo_rock_draw(def, u, &w->rock);
+    }
+    if (ready->sizes.n > 0)
+        ceduo_rock_resize(&w->rock, ceduo_size_of(&ready->sizes, w->number).volume);
+    return status;
 }
 
 static double draw_release(const struct walker *w, struct ceduo_number n, uint64_t event)
@@ -44,7 +49,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->seed = scene->simulation.seed;
     w->number = number;
     w->scale_rn = scene->simulation.scale_rn;
-    enum ceduo_status status = draw_rock(w, scene, &ready->mean);
+    enum ceduo_status status = draw_rock(w, ready);
     if (status != CEDUO_OK)
         return status;
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
@@ -87,7 +92,7 @@ bool ceduo_walk_alike(const struct prepared *ready)
 {
     const struct ground *g = &ready->ground;
     const struct ceduo_release *r = &ready->scene.release;
-    return !ceduo_rock_varies(&ready->scene.rock) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
+    return !ceduo_scene_rock_varies(&ready->scene) && !g->rn_varies && !g->rt_varies && !(r->x.spread > 0) &&
            !(r->height.spread > 0) && !(r->vx.spread > 0) && !(r->vz.spread > 0) && !(r->spin.spread > 0);
 }
 

@@ -188,6 +188,7 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
         enum ceduo_status status = flies ? fly_year(years, y, pool, rocks) : CEDUO_OK;
         if (status != CEDUO_OK)
             return status;
+        ceduo_flown_compare(&y->wooded, bare);
         ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
         ceduo_pool_trim(pool);
     }

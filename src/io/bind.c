@@ -399,6 +399,14 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
     char *items;
+    if (f->flags & FIELD_OR_ONE && node->kind == NODE_MAP) {
+        if (!(items = ceduo_bind_take(b->arena, 1, f->object->size, b->problems)))
+            return;
+        put_list(f, item, items, 1);
+        ceduo_schema_init(f->object, items);
+        bind_map(b, f->object, node, items);
+        return;
+    }
     if (f->flags & FIELD_OR_NONE && node->kind == NODE_SCALAR && strcmp(node->text, "none") == 0)
         return;
     if (!want_list(b, node) || !(items = ceduo_bind_take(b->arena, node->n, f->object->size, b->problems)))

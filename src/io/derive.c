@@ -215,6 +215,7 @@ bool ceduo_derive(struct deriver *d)
     if (d->bad.n > CEDUO_BAD_MOST || d->problems->memory)
         return false;
     ceduo_derive_rock(d, "rock", ceduo_node_get(d->root, "rock"), &d->draft.scene.rock);
+    ceduo_derive_blocks(d);
     ceduo_derive_slope(d);
     ceduo_derive_release(d, "release", &d->draft.scene.release);
     ceduo_derive_controls(d);

@@ -54,6 +54,7 @@ struct points {
  * False where that fails. */
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
 
+void ceduo_derive_blocks(struct deriver *d);
 void ceduo_derive_slope(struct deriver *d);
 void ceduo_derive_rock(struct deriver *d, const char *path, const struct node *node, const struct ceduo_rock_def *def);
 void ceduo_derive_release(struct deriver *d, const char *path, struct ceduo_release *release);

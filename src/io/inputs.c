@@ -113,7 +113,9 @@ static void cut(struct text *text, size_t length)
 
 static void walk_child(struct finder *f, const struct field *field, const struct node *node)
 {
-    if (field->type == FIELD_GROUP && (node ? node->kind == NODE_MAP : ceduo_schema_field(field->object, "model") != NULL))
+    if (field->type == FIELD_LIST && field->flags & FIELD_OR_ONE && node && node->kind == NODE_MAP)
+        walk(f, field->object, node);
+    else if (field->type == FIELD_GROUP && (node ? node->kind == NODE_MAP : ceduo_schema_field(field->object, "model") != NULL))
         walk(f, field->object, node);
     else if (field->type == FIELD_LIST && node && node->kind == NODE_LIST)
         for (size_t i = 0; i < node->n; i++) {

@@ -81,6 +81,22 @@ static const struct field rock_fields[] = {
 };
 static const struct object rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL);
 
+/* ---- blocks ---- */
+
+static const struct field block_fields[] = {
+    NUMBER("per_year", USUAL(N_("blocks per year"), N_("per year"), 0.001, 1000),
+        AT(ceduo_block_class, per_year), "1/y", 0, 1e6, REQUIRED | ABOVE, NULL,
+           N_("blocks of these sizes that come down in a year")),
+    NUM(FIELD_NUMBERS, "volume_m3", NAMED(N_("volumes, m3"), N_("m3")),
+        LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
+           N_("the smallest and the largest: [lo, hi]")),
+    NUMBER("exponent", USUAL(N_("exponent"), NULL, 0.2, 2),
+        AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
+           N_("the number of blocks above a volume v goes with v^-exponent; 0, in a list of classes also the default: as "
+              "many in every range of equal ratio")),
+};
+static const struct object block_object = OBJECT(ceduo_block_class, block_fields, NULL);
+
 /* ---- release ---- */
 
 static const struct field release_fields[] = {
@@ -573,6 +589,10 @@ static const struct field scene_fields[] = {
         AT(scene_draft, scene.title), UNFLOWN, N_("title of the scene")),
     GROUP("rock", NAMED(N_("rock"), NULL),
         AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &rock_object),
+    ITEMS("blocks", NAMED(N_("blocks that come down"), NULL),
+        LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
+          N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
+          &block_object),
     GROUP("release", NAMED(N_("release"), NULL),
         AT(scene_draft, scene.release), 0, N_("how the rock starts"), &release_object),
     GROUP("slope", NAMED(N_("slope"), NULL),

@@ -3,10 +3,18 @@
 
 #include <math.h>
 
+static bool is_good_class(const struct ceduo_block_class *b)
+{
+    return b->volumes_count == 2 && b->volumes[0] > 0 && b->volumes[1] > b->volumes[0] && b->per_year > 0 &&
+           b->exponent >= 0;
+}
+
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
 {
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
+    for (size_t i = 0; i < scene->blocks_count && status == CEDUO_OK; i++)
+        status = is_good_class(&scene->blocks[i]) ? CEDUO_OK : CEDUO_BAD_ROCK;
     if (status == CEDUO_OK)
         status = ceduo_slope_check(&scene->slope);
     if (status != CEDUO_OK)
@@ -26,6 +34,11 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
             return CEDUO_CONTROL_BEHIND;
     }
     return CEDUO_OK;
+}
+
+bool ceduo_scene_rock_varies(const struct ceduo_scene *scene)
+{
+    return scene->blocks_count > 0 || ceduo_rock_varies(&scene->rock);
 }
 
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene)

@@ -28,6 +28,10 @@ const struct field *ceduo_schema_at(const char *path)
     size_t at = 0, n = strlen(path);
     while (ceduo_path_next(path, n, &at, &step)) {
         bool item = f && f->type == FIELD_LIST && object == NULL;
+        if (item && !step.bracket && f->flags & FIELD_OR_ONE) {
+            item = false;
+            object = f->object;
+        }
         if (step.bracket != item)
             return NULL;
         f = item ? f : object ? ceduo_schema_step(object, &step) : NULL;

@@ -44,6 +44,7 @@ enum field_flag {
     FIELD_WOOD = 1 << 10,    /* it decides about stems, not about trajectories without them */
     FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
     FIELD_OR_NONE = 1 << 13, /* a list instead of which the word none may stand */
+    FIELD_OR_ONE = 1 << 14,  /* a list instead of which its only item may stand */
     FIELD_UNFLOWN = 1 << 12  /* it decides about no rock: a name, a limit that figures are held against */
 };
 

@@ -77,6 +77,11 @@ static bool enter_list(struct finder *f, const struct field *list)
         return false;
     memcpy(&items, f->item + list->offset, sizeof items);
     memcpy(&n, f->item + list->beside, sizeof n);
+    if (list->flags & FIELD_OR_ONE && f->path[f->at] == '.') { /* the only one, without a place */
+        f->object = list->object;
+        f->item = items;
+        return n == 1;
+    }
     return enter_item(f, list->object, items, n);
 }
 

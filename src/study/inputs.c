@@ -47,6 +47,9 @@ static bool copy_scene(struct arena *arena, struct ceduo_scene *scene)
         for (size_t k = 0; !arena->failed && k < option->belts_count; k++)
             copy_stand(arena, &option->belts[k].stand);
     }
+    copy_items(arena, &scene->blocks, scene->blocks_count, sizeof *scene->blocks);
+    for (size_t i = 0; !arena->failed && i < scene->blocks_count; i++)
+        copy_items(arena, &scene->blocks[i].volumes, scene->blocks[i].volumes_count, sizeof(double));
     return !arena->failed;
 }
 

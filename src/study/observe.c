@@ -180,6 +180,7 @@ static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *
 {
     *f = (struct flown){.setting = s, .scene = *scene, .rocks = rocks};
     f->scene.rock = s->rock ? *s->rock : scene->rock;
+    f->scene.blocks_count = 0; /* what is seen is seen of one rock */
     f->scene.release = s->release ? *s->release : scene->release;
     f->scene.controls_count = s->controls_count;
     f->scene.controls = s->controls;

@@ -99,8 +99,8 @@ static void put_missed(struct pen *pen, const char *name, enum ceduo_end end, co
     if (!always && wood->ended[end] == 0 && bare->ended[end] == 0)
         return;
     if (wood->released > 0)
-        share(a, sizeof a, (double)wood->ended[end] / (double)wood->released, 0, 0, false);
-    share(b, sizeof b, (double)bare->ended[end] / (double)bare->released, 0, 0, false);
+        share(a, sizeof a, wood->missed[end], 0, 0, false);
+    share(b, sizeof b, bare->missed[end], 0, 0, false);
     put_pair_in(pen, name, a, b);
 }
 

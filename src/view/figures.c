@@ -261,8 +261,8 @@ VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
-VALUE(share_at, flown, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->rocks))
-VALUE(missed_at, arrivals, NUMBER((double)*(const uint64_t *)member(f, o) / (double)o->released))
+VALUE(share_at, flown, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
+VALUE(missed_at, arrivals, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
 VALUE(too_much_of, place, isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
 VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
@@ -289,10 +289,14 @@ static const struct ceduo_figure distribution[] = {
     {"se", "", "standard error of the mean", AT(distribution, se), .null = FEW},
     {"sd", "", "standard deviation", AT(distribution, sd), .null = FEW},
     {"p50", "", "median", AT(distribution, p50), .null = NO_ROCK},
+    {"p50_lo", "", "lower end of its 95 % interval", AT(distribution, p50_lo), .null = NO_END},
+    {"p50_hi", "", "upper end of its 95 % interval", AT(distribution, p50_hi), .null = NO_END},
     {"p95", "", "95th percentile", AT(distribution, p95), .null = NO_ROCK},
     {"p95_lo", "", "lower end of its 95 % interval", AT(distribution, p95_lo), .null = NO_END},
     {"p95_hi", "", "upper end of its 95 % interval", AT(distribution, p95_hi), .null = NO_END},
     {"p99", "", "99th percentile", AT(distribution, p99), .null = NO_ROCK},
+    {"p99_lo", "", "lower end of its 95 % interval", AT(distribution, p99_lo), .null = NO_END},
+    {"p99_hi", "", "upper end of its 95 % interval", AT(distribution, p99_hi), .null = NO_END},
     {"max", "", "largest value", AT(distribution, max), .null = NO_ROCK},
     END};
 
@@ -310,13 +314,99 @@ IS_PAIRED(contacts);
 
 static const struct ceduo_figure missed[] = {
     {"stopped_by_stems", "", "share of the released that stems stop before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_STOPPED_BY_STEMS])},
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_STOPPED_BY_STEMS])},
     {"came_to_rest", "", "share that comes to rest before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_AT_REST])},
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_AT_REST])},
     {"left_slope", "", "share that leaves the profile before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_LEFT_SLOPE])},
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_LEFT_SLOPE])},
     {"unfinished", "", "share that was still moving before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, ended[CEDUO_UNFINISHED])},
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_UNFINISHED])},
+    END};
+
+/* ---- hazard ---- */
+
+#define NO_BLOCKS "the scene has no blocks"
+#define TOO_RARE  "rocks arrive less often"
+#define UNBOUND   "the rocks that arrive do not bound it"
+#define NEVER     "the rate is 0"
+
+static const void *hazard_of(const void *object)
+{
+    const struct ceduo_hazard *h = &((const struct ceduo_arrivals *)object)->hazard;
+    return isnan(h->per_year) ? NULL : h;
+}
+
+static const void *exceed_item(const void *object, size_t i)
+{
+    const struct ceduo_hazard *h = object;
+    return i < h->energies ? &h->exceed[i] : NULL;
+}
+
+static const void *return_item(const void *object, size_t i)
+{
+    return i < CEDUO_RETURNS ? &((const struct ceduo_hazard *)object)->returns[i] : NULL;
+}
+
+static const void *intensity_item(const void *object, size_t i)
+{
+    return i < CEDUO_INTENSITIES ? &((const struct ceduo_hazard *)object)->intensity[i] : NULL;
+}
+
+VALUE(years_of, hazard, NUMBER(1 / *(const double *)member(f, o)))
+
+static const struct ceduo_figure rate[] = {
+    {"per_year", "1/y", "rocks a year", AT(rate, rate)},
+    {"lo", "1/y", "lower end of its 95 % interval", AT(rate, lo)},
+    {"hi", "1/y", "upper end of its 95 % interval", AT(rate, hi)},
+    END};
+
+static const struct ceduo_figure exceed_rate[] = {
+    {"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = KILO},
+    {.of = rate, .offset = offsetof(struct ceduo_exceeding, rate)},
+    END};
+
+static const struct ceduo_figure returns[] = {
+    {"years", "y", "return period", AT(return, years)},
+    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", AT(return, energy), .scale = KILO,
+     .null = TOO_RARE},
+    {"lo", "kJ", "lower end of its 95 % interval", AT(return, lo), .scale = KILO, .null = UNBOUND},
+    {"hi", "kJ", "upper end of its 95 % interval", AT(return, hi), .scale = KILO, .null = UNBOUND},
+    END};
+
+static const struct ceduo_figure matrix[] = {
+    {"intensity", "", "weak, medium or strong: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016)", AT(intensity, word)},
+    {"from_kJ", "kJ", "lower limit of the class", AT(intensity, from), .scale = KILO},
+    {"to_kJ", "kJ", "upper limit", AT(intensity, to), .scale = KILO, .null = "there is none"},
+    {.of = rate, .offset = offsetof(struct ceduo_intensity, within)},
+    {"rate_left", "", "share of the rate without forest", AT(intensity, left), .null = "none arrive without forest"},
+    {"to_30_years", "", "whether the energy of 30 years is in this class: a mark of the matrix", AT(intensity, of_return[1])},
+    {"to_100_years", "", "the same of 100 years", AT(intensity, of_return[2])},
+    {"to_300_years", "", "the same of 300 years", AT(intensity, of_return[3])},
+    END};
+
+static const char *const return_columns[] = {"10", "30", "100", "300", NULL};
+static const char *const intensity_columns[] = {"weak", "medium", "strong", NULL};
+
+static const struct ceduo_figure hazard[] = {
+    {"per_year", "1/y", "blocks that come down", AT(hazard, per_year)},
+    {"effective_rocks", "", "equal rocks that would know the sum of the weights as well", AT(hazard, effective)},
+    {"exceed_rate", "", "rocks a year that arrive with more than an energy, up to the first energy that none exceeds",
+     .of = exceed_rate, .item = exceed_item},
+    {"return", "", "energies of 10, 30, 100 and 300 years", .of = returns, .item = return_item, .columns = return_columns},
+    {"reach_per_year", "1/y", "rocks that arrive", AT(hazard, reach.rate)},
+    {"reach_years", "y", "years from one that arrives to the next", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, reach.rate), .null = NEVER},
+    {"accepted_per_year", "1/y", "rocks that arrive with more than accepted_kJ", AT(hazard, accepted.rate), .null = UNSAID},
+    {"accepted_years", "y", "years from one that does to the next", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, accepted.rate), .null = UNSAID ", or the rate is 0"},
+    {"accepted_years_lo", "y", "lower end of its 95 % interval", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, accepted.hi), .null = UNSAID},
+    {"accepted_years_hi", "y", "upper end of its 95 % interval", .value = years_of,
+     .offset = offsetof(struct ceduo_hazard, accepted.lo), .null = UNSAID ", or " UNBOUND},
+    {"matrix", "", "classes of intensity, by classes of return period", .of = matrix, .item = intensity_item,
+     .columns = intensity_columns},
+    {"rate_left", "", "share of the rate without forest: of what exceeds accepted_kJ, or of all that arrive where that is not "
+     "given", AT(hazard, left), .null = "it is 0 without forest"},
     END};
 
 static const struct ceduo_figure arrivals[] = {
@@ -336,6 +426,7 @@ static const struct ceduo_figure arrivals[] = {
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
      IN(arrivals, energy_per_released, paired), .scale = KILO},
     {"missed", "", "how the released end that do not reach it; with reach_probability these make 1", .of = missed},
+    {"hazard", "", "how often, and with how much", .from = hazard_of, .of = hazard, .null = NO_BLOCKS},
     END};
 
 static const struct ceduo_figure wooded[] = {
@@ -462,11 +553,11 @@ static const struct ceduo_figure control[] = {
 
 static const struct ceduo_figure ends[] = {
     {"stopped_by_stems", "", "share of the released that stems stop", .value = share_at,
-     .offset = offsetof(struct ceduo_flown, ends.count[CEDUO_STOPPED_BY_STEMS])},
+     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_STOPPED_BY_STEMS])},
     {"came_to_rest", "", "share that comes to rest by itself", .value = share_at,
-     .offset = offsetof(struct ceduo_flown, ends.count[CEDUO_AT_REST])},
+     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_AT_REST])},
     {"left_slope", "", "share that leaves the profile", .value = share_at,
-     .offset = offsetof(struct ceduo_flown, ends.count[CEDUO_LEFT_SLOPE])},
+     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_LEFT_SLOPE])},
     {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
      AT(flown, ends.count[CEDUO_UNFINISHED])},
     END};
@@ -659,6 +750,8 @@ const struct ceduo_figure_list ceduo_figure_lists[] = {
     {"The objects bare and wooded of a control", arrivals},
     {"Each of their distributions, over the rocks that reach the control", distribution},
     {"Each other mean", paired},
+    {"The object hazard", hazard},
+    {"Each rate of it", rate},
     {"An object of years", year},
     {"An object of differences", difference},
     {NULL, NULL}};

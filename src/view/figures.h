@@ -39,6 +39,8 @@ struct ceduo_figure {
     double scale;        /* of numbers, and of all numbers in `of`; 0: 1 */
     const struct ceduo_figure *of;
     bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i; false after the last */
+    const void *(*item)(const void *object, size_t i);  /* a list within any object; NULL after the last */
+    const char *const *columns; /* of such a list: its items in CSV, up to NULL; without them it has no columns */
     void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
     bool optional;       /* JSON omits it if it is null or empty */
 };

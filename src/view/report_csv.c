@@ -75,6 +75,20 @@ static void put_cell(struct row *row, const struct ceduo_figure *f, const void *
     }
 }
 
+static void put_cells(struct row *row, const struct ceduo_figure *f, const void *object, double scale);
+
+/* The items of a list, each with the name of its columns. */
+static void put_items(struct row *row, const struct ceduo_figure *f, const void *object, double scale)
+{
+    const struct path *group = row->group, list = {group, f->key};
+    for (size_t i = 0; f->columns && f->columns[i]; i++) {
+        const struct path item = {&list, f->columns[i]};
+        row->group = &item;
+        put_cells(row, f->of, object ? f->item(object, i) : NULL, ceduo_figure_scale(f, scale));
+    }
+    row->group = group;
+}
+
 /* `object` NULL: empty cells. */
 static void put_cells(struct row *row, const struct ceduo_figure *f, const void *object, double scale)
 {
@@ -82,6 +96,10 @@ static void put_cells(struct row *row, const struct ceduo_figure *f, const void 
     for (; !ceduo_figure_is_end(f); f++) {
         if (!f->of) {
             put_cell(row, f, object, scale);
+            continue;
+        }
+        if (f->item) {
+            put_items(row, f, object, scale);
             continue;
         }
         const struct path path = {group, f->key};

@@ -45,6 +45,18 @@ static void put_list(struct json *j, const struct ceduo_figure *f, const struct 
     ceduo_json_close(j, ']');
 }
 
+static void put_items(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
+{
+    const void *item;
+    ceduo_json_open(j, f->key, '[');
+    for (size_t i = 0; (item = f->item(object, i)); i++) {
+        ceduo_json_open(j, NULL, '{');
+        put_figures(j, f->of, item, ceduo_figure_scale(f, scale));
+        ceduo_json_close(j, '}');
+    }
+    ceduo_json_close(j, ']');
+}
+
 static void put_object(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
 {
     if (!object) {
@@ -65,6 +77,8 @@ static void put_figures(struct json *j, const struct ceduo_figure *f, const void
             put_value(j, f, ceduo_figure_value(f, object, scale));
         } else if (f->enter) {
             put_list(j, f, object);
+        } else if (f->item) {
+            put_items(j, f, object, scale);
         } else if (f->of) {
             put_object(j, f, ceduo_figure_object(f, object), scale);
         } else {

@@ -12,12 +12,14 @@ FOUR = PROFILES / "scenes" / "four-systems.yaml"
 
 NUMBER, MAYBE, TEXT, TEXT_OR_NULL, FLAG, FLAG_OR_NULL, COUNT, NULL, LIGHT = (
     "number", "number or null", "text", "text or null", "flag", "flag or null", "count", "null", "light")
-SPREAD = {k: MAYBE for k in ("mean", "se", "sd", "p50", "p95", "p95_lo", "p95_hi", "p99", "max")}
+SPREAD = {k: MAYBE for k in ("mean", "se", "sd", "p50", "p50_lo", "p50_hi", "p95", "p95_lo", "p95_hi", "p99", "p99_lo",
+                              "p99_hi", "max")}
 PAIR = {"mean": MAYBE, "se": MAYBE}
 MISSED = {k: NUMBER for k in ("stopped_by_stems", "came_to_rest", "left_slope", "unfinished")}
 ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
-            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED}
+            "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED,
+            "hazard": NULL}  # without blocks
 INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "reach_probability": NUMBER, "exceed_probability": MAYBE, "energy_kJ_mean": MAYBE}  # null without stems
@@ -161,10 +163,22 @@ def without_seconds(text):
     return re.sub(r'"seconds": [^}]*', "", text)
 
 
+HAZARD_CELLS = (["per_year", "effective_rocks"] +
+                [f"return.{t}.{k}" for t in (10, 30, 100, 300) for k in ("years", "energy_kJ", "lo", "hi")] +
+                ["reach_per_year", "reach_years", "accepted_per_year", "accepted_years", "accepted_years_lo",
+                 "accepted_years_hi"] +
+                [f"matrix.{i}.{k}" for i in ("weak", "medium", "strong")
+                 for k in ("intensity", "from_kJ", "to_kJ", "per_year", "lo", "hi", "rate_left", "to_30_years", "to_100_years",
+                           "to_300_years")] + ["rate_left"])
+
+
 def flat(prefix, shape):
     """Names of the cells of an object."""
     names = []
     for key, inner in shape.items():
+        if key == "hazard":
+            names += [f"{prefix}hazard.{cell}" for cell in HAZARD_CELLS]
+            continue
         names += flat(f"{prefix}{key}.", inner) if isinstance(inner, dict) else [prefix + key]
     return names
 

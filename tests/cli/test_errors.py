@@ -372,6 +372,22 @@ CASES = {
     "mass_kg already says this; keep one of the two": sc(
         ROCK, "rock: {shape: block, axes_m: [1, 2, 3], mass_kg: 5, density_kg_m3: @@2600}"),
     "the rock is too small or too large to compute": sc(ROCK, "rock: @@{shape: block, axes_m: [1e-150, 1e-150, 1e-150]}"),
+    # Blocks
+    "expected two volumes, the smallest and the largest: [lo, hi]": sc(
+        ROCK, ROCK + "\nblocks: {per_year: 1, exponent: 1, volume_m3: @@[1]}"),
+    "2 m3 is not below 1 m3; write the smaller volume first": sc(
+        ROCK, ROCK + "\nblocks: {per_year: 1, exponent: 1, volume_m3: @@[2, 1]}"),
+    "the class overlaps one before it, from 1 to 3 m3; ...": sc(
+        ROCK, ROCK + "\nblocks: [{per_year: 1, volume_m3: [1, 3]}, {per_year: 1, volume_m3: @@[2, 5]}]"),
+    "name at least one class of blocks, or remove the key": sc(ROCK, ROCK + "\nblocks: @@[]"),
+    "'exponent' is missing: the number of blocks above a volume v ...": sc(
+        ROCK, ROCK + "\nblocks: @@{per_year: 1, volume_m3: [1, 2]}"),
+    "blocks already say this; keep one of the two": sc(
+        ROCK, ROCK + "\nblocks: [{per_year: 1, volume_m3: [1, 2]}]\nrocks_per_year: @@2"),
+    "blocks say how large the rocks are; give the size without a spread": sc(
+        ROCK, "rock: @@{diameter_m: {mean: 1, spread: 0.1}}\nblocks: [{per_year: 1, volume_m3: [1, 2]}]"),
+    "with blocks each rock is kept: at most 1048576 rocks": Set(
+        "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "simulation.rocks=@@2000000"),
     # Slope
     "x 10 does not lie beyond 10; x must rise: ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
     "a profile needs two vertices or more": sl(VERTICES, "@@[[0, 64]]"),

@@ -147,6 +147,8 @@ static void walk_numbers(enum about about, double *numbers, size_t n, const char
 static const struct field scene_fields[] = {
     FIELD(ceduo_scene, title, TEXT, 0),
     FIELD(ceduo_scene, rock, ELSEWHERE, 0),
+    FIELD(ceduo_scene, blocks_count, ELSEWHERE, 0),
+    FIELD(ceduo_scene, blocks, ELSEWHERE, 0),
     FIELD(ceduo_scene, release, ELSEWHERE, 0),
     FIELD(ceduo_scene, slope, ELSEWHERE, 0),
     FIELD(ceduo_scene, controls_count, COUNT, FLIGHT),
@@ -165,6 +167,13 @@ static const struct field rock_fields[] = {
     FIELD(ceduo_rock_def, mass, SPREAD, FLIGHT),    FIELD(ceduo_rock_def, density, SPREAD, FLIGHT),
     FIELD(ceduo_rock_def, axes[0], SPREAD, FLIGHT), FIELD(ceduo_rock_def, axes[1], SPREAD, FLIGHT),
     FIELD(ceduo_rock_def, axes[2], SPREAD, FLIGHT),
+};
+
+static const struct field class_fields[] = {
+    FIELD(ceduo_block_class, per_year, NUMBER, FLIGHT),
+    FIELD(ceduo_block_class, exponent, NUMBER, FLIGHT),
+    FIELD(ceduo_block_class, volumes_count, ELSEWHERE, 0),
+    FIELD(ceduo_block_class, volumes, ELSEWHERE, 0),
 };
 
 static const struct field release_fields[] = {
@@ -312,6 +321,25 @@ static void whatever_decides_about_a_flight_makes_another_scene(void **state)
     walk_option(FLIGHT); /* a forest has a key of its own */
 }
 
+/* So do the blocks that come down. */
+static void whatever_blocks_come_down_makes_another_scene(void **state)
+{
+    (void)state;
+    double volumes[] = {0.1, 1, 1, 5};
+    struct ceduo_block_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
+    open_site();
+    uint64_t none = key_of(FLIGHT);
+    site.scene.blocks = classes;
+    site.scene.blocks_count = 1;
+    uint64_t one = key_of(FLIGHT);
+    EXPECT(one, !=, none);
+    site.scene.blocks_count = 2;
+    EXPECT(key_of(FLIGHT), !=, one);
+    for (size_t i = 0; i < LENGTH(classes); i++)
+        WALK(FLIGHT, &classes[i], class_fields);
+    walk_numbers(FLIGHT, volumes, LENGTH(volumes), "volume");
+}
+
 /* Values that change places are another scene too. */
 static void a_value_in_another_place_makes_another_scene(void **state)
 {
@@ -400,6 +428,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whatever_decides_about_a_flight_makes_another_scene),
+        cmocka_unit_test(whatever_blocks_come_down_makes_another_scene),
         cmocka_unit_test(a_value_in_another_place_makes_another_scene),
         cmocka_unit_test(whatever_decides_about_stems_makes_another_forest),
         cmocka_unit_test(stems_of_another_sort_make_another_forest),

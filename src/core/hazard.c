@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rates are read from the energies of the rocks that arrive, the largest first, with the sums of their weights up to each:
+ * so every rate of exceeding an energy is known at once, and the energy of a return period is where the curve, or an end of
+ * its interval, first reaches that rate. */
+#include "ceduo/hazard.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "weighted.h"
+
+const double ceduo_intensity_from[CEDUO_INTENSITIES + 1] = {0, 30e3, 300e3, INFINITY};
+const unsigned ceduo_return_years[CEDUO_RETURNS] = {10, 30, 100, 300};
+
+int ceduo_intensity_of(double energy)
+{
+    for (int i = 0; i < CEDUO_INTENSITIES; i++)
+        if (energy < ceduo_intensity_from[i + 1])
+            return i;
+    return -1;
+}
+
+double ceduo_hazard_energy(size_t i)
+{
+    static const double steps[] = {1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+    double decade = 100;
+    for (size_t k = 0; k < i / 10; k++)
+        decade *= 10;
+    return steps[i % 10] * decade;
+}
+
+struct ceduo_hazard ceduo_hazard_none(void)
+{
+    static const char *const words[CEDUO_INTENSITIES] = {"weak", "medium", "strong"};
+    const struct ceduo_rate unknown = {NAN, NAN, NAN};
+    struct ceduo_hazard h = {.per_year = NAN, .effective = NAN, .reach = unknown, .accepted = unknown, .left = NAN};
+    for (size_t i = 0; i < CEDUO_RETURNS; i++)
+        h.returns[i] = (struct ceduo_return){ceduo_return_years[i], NAN, NAN, NAN};
+    for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
+        h.intensity[i] = (struct ceduo_intensity){.word = words[i],
+                                                  .from = ceduo_intensity_from[i],
+                                                  .to = ceduo_intensity_from[i + 1],
+                                                  .within = unknown,
+                                                  .left = NAN};
+    return h;
+}
+
+struct ceduo_rate ceduo_hazard_feared(const struct ceduo_hazard *h)
+{
+    return isnan(h->accepted.rate) ? h->reach : h->accepted;
+}
+
+static double left_of(struct ceduo_rate rate, struct ceduo_rate bare)
+{
+    return bare.rate > 0 ? rate.rate / bare.rate : NAN;
+}
+
+void ceduo_hazard_compare(struct ceduo_hazard *h, const struct ceduo_hazard *bare)
+{
+    h->left = left_of(ceduo_hazard_feared(h), ceduo_hazard_feared(bare));
+    for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
+        h->intensity[i].left = left_of(h->intensity[i].within, bare->intensity[i].within);
+}
+
+/* ---- the curve ---- */
+
+struct curve {
+    const struct released *all;
+    const struct weighted *energies; /* rising */
+    const struct weighted_sum *sums; /* [k]: of the k largest */
+    size_t n;
+};
+
+/* Rocks above an energy. */
+static size_t above(const struct curve *c, double energy)
+{
+    size_t lo = 0, hi = c->n;
+    while (lo < hi) {
+        size_t middle = (lo + hi) / 2;
+        if (c->energies[c->n - 1 - middle].value > energy)
+            lo = middle + 1;
+        else
+            hi = middle;
+    }
+    return lo;
+}
+
+static struct ceduo_rate rate_of(const struct curve *c, const struct weighted_sum *ones)
+{
+    double last = c->n > 0 ? c->energies[c->n - 1].weight : c->all->most;
+    struct ceduo_rate p = ceduo_weighted_share(c->all, ones, last);
+    return (struct ceduo_rate){p.rate * c->all->per_year, p.lo * c->all->per_year, p.hi * c->all->per_year};
+}
+
+static struct ceduo_rate exceeding(const struct curve *c, double energy)
+{
+    return rate_of(c, &c->sums[above(c, energy)]);
+}
+
+/* From one energy to below another. */
+static struct ceduo_rate between(const struct curve *c, double from, double to)
+{
+    const struct weighted_sum *a = &c->sums[from > 0 ? above(c, nextafter(from, 0)) : c->n];
+    const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
+    return rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw});
+}
+
+static void meet(double *energy, double here, bool met)
+{
+    if (met && isnan(*energy))
+        *energy = here;
+}
+
+/* The energies at which the curve and the ends of its interval first reach a rate, from the largest rock down. */
+static struct ceduo_return return_of(const struct curve *c, unsigned years)
+{
+    struct ceduo_return r = {years, NAN, NAN, NAN};
+    double wanted = 1.0 / years;
+    bool bounded = rate_of(c, &c->sums[0]).hi < wanted;
+    for (size_t k = 1; k <= c->n && isnan(r.lo); k++) {
+        struct ceduo_rate rate = rate_of(c, &c->sums[k]);
+        double energy = c->energies[c->n - k].value;
+        meet(&r.energy, energy, rate.rate >= wanted);
+        meet(&r.lo, energy, rate.lo >= wanted);
+        meet(&r.hi, energy, bounded && rate.hi >= wanted);
+    }
+    return r;
+}
+
+static void read_curve(const struct curve *c, double accepted, struct ceduo_hazard *h)
+{
+    h->reach = rate_of(c, &c->sums[c->n]);
+    if (!isnan(accepted))
+        h->accepted = exceeding(c, accepted);
+    for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
+        double energy = ceduo_hazard_energy(i);
+        h->exceed[i] = (struct ceduo_exceeding){energy, exceeding(c, energy)};
+        h->energies = i + 1;
+        if (!(h->exceed[i].rate.rate > 0))
+            break;
+    }
+    for (size_t i = 0; i < CEDUO_RETURNS; i++)
+        h->returns[i] = return_of(c, ceduo_return_years[i]);
+    for (size_t i = 0; i < CEDUO_INTENSITIES; i++) {
+        h->intensity[i].within = between(c, ceduo_intensity_from[i], ceduo_intensity_from[i + 1]);
+        for (size_t r = 0; r < CEDUO_RETURNS; r++)
+            h->intensity[i].of_return[r] = ceduo_intensity_of(h->returns[r].energy) == (int)i;
+    }
+}
+
+bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted,
+                       struct ceduo_hazard *h)
+{
+    struct weighted_sum *sums = malloc((n + 1) * sizeof *sums);
+    *h = ceduo_hazard_none();
+    if (!sums)
+        return false;
+    ceduo_weighted_sort(energies, n);
+    sums[0] = (struct weighted_sum){0};
+    for (size_t k = 0; k < n; k++) {
+        sums[k + 1] = sums[k];
+        weighted_sum_add(&sums[k + 1], energies[n - 1 - k].weight, 1);
+    }
+    h->per_year = all->per_year;
+    h->effective = all->w * all->w / all->ww;
+    read_curve(&(struct curve){all, energies, sums, n}, accepted, h);
+    ceduo_hazard_compare(h, h);
+    free(sums);
+    return true;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads a run whose rocks have weights. All of it comes from the samples, in the order of the rocks, and from the sums of
+ * the weights by the ways that rocks end: so parts that are joined give what one run gives. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "run_state.h"
+#include "weighted.h"
+
+static struct released released_of(const struct ceduo_run *run, double missing)
+{
+    struct released all = {.n = (double)run->rocks, .per_year = run->ready.sizes.per_year, .missing = missing};
+    for (uint64_t r = 0; r < run->rocks; r++) {
+        double w = run->weights[r];
+        all.w += w;
+        all.ww += w * w;
+        all.most = w > all.most ? w : all.most;
+    }
+    return all;
+}
+
+/* The values of a column that are there, with the weights of their rocks. */
+static size_t gather(const struct ceduo_run *run, const double *column, struct weighted *to)
+{
+    size_t n = 0;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(column[r]))
+            to[n++] = (struct weighted){column[r], run->weights[r]};
+    return n;
+}
+
+void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
+{
+    const struct released all = released_of(run, 0);
+    const double *energy = samples_of(run, control, ENERGY);
+    struct weighted_sum ones = {0}, sum = {0}, about = {0};
+    *reached = 0;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(energy[r])) {
+            weighted_sum_add(&ones, run->weights[r], 1);
+            weighted_sum_add(&sum, run->weights[r], energy[r]);
+            ++*reached;
+        }
+    *mean = *reached > 0 ? sum.t / ones.t : NAN;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(energy[r]))
+            weighted_sum_add(&about, run->weights[r], energy[r] - *mean);
+    *se = *reached > 1 ? ceduo_weighted_se(&all, &about) * all.w / ones.t : NAN;
+}
+
+/* ---- arrivals ---- */
+
+static void read_shares(const struct released *all, const struct weighted *energies, size_t n, double accepted,
+                        struct ceduo_arrivals *a)
+{
+    struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
+    for (size_t i = 0; i < n; i++) {
+        weighted_sum_add(&reach, energies[i].weight, 1);
+        weighted_sum_add(&exceed, energies[i].weight, energies[i].value > accepted);
+        weighted_sum_add(&energy, energies[i].weight, energies[i].value);
+    }
+    struct ceduo_rate share = ceduo_weighted_share(all, &reach, all->most);
+    a->reach_probability = share.rate;
+    a->reach_lo = share.lo;
+    a->reach_hi = share.hi;
+    if (!isnan(accepted)) {
+        share = ceduo_weighted_share(all, &exceed, n > 0 ? energies[n - 1].weight : all->most);
+        a->exceed_probability = share.rate;
+        a->exceed_lo = share.lo;
+        a->exceed_hi = share.hi;
+    }
+    a->energy_per_released = energy.t / all->w;
+    a->energy_per_released_se = ceduo_weighted_se(all, &energy);
+}
+
+/* Stems hit before the control, of the n rocks that reach it. No sample is kept of them, but sums. */
+static void read_contacts(const struct released *all, const struct weighted *arrived, size_t n,
+                          const struct weighted_sum *hits, struct ceduo_arrivals *a)
+{
+    struct weighted_sum ones = {0};
+    for (size_t i = 0; i < n; i++)
+        weighted_sum_add(&ones, arrived[i].weight, 1);
+    a->contacts = hits->t / ones.t;
+    struct weighted_sum about = {.tt = hits->tt - a->contacts * (2 * hits->tw - a->contacts * ones.tt),
+                                 .tw = hits->tw - a->contacts * ones.tt};
+    a->contacts_se = n > 1 ? ceduo_weighted_se(all, &about) * all->w / ones.t : NAN;
+}
+
+enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
+{
+    struct sums s = ceduo_run_sums_at(run, control);
+    const struct released all = released_of(run, s.missed[CEDUO_UNFINISHED]);
+    double accepted = run->ready.scene.controls[control].accepted;
+    struct weighted *values = malloc(((size_t)run->rocks + 1) * sizeof *values);
+    if (!values)
+        return CEDUO_NO_MEMORY;
+    *a = (struct ceduo_arrivals){.released = run->rocks,
+                                 .reached = s.of[SPEED].n,
+                                 .exceeded = s.exceeded,
+                                 .unfinished = s.ended[CEDUO_UNFINISHED],
+                                 .exceed_probability = NAN,
+                                 .exceed_lo = NAN,
+                                 .exceed_hi = NAN,
+                                 .exact = true};
+    memcpy(a->ended, s.ended, sizeof a->ended);
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        a->missed[e] = s.missed[e] / all.w;
+    a->contacts = a->contacts_se = NAN;
+    struct ceduo_distribution *const to[QUANTITIES] = {
+        [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
+    for (int q = 0; q < QUANTITIES; q++)
+        *to[q] = ceduo_weighted_distribution(&all, values, gather(run, samples_of(run, control, q), values));
+    size_t n = gather(run, samples_of(run, control, ENERGY), values);
+    bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard);
+    read_shares(&all, values, n, accepted, a);
+    if (!run->ready.wood.bare && n > 0)
+        read_contacts(&all, values, n, &s.hits, a);
+    free(values);
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
+/* ---- differences ---- */
+
+struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
+                                                   size_t control)
+{
+    const struct ceduo_run *shorter = run->rocks < baseline->rocks ? run : baseline;
+    const struct released all = released_of(shorter, 0);
+    const double *a = samples_of(run, control, ENERGY), *b = samples_of(baseline, control, ENERGY);
+    double accepted = run->ready.scene.controls[control].accepted;
+    struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
+    for (uint64_t r = 0; r < shorter->rocks; r++) {
+        double w = run->weights[r];
+        weighted_sum_add(&reach, w, (double)!isnan(a[r]) - (double)!isnan(b[r]));
+        weighted_sum_add(&exceed, w, (double)(a[r] > accepted) - (double)(b[r] > accepted));
+        weighted_sum_add(&energy, w, (isnan(a[r]) ? 0 : a[r]) - (isnan(b[r]) ? 0 : b[r]));
+    }
+    struct ceduo_difference d = {{reach.t / all.w, ceduo_weighted_se(&all, &reach)},
+                                 {exceed.t / all.w, ceduo_weighted_se(&all, &exceed)},
+                                 {energy.t / all.w, ceduo_weighted_se(&all, &energy)}};
+    if (isnan(accepted))
+        d.exceed_probability = (struct ceduo_paired){NAN, NAN};
+    return d;
+}
+
+/* ---- ends ---- */
+
+enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends)
+{
+    const struct released all = released_of(run, 0);
+    struct weighted *stops = malloc(((size_t)run->rocks + 1) * sizeof *stops);
+    if (!stops)
+        return CEDUO_NO_MEMORY;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        ends->share[e] = (run->whole.ended[e] + run->tail.ended[e]) / all.w;
+    size_t n = gather(run, stops_of(run), stops);
+    ceduo_weighted_sort(stops, n);
+    ends->stop_p50 = ceduo_weighted_quantile(stops, n, 0.5);
+    ends->stop_p95 = ceduo_weighted_quantile(stops, n, 0.95);
+    free(stops);
+    return CEDUO_OK;
+}

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "weighted.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define ROUNDING 1e-12 /* of a variance: what is left of it by rounding alone */
+
+/* The variance of one rock's part in a sum, less what its weight explains. */
+static double variance(const struct released *all, const struct weighted_sum *s)
+{
+    double n = all->n, mt = s->t / n, mw = all->w / n;
+    double vt = s->tt / n - mt * mt, vw = all->ww / n - mw * mw, c = s->tw / n - mt * mw;
+    double left = vw > ROUNDING * mw * mw ? vt - c * c / vw : vt;
+    return left > ROUNDING * s->tt / n ? left : 0;
+}
+
+double ceduo_weighted_se(const struct released *all, const struct weighted_sum *s)
+{
+    return all->n < 2 ? NAN : sqrt(variance(all, s) / (all->n - 1)) * all->n / all->w;
+}
+
+/* Wilson's interval of a share of n, which need not be whole. */
+static struct ceduo_rate wilson(double p, double n)
+{
+    double z2 = CEDUO_Z95 * CEDUO_Z95, centre = p + z2 / (2 * n), scale = 1 + z2 / n;
+    double half = CEDUO_Z95 * sqrt(p * (1 - p) / n + z2 / (4 * n * n));
+    return (struct ceduo_rate){p, p > 0 ? fmax(0, (centre - half) / scale) : 0,
+                               p < 1 ? fmin(1, (centre + half) / scale) : 1};
+}
+
+/* So many equal rocks would have the same error. */
+static double effective(const struct released *all, const struct weighted_sum *ones, double p, double last)
+{
+    double mean = all->w / all->n, v = variance(all, ones) / (mean * mean);
+    if (!(p > 0))
+        return all->w / last;
+    return v > 0 && p < 1 ? p * (1 - p) * all->n / v : all->w * all->w / all->ww;
+}
+
+struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last)
+{
+    double sum = ones->t / all->w, p = sum < 1 - ROUNDING ? sum : 1; /* all are summed in another order */
+    double n = effective(all, ones, p, last);
+    struct ceduo_rate share = wilson(p, n);
+    if (all->missing > 0)
+        share.hi = wilson(fmin(1, p + all->missing / all->w), n).hi;
+    return share;
+}
+
+/* ---- distributions ---- */
+
+static int by_value(const void *a, const void *b)
+{
+    const struct weighted *x = a, *y = b;
+    return x->value != y->value ? (x->value > y->value) - (x->value < y->value)
+                                : (x->weight > y->weight) - (x->weight < y->weight);
+}
+
+void ceduo_weighted_sort(struct weighted *values, size_t n)
+{
+    qsort(values, n, sizeof *values, by_value);
+}
+
+static double weight_of(const struct weighted *values, size_t n)
+{
+    double w = 0;
+    for (size_t i = 0; i < n; i++)
+        w += values[i].weight;
+    return w;
+}
+
+double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p)
+{
+    double wanted = p * weight_of(values, n) * (1 - ROUNDING), below = 0;
+    for (size_t i = 0; i < n; i++)
+        if ((below += values[i].weight) >= wanted)
+            return values[i].value;
+    return n > 0 ? values[n - 1].value : NAN;
+}
+
+/* A percentile with its interval. The share below it is a mean over the n values, whose error moves it up and down. */
+static void percentile(const struct released *all, const struct weighted *values, size_t n, double p, double *at,
+                       double *lo, double *hi)
+{
+    double w = weight_of(values, n);
+    struct weighted_sum below = {0};
+    *at = ceduo_weighted_quantile(values, n, p);
+    for (size_t i = 0; i < n; i++)
+        weighted_sum_add(&below, values[i].weight, (values[i].value <= *at) - p);
+    double half = CEDUO_Z95 * ceduo_weighted_se(all, &below) * all->w / w;
+    *lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
+    *hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
+}
+
+struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n)
+{
+    struct ceduo_distribution d = ceduo_distribution_none();
+    double w = weight_of(values, n), squares = 0;
+    struct weighted_sum sum = {0}, about = {0};
+    if (n == 0)
+        return d;
+    ceduo_weighted_sort(values, n);
+    for (size_t i = 0; i < n; i++)
+        weighted_sum_add(&sum, values[i].weight, values[i].value);
+    d.mean = sum.t / w;
+    for (size_t i = 0; i < n; i++) {
+        double off = values[i].value - d.mean;
+        weighted_sum_add(&about, values[i].weight, off);
+        squares += values[i].weight * off * off;
+    }
+    if (n > 1) {
+        d.sd = sqrt(squares / w * (double)n / (double)(n - 1));
+        d.se = ceduo_weighted_se(all, &about) * all->w / w;
+    }
+    d.max = values[n - 1].value;
+    percentile(all, values, n, 0.5, &d.p50, &d.p50_lo, &d.p50_hi);
+    percentile(all, values, n, 0.95, &d.p95, &d.p95_lo, &d.p95_hi);
+    percentile(all, values, n, 0.99, &d.p99, &d.p99_lo, &d.p99_hi);
+    return d;
+}

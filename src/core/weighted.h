@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_WEIGHTED_H
+#define CEDUO_WEIGHTED_H
+
+#include "ceduo/hazard.h"
+#include "ceduo/statistics.h"
+
+/* Statistics of rocks that have weights, which are 1 on the mean (sizes.h). A share or a mean is that of the weights, over
+ * the sum of all weights, so that nothing is above 1. Its error is that of the regression on the weights, whose mean is
+ * known (Cochran 1977): what only says that heavy rocks were drawn a little too often is no error. Where all weights are
+ * equal, these are the plain statistics. */
+
+/* All rocks released. */
+struct released {
+    double n, w, ww; /* the sums of weights and of their squares */
+    double most;     /* the largest weight */
+    double per_year; /* blocks a year; NaN: only shares are asked for */
+    double missing;  /* weights of the unfinished, which might have arrived */
+};
+
+struct weighted {
+    double value, weight;
+};
+
+/* Something that is summed over all rocks, of each its weight times a value; rocks of value 0 need not be added. */
+struct weighted_sum {
+    double t, tt, tw;
+};
+
+static inline void weighted_sum_add(struct weighted_sum *s, double weight, double value)
+{
+    double t = weight * value;
+    s->t += t;
+    s->tt += t * t;
+    s->tw += t * weight;
+}
+
+/* The standard error of such a sum over the sum of all weights. */
+double ceduo_weighted_se(const struct released *all, const struct weighted_sum *sum);
+
+/* The share of those that a rock is one of which it holds 1, with its 95 % interval by Wilson at the number of equal rocks
+ * that would have the same error. `last`: a weight that such a rock would have, for where there is none. The upper end
+ * counts the unfinished in. */
+struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last);
+
+/* Of n values, which are sorted. Percentiles have intervals after Woodruff (1952). */
+struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n);
+
+/* The quantile p of sorted values. */
+double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p);
+
+void ceduo_weighted_sort(struct weighted *values, size_t n);
+
+/* The hazard from the energies of the n rocks that arrive, which are sorted. CEDUO_NO_MEMORY: false. */
+bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted,
+                       struct ceduo_hazard *hazard);
+
+#endif

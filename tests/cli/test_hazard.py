@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""blocks: how often, and with how much. Closed forms on a free fall, weights against as many rocks as come down, parts, what is
+refused."""
+import csv
+import io
+import json
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import (DONE, FULL, INPUT, Folder, ceduo, expect, expect_equal, expect_in, expect_near, good,  # noqa: E402
+                     run_all, scene, stand)
+
+DENSITY = 2600
+CLIFF = {"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]}
+# out at 10 m/s, 2 s of free fall to x = 20: energy per kg
+FALL = 9.81 * (9.81 * 2 ** 2 / 2) + 10 ** 2 / 2
+WOOD = {"from_m": 0, "to_m": 140, "stand": stand()}
+POWER = {"per_year": 4, "volume_m3": [0.01, 10], "exponent": 1.2}
+
+
+def falls(blocks, **changes):
+    """Every block goes through the control in free flight, with FALL per kg."""
+    return scene(**{"rock": {"diameter_m": 1, "density_kg_m3": DENSITY}, "blocks": blocks, "release": {"vx_m_s": 10},
+                    "slope": CLIFF, "controls": [{"x_m": 20, "name": "road", "accepted_kJ": 500}], "forest": [],
+                    "simulation": {"rocks": 65536}, **changes})
+
+
+def slope_site(**changes):
+    """Rocks jump and roll down 150 m through a coppice."""
+    return scene(**{"rock": {"diameter_m": 1, "density_kg_m3": DENSITY}, "blocks": POWER,
+                    "release": {"vx_m_s": 1, "height_m": 2},
+                    "slope": {"vertices_m": [[0, 100], [150, 0], [200, 0]],
+                              "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]},
+                    "controls": [{"x_m": 80, "accepted_kJ": 30}, {"x_m": 140, "name": "road", "accepted_kJ": 50}],
+                    "forest": [WOOD], "simulation": {"rocks": 2000}, **changes})
+
+
+def run(what, *arguments):
+    with Folder() as f:
+        return good("--batch", "-f", "json", *arguments, f.write("s.yaml", what)).json()[0]
+
+
+def hazard_of(result, side="bare", control=-1, option=0):
+    return result["options"][option]["controls"][control][side]["hazard"]
+
+
+def number_above(blocks, volume):
+    """Blocks a year that are larger, by the power law of a class."""
+    lo, hi = blocks["volume_m3"]
+    b, v = blocks.get("exponent", 0), min(max(volume, lo), hi)
+    if b == 0:
+        return blocks["per_year"] * math.log(hi / v) / math.log(hi / lo)
+    return blocks["per_year"] * (v ** -b - hi ** -b) / (lo ** -b - hi ** -b)
+
+
+def rate_above(classes, energy_kJ):
+    return sum(number_above(c, energy_kJ * 1000 / (DENSITY * FALL)) for c in classes)
+
+
+def check_power_law(classes, hazard):
+    total = sum(c["per_year"] for c in classes)
+    expect_near(hazard["per_year"], total, 1e-12 * total)
+    expect_near(hazard["reach_per_year"], total, 1e-9 * total, "all of them arrive")
+    for point in hazard["exceed_rate"]:
+        exact = rate_above(classes, point["energy_kJ"])
+        expect(point["lo"] <= exact <= point["hi"], point, exact)
+        expect_near(point["per_year"], exact, 0.004 * exact + 1e-4 * total, f"rate above {point['energy_kJ']} kJ")
+    for back in hazard["return"]:
+        if back["energy_kJ"] is not None:
+            expect_near(rate_above(classes, back["energy_kJ"]), 1 / back["years"], 0.01 / back["years"], back)
+            expect(rate_above(classes, back["lo"]) >= 1 / back["years"], back)
+            expect(back["hi"] is None or rate_above(classes, back["hi"]) <= 1 / back["years"], back)
+
+
+def test_power_law():
+    """In a free fall the curve is the power law of the sizes, whatever the exponent and the number of classes"""
+    for classes in ([POWER], [{**POWER, "exponent": 0}], [{**POWER, "exponent": 0.5}, {"per_year": 0.02, "volume_m3": [20, 30]}],
+                    [{"per_year": 0.2, "volume_m3": [1, 3]}, {"per_year": 7, "volume_m3": [0.02, 0.5], "exponent": 2}]):
+        result = run(falls(classes[0] if len(classes) == 1 else classes))
+        check_power_law(classes, hazard_of(result))
+        check_power_law(classes, hazard_of(result, "wooded"))
+
+
+def test_figures_agree():
+    """Matrix, accepted energy and shares say the same as the curve"""
+    result = run(falls(POWER))
+    hazard, bare = hazard_of(result), result["options"][0]["controls"][0]["bare"]
+    exact = rate_above([POWER], 500)
+    expect_near(hazard["accepted_per_year"], exact, 0.004 * exact)
+    expect_near(hazard["accepted_years"], 1 / hazard["accepted_per_year"], 1e-9)
+    expect(hazard["accepted_years_lo"] < hazard["accepted_years"] < hazard["accepted_years_hi"], hazard)
+    expect_near(bare["exceed_probability"] * POWER["per_year"], hazard["accepted_per_year"], 1e-9)
+    limits = [0, 30, 300, math.inf]
+    for i, row in enumerate(hazard["matrix"]):
+        within = rate_above([POWER], limits[i]) - (rate_above([POWER], limits[i + 1]) if i < 2 else 0)
+        expect_near(row["per_year"], within, 0.01 * within, row)
+        expect_equal((row["from_kJ"], row["to_kJ"], row["rate_left"]), (limits[i], limits[i + 1] if i < 2 else None, 1))
+        for back in hazard["return"][1:]:
+            expect_equal(row[f"to_{back['years']}_years"], limits[i] <= back["energy_kJ"] < limits[i + 1], row)
+    mean = sum(0.5 * (a + b) * (number_above(POWER, a) - number_above(POWER, b)) for a, b in
+               ((0.01 * 1000 ** (k / 9000), 0.01 * 1000 ** ((k + 1) / 9000)) for k in range(9000))) / POWER["per_year"]
+    expect_near(bare["energy_kJ"]["mean"], mean * DENSITY * FALL / 1000, 0.01 * mean * DENSITY * FALL / 1000)
+    median = next(v for v in (0.01 * 1000 ** (k / 9000) for k in range(9000)) if number_above(POWER, v) <= 2)
+    expect_near(bare["energy_kJ"]["p50"], median * DENSITY * FALL / 1000, 0.01 * median * DENSITY * FALL / 1000)
+    expect(bare["energy_kJ"]["p50_lo"] <= bare["energy_kJ"]["p50"] <= bare["energy_kJ"]["p50_hi"], bare)
+    expect_near(bare["speed_m_s"]["p99"], math.sqrt(2 * FALL), 1e-9)
+    expect_equal(bare["reach_probability"], 1)
+
+
+def test_split():
+    """Two classes are one that is split in two, each with its share of the blocks"""
+    above = number_above(POWER, 0.5)
+    two = [{**POWER, "volume_m3": [0.01, 0.5], "per_year": POWER["per_year"] - above},
+           {**POWER, "volume_m3": [0.5, 10], "per_year": above}]
+    a, b = (hazard_of(run(slope_site(blocks=what)), "wooded") for what in (POWER, two))
+    for p, q in zip(a["exceed_rate"], b["exceed_rate"]):
+        for key in ("per_year", "lo", "hi"):
+            expect_near(p[key], q[key], 1e-9 * p["hi"], f"{key} of {p['energy_kJ']}")
+
+
+def test_brute_force():
+    """Weights give the rates that blocks drawn as they come down give, with 20 times fewer rocks at 300 years"""
+    site = slope_site(simulation={"rocks": 4000 if FULL else 1000, "seed": 5})
+    weighted = hazard_of(run(site), "wooded")
+    # as they come down: classes so thin that all sizes within one are as likely, each its own run of as many rocks as it has
+    counts = {k["energy_kJ"]: 0 for k in weighted["exceed_rate"]}
+    rocks, cells = (400000 if FULL else 40000), 24
+    edges = [0.01 * 1000 ** (k / cells) for k in range(cells + 1)]
+    total = 0
+    for lo, hi in zip(edges, edges[1:]):
+        share = (number_above(POWER, lo) - number_above(POWER, hi)) / POWER["per_year"]
+        n = max(1, round(share * rocks))
+        thin = {"per_year": POWER["per_year"] * share, "volume_m3": [lo, hi], "exponent": POWER["exponent"]}
+        found = hazard_of(run(slope_site(blocks=thin, simulation={"rocks": n, "seed": 6})), "wooded")
+        total += n
+        for point in found["exceed_rate"]:
+            counts[point["energy_kJ"]] = counts.get(point["energy_kJ"], 0) + point["per_year"] / thin["per_year"] * n
+    for point in weighted["exceed_rate"]:
+        hits = counts[point["energy_kJ"]]
+        rate = hits / total * POWER["per_year"]
+        se = math.hypot(math.sqrt(max(hits, 1)) / total * POWER["per_year"], (point["hi"] - point["lo"]) / 3.92)
+        expect(abs(rate - point["per_year"]) <= 4 * se, point, rate, se)
+    back = weighted["return"][3]
+    exceed = [p for p in weighted["exceed_rate"] if p["energy_kJ"] <= back["energy_kJ"]][-1]
+    relative = (exceed["hi"] - exceed["lo"]) / 3.92 / exceed["per_year"]
+    rocks_as_they_come = POWER["per_year"] / exceed["per_year"] / relative ** 2  # binomial, of a rare event
+    expect(rocks_as_they_come > 20 * site["simulation"]["rocks"], "rocks for the same error", rocks_as_they_come)
+
+
+def test_curves():
+    """Curves only fall, lie within their intervals, and wood is nowhere above the bare slope by more than errors"""
+    result = run(slope_site())
+    for control in range(2):
+        bare, wooded = (hazard_of(result, side, control)["exceed_rate"] for side in ("bare", "wooded"))
+        for curve in (bare, wooded):
+            for p, q in zip(curve, curve[1:]):
+                expect(p["per_year"] >= q["per_year"] and p["energy_kJ"] < q["energy_kJ"], p, q)
+            expect(all(p["lo"] <= p["per_year"] <= p["hi"] for p in curve), curve)
+            expect(curve[-1]["per_year"] == 0 and curve[-2]["per_year"] > 0, curve[-2:])
+        for p, q in zip(bare, wooded):
+            expect(q["lo"] <= p["hi"], p, q)
+        left = hazard_of(result, "wooded", control)["rate_left"]
+        rates = [hazard_of(result, side, control)["accepted_per_year"] for side in ("wooded", "bare")]
+        expect_near(left, rates[0] / rates[1], 1e-12)
+
+
+def test_none():
+    """Without blocks there is no hazard; with index none through the wood; where nothing arrives the rates are 0"""
+    result = run(slope_site(blocks=None))
+    expect_equal((hazard_of(result), hazard_of(result, "wooded")), (None, None))
+    result = run(slope_site(simulation={"rocks": 50, "contact_model": "index"}))
+    expect(hazard_of(result)["per_year"] == 4 and result["options"][0]["controls"][1]["wooded"] is None, result)
+    stuck = run(falls(POWER, controls=[{"x_m": 55}], simulation={"rocks": 500}))
+    hazard = hazard_of(stuck)
+    expect_equal((hazard["reach_per_year"], hazard["reach_years"], hazard["accepted_years"], hazard["rate_left"]),
+                 (0, None, None, None))
+    expect_equal(hazard["exceed_rate"][0]["per_year"], 0)
+    expect(0 < hazard["exceed_rate"][0]["hi"] < 4, hazard)
+    expect(all(back[key] is None for back in hazard["return"] for key in ("energy_kJ", "lo", "hi")), hazard)
+
+
+def test_same_bits():
+    """Threads, kernels, steps and parts change no bit"""
+    with Folder() as f:
+        path = f.write("s.yaml", slope_site(simulation={"rocks": 5000}, options=[
+            {"name": "a", "forest": []}, {"name": "b", "forest": [WOOD]}], forest=None))
+        one = good("--batch", "-f", "json", "-j", 1, path).json()[0]
+        two = good("--batch", "-f", "json", "-j", 3, path).json()[0]
+        parts = [good("--shard", f"{i}/3", "-j", i, "-o", f.path / f"{i}.part", path) and f.path / f"{i}.part"
+                 for i in (1, 2, 3)]
+        merged = good("--merge", "-f", "json", *reversed(parts)).json()[0]
+        for other in (two, merged):
+            for r in (one, other):
+                r.pop("work", None)
+            expect_equal(json.dumps(other), json.dumps(one))
+
+
+def test_error_bars():
+    """The 95 % intervals hold what very many rocks give, of 60 seeds in 90 % at least"""
+    site = slope_site(simulation={"rocks": 200})
+    best = hazard_of(run(slope_site(), "-n", 60000), "wooded")
+    held = {"accepted": 0, "return": 0}
+    for seed in range(60):
+        h = hazard_of(run(site, "--seed", 100 + seed), "wooded")
+        low, high = h["accepted_years_lo"], h["accepted_years_hi"]
+        held["accepted"] += low <= best["accepted_years"] and (high is None or best["accepted_years"] <= high)
+        low, high = h["return"][2]["lo"], h["return"][2]["hi"]
+        held["return"] += (low or 0) <= best["return"][2]["energy_kJ"] <= (high or math.inf)
+    expect(min(held.values()) >= 54, held)
+
+
+def test_csv():
+    """CSV has the figures that are no curve, in columns of their own"""
+    with Folder() as f:
+        path = f.write("s.yaml", slope_site())
+        row = list(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", path).out)))[1]
+        hazard = hazard_of(good("--batch", "-f", "json", path).json()[0], "wooded")
+        for key, value in {"accepted_years": hazard["accepted_years"], "return.300.energy_kJ": hazard["return"][3]["energy_kJ"],
+                           "matrix.strong.per_year": hazard["matrix"][2]["per_year"], "rate_left": hazard["rate_left"]}.items():
+            expect_equal(float(row[f"wooded.hazard.{key}"]), value, key)
+        expect(not any("exceed_rate" in key for key in row), list(row))
+        without = next(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", f.write("t.yaml", slope_site(blocks=None))).out)))
+        expect_equal({v for k, v in without.items() if ".hazard." in k}, {""})
+
+
+def test_tolerance_and_doubt():
+    """-e works with weights; doubt of the sizes moves the answer"""
+    result = run(slope_site(), "-e", "0.05")
+    for side in ("bare", "wooded"):
+        energy = result["options"][0]["controls"][1][side]["energy_kJ"]
+        expect(1.96 * energy["se"] <= 0.05 * energy["mean"], energy)
+    with Folder() as f:
+        for blocks, place in ((POWER, "blocks.exponent"), ([POWER], "blocks[0].exponent")):
+            doubt = [{"path": place, "lo": 0.6, "hi": 2}]
+            r = ceduo("--sensitivity=8", "-f", "json", "-n", 100, f.write("s.yaml", slope_site(blocks=blocks, doubt=doubt)))
+            expect_equal(r.status, DONE, r)
+            figures = json.loads(r.out)["figures"]
+            reach = next(x for x in figures if x["figure"] == "reach_probability")
+            expect(place in [i["path"] for i in reach["inputs"]], reach)
+            expect(reach["doubt_p5"] < reach["doubt_p95"], reach)
+
+
+def test_refused():
+    """What is no list of sizes is refused, with its place"""
+    cases = [({**POWER, "exponent": -1}, "blocks.exponent: -1 is below 0"),
+             ({k: v for k, v in POWER.items() if k != "exponent"}, "blocks: 'exponent' is missing"),
+             ({**POWER, "volume_m3": [2, 2]}, "blocks.volume_m3: 2 m3 is not below 2 m3; write the smaller volume first"),
+             ({**POWER, "volume_m3": [2]}, "blocks.volume_m3: expected two volumes"),
+             ({**POWER, "volume_m3": [0, 2]}, "blocks.volume_m3[0]: 0 is not above 0 m3"),
+             ({**POWER, "per_year": 0}, "blocks.per_year: 0 is not above 0 1/y"),
+             ([], "blocks: name at least one class of blocks, or remove the key"),
+             ([POWER, {**POWER, "volume_m3": [5, 20]}],
+              "blocks[1].volume_m3: the class overlaps one before it, from 0.01 to 10 m3; let them touch at most"),
+             ([{**POWER, "volume_m3": [3, 1]}], "blocks[0].volume_m3: 3 m3 is not below 1 m3"),
+             ([{"per_year": 1}], "'volume_m3' is missing"),
+             ("many", "blocks: expected a list, not a single value")]
+    with Folder() as f:
+        for blocks, wanted in cases:
+            r = ceduo("--check", f.write("s.yaml", falls(blocks)))
+            expect_equal(r.status, INPUT, r)
+            expect_in(wanted, r.err)
+        for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already say this; keep one of the two"),
+                                ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
+                                 "rock: blocks say how large the rocks are; give the size without a spread"),
+                                ({"simulation": {"rocks": 2000000}},
+                                 "simulation.rocks: with blocks each rock is kept: at most 1048576 rocks")):
+            r = ceduo("--check", f.write("s.yaml", falls(POWER, **changes)))
+            expect_equal(r.status, INPUT, r)
+            expect_in(wanted, r.err)
+        path = f.write("s.yaml", falls(POWER, simulation={"rocks": 64}))
+        expect_equal(good("--batch", "-f", "json", "-s", "blocks.per_year=8", path).json()[0]["options"][0]["controls"][0]
+                     ["bare"]["hazard"]["per_year"], 8)
+
+
+if __name__ == "__main__":
+    run_all(__name__)

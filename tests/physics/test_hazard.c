@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sizes and weights: their laws in closed form, and that weights which are all alike change no statistics. */
+#include "expect.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/sizes.h"
+#include "core/weighted.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+#define ROCKS     100000
+
+static void expect_near(double found, double wanted, double tolerance)
+{
+    if (!(fabs(found - wanted) <= tolerance))
+        fail_msg("found %.17g, wanted %.17g within %g", found, wanted, tolerance);
+}
+
+/* ---- sizes ---- */
+
+static double first[] = {0.02, 0.5}, second[] = {0.5, 40};
+
+static struct ceduo_scene scene_of(struct ceduo_block_class *classes, size_t n)
+{
+    struct ceduo_scene scene = ceduo_scene_default();
+    scene.blocks = classes;
+    scene.blocks_count = n;
+    return scene;
+}
+
+/* Blocks a year of a class above v. */
+static double above(const struct ceduo_block_class *c, double v)
+{
+    double lo = c->volumes[0], hi = c->volumes[1], b = c->exponent;
+    v = fmin(fmax(v, lo), hi);
+    double share = b > 0 ? (pow(v, -b) - pow(hi, -b)) / (pow(lo, -b) - pow(hi, -b)) : log(hi / v) / log(hi / lo);
+    return c->per_year * share;
+}
+
+/* Weights sum to the blocks that come down, above any volume; volumes have even logarithms. */
+static void weights_sum_to_what_comes_down(void **state)
+{
+    (void)state;
+    struct ceduo_block_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
+    struct ceduo_scene scene = scene_of(classes, 2);
+    struct sizes sizes;
+    assert_true(ceduo_sizes_init(&sizes, &scene));
+    expect_near(sizes.per_year, 3.05, 1e-12);
+    for (double v = 0.02; v < 40; v *= 1.3) {
+        double rate = 0, larger = 0;
+        for (uint64_t r = 0; r < ROCKS; r++) {
+            struct size s = ceduo_size_of(&sizes, r);
+            rate += s.volume > v ? s.weight * sizes.per_year / ROCKS : 0;
+            larger += s.volume > v;
+        }
+        expect_near(rate, above(&classes[0], v) + above(&classes[1], v), 1e-3 * rate + 1e-4);
+        expect_near(larger / ROCKS, log(40 / v) / log(40 / 0.02), 1e-3);
+    }
+    ceduo_sizes_release(&sizes);
+}
+
+/* Of 100 rocks in a row, wherever they begin, some are of every tenth of the range. */
+static void every_few_rocks_have_all_sizes(void **state)
+{
+    (void)state;
+    struct ceduo_block_class class = {1, 1, 2, second};
+    struct ceduo_scene scene = scene_of(&class, 1);
+    struct sizes sizes;
+    for (uint64_t seed = 1; seed < 20; seed++) {
+        scene.simulation.seed = seed;
+        assert_true(ceduo_sizes_init(&sizes, &scene));
+        for (uint64_t from = 0; from < 3000; from += 137) {
+            int in[10] = {0};
+            for (uint64_t r = from; r < from + 100; r++) {
+                double along = log(ceduo_size_of(&sizes, r).volume / 0.5) / log(80);
+                EXPECT(along, >, 0);
+                EXPECT(along, <, 1);
+                in[(int)(10 * along)]++;
+            }
+            for (int i = 0; i < 10; i++)
+                EXPECT(in[i], >=, 7);
+        }
+        ceduo_sizes_release(&sizes);
+    }
+}
+
+/* Typical rocks are of the sizes that come down. */
+static void typical_rocks_are_as_frequent_as_blocks(void **state)
+{
+    (void)state;
+    struct ceduo_block_class class = {1, 0.8, 2, second};
+    struct ceduo_scene scene = scene_of(&class, 1);
+    struct sizes sizes;
+    assert_true(ceduo_sizes_init(&sizes, &scene));
+    double n = 0, larger = 0;
+    for (uint64_t r = 0; r < ROCKS; r++)
+        if (ceduo_size_is_typical(&sizes, scene.simulation.seed, r)) {
+            n++;
+            larger += ceduo_size_of(&sizes, r).volume > 2;
+        }
+    double p = above(&class, 2);
+    expect_near(larger / n, p, 4 * sqrt(p * (1 - p) / n));
+    ceduo_sizes_release(&sizes);
+}
+
+/* A cylinder keeps its shape and its density. */
+static void a_rock_is_scaled_as_a_whole(void **state)
+{
+    (void)state;
+    struct ceduo_rock_def def = ceduo_scene_default().rock;
+    struct ceduo_rock rock;
+    def.shape = CEDUO_CYLINDER;
+    def.diameter = ceduo_number(0.56);
+    def.height = ceduo_number(0.80);
+    def.density = ceduo_number(2600);
+    assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
+    double volume = rock.volume;
+    ceduo_rock_resize(&rock, 8 * volume);
+    expect_near(rock.mean_diameter, 2 * 0.68, 1e-15);
+    expect_near(rock.radius, 0.68, 1e-15);
+    expect_near(rock.mass, 8 * 512.3058, 1e-3);
+    expect_near(rock.moment, 0.5 * rock.mass * 0.68 * 0.68, 1e-12 * rock.moment);
+    expect_near(rock.volume, 8 * volume, 1e-15);
+    expect_near(rock.axes[0], 1.12, 1e-15);
+    expect_near(rock.axes[2], 1.6, 1e-15);
+}
+
+/* ---- weights ---- */
+
+#define N 1000
+
+/* Values without order, and 1 - share of them that arrive. */
+static size_t some_values(struct weighted *values, double weight, size_t n)
+{
+    for (size_t i = 0; i < n; i++) {
+        uint32_t x = (uint32_t)i * 2654435761u + 12345u;
+        values[i] = (struct weighted){1 + (double)(x >> 8) / 1e6, weight};
+    }
+    return n;
+}
+
+/* With weights that are all alike, whatever they are, everything is as without. */
+static void weights_that_are_alike_change_nothing(void **state)
+{
+    (void)state;
+    static struct weighted values[N];
+    for (size_t n = 0; n <= N; n += 125) {
+        const double weight = 3;
+        double lo, hi;
+        struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .most = weight, .per_year = 1};
+        struct weighted_sum ones = {0};
+        some_values(values, weight, n);
+        for (size_t i = 0; i < n; i++)
+            weighted_sum_add(&ones, weight, 1);
+        ceduo_wilson(n, N, &lo, &hi);
+        struct ceduo_rate share = ceduo_weighted_share(&all, &ones, weight);
+        expect_near(share.rate, (double)n / N, 1e-12);
+        expect_near(share.lo, lo, 1e-9);
+        expect_near(share.hi, hi, 1e-9);
+        struct ceduo_moments m = {0};
+        double plain[N];
+        for (size_t i = 0; i < n; i++) {
+            ceduo_moments_add(&m, values[i].value);
+            plain[i] = values[i].value;
+        }
+        struct ceduo_distribution a = ceduo_weighted_distribution(&all, values, n);
+        struct ceduo_distribution b = ceduo_distribution_exact(plain, n, &m);
+        if (n == 0) {
+            assert_true(isnan(a.mean) && isnan(a.p50) && isnan(a.max));
+            continue;
+        }
+        expect_near(a.mean, b.mean, 1e-12);
+        expect_near(a.sd, b.sd, 1e-9);
+        double m1 = (double)(n - 1) / (double)n, all1 = (double)(N - 1) / N; /* divided by n - 1, and by N - 1 */
+        expect_near(a.se, b.se * sqrt(m1 / all1), 1e-9);
+        expect_near(a.p50, b.p50, 0);
+        expect_near(a.p95, b.p95, 0);
+        expect_near(a.p99, b.p99, 0);
+        expect_near(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: a rank or two */
+        expect_near(a.p50_hi, b.p50_hi, 0.15);
+        expect_near(a.max, b.max, 0);
+    }
+}
+
+/* What a weight alone explains is no error: of all rocks the share is 1 without one, of none 0. */
+static void what_weights_explain_is_no_error(void **state)
+{
+    (void)state;
+    struct released all = {.n = N, .most = 2, .per_year = 1};
+    struct weighted_sum ones = {0}, none = {0}, fives = {0};
+    for (size_t i = 0; i < N; i++) {
+        double w = i % 2 ? 0.5 : 1.5;
+        all.w += w;
+        all.ww += w * w;
+        weighted_sum_add(&ones, w, 1);
+        weighted_sum_add(&fives, w, 5);
+    }
+    expect_near(ceduo_weighted_se(&all, &ones), 0, 0);
+    expect_near(ceduo_weighted_se(&all, &fives), 0, 0);
+    struct ceduo_rate all_of_them = ceduo_weighted_share(&all, &ones, 1), nobody = ceduo_weighted_share(&all, &none, 0.1);
+    expect_near(all_of_them.rate, 1, 0);
+    expect_near(all_of_them.hi, 1, 0);
+    assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
+    expect_near(nobody.rate, 0, 0);
+    expect_near(nobody.lo, 0, 0);
+    expect_near(nobody.hi, 3.8414588 / (N / 0.1 + 3.8414588), 1e-6); /* Wilson of 0 among as many light rocks */
+    all.missing = all.w / 10;
+    expect_near(ceduo_weighted_share(&all, &none, 1).hi, 0.12, 0.01);
+    all.n = 1;
+    assert_true(isnan(ceduo_weighted_se(&all, &ones)));
+}
+
+/* ---- hazard ---- */
+
+static void energies_and_classes_are_what_they_are_called(void **state)
+{
+    (void)state;
+    static const struct {
+        double energy;
+        int class;
+    } rows[] = {{0, 0}, {29999, 0}, {30000, 1}, {299999, 1}, {3e5, 2}, {1e12, 2}, {NAN, -1}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        assert_int_equal(ceduo_intensity_of(rows[i].energy), rows[i].class);
+    expect_near(ceduo_hazard_energy(0), 100, 0);
+    expect_near(ceduo_hazard_energy(15), 3000, 0);
+    expect_near(ceduo_hazard_energy(CEDUO_HAZARD_ENERGIES - 1), 1e9, 0);
+    for (size_t i = 1; i < CEDUO_HAZARD_ENERGIES; i++)
+        EXPECT(ceduo_hazard_energy(i), >, ceduo_hazard_energy(i - 1));
+}
+
+/* Three rocks of a thousand arrive, one block comes down in two years. */
+static void few_rocks_bound_what_they_can(void **state)
+{
+    (void)state;
+    const struct released all = {.n = N, .w = N, .ww = N, .most = 1, .per_year = 0.5};
+    struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
+    struct ceduo_hazard h;
+    assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
+    expect_near(h.reach.rate, 0.0015, 1e-15);
+    expect_near(h.accepted.rate, 0.001, 1e-15);
+    expect_near(ceduo_hazard_feared(&h).rate, 0.001, 1e-15);
+    for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
+        expect_near(h.intensity[i].within.rate, 0.0005, 1e-15);
+    assert_true(isnan(h.returns[3].energy) && isnan(h.returns[3].lo)); /* 0.0015 a year: less than one in 300 years */
+    expect_near(h.returns[3].hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
+    assert_true(isnan(h.returns[1].hi)); /* one in 30 years is more than all three may be */
+    assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h));
+    assert_true(isnan(h.accepted.rate));
+    expect_near(ceduo_hazard_feared(&h).rate, 0.0015, 1e-15);
+    struct ceduo_hazard none = ceduo_hazard_none();
+    ceduo_hazard_compare(&h, &none);
+    assert_true(isnan(h.left) && isnan(h.intensity[0].left));
+}
+
+/* Beyond the last energy of the curve there is no other. */
+static void a_curve_ends_where_its_energies_do(void **state)
+{
+    (void)state;
+    const struct released all = {.n = 2, .w = 2, .ww = 2, .most = 1, .per_year = 1};
+    struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
+    struct ceduo_hazard h;
+    assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h));
+    assert_int_equal(h.energies, CEDUO_HAZARD_ENERGIES);
+    expect_near(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.rate, 1, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(weights_sum_to_what_comes_down),
+        cmocka_unit_test(every_few_rocks_have_all_sizes),
+        cmocka_unit_test(typical_rocks_are_as_frequent_as_blocks),
+        cmocka_unit_test(a_rock_is_scaled_as_a_whole),
+        cmocka_unit_test(weights_that_are_alike_change_nothing),
+        cmocka_unit_test(what_weights_explain_is_no_error),
+        cmocka_unit_test(energies_and_classes_are_what_they_are_called),
+        cmocka_unit_test(few_rocks_bound_what_they_can),
+        cmocka_unit_test(a_curve_ends_where_its_energies_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
