@@ -262,7 +262,7 @@ do-coverage:
 do-net: all $(T)/tables $(BUILD)/man/completion
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
-DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge
+DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
 DEBIAN_BENCH := python3-numpy gnuplot-nox
 # FULL: also runs what `make check` leaves out to be short.
 do-check-all: export FULL := 1

@@ -11,6 +11,7 @@
 #include "io/file.h"
 #include "program.h"
 #include "screen.h"
+#include "view/svg.h"
 
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {
@@ -60,11 +61,25 @@ static void wait_idle(struct app *app)
     ceduo_program_news(app);
 }
 
-static enum script_end dump(struct app *app, const char *name, bool roles, const char *path, size_t line)
+/* The screen as text, as letters of its roles, or as a drawing; NULL without memory. */
+static char *screen_as(struct app *app, const char *what)
+{
+    struct text drawing = {0};
+    if (strcmp(what, "roles") == 0)
+        return ceduo_cells_roles(app->cells);
+    if (strcmp(what, "dump") == 0)
+        return ceduo_cells_dump(app->cells);
+    ceduo_svg_screen(&drawing, app->cells, app->document.file.scene.title);
+    if (drawing.failed)
+        ceduo_text_free(&drawing);
+    return drawing.bytes;
+}
+
+static enum script_end dump(struct app *app, const char *what, const char *name, const char *path, size_t line)
 {
     ceduo_program_news(app);
     ceduo_screen_draw(app);
-    char *text = roles ? ceduo_cells_roles(app->cells) : ceduo_cells_dump(app->cells);
+    char *text = screen_as(app, what);
     bool good = text != NULL;
     if (good && strcmp(name, "-") == 0)
         good = fputs(text, stdout) >= 0 && fflush(stdout) == 0;
@@ -96,8 +111,8 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         *rest++ = '\0';
     if (strcmp(command, "key") == 0)
         return press(app, rest, path, line);
-    if (strcmp(command, "dump") == 0 || strcmp(command, "roles") == 0)
-        return dump(app, rest, command[0] == 'r', path, line);
+    if (strcmp(command, "dump") == 0 || strcmp(command, "roles") == 0 || strcmp(command, "draw") == 0)
+        return dump(app, command, rest, path, line);
     if (strcmp(command, "resize") == 0)
         return resize(app, rest, path, line);
     if (strcmp(command, "type") == 0)
@@ -105,7 +120,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
     else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0)
         wait_idle(app);
     else
-        return fail(path, line, _("key, type, resize, wait idle, dump or roles is wanted"), command);
+        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command);
     return SCRIPT_DONE;
 }
 

@@ -42,7 +42,7 @@ static const char style[] =
     ".n{text-align:right;white-space:nowrap}\n"
     "figure{margin:2mm 0;break-inside:avoid}\n"
     ".half{display:inline-block;width:49%;vertical-align:top}\n"
-    "figcaption{font-size:9pt;color:#4a4a4a}\n"
+    "figcaption{font-size:8.5pt;color:#4a4a4a;margin-top:1mm}\n"
     "svg{display:block;width:100%;height:auto}\n"
     "pre{font:6.5pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm 3mm;background:#f5f5f2;"
     "break-inside:avoid;columns:2;column-gap:5mm}\n"

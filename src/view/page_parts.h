@@ -28,6 +28,9 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
+/* The energy law of the scene against the other one; nothing where that is not known. */
+void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result);
+
 /* Warnings of the whole run, and assumptions. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);
 

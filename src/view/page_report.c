@@ -14,6 +14,7 @@
 
 #define WHOLE 92 /* cells of a picture across the page */
 #define HALF  46 /* of one that has another beside it */
+#define WIDE  112 /* of one whose rows are few in many columns */
 
 /* Adds one, so many cells large. */
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
@@ -71,9 +72,9 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     struct ceduo_picture picture = picture_of(c, 0);
-    int rows = 5 + 2 * (int)(scene->options_count < 12 ? scene->options_count : 12);
+    int rows = 4 + (int)(scene->options_count < 16 ? scene->options_count : 16);
     ceduo_page_comparison(page, c->report);
-    add_picture(page, CEDUO_PLOT_COMPARE, WHOLE, rows, &picture,
+    add_picture(page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
                 _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
                   "energy, and their mean energy."));
 }
@@ -180,6 +181,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_page_option_blocks(page, c->report, 0);
     }
     if (controls) {
+        ceduo_page_laws(page, c->report->result);
         add_doubt(page, c);
         add_years(page, c);
     }

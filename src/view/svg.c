@@ -360,8 +360,7 @@ void ceduo_svg_put(struct ceduo_html *html, struct ceduo_svg *svg, const struct 
     ceduo_html_leaf(html, "title", words->title, NULL);
     ceduo_html_leaf(html, "desc", words->description, "id", ceduo_text_string(&description), NULL);
     put_marks(html, svg);
-    ceduo_html_open(html, "g", "font-family", paper.font, "font-size", "12.5", "paint-order", "stroke", "stroke", "#fff",
-                    "stroke-width", "3", "stroke-linejoin", "round", NULL);
+    ceduo_html_open(html, "g", "font-family", paper.font, "font-size", "12.5", NULL);
     ceduo_text_add(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);
     html->text->failed |= svg->numbers.failed || description.failed;
     ceduo_svg_cells(html, svg->cells, &paper);

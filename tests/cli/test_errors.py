@@ -498,7 +498,7 @@ CASES = {
         Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
             ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
     # Scripts
-    "key, type, resize, wait idle, dump or roles is wanted: x": Script("# first\nx\n", 2),
+    "key, type, resize, wait idle, dump, roles or draw is wanted: x": Script("# first\nx\n", 2),
     "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),
     "a width and a height are wanted: 80": Script("resize 80\n"),
     "No such file or directory: out/x.txt (status 4)": Script("dump out/x.txt\n", status=OUTPUT),
