@@ -1,204 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What doubt does to the figures of a scene. A list of evaluations is made: the rows of a design (sensitivity.c), then the
- * scene with one input at each end of its range. Threads take evaluations one by one, each with a copy of the scene of its
- * own, and write to the evaluation's own row: so the bits do not depend on them. With more inputs than can have an index, a
- * first look ranks them, and the least move together. */
+/* What doubt does to the figures of a scene. A plan (doubt_plan.c) holds the evaluations: a design (sensitivity.c), and the
+ * scene with one input at each end of its range. Here a plan is made, computed whole or in parts, and read. With more inputs
+ * than can have an index, a first look ranks them, and the least move together. */
 #include "ceduo/doubt.h"
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bytes.h"
 #include "ceduo/question.h"
-#include "inputs.h"
+#include "doubt_plan.h"
 
 #define GROUPS CEDUO_SENSITIVITY_GROUPS
 #define COARSE       4 /* times fewer rocks in a first look, */
 #define COARSE_LEAST 50 /* but so many */
 
-/* Figures of one evaluation: for each option and kind, then the differences of all options but the first. */
-static size_t figures_of(const struct ceduo_scene *scene)
-{
-    return (2 * scene->options_count - 1) * CEDUO_DOUBT_KINDS;
-}
-
-static size_t figure_index(size_t options, size_t option, enum ceduo_doubt_kind kind, bool difference)
-{
-    return (difference ? options + option - 1 : option) * CEDUO_DOUBT_KINDS + kind;
-}
-
-/* ---- one evaluation ---- */
-
 static const struct ceduo_arrivals *arrivals_of(const struct ceduo_result *r, size_t option)
 {
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, r->last_control);
     return wooded ? wooded : &r->bare.arrivals[r->last_control];
-}
-
-/* Sums over all rocks released, from which shares and means come. */
-static void read_option(const struct ceduo_result *r, size_t option, double *sums)
-{
-    const struct ceduo_arrivals *a = arrivals_of(r, option);
-    sums[CEDUO_DOUBT_REACH] = a->reach_probability * (double)a->released;
-    sums[CEDUO_DOUBT_EXCEED] = a->exceed_probability * (double)a->released;
-    sums[CEDUO_DOUBT_ENERGY] = a->energy_per_released * (double)a->released;
-}
-
-/* The figures of the first and the second half of the rocks, to `halves`. */
-static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene,
-                                  struct ceduo_halves *halves)
-{
-    size_t options = scene->options_count;
-    struct ceduo_question q = ceduo_question_default(scene);
-    struct ceduo_pool *pool = NULL;
-    enum ceduo_status status = CEDUO_OK;
-    uint64_t before = 0;
-    q.run.threads = 1;
-    q.run.rocks_most = def->rocks;
-    q.run.arrivals_only = true;
-    q.run.cancel = def->cancel;
-    for (int h = 0; h < 2 && status == CEDUO_OK; h++) {
-        struct ceduo_answer answer;
-        q.rocks = h == 0 ? def->rocks / 2 : def->rocks;
-        status = ceduo_ask(&q, &pool, &answer);
-        for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
-            double sums[CEDUO_DOUBT_KINDS];
-            read_option(answer.result, i, sums);
-            for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++) {
-                struct ceduo_halves *y = &halves[i * CEDUO_DOUBT_KINDS + k];
-                double first = h == 0 ? 0 : y->half[0] * (double)before;
-                y->half[h] = (sums[k] - first) / (double)(q.rocks - before);
-            }
-        }
-        ceduo_answer_release(&answer);
-        before = q.rocks;
-    }
-    ceduo_pool_free(pool);
-    for (size_t i = 1; i < options; i++)
-        for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++)
-            for (int h = 0; h < 2; h++)
-                halves[figure_index(options, i, (enum ceduo_doubt_kind)k, true)].half[h] =
-                    halves[i * CEDUO_DOUBT_KINDS + k].half[h] - halves[k].half[h];
-    return status;
-}
-
-/* ---- many evaluations ---- */
-
-struct work {
-    const struct ceduo_doubt_def *def;
-    size_t evaluations, figures;
-    const double *u;             /* a row of inputs for each evaluation */
-    struct ceduo_halves *values; /* a row of figures for each evaluation */
-    uint64_t done_before, all;   /* for the progress: of all calls together */
-    atomic_size_t next, done;
-    atomic_int status;
-    pthread_mutex_t talking;
-};
-
-static void tell(struct work *w)
-{
-    size_t done = atomic_fetch_add(&w->done, 1) + 1;
-    if (!w->def->progress || pthread_mutex_trylock(&w->talking) != 0)
-        return;
-    w->def->progress(w->def->context, w->done_before + done, w->all);
-    pthread_mutex_unlock(&w->talking);
-}
-
-static void *evaluate_all(void *context)
-{
-    struct work *w = context;
-    const struct ceduo_doubt_def *def = w->def;
-    struct input_scene copy;
-    int good = CEDUO_OK, status = (int)ceduo_inputs_open(&copy, def->scene, def->inputs, def->inputs_count);
-    for (size_t e; status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK &&
-                   (e = atomic_fetch_add(&w->next, 1)) < w->evaluations;) {
-        ceduo_inputs_set(&copy, w->u + e * def->inputs_count);
-        status = (int)evaluate(def, &copy.scene, w->values + e * w->figures);
-        tell(w);
-    }
-    ceduo_inputs_release(&copy);
-    if (status != CEDUO_OK)
-        atomic_compare_exchange_strong(&w->status, &good, status);
-    return NULL;
-}
-
-/* Each row of `u` to a row of `values`. */
-static enum ceduo_status run_all(struct work *w)
-{
-    unsigned n = w->def->threads, started = 0;
-    pthread_t *threads = n > 1 ? calloc(n - 1, sizeof *threads) : NULL;
-    atomic_init(&w->next, 0);
-    atomic_init(&w->done, 0);
-    atomic_init(&w->status, CEDUO_OK);
-    pthread_mutex_init(&w->talking, NULL);
-    while (threads && started < n - 1 && pthread_create(&threads[started], NULL, evaluate_all, w) == 0)
-        started++;
-    evaluate_all(w);
-    while (started > 0)
-        pthread_join(threads[--started], NULL);
-    pthread_mutex_destroy(&w->talking);
-    free(threads);
-    return (enum ceduo_status)atomic_load(&w->status);
-}
-
-/* ---- the design of a scene ---- */
-
-/* A design, its values, and the evaluations behind it with one group at each end, of `ends` groups. */
-struct plan {
-    struct ceduo_design design;
-    size_t rows, ends;
-    double *u;
-    struct ceduo_halves *values;
-};
-
-static void plan_free(struct plan *p)
-{
-    free(p->u);
-    free(p->values);
-}
-
-static enum ceduo_status fill_plan(struct plan *p)
-{
-    size_t n = p->design.inputs;
-    for (size_t i = 0; i < 2 * p->ends * n; i++)
-        p->u[p->rows * n + i] = NAN;
-    for (size_t i = 0; i < n; i++) {
-        size_t g = p->design.group[i];
-        for (size_t end = 0; g < p->ends && end < 2; end++)
-            p->u[(p->rows + 2 * g + end) * n + i] = (double)end;
-    }
-    return ceduo_design_fill(&p->design, p->u);
-}
-
-/* Makes the plan and computes it. */
-static enum ceduo_status run_plan(const struct ceduo_doubt_def *def, struct plan *p, uint64_t done_before, uint64_t all)
-{
-    size_t figures = figures_of(def->scene);
-    p->rows = ceduo_design_evaluations(&p->design);
-    size_t evaluations = p->rows + 2 * p->ends;
-    p->u = malloc(evaluations * def->inputs_count * sizeof *p->u);
-    p->values = calloc(evaluations * figures, sizeof *p->values);
-    if (!p->u || !p->values)
-        return CEDUO_NO_MEMORY;
-    enum ceduo_status status = fill_plan(p);
-    struct work w = {.def = def,
-                     .evaluations = evaluations,
-                     .figures = figures,
-                     .u = p->u,
-                     .values = p->values,
-                     .done_before = done_before,
-                     .all = all};
-    return status == CEDUO_OK ? run_all(&w) : status;
-}
-
-/* Values of one figure in the order of the design. */
-static void column_of(const struct plan *p, size_t figures, size_t figure, struct ceduo_halves *column)
-{
-    for (size_t e = 0; e < p->rows; e++)
-        column[e] = p->values[e * figures + figure];
 }
 
 /* ---- a first look at many inputs ---- */
@@ -231,7 +54,7 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
                                      size_t *group)
 {
     enum ceduo_status status = CEDUO_OK;
-    size_t n = def->inputs_count, figures = figures_of(def->scene);
+    size_t n = def->inputs_count, figures = ceduo_plan_figures(def->scene);
     struct ranked *ranked = calloc(n, sizeof *ranked);
     struct ceduo_doubt_def coarse = *def; /* enough rocks to rank */
     coarse.rocks = def->rocks > COARSE_LEAST * COARSE ? def->rocks / COARSE : def->rocks;
@@ -240,16 +63,17 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
         struct plan plan = {.design = {n, CEDUO_DOUBT_FIRST, def->scene->simulation.seed + from, own + 1, group}};
         for (size_t i = 0; i < n; i++)
             group[i] = i >= from && i < from + own ? i - from : own;
-        status = run_plan(&coarse, &plan, *done, all);
+        status = ceduo_plan_fill(&coarse, &plan);
+        if (status == CEDUO_OK)
+            status = ceduo_plan_run(&coarse, &plan, 1, ceduo_plan_items(&plan), done, all);
         struct ceduo_halves *column = status == CEDUO_OK ? malloc(plan.rows * sizeof *column) : NULL;
         if (column)
-            column_of(&plan, figures, main, column);
+            ceduo_plan_column(&plan, figures, main, column);
         for (size_t i = 0; column && i < own; i++)
             ranked[from + i] = (struct ranked){from + i, weight_of(column, &plan.design, i)};
         status = status == CEDUO_OK && !column ? CEDUO_NO_MEMORY : status;
-        *done += plan.rows;
         free(column);
-        plan_free(&plan);
+        ceduo_plan_release(&plan);
     }
     if (ranked && status == CEDUO_OK) {
         qsort(ranked, n, sizeof *ranked, heavier_first);
@@ -360,7 +184,7 @@ static enum ceduo_status read_figures(const struct ceduo_doubt_def *def, const s
         f->kind = (enum ceduo_doubt_kind)(k % CEDUO_DOUBT_KINDS);
         f->difference = at >= options;
         f->option = f->difference ? at - options + 1 : at;
-        column_of(p, n, k, r.column);
+        ceduo_plan_column(p, n, k, r.column);
         read_spread(p, answer->input, &r, f);
         for (size_t g = 0; g < GROUPS; g++)
             for (size_t end = 0; end < 2; end++)
@@ -406,7 +230,7 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
                      a->energy_per_released + half);
         if (i == 0)
             continue;
-        f = &answer->figures[figure_index(options, i, CEDUO_DOUBT_REACH, true)];
+        f = &answer->figures[ceduo_plan_figure(options, i, CEDUO_DOUBT_REACH, true)];
         const struct ceduo_difference *d = &r->options[i].differences[r->last_control];
         put_difference(&f[CEDUO_DOUBT_REACH], d->reach_probability);
         put_difference(&f[CEDUO_DOUBT_EXCEED], d->exceed_probability);
@@ -472,7 +296,16 @@ static void order_groups(const struct ceduo_doubt_def *def, struct ceduo_doubt_a
         a->order[g] = ranks[g].input;
 }
 
-/* ---- all of it ---- */
+/* ---- making a plan ---- */
+
+/* What is computed or read: a plan of groups, for an answer. */
+struct inquiry {
+    const struct ceduo_doubt_def *def;
+    struct ceduo_doubt_answer *answer;
+    size_t *group; /* of each input */
+    struct plan plan;
+    uint64_t done;
+};
 
 static uint64_t evaluations_of(const struct ceduo_doubt_def *def, size_t groups)
 {
@@ -480,6 +313,18 @@ static uint64_t evaluations_of(const struct ceduo_doubt_def *def, size_t groups)
     if (n > GROUPS)
         all += (n + GROUPS - 2) / (GROUPS - 1) * CEDUO_DOUBT_FIRST * (GROUPS + 2);
     return all;
+}
+
+static enum ceduo_status begin(struct inquiry *q, const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *a)
+{
+    *a = (struct ceduo_doubt_answer){.figures_count = ceduo_plan_figures(def->scene)};
+    *q = (struct inquiry){.def = def, .answer = a, .group = calloc(def->inputs_count + 1, sizeof *q->group)};
+    a->figures = calloc(a->figures_count, sizeof *a->figures);
+    a->groups = def->inputs_count > GROUPS ? GROUPS : def->inputs_count;
+    a->evaluations = evaluations_of(def, a->groups);
+    for (size_t i = 0; q->group && i < def->inputs_count; i++)
+        q->group[i] = i;
+    return q->group && a->figures ? read_sampling(def, a) : CEDUO_NO_MEMORY;
 }
 
 static void name_groups(struct ceduo_doubt_answer *a, const size_t *group, size_t n)
@@ -491,43 +336,132 @@ static void name_groups(struct ceduo_doubt_answer *a, const size_t *group, size_
             a->input[group[i]] = i;
 }
 
-static enum ceduo_status compute(const struct ceduo_doubt_def *def, size_t *group, struct ceduo_doubt_answer *a)
+/* Makes the plan of groups that are known. */
+static enum ceduo_status make_plan(struct inquiry *q)
 {
-    uint64_t done = 0;
-    a->groups = def->inputs_count > GROUPS ? GROUPS : def->inputs_count;
-    a->evaluations = evaluations_of(def, a->groups);
-    for (size_t i = 0; i < def->inputs_count; i++)
-        group[i] = i;
-    enum ceduo_status status = read_sampling(def, a);
-    if (status == CEDUO_OK && def->inputs_count > GROUPS)
-        status = rank_inputs(def, (size_t)a->main, a->evaluations, &done, group);
-    if (status != CEDUO_OK)
-        return status;
-    name_groups(a, group, def->inputs_count);
-    struct plan plan = {
-        .design = {def->inputs_count, def->points, def->scene->simulation.seed, a->groups, group},
-        .ends = a->together > 0 ? a->groups - 1 : a->groups};
-    status = run_plan(def, &plan, done, a->evaluations);
+    const struct ceduo_doubt_def *def = q->def;
+    struct ceduo_doubt_answer *a = q->answer;
+    name_groups(a, q->group, def->inputs_count);
+    q->plan.design = (struct ceduo_design){def->inputs_count, def->points, def->scene->simulation.seed, a->groups, q->group};
+    q->plan.ends = a->together > 0 ? a->groups - 1 : a->groups;
+    return ceduo_plan_fill(def, &q->plan);
+}
+
+/* The same where they must be found first. */
+static enum ceduo_status find_plan(struct inquiry *q)
+{
+    enum ceduo_status status = CEDUO_OK;
+    if (q->def->inputs_count > GROUPS)
+        status = rank_inputs(q->def, (size_t)q->answer->main, q->answer->evaluations, &q->done, q->group);
+    return status == CEDUO_OK ? make_plan(q) : status;
+}
+
+/* Reads a plan whose values are all there. */
+static enum ceduo_status read_plan(const struct inquiry *q)
+{
+    enum ceduo_status status = read_figures(q->def, &q->plan, q->answer);
     if (status == CEDUO_OK)
-        status = read_figures(def, &plan, a);
+        status = read_orders(q->def, &q->plan, q->answer);
     if (status == CEDUO_OK)
-        status = read_orders(def, &plan, a);
-    if (status == CEDUO_OK)
-        order_groups(def, a);
-    plan_free(&plan);
+        order_groups(q->def, q->answer);
     return status;
 }
 
+static enum ceduo_status end(struct inquiry *q, enum ceduo_status status)
+{
+    ceduo_plan_release(&q->plan);
+    free(q->group);
+    if (status != CEDUO_OK)
+        ceduo_doubt_free(q->answer);
+    return status;
+}
+
+/* ---- all of it ---- */
+
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
-    *answer = (struct ceduo_doubt_answer){.figures_count = figures_of(def->scene)};
-    size_t *group = calloc(def->inputs_count + 1, sizeof *group);
-    answer->figures = calloc(answer->figures_count, sizeof *answer->figures);
-    enum ceduo_status status = group && answer->figures ? compute(def, group, answer) : CEDUO_NO_MEMORY;
-    free(group);
+    struct inquiry q;
+    enum ceduo_status status = begin(&q, def, answer);
+    if (status == CEDUO_OK)
+        status = find_plan(&q);
+    if (status == CEDUO_OK)
+        status = ceduo_plan_run(def, &q.plan, 0, ceduo_plan_items(&q.plan), &q.done, answer->evaluations);
+    if (status == CEDUO_OK)
+        status = read_plan(&q);
+    return end(&q, status);
+}
+
+/* ---- parts ---- */
+
+/* Groups and values of items from `from` up to `to`, written or read. */
+static void pass(struct bytes *b, struct inquiry *q, size_t from, size_t to)
+{
+    uint64_t count = q->def->inputs_count;
+    ceduo_bytes_count(b, &count);
+    b->bad |= count != q->def->inputs_count;
+    for (size_t i = 0; i < q->def->inputs_count; i++) {
+        uint64_t group = q->group[i];
+        ceduo_bytes_count(b, &group);
+        b->bad |= group >= q->answer->groups || (q->plan.values && group != q->group[i]);
+        q->group[i] = b->bad ? 0 : (size_t)group;
+    }
+    for (size_t item = from; item < to && q->plan.values; item++) {
+        size_t n;
+        struct ceduo_halves *values = ceduo_plan_values(&q->plan, q->answer->figures_count, item, &n);
+        for (size_t i = 0; i < n; i++)
+            for (size_t h = 0; h < 2; h++)
+                ceduo_bytes_number(b, &values[i].half[h]);
+    }
+}
+
+static size_t items_before(const struct plan *p, uint64_t part, uint64_t parts)
+{
+    return (size_t)(ceduo_plan_items(p) * part / parts);
+}
+
+enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts,
+                                       unsigned char **bytes, size_t *n)
+{
+    struct ceduo_doubt_answer answer;
+    struct inquiry q;
+    struct bytes b = {0};
+    enum ceduo_status status = begin(&q, def, &answer);
+    if (status == CEDUO_OK)
+        status = find_plan(&q);
+    if (status == CEDUO_OK) {
+        size_t from = items_before(&q.plan, part - 1, parts), to = items_before(&q.plan, part, parts);
+        status = ceduo_plan_run(def, &q.plan, from, to, &q.done, answer.evaluations);
+        pass(&b, &q, from, to);
+    }
+    if (end(&q, status) == CEDUO_OK)
+        ceduo_doubt_free(&answer);
+    if (status == CEDUO_OK && b.no_memory)
+        status = CEDUO_NO_MEMORY;
     if (status != CEDUO_OK)
-        ceduo_doubt_free(answer);
+        free(b.to);
+    *bytes = status == CEDUO_OK ? b.to : NULL;
+    *n = b.length;
     return status;
+}
+
+enum ceduo_status ceduo_doubt_join(const struct ceduo_doubt_def *def, const struct ceduo_doubt_part *parts, size_t n,
+                                   struct ceduo_doubt_answer *answer)
+{
+    struct inquiry q;
+    enum ceduo_status status = begin(&q, def, answer);
+    if (status == CEDUO_OK) { /* the groups alone */
+        struct bytes b = {.reads = true, .from = parts[0].bytes, .length = parts[0].length};
+        pass(&b, &q, 0, 0);
+        status = b.bad ? CEDUO_BAD_PART : make_plan(&q);
+    }
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        struct bytes b = {.reads = true, .from = parts[i].bytes, .length = parts[i].length};
+        pass(&b, &q, items_before(&q.plan, i, n), items_before(&q.plan, i + 1, n));
+        status = b.bad || ceduo_bytes_left(&b) > 0 ? CEDUO_BAD_PART : CEDUO_OK;
+    }
+    if (status == CEDUO_OK)
+        status = read_plan(&q);
+    return end(&q, status);
 }
 
 void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
@@ -541,5 +475,5 @@ const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_
                                                        enum ceduo_doubt_kind kind, bool difference)
 {
     size_t options = (answer->figures_count / CEDUO_DOUBT_KINDS + 1) / 2;
-    return &answer->figures[figure_index(options, option, kind, difference)];
+    return &answer->figures[ceduo_plan_figure(options, option, kind, difference)];
 }

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Evaluations. Each thread has a copy of the scene of its own, takes item by item, and writes to the item's own rows: so the
+ * bits do not depend on the threads. Of the evaluations of one item most share something: an input that moves one stand
+ * changes no other option, and one that only one energy law reads changes nothing under the other. A thread therefore keeps
+ * what it found in its item, by the keys of scene and forest, and simulates nothing twice. */
+#include "doubt_plan.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "ceduo/key.h"
+#include "ceduo/run.h"
+#include "inputs.h"
+
+size_t ceduo_plan_figures(const struct ceduo_scene *scene)
+{
+    return (2 * scene->options_count - 1) * CEDUO_DOUBT_KINDS;
+}
+
+size_t ceduo_plan_figure(size_t options, size_t option, enum ceduo_doubt_kind kind, bool difference)
+{
+    return (difference ? options + option - 1 : option) * CEDUO_DOUBT_KINDS + kind;
+}
+
+/* ---- one evaluation ---- */
+
+/* What is known of a forest: the figures of both halves of the rocks. */
+struct known {
+    uint64_t scene, forest;
+    struct ceduo_halves values[CEDUO_DOUBT_KINDS];
+};
+
+struct memory {
+    size_t n;
+    struct known *items;
+};
+
+/* The figures of the first and the second half of the rocks. Shares and means over all released come from sums. */
+static enum ceduo_status fly(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene,
+                             const struct ceduo_option *option, struct ceduo_halves *values)
+{
+    struct ceduo_run_def run_def = ceduo_run_def_default(scene);
+    struct ceduo_run *run;
+    uint64_t before = 0;
+    run_def.option = option;
+    run_def.rocks_most = def->rocks;
+    run_def.arrivals_only = true;
+    run_def.cancel = def->cancel;
+    enum ceduo_status status = ceduo_run_create(&run_def, &run);
+    for (int h = 0; h < 2 && status == CEDUO_OK; h++) {
+        uint64_t rocks = h == 0 ? def->rocks / 2 : def->rocks;
+        status = ceduo_run_extend(run, rocks);
+        if (status != CEDUO_OK)
+            break;
+        struct ceduo_brief brief = ceduo_run_brief(run, ceduo_scene_last_control(scene));
+        const double means[CEDUO_DOUBT_KINDS] = {[CEDUO_DOUBT_REACH] = brief.reach_probability,
+                                                 [CEDUO_DOUBT_EXCEED] = brief.exceed_probability,
+                                                 [CEDUO_DOUBT_ENERGY] = brief.energy_per_released};
+        for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++) {
+            double first = h == 0 ? 0 : values[k].half[0] * (double)before;
+            values[k].half[h] = (means[k] * (double)rocks - first) / (double)(rocks - before);
+        }
+        before = rocks;
+    }
+    ceduo_run_free(run);
+    return status;
+}
+
+static const struct known *find(const struct memory *memory, uint64_t scene, uint64_t forest)
+{
+    for (size_t i = 0; i < memory->n; i++)
+        if (memory->items[i].scene == scene && memory->items[i].forest == forest)
+            return &memory->items[i];
+    return NULL;
+}
+
+static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene,
+                                  struct memory *memory, struct ceduo_halves *values)
+{
+    size_t options = scene->options_count;
+    uint64_t key = ceduo_scene_key(scene);
+    for (size_t i = 0; i < options; i++) {
+        uint64_t forest = ceduo_option_key(scene, &scene->options[i]);
+        const struct known *known = find(memory, key, forest);
+        if (!known) {
+            struct known *fresh = &memory->items[memory->n];
+            *fresh = (struct known){key, forest, {{{0}}}};
+            enum ceduo_status status = fly(def, scene, forest != 0 ? &scene->options[i] : NULL, fresh->values);
+            if (status != CEDUO_OK)
+                return status;
+            memory->n++;
+            known = fresh;
+        }
+        memcpy(&values[i * CEDUO_DOUBT_KINDS], known->values, sizeof known->values);
+    }
+    for (size_t i = 1; i < options; i++)
+        for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++)
+            for (int h = 0; h < 2; h++)
+                values[ceduo_plan_figure(options, i, (enum ceduo_doubt_kind)k, true)].half[h] =
+                    values[i * CEDUO_DOUBT_KINDS + k].half[h] - values[k].half[h];
+    return CEDUO_OK;
+}
+
+/* ---- the plan ---- */
+
+size_t ceduo_plan_items(const struct plan *p)
+{
+    return p->design.points + 1;
+}
+
+size_t ceduo_plan_evaluations(const struct plan *p)
+{
+    return ceduo_design_evaluations(&p->design) + 2 * p->ends;
+}
+
+/* The first evaluation of an item; `*n`: how many it has. */
+static size_t item_start(const struct plan *p, size_t item, size_t *n)
+{
+    size_t stride = p->design.groups + 2;
+    *n = item == 0 ? 2 * p->ends : stride;
+    return item == 0 ? p->rows : (item - 1) * stride;
+}
+
+enum ceduo_status ceduo_plan_fill(const struct ceduo_doubt_def *def, struct plan *p)
+{
+    size_t n = p->design.inputs;
+    p->rows = ceduo_design_evaluations(&p->design);
+    size_t evaluations = ceduo_plan_evaluations(p);
+    p->u = malloc(evaluations * n * sizeof *p->u);
+    p->values = calloc(evaluations * ceduo_plan_figures(def->scene), sizeof *p->values);
+    if (!p->u || !p->values)
+        return CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < 2 * p->ends * n; i++)
+        p->u[p->rows * n + i] = NAN;
+    for (size_t i = 0; i < n; i++) {
+        size_t g = p->design.group[i];
+        for (size_t end = 0; g < p->ends && end < 2; end++)
+            p->u[(p->rows + 2 * g + end) * n + i] = (double)end;
+    }
+    return ceduo_design_fill(&p->design, p->u);
+}
+
+void ceduo_plan_release(struct plan *p)
+{
+    free(p->u);
+    free(p->values);
+}
+
+void ceduo_plan_column(const struct plan *p, size_t figures, size_t figure, struct ceduo_halves *column)
+{
+    for (size_t e = 0; e < p->rows; e++)
+        column[e] = p->values[e * figures + figure];
+}
+
+struct ceduo_halves *ceduo_plan_values(const struct plan *p, size_t figures, size_t item, size_t *n)
+{
+    size_t evaluations, start = item_start(p, item, &evaluations);
+    *n = evaluations * figures;
+    return p->values + start * figures;
+}
+
+/* ---- threads ---- */
+
+struct work {
+    const struct ceduo_doubt_def *def;
+    const struct plan *plan;
+    size_t to;
+    uint64_t before, all; /* for the progress: of all calls together */
+    atomic_size_t next, done;
+    atomic_int status;
+    pthread_mutex_t talking;
+};
+
+static void tell(struct work *w)
+{
+    size_t done = atomic_fetch_add(&w->done, 1) + 1;
+    if (!w->def->progress || pthread_mutex_trylock(&w->talking) != 0)
+        return;
+    w->def->progress(w->def->context, w->before + done, w->all);
+    pthread_mutex_unlock(&w->talking);
+}
+
+static enum ceduo_status run_item(struct work *w, size_t item, struct input_scene *copy, struct memory *memory)
+{
+    const struct ceduo_doubt_def *def = w->def;
+    size_t figures = ceduo_plan_figures(def->scene), n, start = item_start(w->plan, item, &n);
+    enum ceduo_status status = CEDUO_OK;
+    memory->n = 0;
+    for (size_t e = start; e < start + n && status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK; e++) {
+        ceduo_inputs_set(copy, w->plan->u + e * def->inputs_count);
+        status = evaluate(def, &copy->scene, memory, w->plan->values + e * figures);
+        tell(w);
+    }
+    return status;
+}
+
+static void *run_items(void *context)
+{
+    struct work *w = context;
+    const struct ceduo_doubt_def *def = w->def;
+    size_t most = w->plan->design.groups + 2 > 2 * w->plan->ends ? w->plan->design.groups + 2 : 2 * w->plan->ends;
+    struct memory memory = {.items = calloc(most * def->scene->options_count, sizeof *memory.items)};
+    struct input_scene copy;
+    int good = CEDUO_OK, status = (int)ceduo_inputs_open(&copy, def->scene, def->inputs, def->inputs_count);
+    if (!memory.items)
+        status = CEDUO_NO_MEMORY;
+    for (size_t item; status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK &&
+                      (item = atomic_fetch_add(&w->next, 1)) < w->to;)
+        status = (int)run_item(w, item, &copy, &memory);
+    ceduo_inputs_release(&copy);
+    free(memory.items);
+    if (status != CEDUO_OK)
+        atomic_compare_exchange_strong(&w->status, &good, status);
+    return NULL;
+}
+
+enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, size_t to,
+                                 uint64_t *done, uint64_t all)
+{
+    struct work w = {.def = def, .plan = p, .to = to, .before = *done, .all = all};
+    unsigned n = def->threads, started = 0;
+    pthread_t *threads = n > 1 ? calloc(n - 1, sizeof *threads) : NULL;
+    atomic_init(&w.next, from);
+    atomic_init(&w.done, 0);
+    atomic_init(&w.status, CEDUO_OK);
+    pthread_mutex_init(&w.talking, NULL);
+    while (threads && started < n - 1 && pthread_create(&threads[started], NULL, run_items, &w) == 0)
+        started++;
+    run_items(&w);
+    while (started > 0)
+        pthread_join(threads[--started], NULL);
+    pthread_mutex_destroy(&w.talking);
+    free(threads);
+    *done += atomic_load(&w.done);
+    return (enum ceduo_status)atomic_load(&w.status);
+}
