@@ -32,9 +32,18 @@ struct ceduo_input {
 
 /* What is asked for at the last control, of the rocks through the forest (without forest where the contact model is
  * index). */
-enum ceduo_doubt_kind { CEDUO_DOUBT_REACH, CEDUO_DOUBT_EXCEED, CEDUO_DOUBT_ENERGY, CEDUO_DOUBT_KINDS };
+enum ceduo_doubt_kind {
+    CEDUO_DOUBT_REACH,
+    CEDUO_DOUBT_EXCEED,
+    CEDUO_DOUBT_ENERGY,
+    CEDUO_DOUBT_SHOWN,                       /* so many are figures of a report; the lights hang on the others: */
+    CEDUO_DOUBT_CONTACT = CEDUO_DOUBT_SHOWN, /* 1 over the longest ADC of a belt, 1/m */
+    CEDUO_DOUBT_FREE_RUN,                    /* the largest chance of a free run */
+    CEDUO_DOUBT_KINDS
+};
 
 #define CEDUO_DOUBT_POINTS 256
+#define CEDUO_DOUBT_POINTS_MOST 100000
 #define CEDUO_DOUBT_FIRST  32 /* base points of a first look that ranks more inputs than can have an index */
 
 struct ceduo_doubt_def {
@@ -71,6 +80,7 @@ struct ceduo_doubt_answer {
     size_t groups;                             /* what has an index */
     size_t input[CEDUO_SENSITIVITY_GROUPS];    /* its input; of the last of several together: their number */
     size_t together;                           /* inputs that move as one, the last of `groups`; 0: none */
+    size_t *moved;                             /* those inputs */
     size_t order[CEDUO_SENSITIVITY_GROUPS];    /* groups by the total index of the main figure, largest first */
     size_t figures_count;
     struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
@@ -100,5 +110,10 @@ enum ceduo_status ceduo_doubt_join(const struct ceduo_doubt_def *def, const stru
 
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
+
+/* Whether a light of the last control changes within the 90 % band of doubt: contact, free run, or energy
+ * (CEDUO_DOUBT_EXCEED). Returns how many groups it depends on above all, 1 or 2, the heaviest first; 0: it does not change. */
+size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *answer, size_t option,
+                           enum ceduo_doubt_kind light, size_t groups[2]);
 
 #endif

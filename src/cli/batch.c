@@ -10,6 +10,8 @@
 #include "output.h"
 #include "print.h"
 #include "say.h"
+#include "sensitivity.h"
+#include "view/report_doubt.h"
 
 static enum exit_status worse(enum exit_status a, enum exit_status b)
 {
@@ -25,7 +27,7 @@ static enum exit_status print_scene(const struct arguments *a, const struct scen
 }
 
 enum exit_status ceduo_batch_shard(const struct arguments *a, const char *path, const struct shelf *shelf,
-                                   const struct scene_file *file, size_t place, struct text *out)
+                                   struct scene_file *file, size_t place, struct text *out)
 {
     struct progress progress = ceduo_progress_begin(a);
     const struct ceduo_question q = ceduo_batch_question(a, file, &progress);
@@ -33,14 +35,17 @@ enum exit_status ceduo_batch_shard(const struct arguments *a, const char *path, 
                         .shard = a->shard,
                         .shards = a->shards,
                         .place = place,
-                        .rocks = q.rocks,
-                        .key = ceduo_part_key(file, q.rocks)};
+                        .rocks = a->points > 0 ? ceduo_sensitivity_rocks(a) : q.rocks,
+                        .points = a->points};
+    part.key = ceduo_part_key(file, part.rocks, part.points);
     const struct part_inputs inputs = {.path = path,
                                        .sets = a->sets,
                                        .options = a->options,
                                        .shelf = *shelf};
     unsigned char *runs, *texts = NULL;
-    enum ceduo_status status = ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
+    enum ceduo_status status = a->points > 0
+                                   ? ceduo_sensitivity_part(a, file, &progress, &runs, &part.runs_length)
+                                   : ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
     ceduo_progress_end(&progress);
     part.seconds = ceduo_clock() - progress.start;
     if (status == CEDUO_OK && part.key == 0)
@@ -143,4 +148,9 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
         status = worse(status, one);
     }
     return status;
+}
+
+enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
+{
+    return a->shards > 0 ? ceduo_batch_run(a) : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_whole);
 }

@@ -23,7 +23,7 @@ enum exit_status ceduo_batch_each(const struct arguments *arguments, void (*head
 
 /* Adds the shard of a scene, the `place`-th given, that was read through a shelf. */
 enum exit_status ceduo_batch_shard(const struct arguments *arguments, const char *path, const struct shelf *shelf,
-                                   const struct scene_file *file, size_t place, struct text *out);
+                                   struct scene_file *file, size_t place, struct text *out);
 
 /* Opens the terminal program, or feeds it the script that was given. */
 enum exit_status ceduo_interactive_run(const struct arguments *arguments);

@@ -15,6 +15,8 @@
 #include "output.h"
 #include "print.h"
 #include "say.h"
+#include "sensitivity.h"
+#include "view/report_doubt.h"
 
 #define PART_BYTES_MOST (SIZE_MAX / 2) /* of a file; what memory holds is the bound */
 
@@ -120,7 +122,8 @@ static int by_scene(const void *a, const void *b)
 /* The same scene in the same number of shards. */
 static bool belong_together(const struct part *p, const struct part *q)
 {
-    return p->place == q->place && p->key == q->key && p->shards == q->shards && p->rocks == q->rocks;
+    return p->place == q->place && p->key == q->key && p->shards == q->shards && p->rocks == q->rocks &&
+           p->points == q->points;
 }
 
 /* One scene may have been given by another path on another machine: its parts go by the name of the first shard. */
@@ -251,6 +254,18 @@ static enum exit_status report(struct parts *all, size_t from, size_t end, const
     return status;
 }
 
+/* The same of a sensitivity. */
+static enum exit_status report_doubt(struct parts *all, size_t from, size_t end, const struct arguments *a,
+                                     struct scene_file *file, struct text *out)
+{
+    struct arguments own = *a;
+    bool bad;
+    own.rocks = all->items[from].rocks;
+    own.points = all->items[from].points;
+    enum exit_status status = ceduo_sensitivity_join(&own, file, &all->items[from], end - from, &bad, out);
+    return bad ? unusable(all, &all->items[from]) : status;
+}
+
 /* The scene of a whole group, read again from what its first shard has with it. */
 static enum exit_status join(struct parts *all, size_t from, size_t end, const struct arguments *a, struct text *out)
 {
@@ -263,12 +278,14 @@ static enum exit_status join(struct parts *all, size_t from, size_t end, const s
     own.options = inputs.options;
     struct scene_file file;
     enum exit_status status = ceduo_batch_read(&own, inputs.path, &inputs.shelf, &file);
-    uint64_t key = status == EXIT_DONE ? ceduo_part_key(&file, first->rocks) : UINT64_MAX;
+    uint64_t key = status == EXIT_DONE ? ceduo_part_key(&file, first->rocks, first->points) : UINT64_MAX;
     if (key == 0)
         status = out_of_memory(first);
     else if (status == EXIT_USAGE || (status == EXIT_DONE && key != first->key))
         status = unusable(all, first);
-    if (status == EXIT_DONE)
+    if (status == EXIT_DONE && first->points > 0)
+        status = report_doubt(all, from, end, &own, &file, out);
+    else if (status == EXIT_DONE)
         status = report(all, from, end, &own, &file, out);
     ceduo_scene_release(&file);
     return status;
@@ -279,7 +296,10 @@ static enum exit_status join_all(struct parts *all, const struct arguments *a, s
     enum exit_status status = EXIT_DONE;
     for (size_t from = 0, end; from < all->n; from = end) {
         end = group_end(all, from);
-        if (from == 0 && a->format == CEDUO_CSV)
+        bool doubt = all->items[from].points > 0, other = from == 0 || doubt != (all->items[from - 1].points > 0);
+        if (other && a->format == CEDUO_CSV && doubt)
+            ceduo_doubt_csv_header(out);
+        else if (other && a->format == CEDUO_CSV)
             ceduo_report_csv_header(out, a->stands, false);
         else if (from > 0 && a->format == CEDUO_TABLE)
             ceduo_text_char(out, '\n');

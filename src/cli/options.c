@@ -15,7 +15,6 @@
 
 #define WIDTH_LEAST  20
 #define HEIGHT_LEAST 6
-#define POINTS_MOST  100000
 
 /* ---- setters that several options share ---- */
 
@@ -223,7 +222,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
 static enum exit_status set_sensitivity(struct arguments *a, const struct option_row *row, char *value)
 {
     uint64_t n = CEDUO_DOUBT_POINTS;
-    enum exit_status status = value ? read_count(row->name, value, 2, POINTS_MOST, &n) : EXIT_DONE;
+    enum exit_status status = value ? read_count(row->name, value, 2, CEDUO_DOUBT_POINTS_MOST, &n) : EXIT_DONE;
     a->points = (size_t)n;
     return status;
 }
@@ -289,7 +288,7 @@ static const struct option_row rows[] = {
      N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, NOT_CHECK,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, NOT_PART | NOT_CHECK,
+    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, NOT_MERGE | NOT_CHECK,
      N_("show how sure the result is, and what that depends on; N base points (256)")},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, NOT_PART | NOT_CHECK,
      N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},

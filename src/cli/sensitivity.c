@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --sensitivity: what doubt does to the figures of a scene. */
-#include "batch.h"
+/* --sensitivity: what doubt does to the figures of a scene; whole, as a part of it, and joined from parts. */
+#include "sensitivity.h"
+
+#include <stdlib.h>
+
 #include "interrupt.h"
 #include "io/inputs.h"
 #include "say.h"
@@ -10,49 +13,104 @@
 
 static void put(struct text *out, const struct arguments *a, const struct ceduo_doubt_report *report)
 {
-    if (a->format == CEDUO_TABLE && out->length > 0)
-        ceduo_text_char(out, '\n');
-    if (a->format == CEDUO_JSON)
+    struct text page = {0};
+    if (a->format == CEDUO_JSON) {
         ceduo_doubt_json(out, report);
-    else if (a->format == CEDUO_CSV)
+        return;
+    }
+    if (a->format == CEDUO_CSV) {
         ceduo_doubt_csv(out, report);
-    else
-        ceduo_doubt_page(out, report, !ceduo_say_utf8());
+        return;
+    }
+    bool plain = !ceduo_say_utf8();
+    ceduo_doubt_page(&page, report, plain);
+    if (plain)
+        ceduo_say_plainly(&page);
+    ceduo_text_put(out, ceduo_text_string(&page));
+    out->failed |= page.failed;
+    ceduo_text_free(&page);
 }
 
-static enum exit_status compute(const struct arguments *a, struct scene_file *file, struct text *out)
+uint64_t ceduo_sensitivity_rocks(const struct arguments *a)
+{
+    return a->rocks > 0 ? a->rocks : ROCKS_USUAL;
+}
+
+static struct ceduo_doubt_def def_of(const struct arguments *a, const struct scene_file *file,
+                                     const struct scene_inputs *inputs, struct progress *progress)
+{
+    return (struct ceduo_doubt_def){.scene = &file->scene,
+                                    .inputs_count = inputs->n,
+                                    .inputs = inputs->items,
+                                    .points = a->points,
+                                    .rocks = ceduo_sensitivity_rocks(a),
+                                    .threads = a->threads,
+                                    .cancel = ceduo_interrupt_flag(),
+                                    .progress = ceduo_progress_steps,
+                                    .context = progress};
+}
+
+/* Adds the answer that `status` is of; NULL where nothing is in doubt. */
+static enum exit_status report(const struct arguments *a, struct scene_file *file, const struct scene_inputs *inputs,
+                               struct ceduo_doubt_answer *answer, enum ceduo_status status, struct text *out)
+{
+    const struct ceduo_doubt_report report = {
+        .file = file, .inputs = inputs, .points = a->points, .rocks = ceduo_sensitivity_rocks(a), .answer = answer};
+    if (status != CEDUO_OK)
+        return ceduo_batch_failed(file, status);
+    put(out, a, &report);
+    if (answer)
+        ceduo_doubt_free(answer);
+    return EXIT_DONE;
+}
+
+enum exit_status ceduo_sensitivity_whole(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct scene_inputs inputs;
     struct ceduo_doubt_answer answer;
     struct progress progress = ceduo_progress_begin(a);
     if (!ceduo_inputs_of(file, &inputs))
         return ceduo_batch_failed(file, CEDUO_NO_MEMORY);
-    struct ceduo_doubt_def def = {.scene = &file->scene,
-                                  .inputs_count = inputs.n,
-                                  .inputs = inputs.items,
-                                  .points = a->points,
-                                  .rocks = a->rocks > 0 ? a->rocks : ROCKS_USUAL,
-                                  .threads = a->threads,
-                                  .cancel = ceduo_interrupt_flag(),
-                                  .progress = ceduo_progress_steps,
-                                  .context = &progress};
-    struct ceduo_doubt_report report = {
-        .file = file, .inputs = &inputs, .points = a->points, .rocks = def.rocks, .answer = &answer};
-    if (inputs.n == 0) {
-        report.answer = NULL;
-        put(out, a, &report);
-        return EXIT_DONE;
-    }
+    if (a->format == CEDUO_TABLE && out->length > 0)
+        ceduo_text_char(out, '\n');
+    if (inputs.n == 0)
+        return report(a, file, &inputs, NULL, CEDUO_OK, out);
+    struct ceduo_doubt_def def = def_of(a, file, &inputs, &progress);
     enum ceduo_status status = ceduo_doubt_ask(&def, &answer);
     ceduo_progress_end(&progress);
-    if (status != CEDUO_OK)
-        return ceduo_batch_failed(file, status);
-    put(out, a, &report);
-    ceduo_doubt_free(&answer);
-    return EXIT_DONE;
+    return report(a, file, &inputs, &answer, status, out);
 }
 
-enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
+/* ---- parts ---- */
+
+enum ceduo_status ceduo_sensitivity_part(const struct arguments *a, struct scene_file *file, struct progress *progress,
+                                         unsigned char **bytes, size_t *n)
 {
-    return ceduo_batch_each(a, ceduo_doubt_csv_header, compute);
+    struct scene_inputs inputs;
+    *bytes = NULL;
+    *n = 0;
+    if (!ceduo_inputs_of(file, &inputs))
+        return CEDUO_NO_MEMORY;
+    struct ceduo_doubt_def def = def_of(a, file, &inputs, progress);
+    return inputs.n > 0 ? ceduo_doubt_ask_part(&def, a->shard, a->shards, bytes, n) : CEDUO_OK;
+}
+
+enum exit_status ceduo_sensitivity_join(const struct arguments *a, struct scene_file *file, const struct part *parts,
+                                        size_t n, bool *bad, struct text *out)
+{
+    struct scene_inputs inputs;
+    struct ceduo_doubt_answer answer;
+    struct progress progress = ceduo_progress_begin(a);
+    struct ceduo_doubt_part *all = calloc(n + 1, sizeof *all);
+    for (size_t i = 0; all && i < n; i++)
+        all[i] = (struct ceduo_doubt_part){parts[i].runs, parts[i].runs_length};
+    enum ceduo_status status = all && ceduo_inputs_of(file, &inputs) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    bool nothing = status == CEDUO_OK && inputs.n == 0;
+    if (status == CEDUO_OK && !nothing) {
+        struct ceduo_doubt_def def = def_of(a, file, &inputs, &progress);
+        status = ceduo_doubt_join(&def, all, n, &answer);
+    }
+    free(all);
+    *bad = status == CEDUO_BAD_PART;
+    return *bad ? EXIT_INPUT : report(a, file, &inputs, nothing ? NULL : &answer, status, out);
 }

@@ -14,6 +14,7 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "base/utf8.h"
+#include "ceduo/doubt.h"
 #include "ceduo/key.h"
 #include "ceduo/version.h"
 
@@ -89,6 +90,8 @@ void ceduo_part_write(struct text *out, const struct part *part)
     ceduo_json_count(j, "shard", part->shard);
     ceduo_json_count(j, "shards", part->shards);
     ceduo_json_count(j, "rocks", part->rocks);
+    if (part->points > 0)
+        ceduo_json_count(j, "points", part->points);
     ceduo_json_number(j, "seconds", part->seconds);
     ceduo_json_string(j, "hash", key);
     ceduo_text_put(out, ", \"inputs\": \"");
@@ -138,6 +141,15 @@ static bool take_count(struct cursor *c, const char *name, double lo, double hi,
         digits[n++] = *c->at++;
     digits[n] = '\0';
     return n > 0 && ceduo_count_read(digits, lo, hi, value) == CEDUO_NUMBER_GOOD;
+}
+
+/* Parts of runs have none. */
+static bool take_points(struct cursor *c, uint64_t *value)
+{
+    static const char name[] = ", \"points\": ";
+    bool there = (size_t)(c->end - c->at) > sizeof name && memcmp(c->at, name, sizeof name - 1) == 0;
+    *value = 0;
+    return !there || take_count(c, name, 2, CEDUO_DOUBT_POINTS_MOST, value);
 }
 
 static bool take_seconds(struct cursor *c, double *value)
@@ -228,7 +240,8 @@ enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *li
     bool good = take_count(&c, ", \"place\": ", 1, 1e9, &part->place) &&
                 take_count(&c, ", \"shard\": ", 1, SHARDS_MOST, &part->shard) &&
                 take_count(&c, ", \"shards\": ", (double)part->shard, SHARDS_MOST, &part->shards) &&
-                take_count(&c, ", \"rocks\": ", 1, CEDUO_ROCKS_MOST, &part->rocks) && take(&c, ", \"seconds\": ") &&
+                take_count(&c, ", \"rocks\": ", 1, CEDUO_ROCKS_MOST, &part->rocks) &&
+                take_points(&c, &part->points) && take(&c, ", \"seconds\": ") &&
                 take_seconds(&c, &part->seconds) && take(&c, ", \"hash\": \"") && take_hex(&c, 16, &part->key) &&
                 take_data(&c, "\", \"inputs\": \"", &part->inputs, &part->inputs_length) &&
                 take_data(&c, ", \"runs\": \"", &part->runs, &part->runs_length) && c.at == c.end;
@@ -274,12 +287,13 @@ static void pack_node(struct bytes *b, const struct node *node)
         pack_node(b, node->items[i]);
 }
 
-uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks)
+uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks, uint64_t points)
 {
     const struct ceduo_scene *scene = &file->scene;
     double x = scene->slope.origin_x, z = scene->slope.origin_z;
     struct bytes b = {0};
     pack_count(&b, rocks);
+    pack_count(&b, points);
     pack_word(&b, scene->title);
     ceduo_bytes_number(&b, &x);
     ceduo_bytes_number(&b, &z);

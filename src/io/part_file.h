@@ -14,9 +14,11 @@ struct part {
     size_t line;
     char *scene;      /* as it was given */
     uint64_t shard, shards, place; /* from 1; place: of the scene among those that were given */
-    uint64_t rocks, key; /* of the whole run; ceduo_part_key() */
+    uint64_t rocks, key; /* of the whole run, or of each evaluation of a sensitivity; ceduo_part_key() */
+    uint64_t points;     /* base points of a sensitivity; 0: a part of a run */
     double seconds;
-    const unsigned char *inputs, *runs; /* ceduo_part_inputs(), ceduo_pool_save(); no inputs: length 0 */
+    const unsigned char *inputs, *runs; /* ceduo_part_inputs(), ceduo_pool_save() or ceduo_doubt_ask_part(); no inputs:
+                                         * length 0 */
     size_t inputs_length, runs_length;
 };
 
@@ -36,9 +38,9 @@ void ceduo_part_write(struct text *out, const struct part *part);
 /* Reads a line of n bytes, without its end. What it holds is decoded in place; `scene` is in the arena. */
 enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *line, size_t n);
 
-/* A number for all that a result depends on: the scene as it was read, its numbers, and how many rocks.
+/* A number for all that a result depends on: the scene as it was read, its numbers, how many rocks and base points.
  * 0 without memory. */
-uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks);
+uint64_t ceduo_part_key(const struct scene_file *file, uint64_t rocks, uint64_t points);
 
 /* How a scene was read. */
 struct part_words {

@@ -327,13 +327,16 @@ static enum ceduo_status begin(struct inquiry *q, const struct ceduo_doubt_def *
     return q->group && a->figures ? read_sampling(def, a) : CEDUO_NO_MEMORY;
 }
 
-static void name_groups(struct ceduo_doubt_answer *a, const size_t *group, size_t n)
+/* False without memory. */
+static bool name_groups(struct ceduo_doubt_answer *a, const size_t *group, size_t n)
 {
-    for (size_t i = 0; i < n; i++)
+    a->moved = calloc(n + 1, sizeof *a->moved);
+    for (size_t i = 0; a->moved && i < n; i++)
         if (n > GROUPS && group[i] == GROUPS - 1)
-            a->together++;
+            a->moved[a->together++] = i;
         else
             a->input[group[i]] = i;
+    return a->moved != NULL;
 }
 
 /* Makes the plan of groups that are known. */
@@ -341,7 +344,8 @@ static enum ceduo_status make_plan(struct inquiry *q)
 {
     const struct ceduo_doubt_def *def = q->def;
     struct ceduo_doubt_answer *a = q->answer;
-    name_groups(a, q->group, def->inputs_count);
+    if (!name_groups(a, q->group, def->inputs_count))
+        return CEDUO_NO_MEMORY;
     q->plan.design = (struct ceduo_design){def->inputs_count, def->points, def->scene->simulation.seed, a->groups, q->group};
     q->plan.ends = a->together > 0 ? a->groups - 1 : a->groups;
     return ceduo_plan_fill(def, &q->plan);
@@ -468,6 +472,7 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
 {
     free(answer->figures);
     free(answer->orders);
+    free(answer->moved);
     *answer = (struct ceduo_doubt_answer){0};
 }
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ceduo/assess.h"
 #include "ceduo/key.h"
 #include "ceduo/run.h"
 #include "inputs.h"
@@ -29,7 +30,7 @@ size_t ceduo_plan_figure(size_t options, size_t option, enum ceduo_doubt_kind ki
 /* What is known of a forest: the figures of both halves of the rocks. */
 struct known {
     uint64_t scene, forest;
-    struct ceduo_halves values[CEDUO_DOUBT_KINDS];
+    struct ceduo_halves values[CEDUO_DOUBT_SHOWN];
 };
 
 struct memory {
@@ -55,10 +56,10 @@ static enum ceduo_status fly(const struct ceduo_doubt_def *def, const struct ced
         if (status != CEDUO_OK)
             break;
         struct ceduo_brief brief = ceduo_run_brief(run, ceduo_scene_last_control(scene));
-        const double means[CEDUO_DOUBT_KINDS] = {[CEDUO_DOUBT_REACH] = brief.reach_probability,
+        const double means[CEDUO_DOUBT_SHOWN] = {[CEDUO_DOUBT_REACH] = brief.reach_probability,
                                                  [CEDUO_DOUBT_EXCEED] = brief.exceed_probability,
                                                  [CEDUO_DOUBT_ENERGY] = brief.energy_per_released};
-        for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++) {
+        for (size_t k = 0; k < CEDUO_DOUBT_SHOWN; k++) {
             double first = h == 0 ? 0 : values[k].half[0] * (double)before;
             values[k].half[h] = (means[k] * (double)rocks - first) / (double)(rocks - before);
         }
@@ -74,6 +75,17 @@ static const struct known *find(const struct memory *memory, uint64_t scene, uin
         if (memory->items[i].scene == scene && memory->items[i].forest == forest)
             return &memory->items[i];
     return NULL;
+}
+
+/* What no rock decides: the same in both halves. */
+static void read_lights(const struct ceduo_scene *scene, size_t option, struct ceduo_halves *values)
+{
+    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
+    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[option], control, NAN);
+    for (int h = 0; h < 2; h++) {
+        values[CEDUO_DOUBT_CONTACT].half[h] = 1 / index.worst_adc;
+        values[CEDUO_DOUBT_FREE_RUN].half[h] = index.worst_free_run;
+    }
 }
 
 static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene,
@@ -94,6 +106,7 @@ static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struc
             known = fresh;
         }
         memcpy(&values[i * CEDUO_DOUBT_KINDS], known->values, sizeof known->values);
+        read_lights(scene, i, &values[i * CEDUO_DOUBT_KINDS]);
     }
     for (size_t i = 1; i < options; i++)
         for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++)

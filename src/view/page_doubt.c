@@ -128,6 +128,99 @@ static void put_orders(struct ceduo_page *page, const struct ceduo_doubt_report 
     }
 }
 
+/* "dbh, ADS 1 and per hectare, ADS 1" */
+static void put_causes(struct text *text, const struct ceduo_doubt_report *r, const size_t *groups, size_t n)
+{
+    struct text names[2] = {{0}, {0}};
+    for (size_t i = 0; i < n; i++)
+        ceduo_doubt_input_name(&names[i], r, groups[i]);
+    if (n == 2)
+        ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&names[0]), ceduo_text_string(&names[1]));
+    else
+        ceduo_text_put(text, ceduo_text_string(&names[0]));
+    for (size_t i = 0; i < 2; i++) {
+        text->failed |= names[i].failed;
+        ceduo_text_free(&names[i]);
+    }
+}
+
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
+{
+    size_t groups[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, groups);
+    struct text causes = {0};
+    if (n == 0)
+        return;
+    put_causes(&causes, r, groups, n);
+    ceduo_text_format(text,
+                      light == CEDUO_DOUBT_CONTACT    ? _("Whether the test of contact passes depends on %s.")
+                      : light == CEDUO_DOUBT_FREE_RUN ? _("Whether the test of free run passes depends on %s.")
+                                                      : _("Whether the test of energy passes depends on %s."),
+                      ceduo_text_string(&causes));
+    text->failed |= causes.failed;
+    ceduo_text_free(&causes);
+}
+
+/* Lights that change within what may be true. */
+static void put_lights(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    static const enum ceduo_doubt_kind lights[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
+    const struct ceduo_scene *s = &r->file->scene;
+    for (size_t i = 0; i < s->options_count; i++)
+        for (size_t k = 0; k < 3; k++) {
+            struct text words = {0};
+            ceduo_doubt_light_words(&words, r, i, lights[k]);
+            struct text *t = words.length > 0 ? ceduo_page_add(page, CEDUO_PAGE_ITEM) : NULL;
+            if (t && s->options_count > 1) {
+                ceduo_text_safe(t, s->options[i].name);
+                ceduo_text_put(t, ": ");
+            }
+            if (t)
+                ceduo_text_put(t, ceduo_text_string(&words));
+            page->failed |= words.failed;
+            ceduo_text_free(&words);
+        }
+}
+
+/* Which inputs have one index together. */
+static void put_together(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_doubt_answer *a = r->answer;
+    struct text *t = a->together > 0 ? ceduo_page_add(page, CEDUO_PAGE_NOTE) : NULL;
+    if (t)
+        ceduo_text_format(t, ngettext("This %zu input moves alone: ", "These %zu inputs move together: ", a->together),
+                          a->together);
+    for (size_t i = 0; i < a->together; i++) {
+        ceduo_text_put(t, i > 0 ? ", " : "");
+        ceduo_text_safe(t, r->inputs->items[a->moved[i]].path);
+    }
+}
+
+/* What a reader takes along: both errors. */
+void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
+{
+    const struct ceduo_doubt_figure *f = main_of(r, option);
+    double scale = scale_of(r);
+    struct text value = {0}, rocks = {0}, doubt = {0};
+    put_value(&value, f->value, scale);
+    put_range(&rocks, f->sampling_lo, f->sampling_hi, scale);
+    put_range(&doubt, f->p5, f->p95, scale);
+    ceduo_text_format(text, r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
+                                                                  : _("%s kJ per released rock (rocks %s; doubt %s)"),
+                      ceduo_text_string(&value), ceduo_text_string(&rocks), ceduo_text_string(&doubt));
+    text->failed |= value.failed || rocks.failed || doubt.failed;
+    ceduo_text_free(&value);
+    ceduo_text_free(&rocks);
+    ceduo_text_free(&doubt);
+}
+
+/* The bottom line; of several options the table has it. */
+static void put_answer(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_scene *s = &r->file->scene;
+    if (s->options_count == 1)
+        ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
+}
+
 /* Three lines in words: what to measure, and what would be left of the doubt. */
 static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report *r)
 {
@@ -160,7 +253,10 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     put_inputs(page, r);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     put_advice(page, r);
+    put_lights(page, r);
     put_orders(page, r);
+    put_together(page, r);
+    put_answer(page, r);
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                       _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
                         "reduces it. %llu scenes were computed."),

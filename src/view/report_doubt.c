@@ -14,7 +14,7 @@
 #define SURE   0.95
 #define LIKELY 0.8
 
-static const char *const keys[CEDUO_DOUBT_KINDS] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
+static const char *const keys[CEDUO_DOUBT_SHOWN] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
 
 /* ---- inputs ---- */
 
@@ -138,6 +138,12 @@ static void put_input(struct json *j, const struct ceduo_doubt_report *r, const 
     ceduo_json_number(j, "at_lo", f->at[g][0] * scale_of(f));
     ceduo_json_number(j, "at_hi", f->at[g][1] * scale_of(f));
     ceduo_json_number(j, "width_if_known", f->left[g] * scale_of(f));
+    if (!input) {
+        ceduo_json_open(j, "together", '[');
+        for (size_t i = 0; i < r->answer->together; i++)
+            ceduo_json_string(j, NULL, r->inputs->items[r->answer->moved[i]].path);
+        ceduo_json_close(j, ']');
+    }
     ceduo_json_close(j, '}');
     ceduo_text_free(&together);
 }
@@ -184,7 +190,8 @@ void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
     ceduo_json_count(&j, "points", r->points);
     ceduo_json_open(&j, "figures", '[');
     for (size_t i = 0; a && i < a->figures_count; i++)
-        put_figure(&j, r, &a->figures[i]);
+        if (a->figures[i].kind < CEDUO_DOUBT_SHOWN)
+            put_figure(&j, r, &a->figures[i]);
     ceduo_json_close(&j, ']');
     ceduo_json_open(&j, "ranking", '[');
     for (size_t i = 0; a && i < a->orders_count; i++) {
@@ -260,6 +267,6 @@ static void put_row(struct text *text, const struct ceduo_doubt_report *r, const
 void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *r)
 {
     for (size_t i = 0; r->answer && i < r->answer->figures_count; i++)
-        for (size_t g = 0; g < r->answer->groups; g++)
+        for (size_t g = 0; g < r->answer->groups && r->answer->figures[i].kind < CEDUO_DOUBT_SHOWN; g++)
             put_row(text, r, &r->answer->figures[i], r->answer->order[g]);
 }

@@ -30,6 +30,12 @@ struct ceduo_page;
 
 /* Adds what was found as blocks: a section with tables and what to measure first. */
 void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report);
+/* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
+void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
+
+/* "Whether the test of energy passes depends on …"; nothing where the light does not change within what may be true. */
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option,
+                             enum ceduo_doubt_kind light);
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
 void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *report); /* one line, "ceduo-sensitivity-1" */

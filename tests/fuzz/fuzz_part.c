@@ -295,7 +295,7 @@ static bool take_inputs(const uint8_t *data, size_t n)
             struct ceduo_run_def def = ceduo_run_def_default(&file.scene);
             struct ceduo_pool *pool;
             def.rocks_most = def.rocks_most < ROCKS_MOST ? def.rocks_most : ROCKS_MOST;
-            (void)ceduo_part_key(&file, def.rocks_most);
+            (void)ceduo_part_key(&file, def.rocks_most, 0);
             expect(ceduo_pool_create(&def, &pool) == CEDUO_OK && ceduo_pool_fill(pool) == CEDUO_OK,
                    "checked, but it cannot be joined");
             ceduo_pool_free(pool);

@@ -169,7 +169,7 @@ static bool read_scene(void)
     struct text text = {0};
     bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 5, &problems);
     if (good) {
-        uint64_t key = ceduo_part_key(&file, 10);
+        uint64_t key = ceduo_part_key(&file, 10, 0);
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
         struct part_inputs in = {.path = scene_path, .sets = {sets, 5}, .shelf = shelf};

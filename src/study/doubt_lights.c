@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whether a light of the last control changes within what may be true, and by what. */
+#include <math.h>
+
+#include "ceduo/assess.h"
+#include "ceduo/doubt.h"
+
+#define ALSO 0.5 /* a second input is named where its share is at least this of the first one's */
+
+/* The limit of a light's figure. */
+static double limit_of(const struct ceduo_scene *scene, enum ceduo_doubt_kind light)
+{
+    return light == CEDUO_DOUBT_EXCEED    ? CEDUO_EXCEED_MOST
+           : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
+                                          : CEDUO_FREE_RUN_MOST;
+}
+
+/* A gap fails whatever the stands are. */
+static bool is_decided(const struct ceduo_scene *scene, size_t option, enum ceduo_doubt_kind light)
+{
+    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
+    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[option], control, NAN);
+    return light == CEDUO_DOUBT_CONTACT && index.longest_gap > scene->simulation.threshold;
+}
+
+size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *a, size_t option,
+                           enum ceduo_doubt_kind light, size_t groups[2])
+{
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
+    double limit = limit_of(scene, light);
+    bool changes = f->p5 <= limit && f->p95 > limit;
+    if (!changes || is_decided(scene, option, light))
+        return 0;
+    size_t first = 0, second = SIZE_MAX;
+    const struct ceduo_share *total = f->indices.total;
+    for (size_t g = 1; g < a->groups; g++)
+        if (total[g].value > total[first].value)
+            first = g;
+    for (size_t g = 0; g < a->groups; g++)
+        if (g != first && (second == SIZE_MAX || total[g].value > total[second].value))
+            second = g;
+    groups[0] = first;
+    groups[1] = second;
+    return second != SIZE_MAX && total[second].value >= ALSO * total[first].value ? 2 : 1;
+}
