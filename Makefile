@@ -326,16 +326,18 @@ do-bench: all $(BENCH)
 # ---- the manual ----
 
 PAGES := $(wildcard man/*.[1357])
+PAGES_IT := $(wildcard man/it/*.[17])
 TABLES := $(T)/tables
 $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # Writes the tables of parameters, keys, goals and figures into the manual pages.
-man: $(TABLES)
+man: $(TABLES) $(MO)
 	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
 	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in keys goals search figures; do $(TABLES) $$table man/ceduo.1; done
+	@LC_ALL=C.UTF-8 $(TABLES) keys man/it/ceduo.1 it
 
 # ---- installing ----
 
@@ -365,12 +367,14 @@ install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 	install -d -- $(call to,$(BASHDIR)) $(call to,$(ZSHDIR))
 	install -m 644 -- $(BUILD)/completion/ceduo $(call to,$(BASHDIR))/ceduo
 	install -m 644 -- $(BUILD)/completion/_ceduo $(call to,$(ZSHDIR))/_ceduo
-	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 3 5 7,$(call to,$(MANDIR))/man$n)
+	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 3 5 7,$(call to,$(MANDIR))/man$n) \
+	    $(foreach n,1 7,$(call to,$(MANDIR))/it/man$n)
 	install -m 755 -- $(PROGRAM) $(call to,$(BINDIR))/ceduo
 	for f in $(DATA); do install -m 644 -- $$f $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
 	for l in $(LANGUAGES); do install -d -- $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES && \
 	    install -m 644 -- $(BUILD)/locale/$$l/LC_MESSAGES/ceduo.mo $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES/ || exit 1; done
 	for p in $(PAGES); do install -m 644 -- $$p $(call to,$(MANDIR))/man$${p##*.}/ || exit 1; done
+	for p in $(PAGES_IT); do install -m 644 -- $$p $(call to,$(MANDIR))/it/man$${p##*.}/ || exit 1; done
 	install -d -- $(call to,$(LIBDIR))/pkgconfig $(call to,$(INCLUDEDIR))/ceduo
 	install -m 644 -- $(LIBRARY) $(call to,$(LIBDIR))/libceduo.a
 	install -m 644 -- $(HEADERS) $(call to,$(INCLUDEDIR))/ceduo
@@ -383,6 +387,7 @@ uninstall:
 	for d in $(FOLDERS:%=/%) ''; do rmdir -- $(call to,$(DATADIR))$$d 2>/dev/null || :; done
 	for l in $(LANGUAGES); do rm -f -- $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES/ceduo.mo || exit 1; done
 	for p in $(notdir $(PAGES)); do rm -f -- $(call to,$(MANDIR))/man$${p##*.}/$$p || exit 1; done
+	for p in $(notdir $(PAGES_IT)); do rm -f -- $(call to,$(MANDIR))/it/man$${p##*.}/$$p || exit 1; done
 	rm -f -- $(call to,$(BASHDIR))/ceduo $(call to,$(ZSHDIR))/_ceduo
 	rm -f -- $(call to,$(LIBDIR))/libceduo.a $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
 	for h in $(notdir $(HEADERS)); do rm -f -- $(call to,$(INCLUDEDIR))/ceduo/$$h || exit 1; done

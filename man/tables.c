@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a table into a manual page, between its two marks: tables scene|slope|stand PAGE that of the parameters,
- * keys that of the keys of the terminal program, goals and search those of a search, ranges those of doubt, figures those of JSON. */
+ * keys that of the keys of the terminal program (in a third word's language), goals and search those of a search, ranges those of doubt, figures those of JSON. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/language.h"
+#include "cli/language.h"
 #include "scene/ranges.h"
 #include "scene/schema.h"
 #include "study/goal.h"
@@ -82,7 +84,7 @@ static void put_keys(FILE *out)
             fputs(" ,", out);
             put_key(out, a->word2);
         }
-        fprintf(out, "\n%s\n", a->help);
+        fprintf(out, "\n%s\n", _(a->help));
     }
     fputs(".El\n", out);
 }
@@ -185,8 +187,12 @@ int main(int argc, char **argv)
         const char *name;
         void (*put)(FILE *out);
     } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"ranges", put_ranges}, {"search", put_search}, {"figures", put_figure_lists}};
-    if (argc != 3)
+    if (argc != 3 && argc != 4)
         return 2;
+    if (argc == 4) {
+        ceduo_language_start();
+        ceduo_language_set(argv[3]);
+    }
     size_t table = 0;
     while (table < sizeof tables / sizeof tables[0] && strcmp(argv[1], tables[table].name) != 0)
         table++;

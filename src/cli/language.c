@@ -44,13 +44,13 @@ static bool has_translations(const char *folder)
 /* Beside the program, where it was built or installed, then in the folder of the installation. */
 static void bind_domain(void)
 {
-    static const char *const near[] = {"locale", "build/release/locale", "../share/locale"};
+    static const char *const near[] = {"locale", "build/release/locale", "../locale", "../share/locale"};
     char self[PATH_MAX], folder[PATH_MAX + 32];
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
     self[n > 0 ? n : 0] = '\0';
     char *slash = strrchr(self, '/');
     const char *found = CEDUO_LOCALEDIR;
-    for (size_t i = 0; slash && i < 3; i++) {
+    for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++) {
         snprintf(folder, sizeof folder, "%.*s/%s", (int)(slash - self), self, near[i]);
         if (has_translations(folder)) {
             found = folder;

@@ -70,9 +70,9 @@ static int column_of(const struct rotation *r, double year)
 /* A mark below the axis for each year; of years that share a column the worst is shown. */
 static void draw_lights(const struct rotation *r, int row)
 {
-    static const char names[LIGHTS][2] = {"C", "F", "E"};
+    static const char *const names[LIGHTS] = {NP_("light", "C"), NP_("light", "F"), NP_("light", "E")};
     for (int k = 0; k < LIGHTS; k++) {
-        ceduo_canvas_label(r->canvas, r->area->left, row + k, CEDUO_ROLE_AXIS, names[k]);
+        ceduo_canvas_label(r->canvas, r->area->left, row + k, CEDUO_ROLE_AXIS, ceduo_translate_in(names[k]));
         for (int pass = 0; pass < 2; pass++)
             for (size_t i = 0; i < r->years->count; i++) {
                 const struct ceduo_index *s = &r->years->years[i].controls[r->c];

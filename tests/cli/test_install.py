@@ -50,8 +50,9 @@ def test_install():
         names = {f.removeprefix("root/opt/forest/") for f in files}
         expect({"bin/ceduo", "share/man/man1/ceduo.1", "share/man/man7/ceduo-model.7", "share/ceduo/scenes/paper-site.yaml",
                 "share/bash-completion/completions/ceduo", "share/zsh/site-functions/_ceduo", "share/man/man3/ceduo.3",
-                "share/locale/it/LC_MESSAGES/ceduo.mo", "lib/libceduo.a", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
-        shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").glob("*.[1357]")]
+                "share/locale/it/LC_MESSAGES/ceduo.mo",
+                "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
+        shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
         expect_equal(len(names), len(shipped) + 5, "files installed")
         for name in names:

@@ -9,7 +9,7 @@ say() { # status name
     n=$((n + 1))
     if [ "$1" = 0 ]; then echo "ok $n - $2"; else echo "not ok $n - $2"; fi
 }
-for page in ceduo.1 ceduo.3 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-accuracy.7 ceduo-model.7 ceduo-workflows.7; do
+for page in ceduo.1 ceduo.3 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-accuracy.7 ceduo-model.7 ceduo-workflows.7 it/ceduo.1 it/ceduo-workflows.7; do
     mandoc -Tlint -W warning "man/$page" >"$dir/lint" 2>&1
     say $? "$page has no warning"
     sed 's/^/# /' "$dir/lint"
@@ -25,9 +25,23 @@ for table in keys goals search figures; do
     "${BUILD:-build/release}/tests/tables" $table "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
     say $? "the $table of ceduo.1 are those of the program (make man)"
 done
+cp man/it/ceduo.1 "$dir/page"
+LC_ALL=C.UTF-8 "${BUILD:-build/release}/tests/tables" keys "$dir/page" it && cmp -s man/it/ceduo.1 "$dir/page"
+say $? "the keys of it/ceduo.1 are those of the program (make man)"
+# What is typed is the same in every language: each block of commands of the Italian pages stands in the English ones.
+for page in ceduo.1 ceduo-workflows.7; do
+    python3 - "man/it/$page" "man/$page" <<'PYTHON'
+import re, sys
+blocks = [re.findall(r"^\.Bd -literal.*?^\.Ed$", open(p).read(), re.M | re.S) for p in sys.argv[1:]]
+sys.exit([b for b in blocks[0] if b not in blocks[1] and "\u00e8 sotto" not in b] != [])
+PYTHON
+    say $? "the commands of it/$page are those of $page"
+done
 for option in $("${CEDUO:-./ceduo}" --help | sed -nE 's/^  (-(.),|   ) --([a-z-]+).*/\2:\3/p'); do
     letter=${option%%:*}
     grep -qE -- "It Fl ${letter:+$letter , }-${option#*:}( |$)" man/ceduo.1
     say $? "--${option#*:} stands in ceduo.1${letter:+ with -$letter}"
+    grep -qE -- "It Fl ${letter:+$letter , }-${option#*:}( |$)" man/it/ceduo.1
+    say $? "--${option#*:} stands in it/ceduo.1${letter:+ with -$letter}"
 done
 echo "1..$n"
