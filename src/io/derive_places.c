@@ -197,8 +197,8 @@ static bool has_name_of_another(struct deriver *d, const struct node *stand)
     return changes > 0 || !says_the_same(d, stand, followed);
 }
 
-/* What the stand calls itself, or else its file. */
-static const char *stand_name(struct deriver *d, const char *path, const struct ceduo_stand *stand)
+/* What the stand calls itself, or else its file. `changed`: it is no longer what its name says. */
+static const char *stand_name(struct deriver *d, const char *path, const struct ceduo_stand *stand, bool *changed)
 {
     const char *within;
     size_t used;
@@ -206,7 +206,8 @@ static const char *stand_name(struct deriver *d, const char *path, const struct 
     const char *name = ceduo_node_text(node, "name");
     if (!name && node->written && node->written->kind == NODE_SCALAR)
         name = node->written->text;
-    if (name && has_name_of_another(d, node))
+    *changed = name && has_name_of_another(d, node);
+    if (*changed)
         return ceduo_derive_text(d, "%s (changed)", name);
     return name ? name : ceduo_stand_is_bare(stand) ? _("bare") : _("stand");
 }
@@ -219,7 +220,7 @@ static void derive_belts(struct deriver *d, const char *path, struct ceduo_optio
         check_belt(d, here, belt, i > 0 ? belt - 1 : NULL);
         belt->from = belt->from_given - d->origin;
         belt->to = belt->to_given - d->origin;
-        belt->name = (char *)(uintptr_t)stand_name(d, stand, &belt->stand);
+        belt->name = (char *)(uintptr_t)stand_name(d, stand, &belt->stand, &belt->changed);
         belt->assumed = ceduo_notes_assume(d->notes, stand);
         derive_stand(d, stand, &belt->stand);
     }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "io/emit.h"
 #include "popup.h"
 #include "model/recovery.h"
 #include "popups.h"
@@ -61,6 +62,51 @@ static void offer_files(struct app *app, struct popup *p, const char *typed)
     ceduo_picker_add_files(&p->picker, typed, p->endings);
 }
 
+/* ---- a name for a stand that is no longer what it was ---- */
+
+static bool filled_stand(struct app *app, struct popup *p)
+{
+    struct text value = {0};
+    void (*then)(struct app *app) = p->then;
+    if (p->fields[0].text[0] == '\0') {
+        ceduo_app_warn(app, "%s", _("a name is needed"));
+        return false;
+    }
+    ceduo_emit_scalar(&value, p->fields[0].text, true);
+    bool good = value.bytes && ceduo_document_set(&app->document, p->path, value.bytes, &app->problems);
+    ceduo_text_free(&value);
+    if (!ceduo_app_edited(app, good))
+        return false;
+    then(app);
+    return true;
+}
+
+/* Asks for the name of the first such stand, and then goes on. False where there is none. */
+static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const char *options = ceduo_node_get(app->document.file.root, "options") ? "options" : NULL;
+    for (size_t o = 0; o < scene->options_count; o++)
+        for (size_t b = 0; b < scene->options[o].belts_count; b++) {
+            const struct ceduo_belt *belt = &scene->options[o].belts[b];
+            struct popup *p = belt->changed ? ceduo_popup_fields(app, _("A stand was changed: its name"), filled_stand) : NULL;
+            if (!p)
+                continue;
+            if (options)
+                snprintf(p->path, sizeof p->path, "options[%zu].forest[%zu].stand.name", o, b);
+            else
+                snprintf(p->path, sizeof p->path, "forest[%zu].stand.name", b);
+            ceduo_text_format(&p->text, _("It stands from %g to %g m in '%s' and is no longer what its name said."),
+                              belt->from_given, belt->to_given, scene->options[o].name);
+            p->then = then;
+            ceduo_popup_field(p, _("name"), belt->name);
+            return true;
+        }
+    return false;
+}
+
+/* ---- where to ---- */
+
 /* `why` the last attempt failed; NULL: none did. */
 static void ask_for_name(struct app *app, const char *why)
 {
@@ -80,6 +126,8 @@ static void ask_for_name(struct app *app, const char *why)
 
 void ceduo_popup_save_as(struct app *app)
 {
+    if (asks_for_stand(app, ceduo_popup_save_as))
+        return;
     ask_for_name(app, NULL);
 }
 
@@ -115,6 +163,8 @@ static void ask_which(struct app *app)
 
 void ceduo_popup_save(struct app *app)
 {
+    if (asks_for_stand(app, ceduo_popup_save))
+        return;
     if (!app->document.path || app->document.shipped)
         ask_for_name(app, NULL);
     else if (ceduo_document_changed_on_disk(&app->document))
