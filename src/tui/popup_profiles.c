@@ -240,6 +240,10 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
         ceduo_text_put(&p->text, _("asks for the plot's size, what was counted there, diameters and heights"));
         return;
     }
+    if (strcmp(value, STAND_SURVEY) == 0) {
+        ceduo_text_put(&p->text, _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
+        return;
+    }
     put_stand(app, &p->text, value);
     put_change(app, p, value);
 }
@@ -284,6 +288,8 @@ static void chose_stand(struct app *app, struct popup *p, const char *value)
 {
     if (strcmp(value, STAND_COUNTED) == 0)
         ceduo_popup_counts(app);
+    else if (strcmp(value, STAND_SURVEY) == 0)
+        ceduo_popup_survey(app);
     else
         chose_word(app, p, value);
 }
@@ -295,8 +301,10 @@ static struct popup *list_stands(struct app *app, const char *title, popup_chose
     if (!p)
         return NULL;
     ceduo_app_stand(app, p->path, sizeof p->path);
-    if (chosen == chose_stand)
+    if (chosen == chose_stand) {
         ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
+        ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
+    }
     p->preview = preview_stand;
     ceduo_text_put(&p->text, " "); /* lines for it */
     listed_name(app, p->path, now, sizeof now);

@@ -15,6 +15,7 @@ void ceduo_popup_new(struct app *app);
 void ceduo_popup_export(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
+void ceduo_popup_survey(struct app *app);
 
 /* What the search came to that ceduo_popup_find() started. */
 void ceduo_popup_found(struct app *app, struct sought *sought);
@@ -40,6 +41,7 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value);
 /* ---- what fields of popups may hold ---- */
 
 #define STAND_COUNTED "from a sample plot" /* in the place of a stand: what a sample plot counts */
+#define STAND_SURVEY "from a survey" /* what a CSV file of plots holds */
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup, const char *typed);
 void ceduo_popup_offer_grounds(struct app *app, struct popup *popup, const char *typed);
 

@@ -235,6 +235,44 @@ def test_many_wrong():
             expect_in(place, r.err)
 
 
+SCRIPT = """resize 110 60
+key p
+type from a survey
+key Enter
+type {}
+key Enter
+wait idle
+dump -
+key s
+wait idle
+"""
+
+
+def test_terminal():
+    """p presets, from a survey: the stand of the belt is the one that --survey writes; what is wrong is told, and nothing changed"""
+    with Folder() as f:
+        wanted = survey(f, table()).out
+        f.write("bad.csv", table().replace("6.2", "x"))
+        f.write("stand.yaml", wanted)
+        site = scene(slope={"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}, controls=[{"x_m": 90}],
+                     forest=[{"from_m": 0, "to_m": 60, "stand": {"trees": [{"per_ha": 9, "dbh_m": 0.2, "height_m": 9}]}}])
+        for name in ("plots.csv", "bad.csv"):
+            f.write("s.yaml", site)
+            before = (f.path / "s.yaml").read_text()
+            f.write("keys", SCRIPT.format(name))
+            r = ceduo("--script", "keys", "s.yaml", cwd=f.path)
+            expect_equal(r.status, DONE, r)
+            if name == "bad.csv":
+                expect_in("'x' is not a number", r.out)
+                expect_equal((f.path / "s.yaml").read_text(), before)
+                continue
+            expect_in("it says nothing of growth and cutting", r.out)
+            stands = [json.loads(ceduo("--batch", "-n", 20, "-f", "json", *sets, "s.yaml", cwd=f.path).out)["options"][0]["stands"]
+                      for sets in ([], ["-s", "forest[0].stand=stand.yaml"])]
+            expect_equal(stands[0], stands[1])
+            expect_in("stools.per_ha", (f.path / "s.yaml").read_text())
+
+
 def test_usage():
     """What cannot be used with --survey is named"""
     with Folder() as f:

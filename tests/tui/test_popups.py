@@ -27,7 +27,7 @@ def test_presets():
             expect(any(re.search(rf"[│|] {name} .*{re.escape(share)}", x) for x in lines), f"{name} at {size}", share)
     first, second, chosen, undone = fast("""key 2
         wait idle
-        key p Down
+        key p Down Down
         dump
         key Down
         dump

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A stand from a survey: a CSV file of sample plots is chosen, and its stand takes the place of that of the belt. */
+#include <stdio.h>
+
+#include "base/language.h"
+#include "io/emit.h"
+#include "io/file.h"
+#include "io/survey_file.h"
+#include "popup.h"
+#include "popups.h"
+
+/* The file that comes with the program. */
+static void offer_shipped(struct popup *p)
+{
+    const char *path = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
+    if (path && !ceduo_picker_has(&p->picker, path))
+        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), path);
+}
+
+static void offer_surveys(struct app *app, struct popup *p, const char *typed)
+{
+    (void)app;
+    ceduo_picker_add_files(&p->picker, typed, ".csv");
+    offer_shipped(p);
+}
+
+/* The stand of a survey on one line, as a change takes it. */
+static bool read_stand(const char *path, struct text *value, struct problems *problems)
+{
+    struct arena arena = {0};
+    struct survey_file file;
+    struct text yaml = {0};
+    const struct node *root = NULL;
+    if (ceduo_survey_read(&file, &arena, path, problems) && ceduo_survey_stand(&file, &yaml, problems)) {
+        const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
+        root = ceduo_yaml_read(&arena, &source, problems);
+    }
+    if (root)
+        ceduo_emit_flow(value, root);
+    ceduo_text_free(&yaml);
+    ceduo_arena_free(&arena);
+    return root && !value->failed;
+}
+
+static void chose_survey(struct app *app, struct popup *p, const char *path)
+{
+    struct text value = {0};
+    if (!read_stand(path, &value, &app->problems))
+        ceduo_app_edited(app, false);
+    else if (ceduo_app_set(app, p->path, value.bytes))
+        ceduo_app_say(app, _("the stand of the survey '%.100s'; it says nothing of growth and cutting"), path);
+    ceduo_text_free(&value);
+}
+
+void ceduo_popup_survey(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem"), chose_survey);
+    if (!p)
+        return;
+    ceduo_app_stand(app, p->path, sizeof p->path);
+    ceduo_text_put(&p->text, _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
+                               "see ceduo-stand(5)."));
+    p->offers[0] = offer_surveys;
+    p->endings = ".csv";
+}
