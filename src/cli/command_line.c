@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 #include "options.h"
 #include "say.h"
 
@@ -28,14 +29,14 @@ static void put_help(struct text *text, const char *help)
 {
     size_t column = HELP_COLUMN;
     while (*help) {
-        size_t n = strcspn(help, " "), gap = column > HELP_COLUMN;
-        if (column + gap + n > 79) {
+        size_t n = strcspn(help, " "), width = ceduo_utf8_width_of(help, n), gap = column > HELP_COLUMN;
+        if (column + gap + width > 79) {
             ceduo_text_format(text, "\n%*s", HELP_COLUMN, "");
             column = HELP_COLUMN;
             gap = 0;
         }
         ceduo_text_format(text, "%s%.*s", gap ? " " : "", (int)n, help);
-        column += gap + n;
+        column += gap + width;
         help += n + (help[n] == ' ');
     }
     ceduo_text_char(text, '\n');

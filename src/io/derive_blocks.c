@@ -2,7 +2,7 @@
 /* The blocks that come down: whether their sizes fit together, and how many they are in all. */
 #include <math.h>
 
-#include "base/intl.h"
+#include "base/language.h"
 #include "derive.h"
 
 static bool is_single(const struct deriver *d)

@@ -209,7 +209,7 @@ static const char *stand_name(struct deriver *d, const char *path, const struct 
     *changed = name && has_name_of_another(d, node);
     if (*changed)
         return ceduo_derive_text(d, "%s (changed)", name);
-    return name ? name : ceduo_stand_is_bare(stand) ? _("bare") : _("stand");
+    return name ? name : ceduo_stand_is_bare(stand) ? "bare" : "stand";
 }
 
 static void derive_belts(struct deriver *d, const char *path, struct ceduo_option *option)

@@ -185,14 +185,17 @@ static void put_lights(struct ceduo_page *page, const struct ceduo_doubt_report 
 static void put_together(struct ceduo_page *page, const struct ceduo_doubt_report *r)
 {
     const struct ceduo_doubt_answer *a = r->answer;
-    struct text *t = a->together > 0 ? ceduo_page_add(page, CEDUO_PAGE_NOTE) : NULL;
-    if (t)
-        ceduo_text_format(t, ngettext("This %zu input moves alone: ", "These %zu inputs move together: ", a->together),
-                          a->together);
+    struct text paths = {0};
     for (size_t i = 0; i < a->together; i++) {
-        ceduo_text_put(t, i > 0 ? ", " : "");
-        ceduo_text_safe(t, r->inputs->items[a->moved[i]].path);
+        ceduo_text_put(&paths, i > 0 ? ", " : "");
+        ceduo_text_safe(&paths, r->inputs->items[a->moved[i]].path);
     }
+    if (a->together > 0)
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                          ngettext("This %zu input moves alone: %s", "These %zu inputs move together: %s", a->together),
+                          a->together, ceduo_text_string(&paths));
+    page->failed |= paths.failed;
+    ceduo_text_free(&paths);
 }
 
 /* What a reader takes along: both errors. */

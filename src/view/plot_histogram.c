@@ -68,7 +68,8 @@ static void bin_label(const struct histogram *h, int i, struct text *text)
 static void add_mark(const struct histogram *h, int i, double value, const char *name, struct text *text)
 {
     if (!isnan(value) && bin_of(&h->bins, value * KILO) == i)
-        ceduo_text_format(text, "%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, value * KILO);
+        ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name,
+                          name[0] == '>' ? "" : " ", value * KILO);
 }
 
 static void marks_of(const struct histogram *h, int i, struct text *text)
@@ -76,9 +77,9 @@ static void marks_of(const struct histogram *h, int i, struct text *text)
     const struct ceduo_distribution *e = &h->arrivals->energy;
     double kj = h->control->accepted * KILO, end = h->bins.first + h->bins.count * h->bins.width;
     if (kj >= h->bins.first && (kj < end || h->bins.over))
-        add_mark(h, i, h->control->accepted, h->area->width < WORD_LEAST ? ">" : _("withstands "), text);
-    add_mark(h, i, e->p50, "p50 ", text);
-    add_mark(h, i, e->p95, "p95 ", text);
+        add_mark(h, i, h->control->accepted, h->area->width < WORD_LEAST ? ">" : _("withstands"), text);
+    add_mark(h, i, e->p50, "p50", text);
+    add_mark(h, i, e->p95, "p95", text);
 }
 
 static enum ceduo_role role_of(const struct histogram *h, int i)
