@@ -14,7 +14,7 @@
 /* Exit statuses, as the manual has them. */
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
-enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_SENSITIVITY, MODE_REPORT, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_SURVEY, MODE_HELP, MODE_VERSION };
+enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_SENSITIVITY, MODE_CALIBRATE, MODE_REPORT, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_SURVEY, MODE_HELP, MODE_VERSION };
 
 struct arguments {
     enum mode mode;
@@ -33,6 +33,7 @@ struct arguments {
     unsigned threads;
     struct part_words sets; /* PATH=VALUE, in their order, --seed among them */
     struct part_words options;
+    struct part_words calibrates; /* PATH=LO:HI */
     char **scenes;
     size_t scenes_count;
     char seed[64];

@@ -10,6 +10,7 @@ enum exit_status ceduo_batch_merge(const struct arguments *arguments);
 enum exit_status ceduo_batch_find(const struct arguments *arguments);
 enum exit_status ceduo_batch_sensitivity(const struct arguments *arguments);
 enum exit_status ceduo_batch_report(const struct arguments *arguments);
+enum exit_status ceduo_batch_calibrate(const struct arguments *arguments);
 enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);

@@ -151,6 +151,8 @@ static enum exit_status check_arguments(struct arguments *a)
         return ceduo_usage(NULL, _("--report names its file; it cannot be used with --output, --plot, --format, --rows or --find"));
     if (a->mode == MODE_SENSITIVITY && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands))
         return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
+    if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))
+        return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows or --option"));
     if (wants_scene && a->scenes_count == 0)
         return ceduo_usage(NULL,
                            _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
@@ -223,8 +225,9 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     *a = (struct arguments){.threads = cores(),
                             .goal_value = NAN,
                             .sets.items = calloc(most, sizeof *a->sets.items),
-                            .options.items = calloc(most, sizeof *a->options.items)};
-    if (!a->sets.items || !a->options.items)
+                            .options.items = calloc(most, sizeof *a->options.items),
+                            .calibrates.items = calloc(most, sizeof *a->calibrates.items)};
+    if (!a->sets.items || !a->options.items || !a->calibrates.items)
         return ceduo_usage_no_memory();
     opterr = 0;
     for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
@@ -255,4 +258,5 @@ void ceduo_arguments_free(struct arguments *a)
 {
     free(a->sets.items);
     free(a->options.items);
+    free(a->calibrates.items);
 }

@@ -50,6 +50,8 @@ static enum exit_status act(const struct arguments *a)
         return ceduo_batch_sensitivity(a);
     case MODE_REPORT:
         return ceduo_batch_report(a);
+    case MODE_CALIBRATE:
+        return ceduo_batch_calibrate(a);
     case MODE_CHECK:
         return ceduo_batch_check(a);
     case MODE_PARAMETERS:

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/doubt.h"
+#include "ceduo/calibrate.h"
 #include "ceduo/years.h"
 #include "io/part_file.h"
 #include "language.h"
@@ -235,6 +235,21 @@ static enum exit_status set_report(struct arguments *a, const struct option_row 
     return EXIT_DONE;
 }
 
+/* "PATH=LO:HI"; it is kept as it is. */
+static enum exit_status add_calibrate(struct arguments *a, const struct option_row *row, char *value)
+{
+    double range[2];
+    const char *equals = strrchr(value, '=');
+    if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, range))
+        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as 'slope.materials[talus].rn=0.2:0.5'"), value);
+    if (!(range[0] < range[1]))
+        return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
+    if (a->calibrates.n == CEDUO_CALIBRATION_MOST)
+        return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
+    a->calibrates.items[a->calibrates.n++] = value;
+    return EXIT_DONE;
+}
+
 /* "I/N" */
 static enum exit_status set_shard(struct arguments *a, const struct option_row *row, char *value)
 {
@@ -292,6 +307,9 @@ static const struct option_row rows[] = {
      N_("show how sure the result is, and what that depends on; N base points (256)")},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, NOT_PART | NOT_CHECK,
      N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
+    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, NOT_PART | NOT_CHECK,
+     N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
+        "what was found")},
     {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE,
      N_("compute part I of N of each scene and write it for --merge")},
     {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},

@@ -76,7 +76,7 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
             status = EXIT_OUTPUT;
     if (!shelf)
         file->arena.shelf = NULL;
-    return status == EXIT_DONE && a->mode != MODE_FIND ? choose(a, file) : status;
+    return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;
 }
 
 /* ---- asking ---- */
@@ -87,7 +87,7 @@ struct progress ceduo_progress_begin(const struct arguments *a)
 }
 
 /* Whether it is time to show how far it is; `*seconds`: since the start. */
-static bool is_time(struct progress *p, double *seconds)
+bool ceduo_progress_due(struct progress *p, double *seconds)
 {
     double t = ceduo_clock();
     *seconds = t - p->start;
@@ -102,21 +102,21 @@ static bool is_time(struct progress *p, double *seconds)
 void ceduo_progress_show(void *progress, uint64_t rocks)
 {
     double seconds;
-    if (is_time(progress, &seconds))
+    if (ceduo_progress_due(progress, &seconds))
         fprintf(stderr, _("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
 }
 
 void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all)
 {
     double seconds;
-    if (is_time(progress, &seconds))
+    if (ceduo_progress_due(progress, &seconds))
         fprintf(stderr, _("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
 }
 
 void ceduo_progress_end(const struct progress *p)
 {
     if (p->open)
-        fputs("\r                              \r", stderr);
+        fprintf(stderr, "\r%-78s\r", "");
 }
 
 /* -n, or with a tolerance alone as many as may be, or the scene's. */

@@ -24,6 +24,8 @@ struct progress {
 struct progress ceduo_progress_begin(const struct arguments *arguments);
 void ceduo_progress_show(void *progress, uint64_t rocks);
 void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all);
+/* Whether it is time to show how far it is; `*seconds`: since the start. */
+bool ceduo_progress_due(struct progress *progress, double *seconds);
 void ceduo_progress_end(const struct progress *progress);
 
 /* What the command line asks of a scene: rocks as -n, -e or the scene says, threads, years. `progress` may be NULL. */

@@ -513,11 +513,11 @@ static bool check_except(struct binder *b, const struct node *list)
     return true;
 }
 
-/* source: {kind: measured|literature|assumed, text: …, except: […]} may stand in any mapping. */
+/* source: {kind: measured|literature|assumed|calibrated, text: …, except: […]} may stand in any mapping. */
 static void bind_source(struct binder *b, const struct node *node)
 {
-    static const char *const kinds[] = {"measured", "literature", "assumed"};
-    static const struct choices kind_choices = {kinds, 3};
+    static const char *const kinds[] = {"measured", "literature", "assumed", "calibrated"};
+    static const struct choices kind_choices = {kinds, 4};
     size_t before = enter(b, "source");
     const char *text = "";
     const struct node *except = NULL;
@@ -538,7 +538,7 @@ static void bind_source(struct binder *b, const struct node *node)
         leave(b, outer);
     }
     if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
-        report(b, node, _("'kind' is missing: measured, literature or assumed"));
+        report(b, node, _("'kind' is missing: measured, literature, assumed or calibrated"));
     leave(b, before);
     if (kind < 0)
         return;

@@ -358,3 +358,46 @@ void ceduo_derive_doubts(struct deriver *d)
     d->inputs_count = s.inputs_count;
     d->inputs_of_scene = s.of_scene;
 }
+
+/* ---- values to be fitted ---- */
+
+#define SEGMENTS "slope.segments[*]."
+
+/* A ground that stands in no list of segments: one place for each stretch. */
+static void add_stretches(struct places *p, const char *key)
+{
+    size_t stretches = p->d->draft.scene.slope.vertices - 1;
+    for (size_t j = 0; j < stretches; j++)
+        add_place(p, ceduo_derive_text(p->d, "slope.segments[%zu].%s", j, key));
+}
+
+static void find_ground(struct places *p, const struct scene_file *file, const char *path)
+{
+    const char *key = NULL, *name = ground_of(p->d, path, &key);
+    bool listed = file->scene.slope.segments_given > 0;
+    if (name && file->ground_assumed && strcmp(name, ceduo_material_talus()->name) == 0)
+        add_stretches(p, key);
+    else if (!name && !listed && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
+        add_stretches(p, path + sizeof SEGMENTS - 1);
+    else if (!add_ground(p, path))
+        add_all(p, path);
+}
+
+const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)
+{
+    struct problems problems = {0};
+    struct deriver d = {.arena = &file->arena, .root = file->root, .problems = &problems};
+    struct places p = {.d = &d, .room = file->scene.slope.vertices + CEDUO_ITEMS_MOST};
+    struct value v;
+    d.draft.scene = file->scene;
+    const struct field *field = row_of(&d, path);
+    p.items = ceduo_bind_take(&file->arena, p.room, sizeof *p.items, &problems);
+    *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE, .places = p.items};
+    if (!is_number_or_word(field) || field->type == FIELD_CHOICE || !p.items)
+        return NULL;
+    find_ground(&p, file, path);
+    for (size_t i = 0; i < p.n; i++)
+        if (ceduo_value_find(&file->scene, p.items[i], &v) && v.field == field && v.part == VALUE_WHOLE)
+            p.items[input->places_count++] = p.items[i];
+    return file->arena.failed ? NULL : field;
+}

@@ -371,7 +371,7 @@ static bool check_values(const struct seen_place *p, const char *row_path, const
 static const char *made_name(struct deriver *d, const struct seen_kind *k, const struct seen_values *v, const struct seen *row)
 {
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
-    if (!isnan(v->x))
+    if (k->kind >= CEDUO_OBSERVED_PASSED && k->kind <= CEDUO_OBSERVED_ENERGY)
         return ceduo_derive_text(d, "%s at %s m", k->path, ceduo_number_shortest(v->x, a));
     if (is_on_way(k->kind))
         return ceduo_derive_text(d, "%s %s-%s m", k->path, ceduo_number_shortest(row->way_from, a),

@@ -16,6 +16,10 @@ struct scene_inputs {
 /* False without memory. `doubt: none`: there are none. */
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
 
+/* The places of a path that is to be fitted, to input->places: [*] stands for all items, slope.materials[NAME].KEY for a ground.
+ * NULL where it is not a number of any scene; the scene may have no such place. */
+const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);
+
 /* The belt that a place is in, forest[0].stand… or options[2].forest[0].stand…; NULL: it is in none. */
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);
 

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_CALIBRATE_H
+#define CEDUO_CALIBRATE_H
+
+#include "doubt.h"
+#include "observe.h"
+
+/* Values of scenes that are fitted to what was seen there. The likelihood of a list is multinomial, of a count binomial, of a
+ * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. A search over Sobol' points and by
+ * the simplex of Nelder and Mead finds the best values; then adaptive Metropolis chains (Haario, Saksman and Tamminen 2001)
+ * draw from all values that what was seen does not refute, each as likely before within its bounds. */
+
+#define CEDUO_CALIBRATION_MOST   12    /* values fitted at once */
+#define CEDUO_CALIBRATION_CHAINS 4
+#define CEDUO_CALIBRATION_DRAWS  200   /* that predictions are made from */
+#define CEDUO_CALIBRATION_ROCKS  2000
+#define CEDUO_RHAT_MOST          1.05  /* chains agree (Gelman and Rubin 1992) */
+#define CEDUO_EFFECTIVE_LEAST    200   /* independent draws that theirs are worth */
+#define CEDUO_NOT_DETERMINED     0.8   /* of the bounds: a wider range says nothing */
+#define CEDUO_MISFIT             0.05  /* p below it: the model cannot give what was seen */
+
+/* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE, the same number in each scene, of
+ * the same bounds. One that the scene does not have has no places. */
+struct ceduo_calibration_scene {
+    const struct ceduo_scene *scene;
+    const struct ceduo_input *inputs;
+    size_t observations_count;
+    const struct ceduo_observation *observations;
+};
+
+enum ceduo_calibration_stage { CEDUO_SEARCH, CEDUO_REFINE, CEDUO_CHAINS };
+
+/* How far it is: the best values so far, in the files' units. */
+struct ceduo_calibration_state {
+    enum ceduo_calibration_stage stage;
+    uint64_t evaluations;
+    double best[CEDUO_CALIBRATION_MOST], log_likelihood;
+    double rhat, effective_size; /* NaN before the chains */
+};
+
+struct ceduo_calibration_def {
+    size_t scenes_count;
+    const struct ceduo_calibration_scene *scenes;
+    size_t parameters_count; /* 1…CEDUO_CALIBRATION_MOST */
+    uint64_t rocks;          /* of each evaluation and setting */
+    uint64_t seed;
+    unsigned threads;
+    size_t steps_most;         /* of each chain; 0: as many as is usual */
+    const atomic_bool *cancel; /* may be NULL: what is known so far is the answer */
+    void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
+    void *context;
+};
+
+struct ceduo_fitted {
+    double lo, hi, best, p2_5, p50, p97_5; /* in the file's unit; NaN: not known yet */
+    bool determined, at_bound;
+};
+
+/* One observation beside what the fit says of it. */
+struct ceduo_predicted {
+    size_t scene, observation;
+    struct ceduo_counterpart at_best;
+    double p_value;  /* share of samples from the fit that lie as far from it as what was seen, or further */
+    double seen, lo, hi; /* the mean that was seen, or the count; 95 % of what the fit predicts of it */
+    bool inside;
+};
+
+struct ceduo_calibration {
+    size_t parameters_count;
+    struct ceduo_fitted parameters[CEDUO_CALIBRATION_MOST];
+    double correlation[CEDUO_CALIBRATION_MOST][CEDUO_CALIBRATION_MOST];
+    size_t predicted_count;
+    struct ceduo_predicted *predicted; /* of all scenes */
+    bool misfit;     /* of something that was to be fitted */
+    bool refuted;    /* something that was to check the fit is not as predicted */
+    bool complete;   /* not ended before */
+    bool settled;    /* the chains agree and are long enough */
+    uint64_t evaluations;
+    double rhat, effective_size;
+    size_t draws_count;
+    double *draws; /* [draw][parameter], in the file's unit */
+};
+
+/* CEDUO_NO_MEMORY, CEDUO_CANCELLED (before anything is known), or what ceduo_scene_check() says; then nothing is to be freed. */
+enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
+void ceduo_calibration_free(struct ceduo_calibration *answer);
+
+#endif

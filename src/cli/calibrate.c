@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* --calibrate: values of one or several scenes, fitted to what was seen there. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "batch.h"
+#include "interrupt.h"
+#include "io/inputs.h"
+#include "output.h"
+#include "say.h"
+#include "view/report_calibration.h"
+
+#define MOST CEDUO_CALIBRATION_MOST
+
+/* All scenes, and the fitted values in each. */
+struct job {
+    const struct arguments *arguments;
+    size_t scenes_count, parameters_count;
+    struct scene_file *files;
+    struct ceduo_calibration_scene *scenes;
+    struct ceduo_input *inputs; /* [scene][parameter] */
+    const char *paths[MOST];
+    const struct field *fields[MOST];
+    double lo[MOST], hi[MOST];
+    struct progress progress;
+};
+
+/* ---- the values ---- */
+
+static enum exit_status check_range(const struct job *j, size_t i)
+{
+    struct text range = {0};
+    double bad = !ceduo_schema_in_range(j->fields[i], j->lo[i]) ? j->lo[i] : j->hi[i];
+    char room[CEDUO_NUMBER_ROOM];
+    if (ceduo_schema_in_range(j->fields[i], bad))
+        return EXIT_DONE;
+    ceduo_schema_range_text(j->fields[i], &range);
+    enum exit_status status = ceduo_usage("calibrate", _("%s is outside the range of %s: %s"), ceduo_number_shortest(bad, room),
+                                          j->paths[i], ceduo_text_string(&range));
+    ceduo_text_free(&range);
+    return status;
+}
+
+static bool shares_a_place(const struct ceduo_input *a, const struct ceduo_input *b)
+{
+    for (size_t i = 0; i < a->places_count; i++)
+        for (size_t k = 0; k < b->places_count; k++)
+            if (strcmp(a->places[i], b->places[k]) == 0)
+                return true;
+    return false;
+}
+
+/* PATH=LO:HI, which the options have checked; its places in every scene. */
+static enum exit_status find_value(struct job *j, size_t i)
+{
+    const char *given = j->arguments->calibrates.items[i], *equals = strrchr(given, '=');
+    size_t places = 0;
+    char *path = malloc((size_t)(equals - given) + 1);
+    if (!path)
+        return ceduo_usage_no_memory();
+    memcpy(path, given, (size_t)(equals - given));
+    path[equals - given] = '\0';
+    j->paths[i] = path;
+    char *end;
+    j->lo[i] = strtod(equals + 1, &end);
+    j->hi[i] = strtod(end + 1, NULL);
+    for (size_t s = 0; s < j->scenes_count; s++) {
+        struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
+        const struct field *field = ceduo_input_find(&j->files[s], path, input);
+        if (!field)
+            return ceduo_usage("calibrate", _("'%s' is not a number of a scene; ceduo --list-parameters shows all"), path);
+        j->fields[i] = field;
+        input->lo = j->lo[i];
+        input->hi = j->hi[i];
+        places += input->places_count;
+        for (size_t k = 0; k < i; k++)
+            if (shares_a_place(input, &j->inputs[s * j->parameters_count + k]))
+                return ceduo_usage("calibrate", _("'%s' and '%s' are the same value"), j->paths[k], path);
+    }
+    if (places == 0)
+        return ceduo_usage("calibrate", _("no scene has a value '%s'"), path);
+    return check_range(j, i);
+}
+
+/* Something must have been seen. */
+static enum exit_status check_seen(const struct job *j)
+{
+    for (size_t s = 0; s < j->scenes_count; s++)
+        for (size_t i = 0; i < j->scenes[s].observations_count; i++)
+            if (j->scenes[s].observations[i].use == CEDUO_OBSERVED_FIT)
+                return EXIT_DONE;
+    return ceduo_usage("calibrate", _("no scene says what was seen there, to be fitted; write it under 'observed' "
+                                      "(man ceduo-scene)"));
+}
+
+static enum exit_status open_job(struct job *j)
+{
+    const struct arguments *a = j->arguments;
+    enum exit_status status = EXIT_DONE;
+    j->scenes_count = a->scenes_count;
+    j->parameters_count = a->calibrates.n;
+    j->files = calloc(j->scenes_count, sizeof *j->files);
+    j->scenes = calloc(j->scenes_count, sizeof *j->scenes);
+    j->inputs = calloc(j->scenes_count * j->parameters_count, sizeof *j->inputs);
+    if (!j->files || !j->scenes || !j->inputs)
+        return ceduo_usage_no_memory();
+    for (size_t s = 0; s < j->scenes_count; s++) {
+        enum exit_status read = ceduo_batch_read(a, a->scenes[s], NULL, &j->files[s]);
+        status = read > status ? read : status;
+        j->scenes[s] = (struct ceduo_calibration_scene){.scene = &j->files[s].scene,
+                                                        .inputs = j->inputs + s * j->parameters_count,
+                                                        .observations_count = j->files[s].observations_count,
+                                                        .observations = j->files[s].observations};
+    }
+    for (size_t i = 0; i < j->parameters_count && status == EXIT_DONE; i++)
+        status = find_value(j, i);
+    return status == EXIT_DONE ? check_seen(j) : status;
+}
+
+static void close_job(struct job *j)
+{
+    for (size_t s = 0; j->files && s < j->scenes_count; s++)
+        ceduo_scene_release(&j->files[s]);
+    for (size_t i = 0; i < j->parameters_count; i++)
+        free((char *)(uintptr_t)j->paths[i]);
+    free(j->files);
+    free(j->scenes);
+    free(j->inputs);
+}
+
+/* ---- computing ---- */
+
+static void show(void *context, const struct ceduo_calibration_state *state)
+{
+    struct progress *p = context;
+    struct text line = {0};
+    double seconds;
+    if (!ceduo_progress_due(p, &seconds))
+        return;
+    if (state->stage == CEDUO_CHAINS && isfinite(state->rhat))
+        ceduo_text_format(&line, _("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
+                          (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
+    else
+        ceduo_text_format(&line, _("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
+                          state->log_likelihood, seconds);
+    fprintf(stderr, "\r%-78s", ceduo_text_string(&line));
+    ceduo_text_free(&line);
+}
+
+static void put(const struct job *j, const struct ceduo_calibration_report *report, struct text *out)
+{
+    if (j->arguments->format == CEDUO_JSON)
+        ceduo_calibration_json(out, report);
+    else if (j->arguments->format == CEDUO_CSV)
+        ceduo_calibration_csv(out, report);
+    else
+        ceduo_calibration_page(out, report, !ceduo_say_utf8());
+}
+
+static enum exit_status compute(struct job *j)
+{
+    const struct arguments *a = j->arguments;
+    struct ceduo_calibration answer;
+    struct text out = {0};
+    j->progress = ceduo_progress_begin(a);
+    struct ceduo_calibration_def def = {.scenes_count = j->scenes_count,
+                                        .scenes = j->scenes,
+                                        .parameters_count = j->parameters_count,
+                                        .rocks = a->rocks > 0 ? a->rocks : CEDUO_CALIBRATION_ROCKS,
+                                        .seed = j->files[0].scene.simulation.seed,
+                                        .threads = a->threads,
+                                        .cancel = ceduo_interrupt_flag(),
+                                        .progress = show,
+                                        .context = &j->progress};
+    enum ceduo_status status = ceduo_calibrate(&def, &answer);
+    ceduo_progress_end(&j->progress);
+    if (status != CEDUO_OK)
+        return ceduo_batch_failed(&j->files[0], status);
+    struct ceduo_calibration_report report = {.scenes_count = j->scenes_count,
+                                              .files = j->files,
+                                              .paths = j->paths,
+                                              .fields = j->fields,
+                                              .rocks = def.rocks,
+                                              .seed = def.seed,
+                                              .answer = &answer};
+    put(j, &report, &out);
+    ceduo_say_plainly(&out);
+    enum exit_status written = ceduo_output_write(a, &out);
+    ceduo_text_free(&out);
+    ceduo_calibration_free(&answer);
+    return written;
+}
+
+enum exit_status ceduo_batch_calibrate(const struct arguments *a)
+{
+    struct job j = {.arguments = a};
+    enum exit_status status = open_job(&j);
+    if (status == EXIT_DONE) {
+        ceduo_interrupt_catch();
+        status = compute(&j);
+    }
+    close_job(&j);
+    ceduo_interrupt_release();
+    return status;
+}

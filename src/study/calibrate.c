@@ -1,0 +1,499 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits values of scenes to what was seen. Three steps: Sobol' points over the bounds, on all threads; the simplex from the
+ * best of them; chains from where that ends. A place is a row u of numbers in 0…1, one for each parameter; simplex and chains
+ * walk in y = log(u/(1 - u)), so that no bound is ever crossed. Each worker has copies of the scenes of its own. At the end
+ * draws of the chains are computed once more, to predict all that was seen (predict.c). */
+#include "ceduo/calibrate.h"
+
+#include <gsl/gsl_multimin.h>
+#include <gsl/gsl_qrng.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "chains.h"
+#include "fitting.h"
+
+#define POINTS      256
+#define REFINED     3    /* simplex starts */
+#define FAR_OUT     9    /* |y| beyond which u is a bound, for the simplex */
+#define SIMPLEX     0.5  /* size of the first one, in y */
+#define SMALL       0.02 /* of the last */
+#define FIRST_STEP  0.3  /* of a chain */
+#define STEPS_LEAST 500
+#define STEPS_MOST  8000
+#define NEAR_BOUND  0.02 /* of the bounds: a best value there lies at a bound, */
+#define HALF_THERE  0.05 /* or where half of the draws do */
+
+#define PARAMETERS CEDUO_CALIBRATION_MOST
+#define CHAINS     CEDUO_CALIBRATION_CHAINS
+
+/* ---- places ---- */
+
+static double logit(double u)
+{
+    return log(u / (1 - u));
+}
+
+static double unit(double y)
+{
+    return 1 / (1 + exp(-y));
+}
+
+/* Of two places that are as good the smaller one is better, so that it does not matter which was looked at first. */
+static bool is_better(const double *u, double log_likelihood, const double *best, double most, size_t n)
+{
+    if (log_likelihood != most)
+        return log_likelihood > most;
+    for (size_t i = 0; i < n; i++)
+        if (u[i] != best[i])
+            return u[i] < best[i];
+    return false;
+}
+
+static void note_best(struct fitting *f, const double *u, double log_likelihood)
+{
+    pthread_mutex_lock(&f->lock);
+    f->evaluations++;
+    if (is_better(u, log_likelihood, f->best, f->most, f->def->parameters_count))
+        memcpy(f->best, u, f->def->parameters_count * sizeof *u), f->most = log_likelihood;
+    pthread_mutex_unlock(&f->lock);
+}
+
+static double value_of(const struct fitting *f, size_t parameter, double u)
+{
+    const struct ceduo_input *input = &f->def->scenes[0].inputs[parameter];
+    return input->lo + u * (input->hi - input->lo);
+}
+
+static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double rhat, double effective_size)
+{
+    if (!f->def->progress || pthread_mutex_trylock(&f->talking) != 0)
+        return;
+    struct ceduo_calibration_state state = {.stage = stage, .rhat = rhat, .effective_size = effective_size};
+    pthread_mutex_lock(&f->lock);
+    state.evaluations = f->evaluations;
+    state.log_likelihood = f->most;
+    for (size_t i = 0; i < f->def->parameters_count; i++)
+        state.best[i] = value_of(f, i, f->best[i]);
+    pthread_mutex_unlock(&f->lock);
+    f->def->progress(f->def->context, &state);
+    pthread_mutex_unlock(&f->talking);
+}
+
+/* ---- one evaluation ---- */
+
+/* A scene that does not fit together cannot be what was. */
+static bool is_failure(enum ceduo_status status)
+{
+    return status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED;
+}
+
+enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, const atomic_bool *cancel,
+                                     struct ceduo_counterpart *to)
+{
+    enum ceduo_status status = CEDUO_OK;
+    for (size_t s = 0; s < f->def->scenes_count && status == CEDUO_OK; s++) {
+        struct input_scene *copy = &f->workers[worker].copies[s];
+        const struct ceduo_observer *observer = all ? f->scenes[s].all : f->scenes[s].fit;
+        ceduo_inputs_set(copy, u);
+        status = ceduo_observer_look(observer, &copy->scene, f->def->rocks, cancel, to);
+        to += all ? f->def->scenes[s].observations_count : f->scenes[s].fit_count;
+    }
+    return status;
+}
+
+/* The likelihood of a place. */
+static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double *u, double *log_likelihood)
+{
+    struct ceduo_counterpart *to = f->workers[worker].counterparts;
+    enum ceduo_status status = ceduo_fitting_look(f, worker, u, false, f->def->cancel, to);
+    *log_likelihood = status == CEDUO_OK ? 0 : -INFINITY;
+    if (is_failure(status))
+        return status;
+    for (size_t i = 0; i < f->fit_count && status == CEDUO_OK; i++)
+        *log_likelihood += to[i].log_likelihood;
+    note_best(f, u, *log_likelihood);
+    return CEDUO_OK;
+}
+
+/* ---- on many threads ---- */
+
+struct crowd {
+    struct fitting *f;
+    enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item);
+    size_t items;
+    atomic_size_t next, workers;
+    atomic_int status;
+};
+
+static void *work(void *context)
+{
+    struct crowd *c = context;
+    size_t worker = atomic_fetch_add(&c->workers, 1);
+    int good = CEDUO_OK, status = CEDUO_OK;
+    for (size_t i; status == CEDUO_OK && atomic_load(&c->status) == CEDUO_OK && (i = atomic_fetch_add(&c->next, 1)) < c->items;)
+        status = (int)c->one(c->f, worker, i);
+    if (status != CEDUO_OK)
+        atomic_compare_exchange_strong(&c->status, &good, status);
+    return NULL;
+}
+
+enum ceduo_status ceduo_fitting_each(struct fitting *f, size_t items,
+                                     enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item))
+{
+    struct crowd c = {.f = f, .one = one, .items = items};
+    size_t n = f->def->threads < items ? f->def->threads : items, started = 0;
+    pthread_t *threads = n > 1 ? calloc(n - 1, sizeof *threads) : NULL;
+    atomic_init(&c.next, 0);
+    atomic_init(&c.workers, 0);
+    atomic_init(&c.status, CEDUO_OK);
+    while (threads && started + 1 < n && pthread_create(&threads[started], NULL, work, &c) == 0)
+        started++;
+    work(&c);
+    while (started > 0)
+        pthread_join(threads[--started], NULL);
+    free(threads);
+    return (enum ceduo_status)atomic_load(&c.status);
+}
+
+/* ---- search ---- */
+
+static enum ceduo_status look_at_point(struct fitting *f, size_t worker, size_t i)
+{
+    enum ceduo_status status = evaluate(f, worker, f->points + i * f->def->parameters_count, &f->at_points[i]);
+    tell(f, CEDUO_SEARCH, NAN, NAN);
+    return status;
+}
+
+static enum ceduo_status search(struct fitting *f)
+{
+    size_t d = f->def->parameters_count;
+    gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d);
+    f->points = calloc(POINTS * d, sizeof *f->points);
+    f->at_points = calloc(POINTS, sizeof *f->at_points);
+    if (!sequence || !f->points || !f->at_points) {
+        gsl_qrng_free(sequence);
+        return CEDUO_NO_MEMORY;
+    }
+    for (size_t i = 0; i < POINTS; i++)
+        gsl_qrng_get(sequence, f->points + i * d);
+    gsl_qrng_free(sequence);
+    return ceduo_fitting_each(f, POINTS, look_at_point);
+}
+
+/* ---- refining ---- */
+
+/* A simplex at work. */
+struct descent {
+    struct fitting *f;
+    size_t worker;
+    enum ceduo_status status;
+};
+
+static double depth(const gsl_vector *y, void *context)
+{
+    struct descent *d = context;
+    double u[PARAMETERS], log_likelihood = -INFINITY, out = 0;
+    for (size_t i = 0; i < y->size; i++) {
+        u[i] = unit(gsl_vector_get(y, i));
+        out = fmax(out, fabs(gsl_vector_get(y, i)) - FAR_OUT);
+    }
+    if (d->status == CEDUO_OK && out <= 0)
+        d->status = evaluate(d->f, d->worker, u, &log_likelihood);
+    return isfinite(log_likelihood) ? -log_likelihood : 1e12 + out;
+}
+
+static void descend(struct descent *d, double *y, gsl_multimin_fminimizer *m, gsl_vector *from, gsl_vector *step)
+{
+    size_t n = d->f->def->parameters_count;
+    gsl_multimin_function f = {depth, n, d};
+    for (size_t i = 0; i < n; i++)
+        gsl_vector_set(from, i, y[i]);
+    gsl_vector_set_all(step, SIMPLEX);
+    gsl_multimin_fminimizer_set(m, &f, from, step);
+    for (size_t k = 0; k < 40 + 20 * n && d->status == CEDUO_OK; k++)
+        if (gsl_multimin_fminimizer_iterate(m) != 0 || gsl_multimin_fminimizer_size(m) < SMALL)
+            break;
+    for (size_t i = 0; i < n && d->status == CEDUO_OK; i++)
+        y[i] = fmax(-FAR_OUT, fmin(FAR_OUT, gsl_vector_get(m->x, i)));
+}
+
+static enum ceduo_status refine_one(struct fitting *f, size_t worker, size_t start)
+{
+    size_t n = f->def->parameters_count;
+    struct descent d = {f, worker, CEDUO_OK};
+    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
+    gsl_vector *from = gsl_vector_alloc(n), *step = gsl_vector_alloc(n);
+    if (m && from && step)
+        descend(&d, f->starts + start * n, m, from, step);
+    else
+        d.status = CEDUO_NO_MEMORY;
+    gsl_multimin_fminimizer_free(m);
+    gsl_vector_free(from);
+    gsl_vector_free(step);
+    tell(f, CEDUO_REFINE, NAN, NAN);
+    return d.status;
+}
+
+/* From the best points; of those that are as good the first ones. */
+static enum ceduo_status refine(struct fitting *f)
+{
+    size_t d = f->def->parameters_count, order[POINTS];
+    for (size_t i = 0; i < POINTS; i++)
+        f->at_points[i] = -f->at_points[i];
+    gsl_sort_smallest_index(order, CHAINS, f->at_points, 1, POINTS);
+    for (size_t c = 0; c < CHAINS; c++)
+        for (size_t i = 0; i < d; i++)
+            f->starts[c * d + i] = logit(f->points[order[c] * d + i]);
+    return ceduo_fitting_each(f, REFINED, refine_one);
+}
+
+/* ---- chains ---- */
+
+/* Every value within the bounds is as likely before: in y the density is u(1 - u). */
+static enum ceduo_status density(void *context, size_t chain, const double *y, double *log_density)
+{
+    struct fitting *f = context;
+    double u[PARAMETERS], prior = 0;
+    for (size_t i = 0; i < f->def->parameters_count; i++) {
+        u[i] = unit(y[i]);
+        prior += log(u[i]) + log1p(-u[i]);
+    }
+    *log_density = -INFINITY;
+    if (!isfinite(prior))
+        return CEDUO_OK;
+    enum ceduo_status status = evaluate(f, chain, u, log_density);
+    *log_density += prior;
+    return status;
+}
+
+static double guess_at(void *context, const double *y)
+{
+    const struct fitting *f = context;
+    double u[PARAMETERS], prior = 0;
+    for (size_t i = 0; i < f->def->parameters_count; i++) {
+        u[i] = unit(y[i]);
+        prior += log(u[i]) + log1p(-u[i]);
+    }
+    return isfinite(prior) ? ceduo_guess_at(&f->guess, u) + prior : -INFINITY;
+}
+
+/* Room for the points, and n more. */
+static bool grow_known(struct fitting *f, size_t n)
+{
+    size_t d = f->def->parameters_count, room = 2 * (POINTS + n);
+    if (POINTS + n <= f->known_room)
+        return true;
+    double *known = realloc(f->known, room * d * sizeof *known);
+    f->known = known ? known : f->known;
+    double *values = realloc(f->known_values, room * sizeof *values);
+    f->known_values = values ? values : f->known_values;
+    f->known_room = known && values ? room : 0;
+    return known && values;
+}
+
+static bool learn(void *context, const double *y, const double *log_densities, size_t n)
+{
+    struct fitting *f = context;
+    size_t d = f->def->parameters_count;
+    if (!grow_known(f, n))
+        return false;
+    memcpy(f->known, f->points, POINTS * d * sizeof *f->known);
+    for (size_t i = 0; i < POINTS; i++)
+        f->known_values[i] = -f->at_points[i];
+    for (size_t i = 0; i < n; i++) {
+        double prior = 0, *u = f->known + (POINTS + i) * d;
+        for (size_t k = 0; k < d; k++) {
+            u[k] = unit(y[i * d + k]);
+            prior += log(u[k]) + log1p(-u[k]);
+        }
+        f->known_values[POINTS + i] = log_densities[i] - prior;
+    }
+    return ceduo_guess_learn(&f->guess, f->known, f->known_values, POINTS + n);
+}
+
+static bool on_round(void *context, size_t steps, double rhat, double effective_size)
+{
+    (void)steps;
+    tell(context, CEDUO_CHAINS, rhat, effective_size);
+    return true;
+}
+
+static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
+{
+    double scales[PARAMETERS];
+    for (size_t i = 0; i < PARAMETERS; i++)
+        scales[i] = FIRST_STEP;
+    struct chains_def def = {.dimensions = f->def->parameters_count,
+                             .chains = CHAINS,
+                             .starts = f->starts,
+                             .scales = scales,
+                             .seed = f->def->seed,
+                             .threads = f->def->threads,
+                             .steps_least = STEPS_LEAST,
+                             .steps_most = f->def->steps_most > 0 ? f->def->steps_most : STEPS_MOST,
+                             .rhat_most = CEDUO_RHAT_MOST,
+                             .effective_least = CEDUO_EFFECTIVE_LEAST,
+                             .density = density,
+                             .guess = guess_at,
+                             .learn = learn,
+                             .round = on_round,
+                             .context = f};
+    return ceduo_chains_run(&def, chains);
+}
+
+/* ---- reading ---- */
+
+static void read_parameter(const struct fitting *f, const struct ceduo_calibration *a, double *sorted, size_t i,
+                           struct ceduo_fitted *p)
+{
+    const struct ceduo_input *input = &f->def->scenes[0].inputs[i];
+    double width = input->hi - input->lo, u = f->best[i];
+    size_t n = a->draws_count;
+    *p = (struct ceduo_fitted){input->lo, input->hi, value_of(f, i, u), NAN, NAN, NAN, false, false};
+    if (n == 0)
+        return;
+    for (size_t k = 0; k < n; k++)
+        sorted[k] = a->draws[k * a->parameters_count + i];
+    gsl_sort(sorted, 1, n);
+    p->p2_5 = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.025);
+    p->p50 = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.5);
+    p->p97_5 = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.975);
+    p->determined = p->p97_5 - p->p2_5 <= CEDUO_NOT_DETERMINED * width;
+    double middle = (p->p50 - input->lo) / width;
+    p->at_bound = p->determined && (fmin(u, 1 - u) < NEAR_BOUND || fmin(middle, 1 - middle) < HALF_THERE);
+}
+
+static bool read_draws(const struct fitting *f, const struct chains *chains, struct ceduo_calibration *a)
+{
+    size_t d = a->parameters_count, n = chains->steps > 2 * CEDUO_CHAINS_ROUND ? ceduo_chains_draws(chains) : 0;
+    double *sorted = malloc((n + 1) * sizeof *sorted);
+    a->draws = malloc((n * d + 1) * sizeof *a->draws);
+    a->draws_count = a->draws ? n : 0;
+    for (size_t k = 0; k < a->draws_count; k++)
+        for (size_t i = 0; i < d; i++)
+            a->draws[k * d + i] = value_of(f, i, unit(ceduo_chains_draw(chains, k)[i]));
+    for (size_t i = 0; i < d && sorted; i++)
+        read_parameter(f, a, sorted, i, &a->parameters[i]);
+    for (size_t i = 0; i < d; i++)
+        for (size_t k = 0; k < d; k++)
+            a->correlation[i][k] = i == k                ? 1
+                                   : a->draws_count == 0 ? NAN
+                                                         : gsl_stats_correlation(a->draws + i, d, a->draws + k, d, n);
+    bool good = sorted && a->draws;
+    free(sorted);
+    return good;
+}
+
+/* ---- all of it ---- */
+
+static bool open_scene(struct fitting *f, size_t s)
+{
+    const struct ceduo_calibration_scene *from = &f->def->scenes[s];
+    struct fitting_scene *to = &f->scenes[s];
+    to->fitted = calloc(from->observations_count + 1, sizeof *to->fitted);
+    for (size_t i = 0; to->fitted && i < from->observations_count; i++)
+        if (from->observations[i].use == CEDUO_OBSERVED_FIT)
+            to->fitted[to->fit_count++] = from->observations[i];
+    f->fit_count += to->fit_count;
+    f->all_count += from->observations_count;
+    return to->fitted && ceduo_observer_create(to->fitted, to->fit_count, &to->fit) == CEDUO_OK &&
+           ceduo_observer_create(from->observations, from->observations_count, &to->all) == CEDUO_OK;
+}
+
+static enum ceduo_status open_worker(struct fitting *f, struct fitting_worker *w)
+{
+    enum ceduo_status status = CEDUO_OK;
+    w->copies = calloc(f->def->scenes_count, sizeof *w->copies);
+    w->counterparts = calloc(f->all_count + 1, sizeof *w->counterparts);
+    if (!w->copies || !w->counterparts)
+        return CEDUO_NO_MEMORY;
+    for (size_t s = 0; s < f->def->scenes_count && status == CEDUO_OK; s++)
+        status = ceduo_inputs_open(&w->copies[s], f->def->scenes[s].scene, f->def->scenes[s].inputs, f->def->parameters_count);
+    return status;
+}
+
+static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_calibration_def *def)
+{
+    enum ceduo_status status = CEDUO_OK;
+    *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(def->parameters_count)};
+    f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
+    pthread_mutex_init(&f->lock, NULL);
+    pthread_mutex_init(&f->talking, NULL);
+    f->scenes = calloc(def->scenes_count, sizeof *f->scenes);
+    f->workers = calloc(f->workers_count, sizeof *f->workers);
+    bool good = f->scenes && f->workers;
+    for (size_t s = 0; s < def->scenes_count && good; s++)
+        good = open_scene(f, s);
+    for (size_t w = 0; w < f->workers_count && good && status == CEDUO_OK; w++)
+        status = open_worker(f, &f->workers[w]);
+    return good ? status : CEDUO_NO_MEMORY;
+}
+
+static void close_fitting(struct fitting *f)
+{
+    for (size_t s = 0; f->scenes && s < f->def->scenes_count; s++) {
+        ceduo_observer_free(f->scenes[s].fit);
+        ceduo_observer_free(f->scenes[s].all);
+        free(f->scenes[s].fitted);
+    }
+    for (size_t w = 0; f->workers && w < f->workers_count; w++) {
+        for (size_t s = 0; f->workers[w].copies && s < f->def->scenes_count; s++)
+            ceduo_inputs_release(&f->workers[w].copies[s]);
+        free(f->workers[w].copies);
+        free(f->workers[w].counterparts);
+    }
+    free(f->scenes);
+    free(f->workers);
+    free(f->points);
+    free(f->at_points);
+    free(f->known);
+    free(f->known_values);
+    ceduo_guess_release(&f->guess);
+    pthread_mutex_destroy(&f->lock);
+    pthread_mutex_destroy(&f->talking);
+}
+
+static enum ceduo_status fit(struct fitting *f, struct chains *chains)
+{
+    enum ceduo_status status = search(f);
+    if (status == CEDUO_OK)
+        status = refine(f);
+    return status == CEDUO_OK ? run_chains(f, chains) : status;
+}
+
+enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *a)
+{
+    struct fitting f;
+    struct chains chains = {.rhat = NAN, .effective_size = NAN};
+    *a = (struct ceduo_calibration){.parameters_count = def->parameters_count};
+    enum ceduo_status status = open_fitting(&f, def);
+    status = status == CEDUO_OK ? fit(&f, &chains) : status;
+    a->complete = status == CEDUO_OK;
+    if (status == CEDUO_CANCELLED && isfinite(f.most)) /* what is known so far is the answer */
+        status = CEDUO_OK;
+    if (status == CEDUO_OK && !read_draws(&f, &chains, a))
+        status = CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        status = ceduo_fitting_predict(&f, a);
+    a->evaluations = f.evaluations;
+    a->rhat = chains.rhat;
+    a->effective_size = chains.effective_size;
+    a->settled = chains.settled;
+    ceduo_chains_release(&chains);
+    close_fitting(&f);
+    if (status != CEDUO_OK)
+        ceduo_calibration_free(a);
+    return status;
+}
+
+void ceduo_calibration_free(struct ceduo_calibration *a)
+{
+    free(a->predicted);
+    free(a->draws);
+    *a = (struct ceduo_calibration){0};
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_FITTING_H
+#define CEDUO_FITTING_H
+
+#include <pthread.h>
+
+#include "ceduo/calibrate.h"
+#include "guess.h"
+#include "inputs.h"
+
+/* A calibration from inside: calibrate.c fits, predict.c reads what the fit says of all that was seen. */
+
+struct fitting_scene {
+    size_t fit_count;
+    struct ceduo_observation *fitted; /* those that are not only to check */
+    struct ceduo_observer *fit, *all;
+};
+
+/* What a worker needs for itself. */
+struct fitting_worker {
+    struct input_scene *copies; /* [scene] */
+    struct ceduo_counterpart *counterparts;
+};
+
+struct fitting {
+    const struct ceduo_calibration_def *def;
+    struct fitting_scene *scenes;
+    size_t fit_count, all_count; /* observations of all scenes */
+    size_t workers_count;
+    struct fitting_worker *workers;
+    double *points, *at_points; /* Sobol' points; their log-likelihoods */
+    struct guess guess;
+    double *known, *known_values; /* what it learns from: the points, then what the chains have tried */
+    size_t known_room;
+    double starts[CEDUO_CALIBRATION_CHAINS * CEDUO_CALIBRATION_MOST];
+    pthread_mutex_t lock, talking;
+    double best[CEDUO_CALIBRATION_MOST], most; /* under `lock`, as are: */
+    uint64_t evaluations;
+    const double *draws; /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
+    struct ceduo_counterpart *drawn; /* [draw][observation] */
+};
+
+/* Calls `one` for each item, on all threads. */
+enum ceduo_status ceduo_fitting_each(struct fitting *f, size_t items,
+                                     enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item));
+
+/* What rocks do at a place: one counterpart for each observation, of all, or of those that are fitted. */
+enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, const atomic_bool *cancel,
+                                     struct ceduo_counterpart *to);
+
+/* Fills what a calibration says of its observations, from its draws. */
+enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibration *answer);
+
+#endif

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a fit says of all that was seen. For draws from what is not refuted, new samples as large as those seen are drawn, with
+ * the error of the simulated rocks; how often they lie as far from the simulated rocks as what was seen, is p. */
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "fitting.h"
+
+#define SAMPLES 20 /* for each draw */
+
+static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i)
+{
+    struct ceduo_counterpart *to = f->drawn + i * f->all_count;
+    enum ceduo_status status =
+        ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, NULL, to);
+    return status == CEDUO_NO_MEMORY || status == CEDUO_OK ? status : CEDUO_NO_MEMORY;
+}
+
+/* ---- samples ---- */
+
+/* Numbers in the classes of a new sample: shares as the simulated rocks leave them open (a Dirichlet law), then as many
+ * as were seen. Returns its deviance. */
+static double sample_classes(const struct ceduo_counterpart *c, gsl_rng *random, double *first)
+{
+    double alpha[CEDUO_CLASSES_MOST], share[CEDUO_CLASSES_MOST], n = 0, rocks = 0, deviance = 0;
+    unsigned count[CEDUO_CLASSES_MOST];
+    for (size_t i = 0; i < c->classes; i++) {
+        alpha[i] = c->count[i] + 0.5;
+        n += c->seen[i];
+        rocks += alpha[i];
+    }
+    gsl_ran_dirichlet(random, c->classes, alpha, share);
+    gsl_ran_multinomial(random, c->classes, (unsigned)n, share, count);
+    for (size_t i = 0; i < c->classes; i++)
+        deviance += count[i] > 0 ? 2 * count[i] * log(count[i] / (n * alpha[i] / rocks)) : 0;
+    *first = count[0];
+    return deviance;
+}
+
+static double sample_normal(double mean, double variance, gsl_rng *random, double *value)
+{
+    double z = gsl_ran_ugaussian(random);
+    *value = mean + sqrt(variance) * z;
+    return z * z;
+}
+
+/* A new sample; its deviance, and what its mean or count would be. */
+static double sample(const struct ceduo_observation *o, const struct ceduo_counterpart *c, gsl_rng *random, double *value)
+{
+    double ignored, deviance;
+    double spread = c->sd * c->sd * (1 / (double)(o->n > 0 ? o->n : 1) + 1 / (double)c->rocks);
+    if (o->kind == CEDUO_OBSERVED_PASSED)
+        return sample_classes(c, random, value);
+    if (c->classes > 0) {
+        deviance = sample_classes(c, random, &ignored);
+        sample_normal(c->mean, spread, random, value);
+    } else {
+        deviance = sample_normal(c->mean, c->variance, random, value);
+    }
+    return isnan(c->scars) ? deviance : deviance + sample_normal(0, 1, random, &ignored);
+}
+
+/* ---- reading ---- */
+
+static double seen_of(const struct ceduo_observation *o, const struct ceduo_counterpart *c)
+{
+    return o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : c->seen_mean;
+}
+
+/* `values`: room for all samples. */
+static void read_one(const struct fitting *f, size_t draws, size_t which, const struct ceduo_observation *o, gsl_rng *random,
+                     double *values, struct ceduo_predicted *to)
+{
+    size_t n = 0;
+    double farther = 0;
+    to->at_best = f->drawn[draws * f->all_count + which];
+    to->seen = seen_of(o, &to->at_best);
+    to->p_value = to->lo = to->hi = NAN;
+    for (size_t i = 0; i < draws; i++) {
+        const struct ceduo_counterpart *c = &f->drawn[i * f->all_count + which];
+        for (size_t k = 0; k < SAMPLES; k++) {
+            double value, deviance = sample(o, c, random, &value);
+            farther += deviance >= c->deviance;
+            if (!isnan(value))
+                values[n++] = value;
+        }
+    }
+    if (draws == 0 || n == 0)
+        return;
+    gsl_sort(values, 1, n);
+    to->p_value = farther / (double)(draws * SAMPLES);
+    to->lo = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.025);
+    to->hi = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.975);
+    to->inside = to->seen >= to->lo && to->seen <= to->hi;
+}
+
+static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *values, struct ceduo_calibration *a)
+{
+    size_t which = 0;
+    for (size_t s = 0; s < f->def->scenes_count; s++)
+        for (size_t i = 0; i < f->def->scenes[s].observations_count; i++, which++) {
+            const struct ceduo_observation *o = &f->def->scenes[s].observations[i];
+            struct ceduo_predicted *to = &a->predicted[which];
+            to->scene = s;
+            to->observation = i;
+            read_one(f, draws, which, o, random, values, to);
+            bool misfit = to->p_value < CEDUO_MISFIT;
+            a->misfit |= misfit && o->use == CEDUO_OBSERVED_FIT;
+            a->refuted |= misfit && o->use == CEDUO_OBSERVED_CHECK;
+        }
+}
+
+enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibration *a)
+{
+    size_t d = a->parameters_count, most = CEDUO_CALIBRATION_DRAWS;
+    size_t draws = a->draws_count < most ? a->draws_count : most;
+    double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * SAMPLES + 1, sizeof *values);
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);
+    a->predicted = calloc(f->all_count + 1, sizeof *a->predicted);
+    a->predicted_count = f->all_count;
+    enum ceduo_status status = places && values && random && f->drawn && a->predicted ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t k = 0; k <= draws && status == CEDUO_OK; k++)
+        for (size_t i = 0; i < d; i++) {
+            const struct ceduo_input *input = &f->def->scenes[0].inputs[i];
+            double value = k < draws ? a->draws[k * a->draws_count / draws * d + i] : 0;
+            places[k * d + i] = k < draws ? (value - input->lo) / (input->hi - input->lo) : f->best[i];
+        }
+    f->draws = places;
+    if (status == CEDUO_OK)
+        status = ceduo_fitting_each(f, draws + 1, look_at_draw);
+    if (status == CEDUO_OK) {
+        gsl_rng_set(random, (unsigned long)f->def->seed + 1);
+        read_all(f, draws, random, values, a);
+    }
+    gsl_rng_free(random);
+    free(places);
+    free(values);
+    free(f->drawn);
+    return status;
+}

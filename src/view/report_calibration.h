@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_REPORT_CALIBRATION_H
+#define CEDUO_REPORT_CALIBRATION_H
+
+#include "base/text.h"
+#include "ceduo/calibrate.h"
+#include "io/scene_file.h"
+#include "scene/schema.h"
+
+/* What was fitted to what was seen. */
+struct ceduo_calibration_report {
+    size_t scenes_count;
+    const struct scene_file *files;
+    const char *const *paths;           /* of the fitted values, as they were given */
+    const struct field *const *fields;
+    uint64_t rocks, seed;
+    const struct ceduo_calibration *answer;
+};
+
+/* What people call a fitted value: "bounce Rn, talus"; a number of it in the unit that people use. */
+void ceduo_calibration_name(struct text *text, const char *path, const struct field *field);
+void ceduo_calibration_number(struct text *text, const struct field *field, double value);
+
+/* What was seen, in the unit that files have: m, m/s, kJ, a count. */
+double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double origin);
+const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *report, const struct ceduo_predicted *p);
+size_t ceduo_seen_number(const struct ceduo_observation *o);
+
+void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *report, bool plain);
+void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *report); /* "ceduo-calibration-1" */
+void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *report); /* a row for each value */
+
+/* The draws, a column for each fitted value, for `doubt: {draws: …}`; `heads`: what to call them. */
+void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *answer, const char *const *heads);
+
+/* "48 stops; 95 % .44–.51": where a fitted value comes from. */
+void ceduo_calibration_source(struct text *text, const struct ceduo_calibration_report *report, size_t parameter);
+
+#endif

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--calibrate: what is fitted, what is said of it, and what is refused. Stops come from ceduo itself at known values."""
+import json
+import os
+import signal
+import subprocess
+import time
+
+from harness import CEDUO, DONE, ROOT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, run_all, scene
+
+GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
+# stops of 30 rocks on that ground, of seed 777: the same law, so that the fit must be able to give them
+STOPS = [113.5, 114.6, 115.0, 116.7, 116.7, 118.0, 118.3, 119.3, 119.8, 120.3, 120.4, 120.5, 121.9, 122.8,
+         124.0, 124.8, 125.0, 125.4, 125.6, 125.9, 126.5, 126.9, 127.8, 127.9, 128.2, 129.1, 129.5, 130.8, 131.0,
+         132.6]
+RN, RT = "slope.segments[*].rn", "slope.segments[*].rt"
+
+
+def quarry(observed=None, **changes):
+    return scene(**{"title": "A quarry", "rock": {"diameter_m": 0.8}, "release": {"height_m": 2, "vx_m_s": 0.5},
+                    "slope": {"vertices_m": [[0, 60], [15, 42], [40, 20], [60, 8], [90, 2], [200, 0]], "segments": [GROUND]},
+                    "controls": [{"x_m": 60}], "forest": None,
+                    "observed": {"stops": {"x_m": STOPS, "of": 30}} if observed is None else observed, **changes})
+
+
+def fit(what, *arguments, rocks=300):
+    with Folder() as f:
+        path = f.write("s.yaml", what)
+        r = ceduo("-f", "json", "-n", rocks, "-j", 2, "--calibrate", f"{RT}=0.7:0.98", *arguments, path)
+        expect_equal(r.status, DONE, r)
+        return json.loads(r.out)
+
+
+def test_json():
+    """The values, what is not refuted, and what the fit says of all that was seen"""
+    result = fit(quarry({"stops": {"x_m": STOPS, "of": 30}, "passed": {"x_m": 60, "count": 30, "of": 30, "use": "check"}}))
+    expect_equal(result["format"], "ceduo-calibration-1")
+    value = result["parameters"][0]
+    expect_equal((value["path"], value["lo"], value["hi"], value["determined"], value["at_bound"]), (RT, 0.7, 0.98, True, False))
+    expect(value["p2_5"] < value["p50"] < value["p97_5"])
+    expect(value["p2_5"] < GROUND["rt"] < value["p97_5"], "the range holds what the stops were made with")
+    expect_equal(result["correlation"], [[1]])
+    stops, passed = result["observations"]
+    expect_equal((stops["what"], stops["use"], stops["n"]), ("stops", "fit", 30))
+    expect_near(stops["seen"], sum(STOPS) / 30, 1e-9)
+    expect(stops["predicted_lo"] < stops["seen"] < stops["predicted_hi"] and stops["inside"])
+    expect_equal((passed["what"], passed["use"], passed["n"], passed["seen"], passed["inside"]), ("passed at 60 m", "check", 30, 30, True))
+    expect_equal((result["misfit"], result["refuted"], result["complete"], result["settled"]), (False, False, True, True))
+    expect(result["rhat"] < 1.05 and result["effective_size"] >= 200 and result["evaluations"] > 500)
+
+
+def test_threads():
+    """The same bits for any number of threads"""
+    with Folder() as f:
+        path = f.write("s.yaml", quarry())
+        one, four = (ceduo("-f", "json", "-n", 100, "-j", j, "--calibrate", f"{RT}=0.7:0.98", "--calibrate", f"{RN}=0.2:0.6", path).out
+                     for j in (1, 4))
+        expect_equal(one, four)
+
+
+def test_not_determined():
+    """What the stops do not determine is said to be so"""
+    result = fit(quarry({"passed": {"x_m": 60, "count": 4, "of": 4}}), rocks=100)
+    expect_equal(result["parameters"][0]["determined"], False)
+    with Folder() as f:
+        page = ceduo("-n", 100, "--calibrate", f"{RT}=0.7:0.98", f.write("s.yaml", quarry({"passed": {"x_m": 60, "count": 4, "of": 4}}))).out
+        expect_in("is not determined by what was seen", page)
+
+
+def test_at_bound():
+    """What fits best at the end of its range is named"""
+    with Folder() as f:
+        path = f.write("s.yaml", quarry())
+        page = ceduo("-n", 300, "--calibrate", f"{RT}=0.9:0.98", path).out
+        expect_in("lies at a bound", " ".join(page.split()))
+
+
+def test_misfit():
+    """What the model cannot give is said, of what is fitted and of what is to check the fit"""
+    far = {"stops": {"x_m": [5 * x for x in range(1, 31)], "of": 30}}
+    result = fit(quarry(far))
+    expect_equal(result["misfit"], True)
+    expect(result["observations"][0]["p_value"] < 0.05)
+    result = fit(quarry({"stops": [{"x_m": STOPS, "of": 30}, {"x_m": [5, 10, 20, 30, 40, 50], "of": 6, "use": "check", "name": "odd"}]}))
+    expect_equal((result["misfit"], result["refuted"]), (False, True))
+    with Folder() as f:
+        path = f.write("s.yaml", quarry(far))
+        expect_in("This model cannot give what was seen here: stops.", ceduo("-n", 300, "--calibrate", f"{RT}=0.7:0.98", path).out)
+
+
+def test_several():
+    """Scenes share a ground by its name; each has its own observations"""
+    slope = {"vertices_m": [[0, 60], [40, 20], [60, 8], [200, 0]], "materials": [{"from_m": 0, "to_m": 200, "material": "talus"}]}
+    with Folder() as f:
+        paths = [f.write(f"{n}.yaml", quarry({"stops": {"x_m": [80 + n, 90, 95, 100, 110]}}, slope=slope)) for n in (1, 2)]
+        r = ceduo("-f", "json", "-n", 100, "--calibrate", "slope.materials[talus].rt=0.7:0.95", *paths)
+        expect_equal(r.status, DONE, r)
+        result = json.loads(r.out)
+        expect_equal([o["scene"] for o in result["observations"]], [str(p) for p in paths])
+        expect_equal(len(result["parameters"]), 1)
+
+
+def test_csv():
+    """A row for each value"""
+    with Folder() as f:
+        out = ceduo("-f", "csv", "-n", 100, "--calibrate", f"{RT}=0.7:0.98", f.write("s.yaml", quarry())).out.splitlines()
+        expect_equal(out[0].split(",")[1:4], ["path", "lo", "hi"])
+        expect_equal(out[1].split(",")[1:4], [RT, "0.7", "0.98"])
+        expect_equal(len(out), 2)
+
+
+def test_scars():
+    """A fit to the number of scars says where nobody knows which share was found"""
+    stems = {"name": "w", "trees": [{"per_ha": 600, "dbh_m": 0.2, "height_m": 14, "volume_m3": 0.2}]}
+    what = quarry({"scars": {"from_m": 60, "to_m": 90, "height_m": [0.4, 0.5, 0.9], "of": 5}},
+                  forest=[{"from_m": 60, "to_m": 90, "stand": stems}])
+    with Folder() as f:
+        page = ceduo("-n", 50, "--calibrate", f"{RT}=0.7:0.98", f.write("s.yaml", what)).out
+        expect_in("A survey finds too few scars", page)
+
+
+def test_refused():
+    """What cannot be fitted"""
+    with Folder() as f:
+        path = f.write("s.yaml", quarry())
+        nothing = f.write("n.yaml", quarry([]))
+        checks = f.write("c.yaml", quarry({"stops": {"x_m": STOPS, "use": "check"}}))
+        for what, arguments in (("is not PATH=LO:HI", [f"{RT}", path]), ("the range 0.9:0.7 is empty", [f"{RT}=0.9:0.7", path]),
+                                ("'slope.colour' is not a number of a scene", ["slope.colour=0:1", path]),
+                                ("'simulation.law' is not a number of a scene", ["simulation.law=0:1", path]),
+                                ("1.5 is outside the range of", [f"{RT}=0.5:1.5", path]),
+                                ("no scene has a value 'slope.materials[talus].rn'", ["slope.materials[talus].rn=0.2:0.5", path]),
+                                ("are the same value", [f"{RT}=0.7:0.9", "--calibrate", "slope.segments[0].rt=0.7:0.9", path]),
+                                ("no scene says what was seen there", [f"{RT}=0.7:0.9", nothing]),
+                                ("no scene says what was seen there", [f"{RT}=0.7:0.9", checks]),
+                                ("--check cannot be used with --calibrate", [f"{RT}=0.7:0.9", "--check", path]),
+                                ("cannot be used with --plot", [f"{RT}=0.7:0.9", "--years", path])):
+            r = ceduo("--calibrate", *arguments)
+            expect_equal((r.status, r.out), (USAGE, ""), r)
+            expect_in(what, r.err)
+
+
+def test_interrupted():
+    """Ctrl-C prints what is known so far, says so, and ends by the signal"""
+    with Folder() as f:
+        path = f.write("s.yaml", quarry())
+        command = [str(CEDUO), "-n", "200000", "-j", "2", "--calibrate", f"{RT}=0.7:0.98", str(path)]
+        child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(), cwd=ROOT)
+        time.sleep(2)
+        os.kill(child.pid, signal.SIGINT)
+        out, _ = child.communicate(timeout=100)
+        expect_equal(child.returncode, -signal.SIGINT)
+        expect_in("Ended early", out.decode())
+
+
+if __name__ == "__main__":
+    run_all(__name__)

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Chains on densities whose moments are known, and what is read of them. */
+#include "expect.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/chains.h"
+#include "study/guess.h"
+
+/* A normal law around (1, -2) with standard deviations 2 and 0.5 and correlation 0.9. */
+#define RHO 0.9
+
+static double log_normal(const double *x)
+{
+    double a = (x[0] - 1) / 2, b = (x[1] + 2) / 0.5;
+    return -(a * a - 2 * RHO * a * b + b * b) / (2 * (1 - RHO * RHO));
+}
+
+static enum ceduo_status normal(void *context, size_t chain, const double *x, double *log_density)
+{
+    (void)chain;
+    (void)context;
+    *log_density = log_normal(x);
+    return CEDUO_OK;
+}
+
+/* A guess that is wrong: too narrow, and beside it. */
+static double wrong_guess(void *context, const double *x)
+{
+    (void)context;
+    double moved[2] = {1 + 1.3 * (x[0] - 1.3), -2 + 1.3 * (x[1] + 1.9)};
+    return log_normal(moved);
+}
+
+static bool learn_nothing(void *context, const double *x, const double *densities, size_t n)
+{
+    (void)context, (void)x, (void)densities, (void)n;
+    return true;
+}
+
+static const double starts[8] = {5, 0, -5, 0, 1, -4, 3, -2}, scales[2] = {1, 1};
+
+static struct chains_def two_dimensions(void)
+{
+    return (struct chains_def){.dimensions = 2,
+                               .chains = 4,
+                               .starts = starts,
+                               .scales = scales,
+                               .seed = 3,
+                               .threads = 1,
+                               .steps_least = 500,
+                               .steps_most = 40000,
+                               .rhat_most = 1.01,
+                               .effective_least = 4000,
+                               .density = normal};
+}
+
+static double mean_of(const struct chains *c, size_t i)
+{
+    double sum = 0;
+    size_t n = ceduo_chains_draws(c);
+    for (size_t k = 0; k < n; k++)
+        sum += ceduo_chains_draw(c, k)[i] / (double)n;
+    return sum;
+}
+
+static double covariance_of(const struct chains *c, size_t i, size_t k)
+{
+    double sum = 0, mean_i = mean_of(c, i), mean_k = mean_of(c, k);
+    size_t n = ceduo_chains_draws(c);
+    for (size_t s = 0; s < n; s++)
+        sum += (ceduo_chains_draw(c, s)[i] - mean_i) * (ceduo_chains_draw(c, s)[k] - mean_k) / (double)n;
+    return sum;
+}
+
+/* Within four standard errors of 4000 independent draws. */
+static void expect_normal(const struct chains_def *def)
+{
+    struct chains c;
+    EXPECT(ceduo_chains_run(def, &c), ==, CEDUO_OK);
+    assert_true(c.settled);
+    EXPECT(c.effective_size, >=, 4000);
+    EXPECT_NEAR(mean_of(&c, 0), 1, 4 * 2 / sqrt(4000));
+    EXPECT_NEAR(mean_of(&c, 1), -2, 4 * 0.5 / sqrt(4000));
+    EXPECT_NEAR(covariance_of(&c, 0, 0) / 4, 1, 4 * sqrt(2. / 4000));
+    EXPECT_NEAR(covariance_of(&c, 1, 1) / 0.25, 1, 4 * sqrt(2. / 4000));
+    EXPECT_NEAR(covariance_of(&c, 0, 1), RHO, 4 * sqrt((1 + RHO * RHO) / 4000));
+    ceduo_chains_release(&c);
+}
+
+static void a_normal_law_is_drawn_from(void **state)
+{
+    (void)state;
+    struct chains_def def = two_dimensions();
+    expect_normal(&def);
+}
+
+/* Whatever the guess says, the draws are those of the density. */
+static void a_wrong_guess_changes_nothing(void **state)
+{
+    (void)state;
+    struct chains_def def = two_dimensions();
+    def.guess = wrong_guess;
+    def.learn = learn_nothing;
+    expect_normal(&def);
+}
+
+static void threads_change_no_bit(void **state)
+{
+    (void)state;
+    struct chains_def def = two_dimensions();
+    struct chains one, four;
+    def.guess = wrong_guess;
+    def.learn = learn_nothing;
+    def.steps_most = 600;
+    EXPECT(ceduo_chains_run(&def, &one), ==, CEDUO_OK);
+    def.threads = 4;
+    EXPECT(ceduo_chains_run(&def, &four), ==, CEDUO_OK);
+    EXPECT(one.steps, ==, four.steps);
+    for (size_t i = 0; i < ceduo_chains_draws(&one); i++)
+        assert_memory_equal(ceduo_chains_draw(&one, i), ceduo_chains_draw(&four, i), 2 * sizeof(double));
+    ceduo_chains_release(&one);
+    ceduo_chains_release(&four);
+}
+
+/* ---- diagnosis ---- */
+
+#define STEPS 4000
+
+/* Four chains of independent normal draws, chain k around k·apart; or each the draw before times phi and a new one. */
+static struct chains made(double apart, double phi)
+{
+    struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
+    uint64_t state = 5;
+    c.x = malloc(4 * STEPS * sizeof *c.x);
+    assert_non_null(c.x);
+    for (size_t k = 0; k < 4; k++)
+        for (size_t i = 0; i < STEPS; i++) {
+            double sum = -6;
+            for (int j = 0; j < 12; j++) { /* splitmix64 */
+                uint64_t z = state += 0x9e3779b97f4a7c15u;
+                z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+                z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+                sum += (double)((z ^ z >> 31) >> 11) * 0x1p-53;
+            }
+            double before = i > 0 ? c.x[k * STEPS + i - 1] - apart * (double)k : 0;
+            c.x[k * STEPS + i] = phi * before + sqrt(1 - phi * phi) * sum + apart * (double)k;
+        }
+    return c;
+}
+
+/* R-hat² is 1 + the variance of the means, here 5/3 of halves of four chains: 10/7 of those eight. */
+static void chains_apart_do_not_agree(void **state)
+{
+    (void)state;
+    double rhat, size;
+    struct chains c = made(0, 0);
+    ceduo_chains_diagnose(&c, 0, &rhat, &size);
+    EXPECT_NEAR(rhat, 1, 0.003);
+    EXPECT_NEAR(size / (4 * STEPS / 2), 1, 0.1);
+    ceduo_chains_release(&c);
+    c = made(1, 0);
+    ceduo_chains_diagnose(&c, 0, &rhat, &size);
+    EXPECT_NEAR(rhat, sqrt(1 + 10. / 7), 0.02);
+    ceduo_chains_release(&c);
+}
+
+/* Of draws with correlation phi from one to the next (1 - phi)/(1 + phi) count. */
+static void draws_that_hang_together_count_less(void **state)
+{
+    (void)state;
+    double rhat, size;
+    struct chains c = made(0, 0.8);
+    ceduo_chains_diagnose(&c, 0, &rhat, &size);
+    EXPECT_NEAR(size / (4 * STEPS / 2), 1. / 9, 0.02);
+    ceduo_chains_release(&c);
+}
+
+/* ---- the guess ---- */
+
+/* A quadratic is learnt whole; places without a value are left out. */
+static void a_guess_learns_a_quadratic(void **state)
+{
+    (void)state;
+    struct guess g = ceduo_guess_begin(2);
+    double u[64 * 2], values[64], at[2] = {0.3, 0.9};
+    EXPECT(ceduo_guess_at(&g, at), ==, 0);
+    for (int i = 0; i < 64; i++) {
+        u[2 * i] = i % 8 / 8.;
+        u[2 * i + 1] = i / 8 / 8.;
+        values[i] = 3 + u[2 * i] - 2 * u[2 * i] * u[2 * i + 1] + 5 * u[2 * i + 1] * u[2 * i + 1];
+    }
+    assert_true(ceduo_guess_learn(&g, u, values, 5));
+    EXPECT(ceduo_guess_at(&g, at), ==, 0);
+    values[7] = -INFINITY;
+    assert_true(ceduo_guess_learn(&g, u, values, 64));
+    EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
+    for (int i = 0; i < 64; i++)
+        values[i] = i < 60 ? -INFINITY : 0; /* too few are known */
+    assert_true(ceduo_guess_learn(&g, u, values, 64));
+    EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
+    ceduo_guess_release(&g);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_normal_law_is_drawn_from),        cmocka_unit_test(a_wrong_guess_changes_nothing),
+        cmocka_unit_test(threads_change_no_bit),             cmocka_unit_test(chains_apart_do_not_agree),
+        cmocka_unit_test(draws_that_hang_together_count_less), cmocka_unit_test(a_guess_learns_a_quadratic),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
