@@ -7,6 +7,7 @@
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make man        write the tables of the program into the manual
+#   make pictures   draw the pictures of README
 #   make po         bring the marked text of the sources into src/po/*.po
 #   make lint       run cppcheck and clang-tidy
 #   make fuzz       run libFuzzer, FUZZ_SECONDS=600 for each reader
@@ -263,7 +264,7 @@ do-net: all $(T)/tables $(BUILD)/man/completion
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
 DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
-DEBIAN_BENCH := python3-numpy gnuplot-nox
+DEBIAN_BENCH := python3-numpy
 # FULL: also runs what `make check` leaves out to be short.
 do-check-all: export FULL := 1
 do-check-all: do-check
@@ -339,6 +340,16 @@ man: $(TABLES) $(MO)
 	@for table in keys goals search figures; do $(TABLES) $$table man/ceduo.1; done
 	@LC_ALL=C.UTF-8 $(TABLES) keys man/it/ceduo.1 it
 
+# Draws what README shows: screens by key scripts, and the error against run time as `make bench` last found it.
+ERROR_PICTURE := $(BUILD)/man/error_picture
+$(ERROR_PICTURE): $(BUILD)/man/error_picture.o $(PARTS) $(LIBRARY)
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+pictures: $(PROGRAM) $(ERROR_PICTURE)
+	set -e; for keys in man/pictures/*.keys; do LC_ALL=C.UTF-8 $(PROGRAM) --language en --charset braille --script $$keys; done
+	$(ERROR_PICTURE) tests/bench/results/bench_error.csv man/pictures/error.svg
+
 # ---- installing ----
 
 COMPLETION := $(BUILD)/man/completion
@@ -407,5 +418,5 @@ dist:
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist man po install uninstall dist clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist man pictures po install uninstall dist clean
 .DELETE_ON_ERROR:

@@ -348,23 +348,34 @@ static void put_marks(struct ceduo_html *html, struct ceduo_svg *svg)
     ceduo_svg_stroke(html, &paper.looks[CEDUO_ROLE_AXIS], &svg->axes, NULL, NULL);
 }
 
+/* The element with its title and description; a file of its own brings its size and its paper. */
+static void open_picture(struct ceduo_html *html, const struct ceduo_svg *svg, const struct ceduo_svg_words *words)
+{
+    int width = svg->cells->width * SVG_CELL, height = svg->cells->height * 2 * SVG_CELL;
+    char box[64], across[16], down[16], id[64];
+    const char *file = words->id ? NULL : "http://www.w3.org/2000/svg";
+    snprintf(box, sizeof box, "0 0 %d %d", width, height);
+    snprintf(across, sizeof across, "%d", width);
+    snprintf(down, sizeof down, "%d", height);
+    snprintf(id, sizeof id, "%s-d", words->id ? words->id : "picture");
+    ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", words->title, "aria-describedby", id,
+                    file ? "xmlns" : "class", file, file ? "width" : "class", file ? across : NULL,
+                    file ? "height" : "class", file ? down : NULL, NULL);
+    ceduo_html_leaf(html, "title", words->title, NULL);
+    ceduo_html_leaf(html, "desc", words->description, "id", id, NULL);
+    if (file)
+        ceduo_html_empty(html, "rect", "width", across, "height", down, "fill", "#fff", NULL);
+}
+
 void ceduo_svg_put(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words)
 {
-    char box[64];
-    struct text description = {0};
     end_stroke(svg);
-    snprintf(box, sizeof box, "0 0 %d %d", svg->cells->width * SVG_CELL, svg->cells->height * 2 * SVG_CELL);
-    ceduo_text_format(&description, "%s-d", words->id);
-    ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", words->title, "aria-describedby",
-                    ceduo_text_string(&description), NULL);
-    ceduo_html_leaf(html, "title", words->title, NULL);
-    ceduo_html_leaf(html, "desc", words->description, "id", ceduo_text_string(&description), NULL);
+    open_picture(html, svg, words);
     put_marks(html, svg);
     ceduo_html_open(html, "g", "font-family", paper.font, "font-size", "12.5", NULL);
     ceduo_text_add(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);
-    html->text->failed |= svg->numbers.failed || description.failed;
+    html->text->failed |= svg->numbers.failed;
     ceduo_svg_cells(html, svg->cells, &paper);
     ceduo_html_close(html);
     ceduo_html_close(html);
-    ceduo_text_free(&description);
 }

@@ -45,25 +45,6 @@ for bench; do
     fi
 done
 
-# rows WHAT NUMBERS: seconds and error of the mean energy
-rows() {
-    echo "\"<awk -F, '\$1 == \\\"$1\\\" && \$2 == \\\"$2\\\" && \$6 == \\\"mean_energy_kJ\\\" {print \$5, \$7}' results/bench_error.csv\""
-}
-if [ -f results/bench_error.csv ]; then
-    gnuplot >results/error.txt <<END || failed="$failed plot"
-set terminal dumb 100 30
-set logscale xy
-set format "10^{%L}"
-set title "error of the mean energy, kJ, against run time, s"
-set key bottom left
-plot $(rows paper-bare core) with points title "bare, core", \\
-     $(rows paper-stems core) with points title "stems, core", \\
-     $(rows spread-starts plain) with points title "spread starts, plain", \\
-     $(rows spread-starts antithetic) with points title "antithetic", \\
-     $(rows spread-starts sobol) with points title "sobol"
-END
-    cat results/error.txt
-fi
 [ -z "$failed" ] && exit 0
 echo "failed:$failed" >&2
 exit 1

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """ceduo-workflows(7): each way as it stands in the page runs in an empty folder and says what the page says it does.
 
-With --readme: writes the screens and the page that README.md shows anew.
+With --readme: writes the page and the screens that README.md shows anew.
 """
 import csv
 import functools
@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 
 import harness
 from harness import CEDUO, ROOT, Folder, expect, expect_equal, expect_in
@@ -142,35 +143,36 @@ def literals(text):
 
 
 def shown(text):
-    """The displays that the program prints: a page, the first screen, the last."""
-    return [(body, span) for body, span in literals(text)
-            if re.search(r"^Rocks  |^ 1 slope ", body, re.M) or body.startswith("$ ./ceduo --batch")]
+    """The display that the program prints: a page."""
+    return [(body, span) for body, span in literals(text) if body.startswith("$ ./ceduo --batch")]
 
 
 def readme_script(text):
     return next(body for body, _ in literals(text) if "dump last.txt" in body) + "\n"
 
 
-def printed(script):
+def printed():
+    return ["$ ./ceduo --batch paper-site\n\n" + harness.good("--batch", "paper-site").out.rstrip("\n")]
+
+
+def drawn():
+    """The screens that README.md shows as pictures, as `make pictures` draws them: path and content of each."""
     with Folder() as f:
-        f.write("last.keys", script)
-        f.write("first.keys", "key Tab\nwait idle\ndump first.txt\n")
-        screens = []
-        for name in ("first", "last"):
-            harness.good("--script", f"{name}.keys", cwd=f.path, timeout=600,
+        (f.path / "man" / "pictures").mkdir(parents=True)
+        for keys in sorted((ROOT / "man" / "pictures").glob("*.keys")):
+            harness.good("--script", keys, "--language", "en", "--charset", "braille", cwd=f.path, timeout=600,
                          env={"HOME": str(f.path), "XDG_STATE_HOME": str(f.path)})
-            screen = (f.path / f"{name}.txt").read_text(encoding="utf-8").rstrip("\n")
-            screens.append("\n".join(line.rstrip() for line in screen.splitlines()))
-    page = harness.good("--batch", "paper-site").out.rstrip("\n")
-    return ["$ ./ceduo --batch paper-site\n\n" + page, *screens]
+        return [(ROOT / path.relative_to(f.path), path.read_text(encoding="utf-8")) for path in sorted(f.path.glob("man/pictures/*"))]
 
 
 def write_readme():
     text = README.read_text(encoding="utf-8")
     lines = text.splitlines()
-    for (_, (first, last)), body in reversed(list(zip(shown(text), printed(readme_script(text)), strict=True))):
+    for (_, (first, last)), body in reversed(list(zip(shown(text), printed(), strict=True))):
         lines[first:last] = [("    " + line).rstrip() for line in body.splitlines()]
     README.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    for path, picture in drawn():
+        path.write_text(picture, encoding="utf-8")
 
 
 # ---- the page itself ----
@@ -194,12 +196,20 @@ def test_keys():
 
 
 def test_readme():
-    """The script, both screens and the page of README.md are those of the program (test_workflows.py --readme)"""
+    """The script, the page and the pictures of README.md are those of the program (test_workflows.py --readme)"""
     text = README.read_text(encoding="utf-8")
     script = readme_script(text)
     expect(keys_pressed(script) <= KEYS_MOST, f"{keys_pressed(script)} keys:", script)
-    for (found, _), wanted in zip(shown(text), printed(script), strict=True):
+    for (found, _), wanted in zip(shown(text), printed(), strict=True):
         expect(found == wanted, "README.md has", found, "the program has", wanted)
+    keys = (ROOT / "man" / "pictures" / "cuts.keys").read_text()
+    expect([x for x in keys.splitlines() if x.startswith("key")] == [x for x in script.splitlines() if x.startswith("key")], keys)
+    for path, wanted in drawn():
+        expect(path.read_text(encoding="utf-8") == wanted, f"{path.name} is not what the program draws: make pictures")
+    for name in re.findall(r"\]\(([^)]+\.svg)\)", text):
+        picture = (ROOT / name).read_text(encoding="utf-8")
+        expect(len(picture.encode()) < 100_000, f"{name}: {len(picture)} bytes")
+        expect_equal(ElementTree.fromstring(picture)[0].tag, "{http://www.w3.org/2000/svg}title", name)
 
 
 # ---- four systems ----
