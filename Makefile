@@ -362,7 +362,8 @@ $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo: $(COMPLETION)
 	$(COMPLETION) $(if $(findstring _ceduo,$@),zsh,bash) >$@
 
 # `uninstall` removes these files by name, because others may have put theirs into the same folders.
-DATA := profiles/scenes/*.yaml profiles/slopes/*.yaml profiles/stands/*.yaml profiles/rules/*.yaml profiles/surveys/*.csv profiles/jobs/*.sbatch
+DATA := profiles/scenes/*.yaml profiles/slopes/*.yaml profiles/stands/*.yaml profiles/rules/*.yaml \
+	profiles/surveys/*.csv profiles/observed/* profiles/jobs/*.sbatch
 FOLDERS := $(patsubst profiles/%/,%,$(dir $(DATA)))
 HEADERS := $(wildcard include/ceduo/*.h)
 to = $(call quoted,$(DESTDIR)$(1))

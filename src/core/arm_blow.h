@@ -23,9 +23,9 @@ struct arm_state {
     reals along, off, turn;
 };
 
-/* The impulses of a blow per mass: normal, along, and the part of the friction that is in use at its end. */
+/* The impulses of a blow per mass. */
 struct arm_impulse {
-    reals normal, along, used;
+    reals normal, along;
 };
 
 LANE reals arm_within(reals p, reals lo, reals hi)
@@ -71,7 +71,7 @@ LANE struct arm_impulse arm_strike(const struct arm_blow *b, const struct arm_st
     reals one = all(1), ut = add(in->along, mul(in->turn, h)), forth = pick(less(ut, all(0)), all(-1), one);
     reals nn = add(one, mul(r, r)), tt = add(one, mul(h, h)), nt = mul(forth, mul(r, h));
     reals slip = mul(forth, ut), slows = sub(mul(b->mu, tt), nt), against = sub(all(0), b->mu);
-    reals ratio = over(nt, tt), holds = arm_within(ratio, against, b->mu);
+    reals holds = arm_within(over(nt, tt), against, b->mu);
     struct arm_course c = {.un = add(in->off, mul(in->turn, r)), .slipping = sub(nn, mul(b->mu, nt))};
     c.stop = over(slip, slows);
     c.un_stop = add(c.un, mul(c.slipping, c.stop));
@@ -81,25 +81,31 @@ LANE struct arm_impulse arm_strike(const struct arm_blow *b, const struct arm_st
     reals more = arm_after_stop(&c, b->e);
     reals normal = pick(slips, whole, add(c.stop, more));
     reals along = pick(slips, mul(b->mu, whole), add(mul(b->mu, c.stop), mul(holds, more)));
-    reals back = pick(but(less(ratio, against), slips), mul(against, normal), along);
-    return (struct arm_impulse){normal, sub(all(0), mul(forth, along)), sub(all(0), mul(forth, back))};
+    return (struct arm_impulse){normal, sub(all(0), mul(forth, along))};
 }
 
-/* Rolling friction: a moment of at most friction R times the normal impulse against the spin, together with what is left
- * of Coulomb's friction at the end of the arm: the impulses within these bounds that leave the least energy. */
-LANE void arm_settle(const struct arm_blow *b, reals h, struct arm_impulse j, struct arm_state *s)
+/* Rolling friction: a moment of at most friction R times the normal impulse, against the spin. */
+LANE reals arm_slow(const struct arm_blow *b, reals normal, reals turn)
 {
-    reals zero = all(0), most = mul(mul(b->friction, b->reach), j.normal), hold = mul(b->mu, j.normal);
-    reals least_moment = sub(zero, most), slips = add(s->along, mul(h, s->turn));
-    reals moment = arm_within(sub(s->turn, mul(h, s->along)), least_moment, most);
-    reals along = over(sub(mul(h, moment), slips), add(all(1), mul(h, h)));
-    along = arm_within(along, sub(sub(zero, hold), j.used), sub(hold, j.used));
-    s->along = add(s->along, along);
-    s->turn = add(s->turn, mul(h, along));
-    s->turn = sub(s->turn, arm_within(s->turn, least_moment, most));
+    reals most = mul(mul(b->friction, b->reach), normal);
+    return sub(turn, arm_within(turn, sub(all(0), most), most));
 }
 
-/* A blow, and where the centre still goes down a second one without bounce, straight below it. */
+/* The centre still goes down: a second blow without bounce, straight below it. Here friction and moment are one question:
+ * the impulses within their bounds that leave the least energy. */
+LANE void arm_stop(const struct arm_blow *b, struct arm_state *s)
+{
+    reals zero = all(0), h = b->reach, normal = sub(zero, s->off), hold = mul(b->mu, normal);
+    reals most = mul(mul(b->friction, h), normal), slip = add(s->along, mul(h, s->turn));
+    reals moment = arm_within(sub(s->turn, mul(h, s->along)), sub(zero, most), most);
+    reals along = over(sub(mul(h, moment), slip), add(all(1), mul(h, h)));
+    along = arm_within(along, sub(zero, hold), hold);
+    s->along = add(s->along, along);
+    s->off = zero;
+    s->turn = arm_slow(b, normal, add(s->turn, mul(h, along)));
+}
+
+/* One contact. */
 LANE struct arm_state arm_struck(const struct arm_blow *b, struct arm_state s)
 {
     reals r, h, zero = all(0);
@@ -108,15 +114,14 @@ LANE struct arm_state arm_struck(const struct arm_blow *b, struct arm_state s)
     s.along = add(s.along, j.along);
     s.off = add(s.off, j.normal);
     s.turn = add(s.turn, add(mul(r, j.normal), mul(h, j.along)));
-    arm_settle(b, h, j, &s);
+    s.turn = arm_slow(b, j.normal, s.turn);
     flags down = less(s.off, zero);
     if (any(down)) {
         struct arm_state second = s;
-        j = (struct arm_impulse){sub(zero, s.off), zero, zero};
-        arm_settle(b, b->reach, j, &second);
+        arm_stop(b, &second);
         s.along = pick(down, second.along, s.along);
         s.turn = pick(down, second.turn, s.turn);
-        s.off = pick(down, zero, s.off);
+        s.off = pick(down, second.off, s.off);
     }
     return s;
 }

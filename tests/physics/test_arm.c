@@ -139,25 +139,31 @@ static void without_bounce_a_point_that_sticks_stands_still(void **state)
     EXPECT(still, >, 500);
 }
 
-/* On a slope of angle b a rock comes down with speeds in the ratio tan b. */
+/* A round rock that does not bounce comes down again and again with what a short time of free fall gives it. Where both
+ * frictions hold, a blow keeps 1/(1 + k) of its speed and no spin, so that it has never more than 1/k of what one fall adds:
+ * however short that is, it stands. Steeper, it goes ever faster. */
 static void a_rock_stands_where_both_frictions_hold_it(void **state)
 {
     (void)state;
     struct line_random r = {.state = 4};
-    for (int i = 0; i < 10000; i++) {
+    for (int i = 0; i < 2000; i++) {
         struct blow c = random_blow(&r);
         c.a = c.b = c.radius;
         c.e = 0;
-        double least = fmin(c.mu, c.friction), slope = line_uniform(&r, 0, 3);
-        c.in = (struct impact){.vn = 2, .vt = 2 * slope};
-        if (fabs(slope - least) < 1e-3)
+        double least = fmin(c.mu, c.friction), slope = line_uniform(&r, 0, 3), vt = 0, spin = 0;
+        if (fabs(slope - least) < 0.01)
             continue;
-        struct impact out = struck(&c);
-        EXPECT_NEAR(out.vn, 0, 1e-15);
+        for (int n = 0; n < 2000; n++) {
+            c.in = (struct impact){.vn = 1, .vt = vt + slope, .spin = spin};
+            struct impact out = struck(&c);
+            EXPECT(out.vn, ==, 0);
+            vt = out.vt;
+            spin = out.spin;
+        }
         if (slope < least)
-            EXPECT_NEAR(fabs(out.vt) + fabs(out.spin * c.radius), 0, 1e-14);
+            EXPECT(vt, <=, 2.5 * slope * (1 + 1e-12));
         else
-            EXPECT(out.vt, >, 1e-4);
+            EXPECT(vt, >, 2);
     }
 }
 
@@ -286,10 +292,7 @@ static struct stepper stepped(const struct blow *c)
 {
     struct stepper s = stepper_of(c);
     follow(&s, c->e, false);
-    long double along = s.vt - c->in.vt, hold = s.mu * s.impulse, used = along, slip = ut_of(&s);
-    if (fabsl(slip) > 1e-9L) /* what slips has all friction in use against it */
-        used = slip > 0 ? -hold : hold;
-    settle(&s, s.h, -hold - used, hold - used, c->friction * c->radius * s.impulse);
+    settle(&s, s.h, 0, 0, c->friction * c->radius * s.impulse);
     long double down = fmaxl(0, -s.vn);
     s.vn += down;
     if (down > 0)

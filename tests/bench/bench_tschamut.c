@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The stops of 80 rocks of three shapes at Tschamut (profiles/scenes/tschamut.yaml) against those of every law of contacts.
+ *
+ *   bench_tschamut [POINTS [ROCKS]]        default 512, 1000
+ *
+ * Four values of the ground are looked for: Rn, roughness and friction, with Rt or, for arm, mu. POINTS grounds of Sobol's
+ * sequence, then simplexes from the best three. CSV on stdout, a line for each law and question:
+ *   block1   the ground that fits block 1 best: what it says of the other two
+ *   all      the ground that fits all three blocks best
+ *   share    of the grounds that block 1 does not refute, how many predict block 2, the plate, and both
+ * Distances are those of Kolmogorov and Smirnov, of 10 times as many rocks with another seed; a block is predicted where
+ * the distance is below the 95 % point of a sample of that size. arm-round is arm with every block a sphere of its R. */
+#include <gsl/gsl_multimin.h>
+#include <gsl/gsl_qrng.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "ceduo/ceduo.h"
+#include "io/scene_file.h"
+#include "measure.h"
+
+#define BLOCKS 3
+#define VALUES 4
+#define POINTS_MOST 4096
+#define STARTS 3
+#define STEPS 60
+
+static const double lowest[VALUES] = {0.02, 0, 0.1, 0}, highest[VALUES] = {0.95, 0.8, 1.2, 0};
+
+struct site {
+    struct scene_file file;
+    struct ceduo_observer *observer;
+    const struct ceduo_observation *seen;
+    double band[BLOCKS];
+    uint64_t rocks;
+    double lo[VALUES], hi[VALUES];
+    size_t blocks; /* that a fit looks at */
+};
+
+struct fit {
+    double at[VALUES], distance[BLOCKS], mean[BLOCKS], misfit;
+};
+
+static void fail(const char *why)
+{
+    fprintf(stderr, "bench_tschamut: %s\n", why);
+    exit(1);
+}
+
+/* ---- distances ---- */
+
+/* The 95 % point for n values (Stephens 1974). */
+static double band_of(size_t n)
+{
+    double root = sqrt((double)n);
+    return 1.358 / (root + 0.12 + 0.11 / root);
+}
+
+/* Between what was seen and what was simulated; a rock that has no stop lies beyond all. */
+static double distance_of(const struct ceduo_observation *seen, double *simulated, size_t n, double *mean)
+{
+    double sum = 0, stopped = 0, most = 0;
+    for (size_t i = 0; i < n; i++)
+        if (isnan(simulated[i])) {
+            simulated[i] = INFINITY;
+        } else {
+            sum += simulated[i];
+            stopped++;
+        }
+    *mean = sum / stopped;
+    double *values = malloc(seen->n * sizeof *values);
+    if (!values)
+        fail("no memory");
+    for (size_t i = 0; i < seen->n; i++)
+        values[i] = seen->values[i];
+    qsort(simulated, n, sizeof *simulated, by_value);
+    qsort(values, seen->n, sizeof *values, by_value);
+    size_t below = 0;
+    for (size_t i = 0; i < seen->n; i++) {
+        while (below < n && simulated[below] < values[i])
+            below++;
+        double share = (double)below / (double)n, of = (double)seen->of;
+        most = fmax(most, fmax(fabs(share - (double)i / of), fabs(share - (double)(i + 1) / of)));
+    }
+    free(values);
+    return most;
+}
+
+/* ---- a ground ---- */
+
+static void set_ground(struct ceduo_scene *scene, const double at[VALUES])
+{
+    for (size_t j = 0; j + 1 < scene->slope.vertices; j++) {
+        struct ceduo_segment *s = &scene->slope.segments[j];
+        s->rn = ceduo_number(at[0]);
+        s->roughness_rad = at[1];
+        s->friction = at[2];
+        if (scene->simulation.law == CEDUO_LAW_ARM)
+            s->mu = at[3];
+        else
+            s->rt = ceduo_number(at[3]);
+    }
+}
+
+static void look_at(struct site *site, struct fit *f, size_t from, size_t to, uint64_t rocks)
+{
+    set_ground(&site->file.scene, f->at);
+    for (size_t b = from; b < to; b++) {
+        double *values;
+        size_t n;
+        if (ceduo_observer_values(site->observer, &site->file.scene, b, rocks, &values, &n) != CEDUO_OK)
+            fail("the run failed");
+        f->distance[b] = distance_of(&site->seen[b], values, n, &f->mean[b]);
+        free(values);
+    }
+    f->misfit = 0;
+    for (size_t b = 0; b < to; b++)
+        f->misfit = fmax(f->misfit, f->distance[b] / site->band[b]);
+}
+
+static double misfit_at(const gsl_vector *v, void *context)
+{
+    struct site *site = context;
+    struct fit f;
+    for (size_t i = 0; i < VALUES; i++) {
+        f.at[i] = gsl_vector_get(v, i);
+        if (!(f.at[i] >= site->lo[i] && f.at[i] <= site->hi[i]))
+            return 10;
+    }
+    look_at(site, &f, 0, site->blocks, site->rocks);
+    return f.misfit;
+}
+
+/* Goes down from a ground. */
+static void descend(struct site *site, struct fit *f)
+{
+    gsl_vector *at = gsl_vector_alloc(VALUES), *step = gsl_vector_alloc(VALUES);
+    gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, VALUES);
+    gsl_multimin_function function = {.f = misfit_at, .n = VALUES, .params = site};
+    for (size_t i = 0; i < VALUES; i++) {
+        double width = site->hi[i] - site->lo[i];
+        gsl_vector_set(at, i, f->at[i]);
+        gsl_vector_set(step, i, f->at[i] + width / 10 > site->hi[i] ? -width / 10 : width / 10);
+    }
+    gsl_multimin_fminimizer_set(m, &function, at, step);
+    for (int i = 0; i < STEPS && gsl_multimin_fminimizer_iterate(m) == GSL_SUCCESS; i++)
+        continue;
+    for (size_t i = 0; i < VALUES; i++)
+        f->at[i] = gsl_vector_get(m->x, i);
+    f->misfit = m->fval;
+    gsl_multimin_fminimizer_free(m);
+    gsl_vector_free(step);
+    gsl_vector_free(at);
+}
+
+static int by_misfit(const void *a, const void *b)
+{
+    const struct fit *f = a, *g = b;
+    return (f->misfit > g->misfit) - (f->misfit < g->misfit);
+}
+
+/* The best of what three simplexes find, from the best of the points. */
+static struct fit best_of(struct site *site, struct fit *points, size_t n, size_t blocks)
+{
+    site->blocks = blocks;
+    qsort(points, n, sizeof *points, by_misfit);
+    struct fit best = points[0];
+    for (size_t i = 0; i < STARTS && i < n; i++) {
+        struct fit f = points[i];
+        descend(site, &f);
+        if (f.misfit < best.misfit)
+            best = f;
+    }
+    return best;
+}
+
+/* ---- a law ---- */
+
+static void print_fit(struct site *site, const char *what, const char *law, struct fit f)
+{
+    uint64_t seed = site->file.scene.simulation.seed;
+    site->file.scene.simulation.seed = seed + 1;
+    look_at(site, &f, 0, BLOCKS, 10 * site->rocks);
+    site->file.scene.simulation.seed = seed;
+    printf("%s,%s,%.3f,%.3f,%.3f,%.3f", what, law, f.at[0], f.at[1], f.at[2], f.at[3]);
+    for (size_t b = 0; b < BLOCKS; b++)
+        printf(",%.3f", f.distance[b]);
+    for (size_t b = 0; b < BLOCKS; b++)
+        printf(",%.1f", f.mean[b]);
+    puts(",,,,");
+    fflush(stdout);
+}
+
+/* Of the points that block 1 does not refute: all of them, then those that predict block 2, the plate, and both. */
+static void print_shares(const struct site *site, const char *law, const struct fit *points, size_t n)
+{
+    size_t good = 0, second = 0, plate = 0, both = 0;
+    for (size_t i = 0; i < n; i++) {
+        bool predicts[BLOCKS];
+        for (size_t b = 0; b < BLOCKS; b++)
+            predicts[b] = points[i].distance[b] <= site->band[b];
+        good += predicts[0];
+        second += predicts[0] && predicts[1];
+        plate += predicts[0] && predicts[2];
+        both += predicts[0] && predicts[1] && predicts[2];
+    }
+    printf("share,%s,,,,,,,,,,,%zu,%zu,%zu,%zu\n", law, good, second, plate, both);
+    fflush(stdout);
+}
+
+static void measure_law(struct site *site, enum ceduo_law law, const char *name, size_t n)
+{
+    static struct fit points[POINTS_MOST];
+    gsl_qrng *sobol = gsl_qrng_alloc(gsl_qrng_sobol, VALUES);
+    bool arm = law == CEDUO_LAW_ARM;
+    site->file.scene.simulation.law = law;
+    for (size_t i = 0; i < VALUES; i++) {
+        site->lo[i] = i == 3 ? (arm ? 0.2 : 0.3) : lowest[i];
+        site->hi[i] = i == 3 ? (arm ? 1.5 : 0.98) : highest[i];
+    }
+    for (size_t p = 0; p < n; p++) {
+        double u[VALUES];
+        gsl_qrng_get(sobol, u);
+        for (size_t i = 0; i < VALUES; i++)
+            points[p].at[i] = site->lo[i] + u[i] * (site->hi[i] - site->lo[i]);
+        look_at(site, &points[p], 0, 1, site->rocks);
+    }
+    gsl_qrng_free(sobol);
+    print_fit(site, "block1", name, best_of(site, points, n, 1));
+    for (size_t p = 0; p < n; p++)
+        if (points[p].distance[0] <= 2 * site->band[0])
+            look_at(site, &points[p], 1, BLOCKS, site->rocks);
+        else
+            points[p].distance[1] = points[p].distance[2] = points[p].misfit = INFINITY;
+    print_shares(site, name, points, n);
+    print_fit(site, "all", name, best_of(site, points, n, BLOCKS));
+}
+
+/* ---- */
+
+static void read_site(struct site *site)
+{
+    struct problems problems = {0};
+    if (!ceduo_scene_read(&site->file, "profiles/scenes/tschamut.yaml", NULL, 0, &problems) ||
+        site->file.observations_count != BLOCKS)
+        fail("cannot read profiles/scenes/tschamut.yaml");
+    site->seen = site->file.observations;
+    if (ceduo_observer_create(site->seen, BLOCKS, &site->observer) != CEDUO_OK)
+        fail("no memory");
+    for (size_t b = 0; b < BLOCKS; b++)
+        site->band[b] = band_of(site->seen[b].n);
+}
+
+/* Every block a sphere of the same mean diameter. */
+static void make_round(struct site *site)
+{
+    static struct ceduo_observation round[BLOCKS];
+    static struct ceduo_rock_def rocks[BLOCKS];
+    for (size_t b = 0; b < BLOCKS; b++) {
+        round[b] = site->seen[b];
+        const struct ceduo_rock_def *rock = round[b].rock ? round[b].rock : &site->file.scene.rock;
+        rocks[b] = ceduo_scene_default().rock;
+        rocks[b].diameter = ceduo_number(ceduo_rock_mean(rock).mean_diameter);
+        round[b].rock = &rocks[b];
+    }
+    ceduo_observer_free(site->observer);
+    if (ceduo_observer_create(round, BLOCKS, &site->observer) != CEDUO_OK)
+        fail("no memory");
+    site->seen = round;
+}
+
+int main(int argc, char **argv)
+{
+    static struct site site;
+    size_t points = argc > 1 ? strtoul(argv[1], NULL, 10) : 512;
+    site.rocks = argc > 2 ? strtoul(argv[2], NULL, 10) : 1000;
+    if (points < STARTS || points > POINTS_MOST || site.rocks == 0)
+        fail("usage: bench_tschamut [POINTS [ROCKS]]");
+    read_site(&site);
+    puts("what,law,rn,roughness_rad,friction,rt_or_mu,ks_block1,ks_block2,ks_plate,mean_block1_m,mean_block2_m,mean_plate_m,"
+         "not_refuted,predict_block2,predict_plate,predict_both");
+    printf("band,,,,,,%.3f,%.3f,%.3f,,,,,,,\n", site.band[0], site.band[1], site.band[2]);
+    measure_law(&site, CEDUO_LAW_LUMPED, "lumped", points);
+    measure_law(&site, CEDUO_LAW_CRSP, "crsp", points);
+    measure_law(&site, CEDUO_LAW_ARM, "arm", points);
+    make_round(&site);
+    measure_law(&site, CEDUO_LAW_ARM, "arm-round", points);
+    ceduo_observer_free(site.observer);
+    ceduo_scene_release(&site.file);
+    return 0;
+}
