@@ -212,6 +212,19 @@ static void put_species(const struct ceduo_species *s, struct text *shown)
     ceduo_text_char(shown, ')');
 }
 
+/* Words of files that are people's words, too; others stay as files have them. */
+static const char *people_say(const char *words)
+{
+    static const char *const known[] = {N_("simple coppice"),    N_("coppice with standards"), N_("selection coppice"),
+                                        N_("large reserves"),    N_("high forest"),            N_("bare"),
+                                        N_("sphere"),            N_("cylinder"),               N_("ellipsoid"),
+                                        N_("block")};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strcmp(known[i], words) == 0)
+            return _(known[i]);
+    return words;
+}
+
 static void put_word(const struct field *f, const char *written, struct text *shown)
 {
     size_t n;
@@ -219,8 +232,14 @@ static void put_word(const struct field *f, const char *written, struct text *sh
     int i = f->choices == &ceduo_species_words ? ceduo_species_find(written) : -1;
     if (i >= 0)
         put_species(&species[i], shown);
-    for (const char *c = written; i < 0 && *c; c++)
-        ceduo_text_char(shown, *c == '-' ? ' ' : *c);
+    if (i >= 0)
+        return;
+    struct text words = {0};
+    for (const char *c = written; *c; c++)
+        ceduo_text_char(&words, *c == '-' ? ' ' : *c);
+    ceduo_text_put(shown, people_say(ceduo_text_string(&words)));
+    shown->failed |= words.failed;
+    ceduo_text_free(&words);
 }
 
 void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)

@@ -15,6 +15,7 @@ static void as_it_stands(void **state)
     for (int data = 0; data < 2; data++) {
         ceduo_language_of_data(data);
         assert_string_equal(_("no such text"), "no such text");
+        assert_string_equal(_(""), "");
         assert_string_equal(ngettext("%d rock", "%d rocks", 1), "%d rock");
         assert_string_equal(ngettext("%d rock", "%d rocks", 0), "%d rocks");
         assert_string_equal(P_("head", "no such head"), "no such head");
