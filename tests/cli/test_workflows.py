@@ -179,10 +179,10 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
-    for way, least in (("four-systems", 4), ("two-cuts", 7), ("reserves", 3), ("doubt", 2), ("sections", 2), ("shards", 4), ("valley", 6)):
+    for way, least in (("four-systems", 4), ("two-cuts", 7), ("reserves", 3), ("doubt", 2), ("page", 3), ("sections", 2), ("shards", 4), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "two-cuts", "reserves", "doubt", "sections", "shards", "valley")
+    ways = ("four-systems", "two-cuts", "reserves", "doubt", "page", "sections", "shards", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -347,6 +347,19 @@ def test_doubt():
     expect(shares[0][1] > 50, shares)
     expect_in("920 scenes were computed", walk.outputs[0])
     expect(re.search(r"is better than .*: (clear|likely|undecided)\.", re.sub(r"\s+", " ", walk.outputs[1])), walk.outputs[1])
+
+
+def test_page():
+    """A page to hand in: question and answer with both kinds of error, chapters, names of one's own"""
+    walk = walked("page")
+    pages = {name: walk.read(f"{name}.html") for name in ("page", "draft", "mill")}
+    answer = re.search(r'<div class="answer">(.*?)</div>', pages["page"], re.S).group(1)
+    for words in ("without forest", "(95 %)", "(90 % of what may be true)"):
+        expect_in(words, answer)
+    expect_equal([page.count("<h1>") for page in pages.values()], [1, 2, 1], "chapters")
+    expect_in("<h1>Coppice above the mill, parcel 14</h1>", pages["mill"])
+    expect_in("road to the mill (135 m)", pages["mill"])
+    expect_in("ceduo --report report.html paper-site", pages["page"])
 
 
 def test_sections():
