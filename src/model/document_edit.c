@@ -191,7 +191,9 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
         return true;
     const struct node *less = ceduo_node_removed(&d->file.arena, holder, from);
     const struct node *moved = less ? ceduo_node_inserted(&d->file.arena, less, to, holder->items[from]) : NULL;
-    return ceduo_document_commit(d, moved ? put(d, d->file.root, list, moved, problems) : NULL, list, problems);
+    const struct node *root = moved ? put(d, d->file.root, list, moved, problems) : NULL;
+    root = ceduo_doubt_moved(&d->file.arena, root, list, from, to);
+    return ceduo_document_commit(d, root, list, problems);
 }
 
 bool ceduo_document_split(struct document *d, const char *list, size_t index, const char *first, const char *second,

@@ -24,6 +24,15 @@ static bool is_about(const struct node *row, const char *list, size_t *index, co
     return *end == ']';
 }
 
+/* The row about another item of its list. */
+static const struct node *with_index(struct arena *arena, const struct node *row, const char *list, size_t index,
+                                     const char *rest)
+{
+    struct text path = {0};
+    ceduo_text_format(&path, "%s[%zu%s", list, index, rest);
+    return with_path(arena, row, &path);
+}
+
 const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *root, const char *list, size_t index,
                                        int by)
 {
@@ -33,15 +42,13 @@ const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *r
     for (size_t i = rows->n; left && i-- > 0;) {
         size_t at;
         const char *rest;
-        struct text path = {0};
         if (!is_about(rows->items[i], list, &at, &rest) || at < index)
             continue;
         if (by < 0 && at == index) {
             left = ceduo_node_removed(arena, left, i);
             continue;
         }
-        ceduo_text_format(&path, "%s[%zu%s", list, by < 0 ? at - 1 : at + 1, rest);
-        const struct node *row = with_path(arena, rows->items[i], &path);
+        const struct node *row = with_index(arena, rows->items[i], list, by < 0 ? at - 1 : at + 1, rest);
         left = row ? ceduo_node_replaced(arena, left, i, row) : NULL;
     }
     if (left == rows)
@@ -49,6 +56,24 @@ const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *r
     if (left && left->n == 0)
         return ceduo_node_without(arena, root, "doubt");
     return left ? ceduo_node_with(arena, root, "doubt", left) : NULL;
+}
+
+const struct node *ceduo_doubt_moved(struct arena *arena, const struct node *root, const char *list, size_t from, size_t to)
+{
+    const struct node *rows = ceduo_node_get(root, "doubt"), *moved = rows;
+    size_t lo = from < to ? from : to, hi = from < to ? to : from;
+    if (!root || !rows || rows->kind != NODE_LIST)
+        return root;
+    for (size_t i = 0; moved && i < rows->n; i++) {
+        size_t at;
+        const char *rest;
+        if (!is_about(rows->items[i], list, &at, &rest) || at < lo || at > hi)
+            continue;
+        size_t then = at == from ? to : from < to ? at - 1 : at + 1;
+        const struct node *row = with_index(arena, rows->items[i], list, then, rest);
+        moved = row ? ceduo_node_replaced(arena, moved, i, row) : NULL;
+    }
+    return moved ? ceduo_node_with(arena, root, "doubt", moved) : NULL;
 }
 
 /* A row about the forest as one about options; the row itself where it is about something else. */

@@ -12,6 +12,9 @@
 const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *root, const char *list, size_t index,
                                        int by);
 
+/* The same once an item was moved from one place of the list to another. */
+const struct node *ceduo_doubt_moved(struct arena *arena, const struct node *root, const char *list, size_t from, size_t to);
+
 /* The scene with the rows about "forest…" put to options: of one belt to the option "current", of all belts to all options.
  * NULL without memory. */
 const struct node *ceduo_doubt_of_options(struct arena *arena, const struct node *root);

@@ -167,7 +167,9 @@ static void chose_export(struct app *app, struct popup *p, const char *value)
     if (!q)
         return;
     snprintf(q->path, sizeof q->path, "%s", value);
-    ceduo_popup_field(q, _("file"), exports[i].file);
+    q->endings = strrchr(exports[i].file, '.');
+    q->typed_wins = true;
+    ceduo_popup_choice(q, _("file"), exports[i].file, ceduo_popup_offer_files);
 }
 
 void ceduo_popup_export(struct app *app)

@@ -56,7 +56,7 @@ static bool filled_save(struct app *app, struct popup *p)
     return (own || ceduo_popup_may_write(app, p)) && save_to(app, path);
 }
 
-static void offer_files(struct app *app, struct popup *p, const char *typed)
+void ceduo_popup_offer_files(struct app *app, struct popup *p, const char *typed)
 {
     (void)app;
     ceduo_picker_add_files(&p->picker, typed, p->endings);
@@ -121,7 +121,7 @@ static void ask_for_name(struct app *app, const char *why)
     const char *slash = d->path && d->shipped ? strrchr(d->path, '/') : NULL;
     p->endings = ".yaml";
     p->typed_wins = true;
-    ceduo_popup_choice(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml", offer_files);
+    ceduo_popup_choice(p, _("file"), slash ? slash + 1 : d->path ? d->path : "scene.yaml", ceduo_popup_offer_files);
 }
 
 void ceduo_popup_save_as(struct app *app)

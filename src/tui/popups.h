@@ -40,6 +40,9 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value);
 
 /* ---- what fields of popups may hold ---- */
 
+/* Files with the popup's endings, and folders. */
+void ceduo_popup_offer_files(struct app *app, struct popup *popup, const char *typed);
+
 #define STAND_COUNTED "from a sample plot" /* in the place of a stand: what a sample plot counts */
 #define STAND_SURVEY "from a survey" /* what a CSV file of plots holds */
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup, const char *typed);

@@ -47,6 +47,14 @@ def test_items_that_come():
                  "the upper belt split")
 
 
+def test_items_that_move():
+    """< and > on a class of trees take its rows along."""
+    moved = [ALL, STOOLS, TREE.replace("trees[1]", "trees[0]"), LOWER, ROCK]
+    expect_equal(paths_after("key 2\nfind trees[0]\nkey >"), moved, "the first class moved behind the second")
+    expect_equal(paths_after("key 2\nfind trees[1]\nkey <"), moved, "the second class moved before the first")
+    expect_equal(paths_after("key 2\nfind trees[1]\nkey < >"), [ALL, STOOLS, TREE, LOWER, ROCK], "and back")
+
+
 def test_options():
     """Rows about the forest are about the option 'current' once there are options, whatever their order."""
     current = [p.replace("forest", "options[current].forest", 1) for p in (STOOLS, TREE, LOWER)]
