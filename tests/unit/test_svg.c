@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The vector surface: where lines, axes, bars and discs stand on a page, what is text and what a drawing; and the writer of
+ * HTML. A cell is 8 units wide and 16 high, so that places can be told by hand. */
+#include "unit/grid.h"
+
+#include <stdio.h>
+
+#include "view/html.h"
+#include "view/svg.h"
+
+/* A picture as its file, for the caller to free. */
+static char *put(struct ceduo_svg *svg)
+{
+    struct text text = {0};
+    struct ceduo_html html = {.text = &text};
+    ceduo_svg_put(&html, svg, &(struct ceduo_svg_words){"p", "Title <1>", "What \"it\" shows"});
+    ceduo_svg_free(svg);
+    assert_false(text.failed);
+    assert_int_equal(html.depth, 0);
+    return text.bytes;
+}
+
+static void expect_has(const char *whole, const char *part)
+{
+    if (!strstr(whole, part))
+        fail_msg("'%s' is missing in:\n%s", part, whole);
+}
+
+static void expect_not(const char *whole, const char *part)
+{
+    if (strstr(whole, part))
+        fail_msg("'%s' stands in:\n%s", part, whole);
+}
+
+/* Dots have a middle: the first column of dots of a frame at cell 2 is at 2 * 8 + 2 units. */
+static struct ceduo_frame frame_of(int width, int height)
+{
+    return (struct ceduo_frame){2, 1, width, height, 0, 2 * width - 1, 0, 4 * height - 1};
+}
+
+static void lines_are_where_they_are(void **state)
+{
+    (void)state;
+    struct ceduo_svg *svg = ceduo_svg_create(20, 10);
+    struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+    struct ceduo_frame frame = frame_of(10, 5);
+    double x[] = {0, 1.25, 2.5, 10}, y[] = {0, 0, 0, 5.5};
+    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_WOOD, 4, x, y);
+    ceduo_canvas_rule_x(canvas, &frame, CEDUO_ROLE_CONTROL, 4);
+    assert_false(ceduo_canvas_is_blank(canvas, 2, 5));
+    assert_true(ceduo_canvas_is_blank(canvas, 15, 8));
+    char *picture = put(svg);
+    expect_has(picture, "d=\"M18 94L28 94L58 72\""); /* the point between on the straight part is left out */
+    expect_has(picture, "stroke-dasharray=\"4 4\"");
+    expect_has(picture, "d=\"M34 18L34 94\"");
+    free(picture);
+}
+
+/* Half a circle of many points keeps within 0.3 units of them with far fewer. */
+static void curves_need_few_points(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    static double x[N], y[N];
+    struct ceduo_svg *svg = ceduo_svg_create(60, 20);
+    struct ceduo_frame frame = {0, 0, 60, 20, 0, 119, 0, 79};
+    for (int i = 0; i < N; i++) {
+        x[i] = 60 - 50 * cos(M_PI * i / (N - 1));
+        y[i] = 10 + 50 * sin(M_PI * i / (N - 1));
+    }
+    ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, N, x, y);
+    char *picture = put(svg), *at = strstr(picture, "d=\"M") + 4;
+    double px, py, qx, qy;
+    int points = 1, used;
+    assert_int_equal(sscanf(at, "%lf %lf%n", &px, &py, &used), 2);
+    for (at += used; *at == 'L'; at += used, points++, px = qx, py = qy) {
+        assert_int_equal(sscanf(at, "L%lf %lf%n", &qx, &qy, &used), 2);
+        /* the middle of a chord is within its height above it of a circle of 200 units around (242, 278) */
+        double off = fabs(hypot((px + qx) / 2 - 242, (py + qy) / 2 - 278) - 200);
+        if (off > 0.7)
+            fail_msg("off by %g units after %d points", off, points);
+    }
+    if (points > 80)
+        fail_msg("%d points", points);
+    free(picture);
+}
+
+static void axes_and_bars(void **state)
+{
+    (void)state;
+    struct ceduo_svg *svg = ceduo_svg_create(30, 10);
+    struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+    struct ceduo_frame frame = {4, 1, 20, 5, 0, 39, 0, 19};
+    ceduo_canvas_axis_left(canvas, &frame);
+    ceduo_canvas_axis_bottom(canvas, &frame, "m");
+    ceduo_canvas_bar(canvas, 2, 9, 10, 0.25, CEDUO_ROLE_GOOD);
+    ceduo_canvas_disc(canvas, &frame, CEDUO_ROLE_STEM, 10, 10, 1);
+    assert_false(ceduo_canvas_is_blank(canvas, 3, 3)); /* the axis itself */
+    char *picture = put(svg);
+    expect_has(picture, "M29.5 16V96");                        /* left of the frame, over its rows */
+    expect_has(picture, "M29.5 98.5H192");                     /* below it */
+    expect_has(picture, "text-anchor=\"end\">10</text>");
+    expect_has(picture, "x=\"34.5\"");                         /* 0 stands at the middle of the first column of dots */
+    expect_has(picture, ">m</text>");
+    expect_has(picture, "M16 147h20v10h-20z");                 /* a quarter of ten cells */
+    expect_has(picture, "A4 4 0 0 0 78 54A4 4 0 0 0 70 54");   /* around (74, 54): 4 * (8 + 10.5), 4 * (4 + 9.5) */
+    free(picture);
+}
+
+static void text_and_signs(void **state)
+{
+    (void)state;
+    struct ceduo_svg *svg = ceduo_svg_create(40, 6);
+    struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+    ceduo_canvas_label(canvas, 1, 0, CEDUO_ROLE_TEXT, "one two  <three>");
+    ceduo_canvas_label(canvas, 1, 1, CEDUO_ROLE_GOOD, "\xe2\x9c\x94");
+    ceduo_canvas_label(canvas, 1, 2, CEDUO_ROLE_BELT, "\xe2\x94\x9c\xe2\x94\x80 a \xe2\x94\xa4");
+    ceduo_canvas_label(canvas, 1, 3, CEDUO_ROLE_TITLE, "(\xe2\x94\x82 30)");
+    char *picture = put(svg);
+    expect_has(picture, "<text x=\"8\" y=\"12\" fill=\"#1c1c1c\">one two</text>");
+    expect_has(picture, "<text x=\"80\" y=\"12\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* at its own cell after two blanks */
+    expect_not(picture, "\xe2\x9c\x94");
+    expect_not(picture, "\xe2\x94\x9c");
+    expect_has(picture, "M12 40H16M12 32V48M16 40H24"); /* the corner and the line of a belt */
+    expect_has(picture, "(\xe2\x94\x82 30)</text>");    /* what explains a mark stays text */
+    expect_has(picture, "aria-label=\"Title &lt;1&gt;\"");
+    expect_has(picture, "<desc id=\"p-d\">What &quot;it&quot; shows</desc>");
+    free(picture);
+}
+
+static void screens(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = ceduo_cells_create(10, 2, CEDUO_CHARSET_BRAILLE);
+    struct text text = {0};
+    ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_CURSOR, " ok ");
+    ceduo_cells_set_dot(cells, 0, 4, CEDUO_ROLE_WAY);
+    ceduo_cells_set_dot(cells, 3, 7, CEDUO_ROLE_WAY);
+    ceduo_cells_set_code(cells, 5, 1, CEDUO_ROLE_WOOD, 0x2584); /* lower half */
+    ceduo_svg_screen(&text, cells, "t");
+    expect_has(text.bytes, "xmlns=\"http://www.w3.org/2000/svg\" width=\"96\" height=\"48\"");
+    expect_has(text.bytes, "d=\"M0 0h32v16h-32z\""); /* reversed behind the word and its blanks */
+    expect_has(text.bytes, "textLength=\"16\">ok</text>");
+    expect_has(text.bytes, "d=\"M2 18h0M14 30h0\"");
+    expect_has(text.bytes, "d=\"M40 24h8v8h-8z\"");
+    ceduo_text_free(&text);
+    ceduo_cells_free(cells);
+}
+
+static void html_is_escaped(void **state)
+{
+    (void)state;
+    struct text text = {0};
+    struct ceduo_html html = {.text = &text};
+    ceduo_html_open(&html, "p", "class", "a\"b", "id", NULL, NULL);
+    ceduo_html_put(&html, "<&>'\"\a\n\xc3\xa8\xff");
+    ceduo_html_close(&html);
+    ceduo_html_empty(&html, "meta", "name", "x", NULL);
+    ceduo_html_leaf(&html, "li", "1 < 2", NULL);
+    assert_string_equal(text.bytes, "<p class=\"a&quot;b\">&lt;&amp;&gt;&#39;&quot;\\x07\n\xc3\xa8\\xff</p>\n"
+                                    "<meta name=\"x\"/>\n<li>1 &lt; 2</li>\n");
+    ceduo_text_free(&text);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lines_are_where_they_are), cmocka_unit_test(curves_need_few_points),
+        cmocka_unit_test(axes_and_bars),            cmocka_unit_test(text_and_signs),
+        cmocka_unit_test(screens),                  cmocka_unit_test(html_is_escaped),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
