@@ -53,6 +53,7 @@ enum ceduo_stand_warning {
     CEDUO_WARN_RATIO_ASSUMED = 1 << 5,     /* fracture ratio 1 assumed for a species without one */
     CEDUO_WARN_U_ASSUMED = 1 << 4,         /* U of beech assumed for another species */
     CEDUO_WARN_WIDE_SPACING = 1 << 6,      /* s > B + d: the rock can pass between two shoots; crofton is not exact */
+    CEDUO_WARN_LOW = 1 << 8,               /* stumps or logs: contacts, but no stems that count */
     CEDUO_WARN_INERTIA = 1 << 7            /* inertia: an assumption, and Eq. 4 has no meaning */
 };
 

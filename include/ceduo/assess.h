@@ -27,6 +27,8 @@ struct ceduo_stand_result {
     double per_100m;             /* J: of that */
     unsigned warnings;           /* enum ceduo_stand_warning */
     struct ceduo_compliance rules;
+    double grouped_per_ha;       /* of the trees */
+    double stumps_per_ha, logs_per_ha;
 };
 
 #define CEDUO_THICK_DBH 0.08 /* m: thinner shoots are met, but hardly stop anything; assumed */

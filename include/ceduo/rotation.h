@@ -26,6 +26,9 @@
  * An inventory that has one cohort of shoots less than its stools have after a cut was cut just before year 0: from
  * year 1 on its new shoots are there, n(t)/K on each stool.
  *
+ * Stumps are there for growth.stump_years after a cut (0: never); before the first cut counted from the age of the youngest
+ * shoots. Logs stay. Trees that a cut leaves stand in groups as the first class of the inventory that does.
+ *
  * In computed years (all but year 0 as filed) the shoots, and only they, are thinned by one factor to
  * growth.sdi_most, never below one a stool. Trees are not: a stand of many large trees stays above it. */
 

@@ -52,6 +52,18 @@ struct ceduo_stems {
     double volume; /* m3 of a stem; NaN: from species, dbh and height */
     double dbh_sd; /* m; 0: all alike */
     double age;    /* years; NaN: unknown */
+    unsigned group;      /* of single trees: so many stand in a group; 0 or 1: each by itself */
+    double group_radius; /* m, >= 0: of the disc in which they stand; NaN: not said */
+};
+
+/* What a cut leaves: stumps are met as trees of that height are, but take `energy` (J). per_ha 0: none. */
+struct ceduo_stumps {
+    double per_ha, diameter, height, energy;
+};
+
+/* Stems that lie about at random angles: met where the rock's underside is below their diameter. per_ha 0: none. */
+struct ceduo_logs {
+    double per_ha, length, diameter, energy;
 };
 
 /* Growth of a stem: dbh D(1 - exp(-k age)), height H(1 - exp(-m age)). All 0: unknown. */
@@ -65,6 +77,7 @@ struct ceduo_growth {
     struct ceduo_curve shoots, trees;
     double shoots_young, shoots_old; /* shoots on a stool just after a cut, and in the end: >= shoots_old >= 1 */
     double sdi_most;                 /* stand density index that the shoots are thinned to, > 0; 0: they are not */
+    unsigned stump_years;            /* so long the stumps stay after a cut */
 };
 
 /* How it is cut. */
@@ -75,7 +88,7 @@ struct ceduo_cutting {
     double *stay_per_ha; /* how many, >= 0: those that are 1, 2, 3 … rotations old */
 };
 
-/* A stand. No shoots and no trees: no forest. Shoots stand on stools; stools without shoots are as none. */
+/* A stand. Nothing in it: no forest. Shoots stand on stools; stools without shoots are as none. */
 struct ceduo_stand {
     enum ceduo_system system;
     int species;           /* index into ceduo_species_list(); -1: not said */
@@ -84,6 +97,8 @@ struct ceduo_stand {
     size_t shoots_count, trees_count;
     struct ceduo_stems *shoots; /* cohorts on the stools */
     struct ceduo_stems *trees;  /* classes of single trees: standards, reserves, maidens */
+    struct ceduo_stumps stumps;
+    struct ceduo_logs logs;
     enum ceduo_energy_model energy;
     double u;              /* J/m3, brauner; NaN: the species' */
     double fracture_ratio; /* dorren; NaN: the species' */
@@ -100,7 +115,9 @@ double ceduo_stand_shoots(const struct ceduo_stand *stand);
 double ceduo_stand_trees(const struct ceduo_stand *stand);
 double ceduo_stand_basal_area(const struct ceduo_stand *stand); /* m2/ha: sum of N pi d2/4 */
 bool ceduo_stand_has_shoots(const struct ceduo_stand *stand);
-bool ceduo_stand_is_bare(const struct ceduo_stand *stand);
+bool ceduo_stand_has_stems(const struct ceduo_stand *stand); /* that stand: shoots or trees */
+bool ceduo_stand_is_bare(const struct ceduo_stand *stand);   /* neither stems nor stumps or logs */
+bool ceduo_stems_are_grouped(const struct ceduo_stems *stems);
 
 /* What is known of a species. Volume (m3) = (b0 + b1 d2 h + b2 d)/1000, d in cm, h in m (Tabacchi et al. 2011), inside
  * the rectangle of d and h only. */

@@ -83,9 +83,29 @@ static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule
     return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : ceduo_stand_has_shoots(stand);
 }
 
-size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
+static size_t stem_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
     return shoot_strata(stand, rule) + stand->trees_count;
+}
+
+size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
+{
+    return stem_strata(stand, rule) + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
+}
+
+double ceduo_log_width(double length)
+{
+    return 2 * length / M_PI;
+}
+
+/* Stumps if there are any, then logs. */
+static struct stratum low_stratum(const struct ceduo_stand *stand, size_t i)
+{
+    const struct ceduo_stumps *s = &stand->stumps;
+    const struct ceduo_logs *l = &stand->logs;
+    if (i == 0 && s->per_ha > 0)
+        return (struct stratum){s->per_ha, s->diameter, s->energy, 0};
+    return (struct stratum){l->per_ha, ceduo_log_width(l->length), l->energy, 0};
 }
 
 struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass)
@@ -93,6 +113,8 @@ struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule ru
     size_t shoots = shoot_strata(stand, rule);
     if (i < shoots && rule != CEDUO_GSTEIGER_STEMS)
         return stools_as_one(stand, rule, mass);
+    if (i >= shoots + stand->trees_count)
+        return low_stratum(stand, i - shoots - stand->trees_count);
     const struct ceduo_stems *s = i < shoots ? &stand->shoots[i] : &stand->trees[i - shoots];
     double width = rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : s->dbh;
     return (struct stratum){s->per_ha, width, ceduo_contact_energy(stand, s), ceduo_contact_share(stand, s, mass)};
@@ -162,7 +184,8 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
     if (ceduo_stand_is_bare(stand))
         return 0;
     unsigned warnings = stems_warnings(stand, stand->shoots, stand->shoots_count) |
-                        stems_warnings(stand, stand->trees, stand->trees_count);
+                        stems_warnings(stand, stand->trees, stand->trees_count) |
+                        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0);
     if (!ceduo_stand_has_shoots(stand))
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "groups.h"
 #include "strata.h"
 
 /* ---- stems that count ---- */
@@ -34,11 +35,16 @@ static bool all_count(const struct ceduo_stems *stems, size_t n, double dbh)
     return true;
 }
 
+/* What lies low does not count: a rock flies over it. */
 static const struct ceduo_stand *count(const struct ceduo_stand *stand, double dbh, struct counted *c)
 {
-    if (all_count(stand->shoots, stand->shoots_count, dbh) && all_count(stand->trees, stand->trees_count, dbh))
+    bool thick = all_count(stand->shoots, stand->shoots_count, dbh) && all_count(stand->trees, stand->trees_count, dbh);
+    if (thick && !(stand->stumps.per_ha > 0) && !(stand->logs.per_ha > 0))
         return stand;
     c->stand = *stand;
+    c->stand.stumps.per_ha = c->stand.logs.per_ha = 0;
+    if (thick)
+        return &c->stand;
     c->stand.shoots = &c->shoots;
     c->stand.trees = &c->trees;
     c->stand.shoots_count = merge_thick(stand->shoots, stand->shoots_count, dbh, &c->shoots);
@@ -47,30 +53,64 @@ static const struct ceduo_stand *count(const struct ceduo_stand *stand, double d
     return &c->stand;
 }
 
+/* Trees of a group are met together, so that a way without any is likelier than by crofton, which has them one by one: by
+ * this in the exponent. `within`: no tree stands on `length` m; otherwise none of the groups that have their centre there is met. */
+static double less_by_groups(const struct ceduo_stand *stand, double dbh, double b, double length, bool within)
+{
+    double more = 0;
+    for (size_t i = 0; i < stand->trees_count; i++) {
+        const struct ceduo_stems *t = &stand->trees[i];
+        if (!ceduo_stems_are_grouped(t) || !(t->dbh >= dbh))
+            continue;
+        struct group_shape shape = {.n = t->group, .radius = t->group_radius, .width = b + t->dbh};
+        double met = within ? ceduo_groups_met_within(&shape, length) : ceduo_groups_met_along(&shape, length);
+        more += t->per_ha / HECTARE * (length * shape.width - met / t->group);
+    }
+    return more;
+}
+
+static double chance_of_none(double contacts, double less)
+{
+    return exp(fmin(0, less - contacts));
+}
+
 /* How often a rock meets the stems that count. */
 struct met {
     double adc, free_run;
 };
 
-static struct met meet_all(const struct ceduo_scene *scene, const struct ceduo_stand *stand)
+/* `counted`: of the stand, from `dbh` on. */
+static struct met meet_counted(const struct ceduo_scene *scene, const struct ceduo_stand *stand,
+                               const struct ceduo_stand *counted, double dbh)
 {
-    double b = ceduo_rock_mean(&scene->rock).mean_diameter;
-    if (ceduo_stand_is_bare(stand))
+    double b = ceduo_rock_mean(&scene->rock).mean_diameter, threshold = scene->simulation.threshold;
+    if (ceduo_stand_is_bare(counted))
         return (struct met){INFINITY, 1};
-    struct ceduo_adc adc = ceduo_adc(stand, b);
-    return (struct met){ceduo_adc_value(&adc, ceduo_adc_rule(stand, b, scene->simulation.rule)),
-                        exp(-scene->simulation.threshold / adc.crofton)};
+    struct ceduo_adc adc = ceduo_adc(counted, b);
+    return (struct met){ceduo_adc_value(&adc, ceduo_adc_rule(counted, b, scene->simulation.rule)),
+                        chance_of_none(threshold / adc.crofton, less_by_groups(stand, dbh, b, threshold, true))};
+}
+
+/* The chance that `length` m of a belt, of those whose centres lie there, have no stem in the rock's way. */
+static double meet_nothing(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length)
+{
+    struct counted c;
+    double b = ceduo_rock_mean(&scene->rock).mean_diameter;
+    const struct ceduo_stand *standing = count(stand, 0, &c);
+    if (ceduo_stand_is_bare(standing))
+        return 1;
+    return chance_of_none(length / ceduo_adc(standing, b).crofton, less_by_groups(stand, 0, b, length, false));
 }
 
 /* Fewer stems are not met more often, though their mean diameter may make a form say so. */
 static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
 {
     struct counted c;
-    struct met all = meet_all(scene, stand);
     const struct ceduo_stand *thick = count(stand, dbh, &c);
+    struct met all = meet_counted(scene, stand, stand, 0);
     if (thick == stand)
         return all;
-    struct met met = meet_all(scene, thick);
+    struct met met = meet_counted(scene, stand, thick, dbh);
     return (struct met){fmax(met.adc, all.adc), fmax(met.free_run, all.free_run)};
 }
 
@@ -129,6 +169,10 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
     r.energy_per_contact = bare ? NAN : ceduo_energy_per_metre(stand, b, rule) * r.adc_m;
     r.rules = ceduo_regulation_check(&scene->rules, stand);
     r.warnings = ceduo_stand_warnings(stand, b, scene->simulation.rule);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        r.grouped_per_ha += ceduo_stems_are_grouped(&stand->trees[i]) ? stand->trees[i].per_ha : 0;
+    r.stumps_per_ha = stand->stumps.per_ha;
+    r.logs_per_ha = stand->logs.per_ha;
     return r;
 }
 
@@ -192,7 +236,7 @@ static void add_belt(const struct ceduo_scene *scene, const struct ceduo_belt *b
     index->contacts += r.contacts;
     index->dissipated += r.dissipated;
     pass_belt(scene, &belt->stand, b - a, r.dissipated, left);
-    index->meet_nothing_probability *= exp(-(b - a) / r.adc.crofton);
+    index->meet_nothing_probability *= meet_nothing(scene, &belt->stand, b - a);
     add_meeting(scene, &belt->stand, least, counted);
     add_meeting(scene, &belt->stand, fmax(least, CEDUO_THICK_DBH), &index->thick);
 }
@@ -212,7 +256,7 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
             continue;
         add_belt(scene, belt, a, b, &index, &counted, &left);
         belts++;
-        if (ceduo_stand_is_bare(&belt->stand))
+        if (!ceduo_stand_has_stems(&belt->stand))
             continue;
         index.longest_gap = fmax(index.longest_gap, a - at);
         at = b;

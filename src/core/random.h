@@ -24,7 +24,8 @@ enum random_kind {
     RANDOM_DBH,     /* a stem's diameter; the shoot's number from bit 8 on, and from bit 32 on how many were used */
     RANDOM_SECTION, /* which section of a rock meets the ground, of law arm */
     RANDOM_TURN,    /* how it is turned at a contact */
-    RANDOM_SIZE     /* where the sequence of sizes starts, of no rock */
+    RANDOM_SIZE,    /* where the sequence of sizes starts, of no rock */
+    RANDOM_GROUP    /* where a tree of a group stands; its number from bit 8 on */
 };
 
 #define HALF_TURN 3.141592653589793 /* rad */

@@ -152,6 +152,16 @@ static double default_first_cut(const struct ceduo_stand *stand)
     return isnan(age) ? INFINITY : fmax(1, rotation * rotations - age - AGE_GRAIN);
 }
 
+/* Years from the last cut to year 0: the age of the youngest shoots, infinite where they grow no more; 0 where it is not
+ * known. */
+static double since_cut(const struct ceduo_stand *stand)
+{
+    double age = NAN;
+    for (size_t i = 0; i < stand->shoots_count && !ceduo_stand_sprouts(stand); i++)
+        age = fmin(age, age_of(&stand->shoots[i], &stand->growth.shoots));
+    return isnan(age) ? 0 : age;
+}
+
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
 {
     double rotation = stand->cutting.rotation;
@@ -193,6 +203,24 @@ void ceduo_grown_stand_release(struct ceduo_grown_stand *grown)
 {
     free(grown->stems);
     *grown = (struct ceduo_grown_stand){.stems = NULL};
+}
+
+/* Trees that a cut leaves stand in groups as the first class of the inventory that does. */
+static void group_as(const struct ceduo_stand *stand, struct ceduo_stems *trees)
+{
+    for (size_t i = 0; i < stand->trees_count; i++)
+        if (stand->trees[i].group > 1) {
+            trees->group = stand->trees[i].group;
+            trees->group_radius = stand->trees[i].group_radius;
+            return;
+        }
+}
+
+/* Stumps are those of the last cut, `years` ago. */
+static void keep_stumps(const struct ceduo_stand *stand, double years, struct ceduo_stand *out)
+{
+    if (!(years < stand->growth.stump_years))
+        out->stumps.per_ha = 0;
 }
 
 static struct ceduo_stems stems_of_age(const struct ceduo_curve *curve, double per_ha, double age)
@@ -252,6 +280,8 @@ static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned ye
     if (year == 0)
         return CEDUO_OK;
     const struct ceduo_growth *g = &stand->growth;
+    if (ceduo_stand_grows(stand))
+        keep_stumps(stand, since_cut(stand) + year, &out->stand);
     for (size_t i = 0; i < stand->trees_count && known(&g->trees); i++)
         grow_stems(&out->stand.trees[i], &g->trees, age_of(&stand->trees[i], &g->trees), year);
     if (known(&g->shoots)) /* after the trees: the shoots make room for them */
@@ -283,9 +313,11 @@ static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned sin
         out->stand.shoots[i] = stems_of_age(&g->shoots, per_ha, age);
     }
     for (size_t j = 0, i = 0; j < cutting->stay_count; j++)
-        if (cutting->stay_per_ha[j] > 0)
-            out->stand.trees[i++] =
-                stems_of_age(&g->trees, cutting->stay_per_ha[j], (double)(j + 1) * rotation + since);
+        if (cutting->stay_per_ha[j] > 0) {
+            out->stand.trees[i] = stems_of_age(&g->trees, cutting->stay_per_ha[j], (double)(j + 1) * rotation + since);
+            group_as(stand, &out->stand.trees[i++]);
+        }
+    keep_stumps(stand, since, &out->stand);
     if (count == 0)
         out->stand.stools_per_ha = 0;
     keep_shoots(&out->stand, out->stand.stools_per_ha);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x
- * and all single trees (or contacts) another, each drawn some places ahead (stems_fill.h). A stool is made whole when
- * the rock comes near, and its shoots wait, sorted, because they stand around its centre. Work is counted as effort,
+/* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x,
+ * all single trees, stumps and logs (or contacts) another, groups of trees a third, each drawn some places ahead
+ * (stems_fill.h). A stool or group is made whole when the rock comes near, and its stems wait, sorted, because they stand
+ * around its centre. Work is counted as effort,
  * and drawing pauses now and then, so that a caller can cancel. */
 #include "stems.h"
 
@@ -92,8 +93,8 @@ static inline void put_in(struct stems *s, struct stems_side *side, const struct
     s->effort += (end - i) / STEPS_OF_A_STEM;
 }
 
-/* A shoot that stands behind the start of the strip ahead belongs to the strip behind, whose own stools begin beyond
- * those that reach over the start. */
+/* A stem that stands behind the start of the strip ahead belongs to the strip behind, whose own stools and groups begin
+ * beyond those that reach over the start. */
 static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem stem)
 {
     stem.along = -stem.along;
@@ -101,10 +102,25 @@ static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem s
         put_in(s, &s->side[1], &stem);
 }
 
+/* Puts a stem that was drawn for a side among those waiting; there is room. */
+static void let_wait(struct stems *s, int i_side, const struct stem *stem)
+{
+    struct stems_side *side = &s->side[i_side];
+    bool behind = i_side == 0 && stem->along < s->start;
+    struct stems_side *to = behind ? &s->side[1] : side;
+    double along = behind ? -stem->along : stem->along;
+    if (!stem->shoot)
+        to->trees_to = fmax(to->trees_to, along);
+    if (behind)
+        turn_behind(s, *stem);
+    else
+        put_in(s, side, stem);
+}
+
 /* The next place of a stream, drawn if need be; infinite where there is none. */
 static double next_place(struct stems *s, int i_side, enum stem_stream stream)
 {
-    struct points *p = &s->side[i_side].streams[stream];
+    struct points *p = points_of(&s->side[i_side], stream);
     if (p->next == p->count) {
         if (p->end_belt == s->wood->belts)
             return INFINITY;
@@ -147,10 +163,7 @@ static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_si
             continue;
         stem.height = stem.kind->height;
         stem.energy = stem.kind->energy;
-        if (i_side == 0 && stem.along < s->start)
-            turn_behind(s, stem);
-        else
-            put_in(s, &s->side[i_side], &stem);
+        let_wait(s, i_side, &stem);
     }
 }
 
@@ -159,7 +172,8 @@ static void make_stool(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
     const struct points *p = &side->streams[STREAM_STOOLS];
-    bool plain = is_plain_stool(s, i_side) && side->end - side->first < STOP_SHOOTS;
+    bool trees = side->first < side->end && side->trees_to >= side->waiting[side->first].along;
+    bool plain = is_plain_stool(s, i_side) && side->end - side->first < STOP_SHOOTS && !trees;
     size_t n = plain ? SHOOTS_AT_ONCE : s->wood->along[i_side][p->belt[p->next]].stools->n + 1;
     if (!make_room(s, side, n))
         return;
@@ -169,17 +183,15 @@ static void make_stool(struct stems *s, int i_side)
         make_other_stool(s, i_side);
 }
 
-/* ---- single trees, and contacts ---- */
-
-/* The stratum that a place of the merged stream belongs to; *u: uniform in [0, 1) within it. */
+/* The stratum that a place of a merged stream belongs to; *u: uniform in [0, 1) within it. */
 static const struct wood_stratum *stratum_at(struct stems *s, int side, const struct wood_belt *belt, size_t j,
-                                             double mark, double *u)
+                                             enum stem_stream stream, double mark, double *u)
 {
-    double left = mark * rates_in(s, side, j)->rate[STREAM_SINGLE], rate = 0;
+    double left = mark * rates_in(s, side, j)->rate[stream], rate = 0;
     const struct wood_stratum *found = NULL;
     for (size_t k = 0; k < belt->strata_count; k++) {
         const struct wood_stratum *stratum = &belt->strata[k];
-        if (!stratum->kind)
+        if (stream_of(stratum) != stream)
             continue;
         found = stratum;
         rate = stratum->still + stratum->per_b * s->b;
@@ -191,6 +203,60 @@ static const struct wood_stratum *stratum_at(struct stems *s, int side, const st
     *u = left / rate;
     return found;
 }
+
+/* ---- groups of trees ---- */
+
+/* A tree beyond the end of its belt stands as far before it instead, so that the belt is as dense there as elsewhere. */
+static double fold_into(const struct wood_belt *belt, double along)
+{
+    if (along >= belt->from && along <= belt->to)
+        return along;
+    double span = belt->to - belt->from, t = fabs(fmod(along - belt->from, 2 * span));
+    return belt->from + (t <= span ? t : 2 * span - t);
+}
+
+/* Tree i of a group, of its kind: uniform in a disc around `at`, `centre`; false where the rock passes beside it. */
+static bool place_tree(const struct stems *s, const struct wood_belt *belt, double at, double centre, double radius,
+                       uint64_t event, unsigned i, struct stem *stem)
+{
+    struct random_pair u = random_pair(s->seed, s->number, event, shoot_draw(RANDOM_GROUP, i));
+    double angle = 2 * M_PI * (u.u[1] - 0.5), off = radius * sqrt(u.u[0]), sine, cosine;
+    elementary_sincos(&angle, &sine, &cosine);
+    stem->along = fold_into(belt, at + off * cosine);
+    stem->y = centre + off * sine;
+    if (fabs(stem->y) > (s->b + stem->kind->most) / 2)
+        return false;
+    const struct wood_kind *k = stem->kind;
+    stem->dbh = k->shape > 0 ? draw_dbh(s, k, event, shoot_draw(RANDOM_DBH, i), 0) : k->dbh;
+    return fabs(stem->y) <= (s->b + stem->dbh) / 2;
+}
+
+/* Makes the next group of a side; each of its trees is one by itself. */
+static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
+{
+    struct points *p = points_of(&s->side[i_side], STREAM_GROUPS);
+    unsigned k = p->next;
+    uint64_t event = event_of_next(p, STREAM_GROUPS, i_side);
+    double u;
+    const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
+    const struct wood_stratum *t = stratum_at(s, i_side, belt, p->belt[k], STREAM_GROUPS, p->mark[k], &u);
+    if (!make_room(s, &s->side[i_side], t->group))
+        return;
+    p->next++;
+    s->drawn += t->group;
+    s->effort += 1 + t->group;
+    double centre = p->offset[k] * (2 * t->radius + t->kind->most + s->b);
+    for (unsigned i = 0; i < t->group; i++) {
+        struct stem stem = {.kind = t->kind,
+                            .height = t->kind->height,
+                            .energy = t->kind->energy,
+                            .stool = event | (uint64_t)(i + 1) << 44};
+        if (place_tree(s, belt, p->at[k], centre, t->radius, event, i, &stem))
+            let_wait(s, i_side, &stem);
+    }
+}
+
+/* ---- single trees, and contacts ---- */
 
 /* Makes the next single tree of a side. */
 static void make_single(struct stems *s, int i_side)
@@ -204,7 +270,7 @@ static void make_single(struct stems *s, int i_side)
     uint64_t event = event_of_next(p, STREAM_SINGLE, i_side);
     double u;
     const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
-    const struct wood_kind *kind = stratum_at(s, i_side, belt, p->belt[k], p->mark[k], &u)->kind;
+    const struct wood_kind *kind = stratum_at(s, i_side, belt, p->belt[k], STREAM_SINGLE, p->mark[k], &u)->kind;
     double d = kind->dbh;
     if (kind->shape > 0) /* met with a chance that goes with b + d */
         d = draw_dbh(s, kind, event, RANDOM_DBH, u * (s->b + d) >= s->b);
@@ -226,27 +292,42 @@ static bool pauses(const struct stems *s)
     return s->no_memory || s->effort >= s->pause || ceduo_stems_too_many(s);
 }
 
-/* Makes the stools that have a centre up to `to` along a side; false where it stopped before. */
-static bool make_stools_to(struct stems *s, int side, double to)
+/* Makes the stools or groups that have a centre up to `to` along a side; false where it stopped before. */
+static bool make_to(struct stems *s, int side, enum stem_stream stream, double to)
 {
-    for (double at; (at = next_place(s, side, STREAM_STOOLS)) <= to && at < INFINITY;) {
+    for (double at; (at = next_place(s, side, stream)) <= to && at < INFINITY;) {
         if (pauses(s))
             return false;
-        make_stool(s, side);
+        if (stream == STREAM_GROUPS)
+            make_group(s, side);
+        else
+            make_stool(s, side);
     }
     return true;
+}
+
+/* Where stems may stand that are not drawn yet: of the next stool, or group. */
+static inline double next_reach(struct stems *s, int i, bool *group)
+{
+    double stools = next_place(s, i, STREAM_STOOLS) - s->wood->reach;
+    *group = false;
+    if (!s->wood->grouped)
+        return stools;
+    double groups = next_place(s, i, STREAM_GROUPS) - s->wood->group_reach;
+    *group = groups < stools;
+    return *group ? groups : stools;
 }
 
 static void find_next(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
     for (;;) {
-        bool any = side->first < side->end;
+        bool any = side->first < side->end, group = false;
         double waits = any ? side->waiting[side->first].along : INFINITY, single = side->single.along;
         side->next_waits = any && waits <= single;
         side->next = side->next_waits ? waits : single;
         side->next_known = true;
-        double reach = s->poisson ? INFINITY : next_place(s, i, STREAM_STOOLS) - s->wood->reach;
+        double reach = s->poisson ? INFINITY : next_reach(s, i, &group);
         side->sure = reach < single ? reach : single;
         if (!(reach <= side->next) || reach == INFINITY)
             return;
@@ -255,18 +336,27 @@ static void find_next(struct stems *s, int i)
             side->next_known = false;
             return;
         }
-        make_stool(s, i);
+        if (group)
+            make_group(s, i);
+        else
+            make_stool(s, i);
     }
 }
 
-static void start_side(struct stems *s, int i, double from, double stools_from)
+/* Singles are drawn from `from` on, stools and groups from so far before it as they reach (`by` +1), or behind it. */
+static void start_side(struct stems *s, int i, double from, double by)
 {
     struct stems_side *side = &s->side[i];
+    const double begin[STREAMS] = {[STREAM_STOOLS] = from - by * s->wood->reach,
+                                   [STREAM_SINGLE] = from,
+                                   [STREAM_GROUPS] = from - by * s->wood->group_reach};
     for (int k = 0; k < STREAMS; k++) {
-        struct points *p = &side->streams[k];
+        struct points *p = points_of(side, (enum stem_stream)k);
+        if (!p)
+            continue;
         p->next = p->count = 0;
         p->drawn = 0;
-        p->end = k == STREAM_STOOLS ? stools_from : from;
+        p->end = begin[k];
         p->end_belt = 0;
     }
     make_single(s, i);
@@ -281,25 +371,29 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->behind_ready = false;
     s->drawn = s->effort = 0;
     s->pause = PAUSE_STEMS;
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         s->side[i].first = s->side[i].end = 0;
+        s->side[i].trees_to = -INFINITY;
+    }
     memset(s->met, 0, (s->wood->places + 1) * sizeof *s->met);
-    start_side(s, 0, x, x - s->wood->reach);
+    start_side(s, 0, x, 1);
     find_next(s, 0);
-    bool any = s->wood->belts > 0 && s->wood->along[0][0].from < x + s->wood->reach;
+    bool any = s->wood->belts > 0 && s->wood->along[0][0].from < x + fmax(s->wood->reach, s->wood->group_reach);
     s->side[1].next = any ? -x : INFINITY;
     s->side[1].next_known = false;
 }
 
-/* The strip behind the release is drawn only when a rock goes there. The stools around the release are those of the
- * strip ahead. */
+/* The strip behind the release is drawn only when a rock goes there. The stools and groups around the release are those
+ * of the strip ahead. */
 static void prepare_behind(struct stems *s)
 {
-    if (!s->poisson && !make_stools_to(s, 0, s->start + s->wood->reach))
+    if (!s->poisson && !make_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
+        return;
+    if (s->wood->grouped && !make_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
         return;
     s->behind_ready = true;
     find_next(s, 0);
-    start_side(s, 1, -s->start, -s->start + s->wood->reach);
+    start_side(s, 1, -s->start, -1);
     find_next(s, 1);
 }
 
@@ -333,13 +427,19 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
 bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel)
 {
     *stems = (struct stems){.wood = wood, .poisson = poisson, .kernel = choose_kernel(kernel)};
+    bool good = true;
     for (int i = 0; i < 2; i++) {
-        stems->side[i].streams[STREAM_STOOLS].size = POINTS;
-        stems->side[i].streams[STREAM_SINGLE].size = poisson ? POINTS : POINTS_FEW;
+        struct stems_side *side = &stems->side[i];
+        side->streams[STREAM_STOOLS].size = POINTS;
+        side->streams[STREAM_SINGLE].size = poisson ? POINTS : POINTS_FEW;
+        side->groups = wood->grouped ? calloc(1, sizeof *side->groups) : NULL;
+        good &= !wood->grouped || side->groups;
+        if (side->groups)
+            side->groups->size = POINTS_FEW;
     }
     stems->met = calloc(wood->places + 1, sizeof *stems->met);
     stems->rates = calloc(wood->belts + 1, sizeof *stems->rates);
-    if (stems->met && stems->rates)
+    if (good && stems->met && stems->rates)
         return true;
     ceduo_stems_release(stems);
     return false;
@@ -347,8 +447,10 @@ bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson
 
 void ceduo_stems_release(struct stems *stems)
 {
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         free(stems->side[i].waiting);
+        free(stems->side[i].groups);
+    }
     free(stems->met);
     free(stems->rates);
     *stems = (struct stems){0};

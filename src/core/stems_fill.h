@@ -63,7 +63,7 @@ static inline const struct belt_rates *rates_in(struct stems *s, int side, size_
         const struct wood_belt *from = &s->wood->along[side][belt];
         *r = (struct belt_rates){.b = s->b};
         for (size_t k = 0; k < from->strata_count; k++)
-            r->rate[from->strata[k].kind ? STREAM_SINGLE : STREAM_STOOLS] +=
+            r->rate[stream_of(&from->strata[k])] +=
                 from->strata[k].still + from->strata[k].per_b * s->b;
         for (int k = 0; k < STREAMS; k++)
             r->metres[k] = 1 / r->rate[k];
@@ -74,7 +74,7 @@ static inline const struct belt_rates *rates_in(struct stems *s, int side, size_
 /* Where the places stand: gaps are exponential in the rate summed along the strip, across belts. */
 static inline void place_points(struct stems *s, int side, enum stem_stream stream, const double gaps[POINTS])
 {
-    struct points *p = &s->side[side].streams[stream];
+    struct points *p = points_of(&s->side[side], stream);
     double at = p->end;
     size_t j = p->end_belt, first = j;
     unsigned i = 0;
@@ -145,7 +145,7 @@ static inline void draw_cohorts(const struct stems *s, int side, struct points *
 
 static void fill_points(struct stems *s, int side, enum stem_stream stream)
 {
-    struct points *p = &s->side[side].streams[stream];
+    struct points *p = points_of(&s->side[side], stream);
     _Alignas(64) double gaps[POINTS];
     uint64_t event = stem_event(stream, side, p->drawn);
     draw_points(s, event, p, gaps);

@@ -21,8 +21,8 @@ struct stem {
     bool met;         /* it waits behind the release, and another shoot of its stool was hit ahead */
 };
 
-/* Two streams of places along a side: of stools, and of all else. */
-enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAMS };
+/* Streams of places along a side: of stools, of all that stands by itself, and of groups of trees where there are any. */
+enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAM_GROUPS, STREAMS };
 
 /* The next places of a stream, which are drawn many at a time. */
 #define POINTS     16
@@ -47,13 +47,15 @@ struct points {
 };
 
 struct stems_side {
-    struct points streams[STREAMS];
+    struct points streams[STREAM_GROUPS];
+    struct points *groups;  /* the third stream; NULL: there are none */
+    double trees_to;        /* m along the strip: behind that no tree of a group waits */
     struct stem single;     /* the next of its stream; `along` infinite: none */
-    struct stem *waiting;   /* shoots of drawn stools that the rock can hit, from `first` to before `end`, the nearest first */
+    struct stem *waiting;   /* shoots of drawn stools, and trees of drawn groups, that the rock can hit, from `first` to before `end`, the nearest first */
     size_t first, end, room;
-    double sure;            /* m along the strip: a waiting shoot before that is next if it is the first of them */
+    double sure;            /* m along the strip: a waiting stem before that is next if it is the first of them */
     double next;            /* m along the strip: no stem before */
-    bool next_known;        /* a stem stands there; otherwise stools up to there have not been drawn yet */
+    bool next_known;        /* a stem stands there; otherwise stools or groups up to there have not been drawn yet */
     bool next_waits;        /* it is one of those waiting; otherwise `single` */
 };
 
@@ -100,6 +102,16 @@ struct stems {
     char apart[320];       /* of those of other lanes: whole pages would put all on a few lines of the cache */
     uint64_t pause;        /* effort at which the drawing stops for a moment: the rock may be waited for no longer */
 };
+
+static inline struct points *points_of(struct stems_side *side, enum stem_stream stream)
+{
+    return stream == STREAM_GROUPS ? side->groups : &side->streams[stream];
+}
+
+static inline enum stem_stream stream_of(const struct wood_stratum *stratum)
+{
+    return !stratum->kind ? STREAM_STOOLS : stratum->group > 0 ? STREAM_GROUPS : STREAM_SINGLE;
+}
 
 /* The first is for any machine. */
 extern const struct stems_kernel ceduo_stems_scalar, ceduo_stems_avx2, ceduo_stems_avx512;

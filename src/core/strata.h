@@ -15,8 +15,11 @@ struct stratum {
 };
 
 /* The strata of a stand by a form of the ADC (not AUTO): the stools, or with gsteiger-stems each cohort of shoots, then
- * each class of trees. `mass`: of the rock, kg. */
+ * each class of trees, stumps and logs. `mass`: of the rock, kg. */
 size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule);
 struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass);
+
+/* m that a log of `length` m offers beyond the rock's diameter, at a random angle (Buffon): 2 L/pi. */
+double ceduo_log_width(double length);
 
 #endif

@@ -87,7 +87,8 @@ LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
         }
         bool is_hit = hit >> i & 1;
         w->stems_hit += is_hit;
-        w->stools_met += ceduo_stems_meet_shoot(w->stems, &side->waiting[side->first], is_hit);
+        const struct stem *stem = &side->waiting[side->first];
+        w->stools_met += stem->shoot ? ceduo_stems_meet_shoot(w->stems, stem, is_hit) : is_hit;
         ceduo_stems_take_waiting(side);
         w->stem_ahead = side->next;
         show_stem(k, i, &side->waiting[side->first]);

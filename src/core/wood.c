@@ -61,12 +61,39 @@ static struct wood_kind shoot_kind(const struct ceduo_stand *stand, size_t i, do
     return k;
 }
 
-/* Trees of class i. */
+/* Trees of class i; of groups their centres, as far off as any of their trees can be met. */
 static struct wood_stratum tree_stratum(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
 {
-    double per_m2 = stand->trees[i].per_ha / HECTARE;
-    *kind = kind_of(stand, &stand->trees[i]);
-    return (struct wood_stratum){per_m2 * kind->dbh, per_m2, kind};
+    const struct ceduo_stems *trees = &stand->trees[i];
+    double per_m2 = trees->per_ha / HECTARE;
+    *kind = kind_of(stand, trees);
+    if (!ceduo_stems_are_grouped(trees))
+        return (struct wood_stratum){per_m2 * kind->dbh, per_m2, kind, 0, 0};
+    per_m2 /= trees->group;
+    return (struct wood_stratum){per_m2 * (2 * trees->group_radius + kind->most), per_m2, kind, trees->group,
+                                 trees->group_radius};
+}
+
+/* A stump takes what is said of it, whatever the law of the stems. */
+static struct wood_stratum stump_stratum(const struct ceduo_stand *stand, struct wood_kind *kind)
+{
+    const struct ceduo_stumps *s = &stand->stumps;
+    double per_m2 = s->per_ha / HECTARE;
+    *kind = (struct wood_kind){.dbh = s->diameter,
+                               .most = s->diameter,
+                               .height = s->height,
+                               .energy = s->energy,
+                               .by_hit = {.model = CEDUO_BRAUNER, .glancing = ceduo_stand_glances(stand)}};
+    return (struct wood_stratum){per_m2 * s->diameter, per_m2, kind, 0, 0};
+}
+
+/* A log lies across the way: it has no diameter that it could be grazed beside. */
+static struct wood_stratum log_stratum(const struct ceduo_stand *stand, struct wood_kind *kind)
+{
+    const struct ceduo_logs *l = &stand->logs;
+    double per_m2 = l->per_ha / HECTARE;
+    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .energy = l->energy};
+    return (struct wood_stratum){per_m2 * ceduo_log_width(l->length), per_m2, kind, 0, 0};
 }
 
 /* Contacts with stratum i of a rule as a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). `mass`: of the mean
@@ -79,7 +106,7 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
     if (s.share > 0)
         kind->by_hit =
             (struct stem_energy){.model = CEDUO_INERTIA, .by.inertia = inertia_of_contact(s.share, mass)};
-    return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind};
+    return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
 }
 
 /* ---- stools ---- */
@@ -132,11 +159,20 @@ static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *st
             return false;
         const struct wood_stools *s = to->stools = &w->stools[belt];
         double per_m2 = stand->stools_per_ha / HECTARE;
-        strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->most), per_m2, NULL};
+        strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->most), per_m2, NULL, 0, 0};
     }
-    for (size_t i = 0; i < stand->trees_count; i++)
-        strata[1 + i] = tree_stratum(stand, i, &kinds[stand->shoots_count + i]);
-    to->strata_count = 1 + stand->trees_count;
+    size_t n = 1;
+    kinds += stand->shoots_count;
+    for (size_t i = 0; i < stand->trees_count; i++) {
+        strata[n] = tree_stratum(stand, i, kinds++);
+        w->grouped |= strata[n].group > 0;
+        w->group_reach = fmax(w->group_reach, strata[n++].radius);
+    }
+    if (stand->stumps.per_ha > 0)
+        strata[n++] = stump_stratum(stand, kinds++);
+    if (stand->logs.per_ha > 0)
+        strata[n++] = log_stratum(stand, kinds);
+    to->strata_count = n;
     return true;
 }
 
@@ -150,7 +186,8 @@ static void make_contacts(const struct ceduo_stand *stand, enum ceduo_rule rule,
 
 static size_t kinds_in(const struct ceduo_belt *belt)
 {
-    return belt->stand.shoots_count + belt->stand.trees_count;
+    const struct ceduo_stand *s = &belt->stand;
+    return s->shoots_count + s->trees_count + (s->stumps.per_ha > 0) + (s->logs.per_ha > 0);
 }
 
 static bool allocate(struct wood *w, const struct ceduo_option *option)
@@ -253,6 +290,27 @@ static void hash_stratum(uint64_t *hash, const struct wood_stratum *s)
 {
     hash_doubles(hash, s, offsetof(struct wood_stratum, kind) / sizeof(double));
     hash_kind(hash, s->kind);
+    if (s->group > 0) {
+        hash_count(hash, s->group);
+        hash_double(hash, s->radius);
+    }
+}
+
+/* Nothing where there is nothing: forests without it keep their keys. */
+static void hash_low(uint64_t *hash, const struct ceduo_stand *stand)
+{
+    struct wood_kind kind;
+    struct wood_stratum stratum;
+    if (stand->stumps.per_ha > 0) {
+        stratum = stump_stratum(stand, &kind);
+        hash_count(hash, kind.by_hit.glancing > 0 ? 2 : 1);
+        hash_stratum(hash, &stratum);
+    }
+    if (stand->logs.per_ha > 0) {
+        stratum = log_stratum(stand, &kind);
+        hash_count(hash, 3);
+        hash_stratum(hash, &stratum);
+    }
 }
 
 static void hash_stems(uint64_t *hash, const struct ceduo_stand *stand)
@@ -274,6 +332,7 @@ static void hash_stems(uint64_t *hash, const struct ceduo_stand *stand)
         struct wood_stratum stratum = tree_stratum(stand, i, &kind);
         hash_stratum(hash, &stratum);
     }
+    hash_low(hash, stand);
 }
 
 static void hash_contacts(uint64_t *hash, const struct ceduo_stand *stand, enum ceduo_rule rule, double mass)

@@ -25,6 +25,8 @@ struct wood_kind {
 struct wood_stratum {
     double still, per_b; /* hashed as they stand */
     const struct wood_kind *kind; /* NULL: stools */
+    unsigned group;               /* trees of a group; 0: each by itself */
+    double radius;                /* m: of the disc in which they stand */
 };
 
 /* The stools of a belt: a ring of n shoots, or with chance `more` of one shoot more. */
@@ -54,6 +56,8 @@ struct wood {
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */
+    bool grouped;               /* there are groups of trees */
+    double group_reach;         /* m: the largest radius of any of those */
     size_t places;              /* 2^k - 1: far more stools than a rock can be among at a time */
     struct wood_kind *kinds;
     struct wood_stratum *strata_room;

@@ -100,9 +100,9 @@ void ceduo_derive_controls(struct deriver *d)
 
 static enum ceduo_system system_of(const struct ceduo_stand *stand)
 {
-    return ceduo_stand_has_shoots(stand) ? CEDUO_SIMPLE_COPPICE
-           : ceduo_stand_is_bare(stand)  ? CEDUO_BARE
-                                         : CEDUO_HIGH_FOREST;
+    return ceduo_stand_has_shoots(stand)   ? CEDUO_SIMPLE_COPPICE
+           : ceduo_stand_has_stems(stand) ? CEDUO_HIGH_FOREST
+                                          : CEDUO_BARE;
 }
 
 /* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
@@ -117,6 +117,34 @@ static void check_spreads(struct deriver *d, const char *path, const char *list,
                 stems[i].dbh_sd, stems[i].dbh);
 }
 
+/* Whether a value that is needed is not there; one that could not be read is told already. */
+static bool lacks(struct deriver *d, double value, const char *path, const char *key)
+{
+    return isnan(value) && ceduo_derive_known(d, "%s%s", path, key);
+}
+
+/* Of what is in the way besides stems no figure is assumed. */
+static void check_low(struct deriver *d, const char *path, const struct ceduo_stand *s)
+{
+    const struct ceduo_stumps *t = &s->stumps;
+    const struct ceduo_logs *l = &s->logs;
+    if (t->per_ha > 0 && (lacks(d, t->diameter, path, ".stumps.diameter_m") ||
+                          lacks(d, t->height, path, ".stumps.height_m") || lacks(d, t->energy, path, ".stumps.energy_kJ")))
+        ceduo_derive_refuse(d, path, ".stumps",
+                            _("stumps need diameter_m, height_m and energy_kJ; nothing is assumed here"), 0, 0);
+    if (l->per_ha > 0 && (lacks(d, l->length, path, ".logs.length_m") ||
+                          lacks(d, l->diameter, path, ".logs.diameter_m") || lacks(d, l->energy, path, ".logs.energy_kJ")))
+        ceduo_derive_refuse(d, path, ".logs",
+                            _("logs need length_m, diameter_m and energy_kJ; nothing is assumed here"), 0, 0);
+    for (size_t i = 0; i < s->trees_count; i++) {
+        const char *groups = ceduo_derive_text(d, "%s.trees[%zu].groups", path, i);
+        if (s->trees[i].group > 1 && lacks(d, s->trees[i].group_radius, groups, ".radius_m"))
+            ceduo_derive_refuse(d, groups, "",
+                                _("groups of %s trees need radius_m, the radius of the disc in which they stand"),
+                                s->trees[i].group, 0);
+    }
+}
+
 static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand *s)
 {
     if ((int)s->system < 0)
@@ -126,11 +154,12 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_derive_known(d, "%s.growth.shoots_young", path))
         ceduo_derive_refuse(d, path, ".growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
                             s->growth.shoots_young, s->growth.shoots_old);
-    if (s->system == CEDUO_BARE && !ceduo_stand_is_bare(s))
+    if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or remove them"), 0,
                             0);
     check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(d, path, "trees", s->trees, s->trees_count);
+    check_low(d, path, s);
     if (!ceduo_derive_known(d, "%s.stools.per_ha", path) || !ceduo_derive_known(d, "%s.shoots", path))
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MOST)

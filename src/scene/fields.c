@@ -241,23 +241,66 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
 
 /* ---- stand ---- */
 
-static const struct field stems_fields[] = {
-    NUMBER("per_ha", USUAL(N_("per hectare"), N_("per ha"), 0, 50000),
-        AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED, NULL,
-           N_("stems per horizontal hectare")),
-    NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2),
-        AT(ceduo_stems, dbh), "m", 0, 10, REQUIRED | ABOVE, NULL, N_("diameter at breast height")),
-    NUMBER("height_m", USUAL(N_("height, m"), N_("height m"), 0.5, 50),
-        AT(ceduo_stems, height), "m", 0, 150, REQUIRED | ABOVE, NULL, N_("height of a stem")),
-    NUMBER("volume_m3", USUAL(N_("volume, m3"), N_("vol. m3"), 0, 30),
-        AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE, NULL,
-           N_("volume of a stem; without it from species, dbh and height")),
-    NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5),
-        AT(ceduo_stems, dbh_sd), "m", 0, 10, 0, "0", N_("standard deviation of the diameters")),
-    NUMBER("age_y", USUAL(N_("age, years"), N_("age y"), 0, 500),
-        AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL, N_("age")),
-};
+/* Of shoots as of trees. */
+#define STEM_ROWS \
+    NUMBER("per_ha", USUAL(N_("per hectare"), N_("per ha"), 0, 50000), \
+        AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED, NULL, \
+           N_("stems per horizontal hectare")), \
+    NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), \
+        AT(ceduo_stems, dbh), "m", 0, 10, REQUIRED | ABOVE, NULL, N_("diameter at breast height")), \
+    NUMBER("height_m", USUAL(N_("height, m"), N_("height m"), 0.5, 50), \
+        AT(ceduo_stems, height), "m", 0, 150, REQUIRED | ABOVE, NULL, N_("height of a stem")), \
+    NUMBER("volume_m3", USUAL(N_("volume, m3"), N_("vol. m3"), 0, 30), \
+        AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE, NULL, \
+           N_("volume of a stem; without it from species, dbh and height")), \
+    NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5), \
+        AT(ceduo_stems, dbh_sd), "m", 0, 10, 0, "0", N_("standard deviation of the diameters")), \
+    NUMBER("age_y", USUAL(N_("age, years"), N_("age y"), 0, 500), \
+        AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL, N_("age"))
+
+static const struct field stems_fields[] = {STEM_ROWS};
 static const struct object stems_object = OBJECT(ceduo_stems, stems_fields, NULL);
+
+static const struct field groups_fields[] = {
+    NUM(FIELD_COUNT, "stems", USUAL(N_("trees in a group"), N_("in group"), 1, 30),
+        AT(ceduo_stems, group), "", 1, 1, 200, 0, "1",
+        N_("trees that stand together in a group; 1: each by itself")),
+    NUMBER("radius_m", USUAL(N_("radius of a group, m"), N_("radius m"), 0.5, 30),
+        AT(ceduo_stems, group_radius), "m", 0, 100, 0, NULL,
+           N_("radius of the disc in which the trees of a group stand at random")),
+};
+static const struct object groups_object = OBJECT(ceduo_stems, groups_fields, NULL);
+
+static const struct field trees_fields[] = {
+    STEM_ROWS,
+    GROUP("groups", NAMED(N_("groups"), NULL),
+        SAME, 0, N_("trees kept in groups; per_ha still counts trees"), &groups_object),
+};
+static const struct object trees_object = OBJECT(ceduo_stems, trees_fields, NULL);
+
+static const struct field stumps_fields[] = {
+    NUMBER("per_ha", USUAL(N_("stumps per ha"), NULL, 0, 10000),
+        AT(ceduo_stumps, per_ha), "1/ha", 0, 1e6, ZERO, NULL, N_("stumps per horizontal hectare")),
+    NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2),
+        AT(ceduo_stumps, diameter), "m", 0, 10, ABOVE, NULL, N_("diameter of a stump")),
+    NUMBER("height_m", USUAL(N_("height, m"), NULL, 0.02, 2),
+        AT(ceduo_stumps, height), "m", 0, 20, ABOVE, NULL, N_("height of a stump: a rock higher above the ground flies over")),
+    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), NULL, 0, 500),
+        AT(ceduo_stumps, energy), "kJ", 1000, 0, 1e6, 0, NULL, N_("energy that a hit of a stump takes from the rock")),
+};
+static const struct object stumps_object = OBJECT(ceduo_stumps, stumps_fields, NULL);
+
+static const struct field logs_fields[] = {
+    NUMBER("per_ha", USUAL(N_("logs per ha"), NULL, 0, 2000),
+        AT(ceduo_logs, per_ha), "1/ha", 0, 1e6, ZERO, NULL, N_("lying logs per horizontal hectare")),
+    NUMBER("length_m", USUAL(N_("length, m"), NULL, 0.5, 40),
+        AT(ceduo_logs, length), "m", 0, 150, ABOVE, NULL, N_("length of a log, which lies at a random angle")),
+    NUMBER("diameter_m", CENTIMETRES(N_("diameter, cm"), NULL, 0.02, 2),
+        AT(ceduo_logs, diameter), "m", 0, 10, ABOVE, NULL, N_("diameter of a log: a rock higher above the ground flies over")),
+    NUM(FIELD_NUMBER, "energy_kJ", USUAL(N_("takes, kJ"), NULL, 0, 500),
+        AT(ceduo_logs, energy), "kJ", 1000, 0, 1e6, 0, NULL, N_("energy that a hit of a log takes from the rock")),
+};
+static const struct object logs_object = OBJECT(ceduo_logs, logs_fields, NULL);
 
 static const struct field stools_fields[] = {
     NUMBER("per_ha", USUAL(N_("stools per ha"), NULL, 0, 10000),
@@ -330,6 +373,9 @@ static const struct field growth_fields[] = {
     NUMBER("sdi_most", NAMED(N_("greatest density"), NULL),
         AT(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
            N_("stand density index to which shoots thin themselves; 0 or absent: they do not")),
+    NUM(FIELD_COUNT, "stump_years", USUAL(N_("stumps stay, years"), NULL, 0, 100),
+        AT(ceduo_growth, stump_years), "y", 1, 0, 500, YEARS, "0",
+        N_("years for which the stumps of a cut stay")),
 };
 static const struct object growth_object = OBJECT(ceduo_growth, growth_fields, NULL);
 
@@ -365,7 +411,11 @@ static const struct field stand_fields[] = {
         LIST(ceduo_stand, shoots, shoots_count), 0, N_("cohorts of shoots on the stools"), &stems_object),
     ITEMS("trees", NAMED(N_("trees"), NULL),
         LIST(ceduo_stand, trees, trees_count), 0, N_("classes of single trees: standards, reserves"),
-          &stems_object),
+          &trees_object),
+    GROUP("stumps", NAMED(N_("stumps"), NULL),
+        AT(ceduo_stand, stumps), 0, N_("stumps that a cut leaves"), &stumps_object),
+    GROUP("logs", NAMED(N_("logs"), NULL),
+        AT(ceduo_stand, logs), 0, N_("logs that lie about"), &logs_object),
     GROUP("energy", NAMED(N_("energy"), NULL),
         SAME, 0, N_("energy of a contact"), &energy_object),
     GROUP("growth", NAMED(N_("growth"), NULL),

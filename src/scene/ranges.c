@@ -24,6 +24,8 @@ static const struct range ranges[] = {
     {STEMS "volume_m3", CEDUO_INPUT_FACTOR, 0.75, 1.25, {0}, N_("volume tables of single stems; assumed")},
     {"forest[0].stand.energy.u_J_m3", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
     {"forest[0].stand.energy.fracture_ratio", CEDUO_INPUT_FACTOR, 0.8, 1.2, {0}, ASSUMED},
+    {"forest[0].stand.stumps.energy_kJ", CEDUO_INPUT_FACTOR, 0.5, 2, {0}, ASSUMED},
+    {"forest[0].stand.logs.energy_kJ", CEDUO_INPUT_FACTOR, 0.5, 2, {0}, ASSUMED},
     {"forest[0].stand.energy.model", CEDUO_INPUT_WORDS, NAN, NAN, {"brauner", "dorren"},
      N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")},
 };
@@ -34,10 +36,16 @@ const struct range *ceduo_ranges(size_t *n)
     return ranges;
 }
 
+/* Rows of shoots and trees are the same twice. */
+static bool is_row(const struct field *a, const struct field *b)
+{
+    return a == b || (strcmp(a->key, b->key) == 0 && strcmp(a->meaning, b->meaning) == 0);
+}
+
 const struct range *ceduo_range_of(const struct field *field)
 {
     for (size_t i = 0; field && i < sizeof ranges / sizeof ranges[0]; i++)
-        if (ceduo_schema_at(ranges[i].path) == field)
+        if (is_row(ceduo_schema_at(ranges[i].path), field))
             return &ranges[i];
     return NULL;
 }

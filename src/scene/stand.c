@@ -41,9 +41,19 @@ bool ceduo_stand_has_shoots(const struct ceduo_stand *stand)
     return ceduo_stand_shoots(stand) > 0;
 }
 
+bool ceduo_stand_has_stems(const struct ceduo_stand *stand)
+{
+    return ceduo_stand_has_shoots(stand) || ceduo_stand_trees(stand) > 0;
+}
+
 bool ceduo_stand_is_bare(const struct ceduo_stand *stand)
 {
-    return !ceduo_stand_has_shoots(stand) && !(ceduo_stand_trees(stand) > 0);
+    return !ceduo_stand_has_stems(stand) && !(stand->stumps.per_ha > 0) && !(stand->logs.per_ha > 0);
+}
+
+bool ceduo_stems_are_grouped(const struct ceduo_stems *stems)
+{
+    return stems->group > 1 && stems->per_ha > 0;
 }
 
 double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from)

@@ -9,6 +9,32 @@
 #include "model/changes.h"
 #include "scene/words.h"
 
+/* Of each class of trees. The radius comes first: a group must have one. */
+static void put_groups(struct form *form, const struct document *d, const char *list, size_t classes)
+{
+    static const char *const keys[] = {"groups.radius_m", "groups.stems"};
+    const struct object *trees = ceduo_schema_field(ceduo_schema_stand(), "trees")->object;
+    for (size_t i = 0; i < classes; i++)
+        for (size_t k = 0; k < 2; k++) {
+            char item[2 * FORM_PATH], label[64];
+            snprintf(item, sizeof item, "%.180s[%zu]", list, i);
+            snprintf(label, sizeof label, k == 0 ? _("%zu: radius, m") : _("%zu: in a group"), i + 1);
+            ceduo_form_field(form, d, trees, item, keys[k], label);
+        }
+}
+
+/* How many there are comes last: then nothing of them may be missing. */
+static void put_low(struct form *form, const struct document *d, const char *path, const char *what)
+{
+    const struct object *fields = ceduo_schema_field(ceduo_schema_stand(), what)->object;
+    char key[64];
+    for (size_t i = 0; i < fields->n; i++) {
+        const struct field *f = &fields->fields[(i + 1) % fields->n];
+        snprintf(key, sizeof key, "%s.%s", what, f->key);
+        ceduo_form_field(form, d, ceduo_schema_stand(), path, key, NULL);
+    }
+}
+
 static void build(struct app *app, struct form *form)
 {
     static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
@@ -39,6 +65,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     snprintf(list, sizeof list, "%s.trees", path);
     ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
+    put_groups(form, d, list, ceduo_app_option(app)->belts[app->belt].stand.trees_count);
     ceduo_form_heading(form, _("Energy of a contact"));
     ceduo_form_field(form, d, stand, path, "energy.model", NULL);
     ceduo_form_field(form, d, stand, path, "energy.u_J_m3", NULL);
@@ -47,6 +74,10 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "energy.glancing", NULL);
     ceduo_form_field(form, d, stand, path, "energy.hit_below_m", NULL);
     ceduo_form_rest(form, d, stand, path, "energy");
+    ceduo_form_heading(form, _("Stumps"));
+    put_low(form, d, path, "stumps");
+    ceduo_form_heading(form, _("Lying logs"));
+    put_low(form, d, path, "logs");
     ceduo_form_field(form, d, stand, path, "name", NULL);
 }
 

@@ -461,6 +461,9 @@ static const struct ceduo_figure stand_result[] = {
     {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO,
      .null = SHARES},
     {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO, .null = SHARES},
+    {"grouped_per_ha", "1/ha", "single trees that stand in groups", AT(stand_result, grouped_per_ha)},
+    {"stumps_per_ha", "1/ha", "stumps", AT(stand_result, stumps_per_ha)},
+    {"logs_per_ha", "1/ha", "lying logs", AT(stand_result, logs_per_ha)},
     END};
 
 #define SILENT "the rules say nothing of its species"

@@ -65,13 +65,14 @@ static bool clear_of_others(const struct plan *p, const struct foot *f)
     return true;
 }
 
-/* A place for a circle; the last of the tries where none is clear. */
-static struct foot find_place(struct plan *p, struct generator *g, double radius)
+/* A place for a circle, anywhere or in a disc; the last of the tries where none is clear. */
+static struct foot find_place(struct plan *p, struct generator *g, double radius, const struct foot *disc)
 {
     struct foot f = {.radius = radius};
     for (int i = 0; i < TRIES; i++) {
-        f.x = uniform(g) * p->width;
-        f.y = uniform(g) * p->height;
+        double u = uniform(g), v = uniform(g);
+        f.x = disc ? disc->x + disc->radius * sqrt(u) * cos(2 * M_PI * v) : u * p->width;
+        f.y = disc ? disc->y + disc->radius * sqrt(u) * sin(2 * M_PI * v) : v * p->height;
         if (p->feet_count > CROWD || clear_of_others(p, &f))
             break;
     }
@@ -112,7 +113,7 @@ static void draw_stool(struct plan *p, uint64_t number)
     double mean = ceduo_stand_shoots(p->stand) / p->stand->stools_per_ha, u = uniform(&g), turn = uniform(&g);
     int n = (int)fmin(floor(mean) + (u < mean - floor(mean)), 200);
     double ring = n > 1 ? ceduo_stool_radius((unsigned)n, p->stand->spacing) : 0;
-    struct foot f = find_place(p, &g, ring + thickest(p->stand) / 2);
+    struct foot f = find_place(p, &g, ring + thickest(p->stand) / 2, NULL);
     bool met = n > 0 && in_strip(p, f.y, f.radius);
     enum ceduo_role role = met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STOOL;
     p->met += met;
@@ -124,13 +125,38 @@ static void draw_stool(struct plan *p, uint64_t number)
     }
 }
 
-static void draw_tree(struct plan *p, uint64_t number, const struct ceduo_stems *stems)
+/* Tree i of class k; those of a group around a place of their own. */
+static void draw_tree(struct plan *p, size_t k, size_t i)
 {
-    struct generator g = {number};
-    struct foot f = find_place(p, &g, stems->dbh / 2);
+    const struct ceduo_stems *stems = &p->stand->trees[k];
+    bool grouped = ceduo_stems_are_grouped(stems);
+    struct generator g = {((uint64_t)(k + 1) << 32) + i};
+    struct generator around = {((uint64_t)(k + 1) << 48) + (grouped ? i / stems->group : i)};
+    struct foot disc = {.radius = stems->group_radius};
+    disc.x = uniform(&around) * p->width;
+    disc.y = uniform(&around) * p->height;
+    struct foot f = find_place(p, &g, stems->dbh / 2, grouped ? &disc : NULL);
     bool met = in_strip(p, f.y, f.radius);
     p->met += met;
     ceduo_canvas_disc(p->canvas, &p->frame, met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STEM, f.x, f.y, f.radius);
+}
+
+/* Stumps and logs: under what stands. */
+static void draw_low(struct plan *p)
+{
+    const struct ceduo_stumps *s = &p->stand->stumps;
+    const struct ceduo_logs *l = &p->stand->logs;
+    struct generator g = {(uint64_t)1 << 60};
+    for (size_t i = 0, n = count_in(p, s->per_ha); i < n; i++) {
+        double x = uniform(&g) * p->width, y = uniform(&g) * p->height;
+        ceduo_canvas_disc(p->canvas, &p->frame, CEDUO_ROLE_DIM, x, y, s->diameter / 2);
+    }
+    g.state = (uint64_t)1 << 61;
+    for (size_t i = 0, n = count_in(p, l->per_ha); i < n; i++) {
+        double x = uniform(&g) * p->width, y = uniform(&g) * p->height, angle = M_PI * uniform(&g);
+        double dx = l->length / 2 * cos(angle), dy = l->length / 2 * sin(angle);
+        ceduo_canvas_line(p->canvas, &p->frame, CEDUO_ROLE_DIM, x - dx, y - dy, x + dx, y + dy);
+    }
 }
 
 static void draw_stems(struct plan *p)
@@ -144,7 +170,7 @@ static void draw_stems(struct plan *p)
         return;
     for (size_t k = 0; k < s->trees_count; k++)
         for (size_t i = 0, n = count_in(p, s->trees[k].per_ha); i < n; i++)
-            draw_tree(p, ((uint64_t)(k + 1) << 32) + i, &s->trees[k]);
+            draw_tree(p, k, i);
     for (size_t i = 0; i < stools; i++)
         draw_stool(p, i);
     free(p->feet);
@@ -160,7 +186,7 @@ static void draw_strip(const struct plan *p)
 
 static void put_words(const struct plan *p, const struct ceduo_area *area)
 {
-    if (ceduo_stand_is_bare(p->stand)) {
+    if (!ceduo_stand_has_stems(p->stand)) {
         ceduo_canvas_put(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
                        _("No stems: nothing stands in a rock's way."));
         return;
@@ -175,6 +201,7 @@ static void put_words(const struct plan *p, const struct ceduo_area *area)
 
 static void draw_pattern(struct plan *p, const struct ceduo_area *area, bool words)
 {
+    draw_low(p);
     draw_stems(p);
     draw_strip(p);
     ceduo_canvas_axis_bottom(p->canvas, &p->frame, _("m"));

@@ -100,6 +100,11 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                    belt->name);
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
         say_format(say, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."), belt->name);
+    if (r->warnings & CEDUO_WARN_LOW)
+        say_format(say, context,
+                   _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
+                     "not count them: a rock flies over them."),
+                   belt->name);
     if (r->warnings & CEDUO_WARN_INERTIA)
         say_format(say, context,
                    _("%s: the energy law inertia is an assumption. A contact takes a share of what the rock has, so that "

@@ -87,6 +87,11 @@ USUAL = {
     "forest[].stand.trees[].age_y": (1, 150),
     "forest[].stand.energy.u_J_m3": (3e4, 2e5), "forest[].stand.energy.fracture_ratio": (0.5, 3),
     "forest[].stand.energy.hit_below_m": (0.5, 5), "forest[].stand.energy.green_density_kg_m3": (600, 1200),
+    "forest[].stand.trees[].groups.stems": (2, 12), "forest[].stand.trees[].groups.radius_m": (0.5, 10),
+    "forest[].stand.stumps.per_ha": (50, 4000), "forest[].stand.stumps.diameter_m": (0.05, 0.5),
+    "forest[].stand.stumps.height_m": (0.05, 0.6), "forest[].stand.stumps.energy_kJ": (0.1, 20),
+    "forest[].stand.logs.per_ha": (5, 200), "forest[].stand.logs.length_m": (1, 12),
+    "forest[].stand.logs.diameter_m": (0.1, 0.6), "forest[].stand.logs.energy_kJ": (0.1, 50),
     "forest[].stand.growth.shoots.dbh_most_m": (0.1, 0.3), "forest[].stand.growth.shoots.dbh_rate_1_y": (0.01, 0.05),
     "forest[].stand.growth.shoots.height_most_m": (8, 20), "forest[].stand.growth.shoots.height_rate_1_y": (0.02, 0.06),
     "forest[].stand.growth.trees.dbh_most_m": (0.3, 0.8), "forest[].stand.growth.trees.dbh_rate_1_y": (0.01, 0.03),
@@ -490,7 +495,14 @@ class Maker:
             self.stools(stand)
         if kind in ("trees", "both"):
             self.trees(stand)
-        self.fill(node, stand, ("base", "stools", "shoots", "trees"))
+        self.fill(node, stand, ("base", "stools", "shoots", "trees", "doubt"))
+        for low in ("stumps", "logs"):  # all of it, or nothing
+            for key in node[low]:
+                if low in stand and key not in stand[low]:
+                    self.value(node[low][key], stand[low])
+        for trees in stand.get("trees", []):
+            if trees.get("groups", {}).get("stems", 1) > 1 and "radius_m" not in trees["groups"]:
+                self.value(node["trees[]"]["groups"]["radius_m"], trees["groups"])
         if kind != "bare" and stand.get("system") == "bare":
             del stand["system"]
         growth = stand.get("growth", {})

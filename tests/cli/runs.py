@@ -20,7 +20,7 @@ ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUM
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
             "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED,
             "hazard": NULL}  # without blocks
-INDEX = {"dissipated_kJ": NUMBER, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
+INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "reach_probability": NUMBER, "exceed_probability": MAYBE, "energy_kJ_mean": MAYBE}  # null without stems
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
@@ -31,9 +31,10 @@ STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "st
          "adc": {"rule": TEXT_OR_NULL, "adc_m": MAYBE, "gsteiger_stools_m": MAYBE, "gsteiger_stems_m": MAYBE,
                  "interception_m": MAYBE, "crofton_m": MAYBE},
          "passes_threshold": FLAG, "free_run_probability": NUMBER, "contacts": NUMBER, "energy_per_contact_J": MAYBE,
-         "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": NUMBER, "warnings": [TEXT]}
+         "dissipated_kJ": MAYBE, "dissipated_kJ_per_100m": MAYBE, "grouped_per_ha": NUMBER, "stumps_per_ha": NUMBER,
+         "logs_per_ha": NUMBER, "warnings": [TEXT]}
 SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contacts": NUMBER,
-           "meet_nothing_probability": NUMBER, "dissipated_kJ": NUMBER, "dissipated_kJ_per_100m": MAYBE,
+           "meet_nothing_probability": NUMBER, "dissipated_kJ": MAYBE, "dissipated_kJ_per_100m": MAYBE,
            "passes_threshold": FLAG}
 YIELD = {**{k: NUMBER for k in ("cut_m3_ha_per_year", "standing_m3_ha_mean", "died_m3_ha_per_year")},
          "cuts": [{k: NUMBER for k in ("year", "from_m", "to_m", "stems_per_ha", "volume_m3_ha")}]}  # null without growth

@@ -439,6 +439,12 @@ CASES = {
         "stools: {per_ha: 2000, spacing_m: 0.25}\nshoots:\n  - per_ha: 5000",
         "stools: {per_ha: @@7000, spacing_m: 0.25}\nshoots:\n  - per_ha: 6000"),
     "'bare', but there are stems; name the system or remove them": st("system: simple-coppice", "system: @@bare"),
+    "stumps need diameter_m, height_m and energy_kJ; nothing is assumed here": Set(
+        "forest[0].stand.stumps=@@{per_ha: 300, height_m: 0.2}"),
+    "logs need length_m, diameter_m and energy_kJ; nothing is assumed here": Set(
+        "forest[0].stand.logs=@@{per_ha: 30, length_m: 2, diameter_m: 0.1}"),
+    "groups of 5 trees need radius_m, the radius of the disc in which they stand": Set(
+        "forest[0].stand.trees=[{per_ha: 50, dbh_m: 0.2, height_m: 12, groups: @@{stems: 5}}]"),
     # Changes by --set
     "there is no value after the =": Set("release.height_m=@@"),
     "expected PATH=VALUE": Set("@@rock.diameter_m"),

@@ -234,6 +234,8 @@ static const struct field stand_fields[] = {
     FIELD(ceduo_stand, trees_count, COUNT, WOOD),
     FIELD(ceduo_stand, shoots, ELSEWHERE, 0),
     FIELD(ceduo_stand, trees, ELSEWHERE, 0),
+    FIELD(ceduo_stand, stumps, ELSEWHERE, 0),
+    FIELD(ceduo_stand, logs, ELSEWHERE, 0),
     FIELD(ceduo_stand, energy, WORD, WOOD),
     FIELD(ceduo_stand, u, NUMBER, BRAUNER),
     FIELD(ceduo_stand, fracture_ratio, NUMBER, DORREN),
@@ -248,10 +250,30 @@ static const struct field stems_fields[] = {
     FIELD(ceduo_stems, dbh_sd, NUMBER, WOOD), FIELD(ceduo_stems, age, NUMBER, YEARS),
 };
 
+/* Where some stand in groups. */
+static const struct field group_fields[] = {
+    FIELD(ceduo_stems, group, WORD, WOOD),
+    FIELD(ceduo_stems, group_radius, NUMBER, WOOD),
+};
+
+static const struct field stump_fields[] = {
+    FIELD(ceduo_stumps, per_ha, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_stumps, diameter, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_stumps, height, NUMBER, WOOD),
+    FIELD(ceduo_stumps, energy, NUMBER, WOOD | POISSON),
+};
+
+static const struct field log_fields[] = {
+    FIELD(ceduo_logs, per_ha, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_logs, length, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_logs, diameter, NUMBER, WOOD),
+    FIELD(ceduo_logs, energy, NUMBER, WOOD | POISSON),
+};
+
 static const struct field growth_fields[] = {
     FIELD(ceduo_growth, shoots, ELSEWHERE, 0),        FIELD(ceduo_growth, trees, ELSEWHERE, 0),
     FIELD(ceduo_growth, shoots_young, NUMBER, YEARS), FIELD(ceduo_growth, shoots_old, NUMBER, YEARS),
-    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),
+    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),      FIELD(ceduo_growth, stump_years, WORD, YEARS),
 };
 
 static const struct field curve_fields[] = {
@@ -385,6 +407,33 @@ static void whatever_decides_about_stems_makes_another_forest(void **state)
     walk_simulation(POISSON);
 }
 
+/* What lies low, and groups; what there is none of decides about nothing. */
+static void whatever_decides_about_low_wood_and_groups_makes_another_forest(void **state)
+{
+    (void)state;
+    open_site();
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    uint64_t bare = key_of(STEMS);
+    stand->stumps.energy = stand->logs.energy = site.plots[0].trees.group_radius = 3;
+    EXPECT(key_of(STEMS), ==, bare);
+    stand->stumps = (struct ceduo_stumps){.per_ha = 300, .diameter = .2, .height = .3, .energy = 1e3};
+    stand->logs = (struct ceduo_logs){.per_ha = 300, .length = 2, .diameter = .3, .energy = 1e3};
+    site.plots[0].trees.group = 3;
+    WALK(STEMS, &stand->stumps, stump_fields);
+    WALK(STEMS, &stand->logs, log_fields);
+    WALK(STEMS, &site.plots[0].trees, group_fields);
+    WALK(YEARS, &stand->stumps, stump_fields);
+    uint64_t key = key_of(STEMS);
+    stand->glancing = 1;
+    EXPECT(key_of(STEMS), !=, key);
+    site.scene.simulation.contact_model = CEDUO_POISSON;
+    WALK(POISSON, &stand->stumps, stump_fields);
+    WALK(POISSON, &stand->logs, log_fields);
+    key = key_of(POISSON); /* contacts do not know of groups */
+    site.plots[0].trees.group = 1;
+    EXPECT(key_of(POISSON), ==, key);
+}
+
 /* The same numbers in other places are another forest. */
 static void stems_of_another_sort_make_another_forest(void **state)
 {
@@ -431,6 +480,7 @@ int main(void)
         cmocka_unit_test(whatever_blocks_come_down_makes_another_scene),
         cmocka_unit_test(a_value_in_another_place_makes_another_scene),
         cmocka_unit_test(whatever_decides_about_stems_makes_another_forest),
+        cmocka_unit_test(whatever_decides_about_low_wood_and_groups_makes_another_forest),
         cmocka_unit_test(stems_of_another_sort_make_another_forest),
         cmocka_unit_test(whatever_decides_about_growth_makes_other_years),
     };

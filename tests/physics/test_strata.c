@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What else rocks meet in a stand: stems that take a share (inertia). */
+/* What else rocks meet in a stand: stems that take a share (inertia), stumps, lying logs, trees in groups. */
 #include "expect.h"
 
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
 #include <math.h>
+#include <string.h>
 
 #include "stems_scene.h"
 
@@ -168,6 +171,452 @@ static void the_index_multiplies_shares(void **state)
     EXPECT_NEAR(i.residual, before - amount, 1e-3);
 }
 
+/* ---- stumps and logs ---- */
+
+/* Stumps are met as trees of their height are, whatever the law of the stems, and take their own energy. */
+static void stumps_are_met_as_low_trees(void **state)
+{
+    (void)state;
+    struct spread met = {0};
+    for (int low = 0; low < 2; low++) {
+        clear_plane(520); /* the rock's underside is .95 to 1 m high */
+        struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
+        belt->stand.energy = CEDUO_DORREN;
+        belt->stand.glancing = 0;
+        belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = low ? .9 : 1.1, .energy = 1500};
+        sweep_begin();
+        for (uint64_t number = 0; number < 800; number++) {
+            sweep_rock(number);
+            for (size_t i = 0; i < sweep.count; i++) {
+                const struct ceduo_stem_passed *s = &sweep.stems[i];
+                EXPECT(s->hit, ==, !low);
+                EXPECT(fabs(s->y), <=, (B + .25) / 2);
+                expect_exact("taken", s->taken, low ? 0 : 1500, 1e-12);
+            }
+            if (!low)
+                spread_add(&met, (double)sweep.count / 500);
+        }
+        sweep_end();
+    }
+    expect_mean("stumps per metre", &met, per_metre(900, B + .25));
+}
+
+/* Grazed stumps take no more than 1 - u2 of the energy where the stand says so. */
+static void grazed_stumps_stop_no_rock(void **state)
+{
+    (void)state;
+    clear_plane(520);
+    struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
+    belt->stand.glancing = 1;
+    belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = 5, .energy = 1e12};
+    sweep_begin();
+    for (uint64_t number = 0; number < 100; number++) {
+        sweep_rock(number);
+        EXPECT(sweep.way.end, !=, CEDUO_STOPPED_BY_STEMS);
+        const struct ceduo_stem_passed *s = &sweep.stems[0];
+        double u = 2 * fabs(s->y) / (B + .25);
+        if (sweep.count > 0)
+            EXPECT_NEAR(s->taken / s->before, 1 - u * u, 1e-9);
+    }
+    sweep_end();
+}
+
+/* Of N logs per square metre, drawn at random angles, those that touch a strip as wide as the rock: Buffon. */
+static double drawn_logs_per_metre(double per_ha, double length, gsl_rng *rng)
+{
+    const double along = 4000, half = (B + length) / 2;
+    unsigned n = gsl_ran_poisson(rng, per_ha / 1e4 * along * 2 * half), met = 0;
+    for (unsigned i = 0; i < n; i++) {
+        double y = (2 * gsl_rng_uniform(rng) - 1) * half, tilt = M_PI * gsl_rng_uniform(rng);
+        met += fabs(y) <= B / 2 + length / 2 * sin(tilt);
+    }
+    return met / along;
+}
+
+static void logs_are_met_as_buffons_needles(void **state)
+{
+    (void)state;
+    const double per_ha = 150, length = 4, wanted = per_metre(per_ha, 2 * length / M_PI + B);
+    struct spread met = {0}, drawn = {0};
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    clear_plane(520);
+    struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
+    belt->stand.glancing = 1; /* means nothing to a log */
+    belt->stand.logs = (struct ceduo_logs){.per_ha = per_ha, .length = length, .diameter = 1.2, .energy = 700};
+    sweep_begin();
+    for (uint64_t number = 0; number < 2000; number++) {
+        sweep_rock(number);
+        spread_add(&met, (double)sweep.count / 500);
+        if (number < 500)
+            spread_add(&drawn, drawn_logs_per_metre(per_ha, length, rng));
+        for (size_t i = 0; i < sweep.count; i++)
+            expect_exact("taken", sweep.stems[i].taken, 700, 1e-12);
+    }
+    sweep_end();
+    gsl_rng_free(rng);
+    expect_mean("logs per metre", &met, wanted);
+    expect_mean("logs drawn", &drawn, wanted);
+    belt->stand.logs.diameter = .9; /* lower than the rock is high */
+    sweep_one(1);
+    EXPECT(sweep.count, >, 0);
+    EXPECT(sweep.way.stems_hit, ==, 0);
+}
+
+/* By the index they are strata of their own in every form of the ADC; poisson takes the same; they do not count for the
+ * lights. */
+static void the_index_has_stumps_and_logs(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    struct ceduo_belt belt = site.belts[0];
+    struct ceduo_stand_result before = ceduo_assess_stand(&site.scene, &belt);
+    belt.stand.stumps = (struct ceduo_stumps){.per_ha = 500, .diameter = .2, .height = .1, .energy = 3e3};
+    belt.stand.logs = (struct ceduo_logs){.per_ha = 80, .length = 6, .diameter = .3, .energy = 8e3};
+    struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &belt);
+    double stumps = per_metre(500, B + .2), logs = per_metre(80, B + 12 / M_PI);
+    EXPECT_NEAR(1 / r.adc_m, 1 / before.adc_m + stumps + logs, 1e-12);
+    EXPECT_NEAR(1 / r.adc.crofton, 1 / before.adc.crofton + stumps + logs, 1e-12);
+    EXPECT_NEAR(1 / r.adc.gsteiger_stems, 1 / before.adc.gsteiger_stems + stumps + logs, 1e-12);
+    EXPECT_NEAR(r.dissipated, before.dissipated + 67.5 * (stumps * 3e3 + logs * 8e3), 1e-6);
+    EXPECT(r.free_run_probability, ==, before.free_run_probability);
+    EXPECT(r.stumps_per_ha, ==, 500);
+    EXPECT(r.logs_per_ha, ==, 80);
+    assert_true(r.warnings & CEDUO_WARN_LOW);
+    site.belts[0] = belt;
+    site.scene.simulation.contact_dbh = .065; /* neither do the paper's stems */
+    struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
+    EXPECT(i.contact, ==, CEDUO_FAIL);
+    site.scene.simulation.contact_dbh = 0;
+    belt.stand.shoots_count = belt.stand.trees_count = 0; /* a clearing */
+    belt.stand.stools_per_ha = 0;
+    assert_false(ceduo_stand_is_bare(&belt.stand));
+    r = ceduo_assess_stand(&site.scene, &belt);
+    EXPECT_NEAR(1 / r.adc_m, stumps + logs, 1e-12);
+    EXPECT(r.free_run_probability, ==, 1);
+    assert_false(r.passes_threshold);
+    site.belts[0] = site.belts[1] = belt;
+    site.belts[1].from = site.belts[0].to;
+    site.belts[1].to = 135;
+    i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e6);
+    EXPECT(i.meet_nothing_probability, ==, 1);
+    EXPECT(i.longest_gap, ==, 135);
+    EXPECT_NEAR(i.dissipated, 135 * (stumps * 3e3 + logs * 8e3), 1e-6);
+    belt.stand.energy = CEDUO_INERTIA; /* of which there is nothing here */
+    site.belts[0] = belt;
+    EXPECT_NEAR(ceduo_assess_index(&site.scene, &site.option, &site.control, 1e6).residual, 1e6 - i.dissipated, 1e-6);
+}
+
+static void poisson_takes_stumps_and_logs(void **state)
+{
+    (void)state;
+    struct spread stumps = {0}, logs = {0};
+    clear_plane(520);
+    struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
+    plant_trees(belt, 300, .3);
+    belt->stand.stumps = (struct ceduo_stumps){.per_ha = 500, .diameter = .2, .height = .1, .energy = 3e3};
+    belt->stand.logs = (struct ceduo_logs){.per_ha = 80, .length = 6, .diameter = .3, .energy = 8e3};
+    plane.line.scene.simulation.contact_model = CEDUO_POISSON;
+    sweep_begin();
+    for (uint64_t number = 0; number < 1000; number++) {
+        size_t n = 0, m = 0;
+        sweep_rock(number);
+        for (size_t i = 0; i < sweep.count; i++) {
+            n += fabs(sweep.stems[i].taken - 3e3) < 1e-6;
+            m += fabs(sweep.stems[i].taken - 8e3) < 1e-6;
+        }
+        spread_add(&stumps, (double)n / 500);
+        spread_add(&logs, (double)m / 500);
+    }
+    sweep_end();
+    expect_mean("stumps by poisson", &stumps, per_metre(500, B + .2));
+    expect_mean("logs by poisson", &logs, per_metre(80, B + 12 / M_PI));
+}
+
+/* With amounts beside shares the index solves dE/dx = -k E - w: here by many small steps. */
+static void shares_and_amounts_together(void **state)
+{
+    (void)state;
+    struct paper_site site;
+    paper_site_init(&site);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    stand->energy = CEDUO_INERTIA;
+    stand->green_density = GREEN;
+    stand->stumps = (struct ceduo_stumps){.per_ha = 500, .diameter = .2, .height = .1, .energy = 1e3};
+    double m = 33. / 140 * GREEN * .0107, share = mean_printed_share() * m / (MASS + m), left = 1e5;
+    const int steps = 200000;
+    for (int i = 0; i < steps; i++) {
+        double dx = 67.5 / steps, middle = left;
+        for (int k = 0; k < 2; k++) /* the midpoint rule */
+            middle = left - dx / 2 * (-log1p(-share) / 1.9483462242414016 * middle + per_metre(500, B + .2) * 1e3);
+        left -= dx * (-log1p(-share) / 1.9483462242414016 * middle + per_metre(500, B + .2) * 1e3);
+    }
+    site.option.belts_count = 1;
+    EXPECT_NEAR(ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5).residual, left, 1e-2);
+}
+
+/* ---- groups ---- */
+
+#define TREE 0.3 /* m */
+
+static struct ceduo_belt *plant_groups(double from, double to, double per_ha, unsigned n, double radius)
+{
+    struct ceduo_belt *belt = plant_belt(from, to, 0, 0);
+    struct ceduo_stems *trees = plant_trees(belt, per_ha, TREE);
+    trees->group = n;
+    trees->group_radius = radius;
+    return belt;
+}
+
+/* How many trees of groups a strip of `length` m meets, all drawn in the plane, inside the wood. */
+static unsigned drawn_trees(double per_ha, unsigned n, double radius, double length, gsl_rng *rng)
+{
+    const double half = (B + TREE) / 2, wide = 2 * (half + radius), far = length + 2 * radius;
+    unsigned groups = gsl_ran_poisson(rng, per_ha / n / 1e4 * wide * far), met = 0;
+    for (unsigned g = 0; g < groups; g++) {
+        double x = gsl_rng_uniform(rng) * far - radius, y = (gsl_rng_uniform(rng) - .5) * wide;
+        for (unsigned i = 0; i < n; i++) {
+            double u, v;
+            do {
+                u = 2 * gsl_rng_uniform(rng) - 1;
+                v = 2 * gsl_rng_uniform(rng) - 1;
+            } while (u * u + v * v > 1);
+            met += x + radius * u >= 0 && x + radius * u <= length && fabs(y + radius * v) <= half;
+        }
+    }
+    return met;
+}
+
+struct group_case {
+    unsigned n;
+    double radius, per_ha, threshold;
+};
+
+/* The chance of a free run by quadrature beside 10^5 strips drawn in the plane, and beside what rocks meet; and how many
+ * they meet, with the variance that clumps have. */
+static void free_runs_past_groups(void **state)
+{
+    (void)state;
+    static const struct group_case cases[] = {{2, .1, 600, 10}, {5, 2, 400, 30}, {6, 4, 300, 20},
+                                              {10, 8, 500, 30}, {5, 12, 300, 15}, {30, 3, 900, 4}};
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (size_t k = 0; k < LENGTH(cases); k++) {
+        const struct group_case *c = &cases[k];
+        char what[80];
+        uint64_t free = 0, flown = 0, strips = 100000, rocks = 10000;
+        struct spread met = {0}, drawn = {0};
+        clear_plane(120);
+        struct ceduo_belt *belt = plant_groups(10, 110, c->per_ha, c->n, c->radius);
+        plane.line.scene.simulation.threshold = c->threshold;
+        double wanted = ceduo_assess_stand(&plane.line.scene, belt).free_run_probability;
+        for (uint64_t i = 0; i < strips; i++) {
+            unsigned n = drawn_trees(c->per_ha, c->n, c->radius, c->threshold, rng);
+            free += n == 0;
+            spread_add(&drawn, n);
+        }
+        snprintf(what, sizeof what, "%u trees in %g m, %g m drawn", c->n, c->radius, c->threshold);
+        expect_share(what, free, strips, wanted);
+        sweep_begin();
+        for (uint64_t number = 0; number < rocks; number++) {
+            size_t n = 0;
+            sweep_rock(number);
+            for (size_t i = 0; i < sweep.count; i++)
+                n += sweep.stems[i].x >= 60 - c->threshold / 2 && sweep.stems[i].x <= 60 + c->threshold / 2;
+            flown += n == 0;
+            spread_add(&met, (double)n);
+        }
+        sweep_end();
+        snprintf(what, sizeof what, "%u trees in %g m, flown", c->n, c->radius);
+        expect_share(what, flown, rocks, wanted);
+        expect_mean(what, &met, c->threshold * per_metre(c->per_ha, B + TREE));
+        expect_close(what, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
+                     spread_variance_se(&drawn));
+    }
+    gsl_rng_free(rng);
+}
+
+/* A belt is as dense at its ends as elsewhere, and none of its trees stands outside; of the whole belt the chance to meet
+ * nothing is that of the summary. */
+static void groups_keep_to_their_belt(void **state)
+{
+    (void)state;
+    struct spread first = {0}, last = {0}, all = {0};
+    uint64_t none = 0;
+    const uint64_t rocks = 20000;
+    clear_plane(80);
+    plant_groups(20, 50, 400, 5, 4);
+    plane.line.scene.release.x.mean = 0;
+    struct ceduo_control end = {.x = 60, .accepted = NAN, .measured_speed = NAN};
+    struct ceduo_index index = ceduo_assess_index(&plane.line.scene, &plane.line.option, &end, 1e5);
+    sweep_begin();
+    for (uint64_t number = 0; number < rocks; number++) {
+        size_t a = 0, b = 0;
+        sweep_rock(number);
+        for (size_t i = 0; i < sweep.count; i++) {
+            EXPECT(sweep.stems[i].x, >=, 20);
+            EXPECT(sweep.stems[i].x, <=, 50);
+            a += sweep.stems[i].x < 22;
+            b += sweep.stems[i].x > 48;
+        }
+        none += sweep.count == 0;
+        spread_add(&first, (double)a / 2);
+        spread_add(&last, (double)b / 2);
+        spread_add(&all, (double)sweep.count / 30);
+        assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is one by itself */
+        assert_int_equal(different(false), sweep.count);
+    }
+    sweep_end();
+    expect_mean("per metre", &all, per_metre(400, B + TREE));
+    expect_mean("per metre at the first end", &first, per_metre(400, B + TREE));
+    expect_mean("per metre at the last end", &last, per_metre(400, B + TREE));
+    expect_share("nothing met in the belt", none, rocks, index.meet_nothing_probability);
+}
+
+/* Groups around the release: as many trees before the rock as behind it, whichever way it goes. */
+static void groups_stand_around_the_release(void **state)
+{
+    (void)state;
+    for (int way = -1; way <= 1; way += 2) {
+        struct spread met = {0};
+        clear_plane(120);
+        plant_groups(10, 110, 400, 5, 6);
+        line_scene_release(&plane.line, 60, 1, way * 1200., 0, 0);
+        sweep_begin();
+        for (uint64_t number = 0; number < 10000; number++) {
+            size_t n = 0;
+            sweep_rock(number);
+            for (size_t i = 0; i < sweep.count; i++) {
+                double on = (sweep.stems[i].x - 60) * way;
+                EXPECT(on, >=, 0);
+                n += on < 8;
+            }
+            spread_add(&met, (double)n / 8);
+        }
+        sweep_end();
+        expect_mean("per metre beside the release", &met, per_metre(400, B + TREE));
+    }
+}
+
+/* radius 0: n trees at one place; a very large one: single trees. */
+static void limits_of_groups(void **state)
+{
+    (void)state;
+    clear_plane(520);
+    const double rate = per_metre(400, B + TREE);
+    struct ceduo_belt *belt = plant_groups(10, 510, 400, 5, 0);
+    struct ceduo_control end = {.x = 515, .accepted = NAN, .measured_speed = NAN};
+    plane.line.scene.simulation.threshold = 12;
+    struct ceduo_stand_result r = ceduo_assess_stand(&plane.line.scene, belt);
+    EXPECT_NEAR(r.free_run_probability, exp(-12 * rate / 5), 1e-12);
+    EXPECT(r.grouped_per_ha, ==, 400);
+    EXPECT_NEAR(ceduo_assess_index(&plane.line.scene, &plane.line.option, &end, 1e5).meet_nothing_probability,
+                exp(-500 * rate / 5), 1e-12);
+    EXPECT_NEAR(1 / r.adc_m, rate, 1e-12); /* contacts are those of single trees */
+    sweep_begin();
+    for (uint64_t number = 0; number < 200; number++) {
+        sweep_rock(number);
+        EXPECT(sweep.count % 5, ==, 0);
+        for (size_t i = 0; i < sweep.count; i++)
+            EXPECT(sweep.stems[i].x, ==, sweep.stems[i - i % 5].x);
+    }
+    sweep_end();
+    belt->stand.trees[0].group_radius = 1e-4;
+    EXPECT_NEAR(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, exp(-12 * rate / 5), 1e-4);
+    belt->stand.trees[0].group_radius = 100;
+    EXPECT_NEAR(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, exp(-12 * rate), 1e-3);
+    belt->stand.trees[0].group = 1; /* each by itself */
+    EXPECT(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, ==, exp(-12 / r.adc.crofton));
+    belt->stand.trees[0].group = 5; /* thinner than what counts */
+    plane.line.scene.simulation.contact_dbh = .5;
+    EXPECT(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, ==, 1);
+}
+
+/* Diameters that spread: as many are met as of single trees. */
+static void groups_of_trees_that_differ(void **state)
+{
+    (void)state;
+    struct spread met = {0};
+    clear_plane(520);
+    struct ceduo_belt *belt = plant_groups(10, 510, 300, 4, 5);
+    belt->stand.trees[0].dbh_sd = .12;
+    plant_shoots(belt, 900, .1); /* and stools among them, */
+    belt->stand.stools_per_ha = 300;
+    belt->stand.spacing = .4;
+    sweep_begin();
+    for (uint64_t number = 0; number < 2000; number++) {
+        size_t n = 0;
+        sweep_rock(number);
+        for (size_t i = 0; i < sweep.count; i++) {
+            n += !sweep.stems[i].shoot;
+            EXPECT(fabs(sweep.stems[i].y), <=, (B + sweep.stems[i].dbh) / 2);
+            EXPECT(sweep.stems[i].x, >=, sweep.stems[i > 0 ? i - 1 : 0].x); /* in the order they stand */
+        }
+        spread_add(&met, (double)n / 500);
+    }
+    sweep_end();
+    expect_mean("trees per metre", &met, per_metre(300, B + TREE));
+}
+
+/* ---- years ---- */
+
+static void stumps_and_groups_over_the_years(void **state)
+{
+    (void)state;
+    static double stay[] = {40};
+    const struct ceduo_curve curve = {.dbh_most = .3, .dbh_rate = .03, .height_most = 15, .height_rate = .05};
+    struct ceduo_stems shoots = {.per_ha = 4000, .dbh = .06, .height = 6, .volume = NAN, .age = 4};
+    struct ceduo_stems trees[] = {{.per_ha = 20, .dbh = .4, .height = 15, .volume = NAN, .age = 60},
+                                  {.per_ha = 40, .dbh = .2, .height = 12, .volume = NAN, .age = 30, .group = 8,
+                                   .group_radius = 3}};
+    struct ceduo_stand stand = {.species = -1, .stools_per_ha = 1000, .spacing = .3, .shoots = &shoots,
+                                .shoots_count = 1, .trees = trees, .trees_count = 2,
+                                .growth = {.shoots = curve, .trees = curve, .shoots_young = 6, .shoots_old = 3,
+                                           .stump_years = 7},
+                                .cutting = {.rotation = 20, .stay_count = 1, .stay_per_ha = stay},
+                                .stumps = {.per_ha = 900, .diameter = .1, .height = .2, .energy = 1e3}};
+    struct ceduo_grown_stand grown;
+    for (unsigned year = 0; year < 40; year++) {
+        assert_int_equal(ceduo_stand_at(&stand, NAN, year, &grown), CEDUO_OK);
+        /* the last cut was 4 years before year 0; the next is in year 16 */
+        unsigned since = year < 16 ? year + 4 : (year - 16) % 20;
+        EXPECT(grown.stand.stumps.per_ha, ==, year == 0 || since < 7 ? 900 : 0);
+        const struct ceduo_stems *last = &grown.stand.trees[grown.stand.trees_count - 1];
+        EXPECT(last->group, ==, 8);
+        EXPECT(last->group_radius, ==, 3);
+        ceduo_grown_stand_release(&grown);
+    }
+    stand.growth.stump_years = 0;
+    assert_int_equal(ceduo_stand_at(&stand, NAN, 0, &grown), CEDUO_OK);
+    EXPECT(grown.stand.stumps.per_ha, ==, 900); /* as filed */
+    ceduo_grown_stand_release(&grown);
+    assert_int_equal(ceduo_stand_at(&stand, NAN, 16, &grown), CEDUO_OK);
+    EXPECT(grown.stand.stumps.per_ha, ==, 0);
+    ceduo_grown_stand_release(&grown);
+    stand.growth.stump_years = 7;
+    shoots.age = NAN;
+    shoots.dbh = .5; /* as thick as they get: it was cut long ago */
+    assert_int_equal(ceduo_stand_at(&stand, INFINITY, 1, &grown), CEDUO_OK);
+    EXPECT(grown.stand.stumps.per_ha, ==, 0);
+    ceduo_grown_stand_release(&grown);
+    stand.shoots_count = 0; /* cut just before year 0 */
+    assert_int_equal(ceduo_stand_at(&stand, INFINITY, 6, &grown), CEDUO_OK);
+    EXPECT(grown.stand.stumps.per_ha, ==, 900);
+    ceduo_grown_stand_release(&grown);
+    memset(&stand.growth, 0, sizeof stand.growth); /* nothing is known: all stays */
+    assert_int_equal(ceduo_stand_at(&stand, INFINITY, 30, &grown), CEDUO_OK);
+    EXPECT(grown.stand.stumps.per_ha, ==, 900);
+    ceduo_grown_stand_release(&grown);
+    stand.growth.stump_years = 7;
+    stand.growth.trees = curve;
+    stand.growth.shoots = curve;
+    stand.growth.shoots_old = 3;
+    stand.trees_count = 1; /* single standards stay single */
+    assert_int_equal(ceduo_stand_at(&stand, 5, 5, &grown), CEDUO_OK);
+    EXPECT(grown.stand.trees[0].group, ==, 0);
+    EXPECT(grown.stand.stumps.per_ha, ==, 900);
+    ceduo_grown_stand_release(&grown);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -175,6 +624,18 @@ int main(void)
         cmocka_unit_test(hits_take_their_share),
         cmocka_unit_test(contacts_take_the_mean_share),
         cmocka_unit_test(the_index_multiplies_shares),
+        cmocka_unit_test(stumps_are_met_as_low_trees),
+        cmocka_unit_test(grazed_stumps_stop_no_rock),
+        cmocka_unit_test(logs_are_met_as_buffons_needles),
+        cmocka_unit_test(the_index_has_stumps_and_logs),
+        cmocka_unit_test(poisson_takes_stumps_and_logs),
+        cmocka_unit_test(shares_and_amounts_together),
+        cmocka_unit_test(free_runs_past_groups),
+        cmocka_unit_test(groups_keep_to_their_belt),
+        cmocka_unit_test(groups_stand_around_the_release),
+        cmocka_unit_test(limits_of_groups),
+        cmocka_unit_test(groups_of_trees_that_differ),
+        cmocka_unit_test(stumps_and_groups_over_the_years),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -190,6 +190,7 @@ static size_t add_kinds(struct line_random *r, const struct ceduo_stems *pattern
         kinds[i] = *pattern;
         kinds[i].per_ha = pattern->per_ha * line_log_uniform(r, 0.1, 2);
         kinds[i].dbh = line_uniform(r, 0.02, 0.3);
+        kinds[i].group = line_chance(r, 0.5) ? pattern->group : 1;
         kinds[i].height = line_log_uniform(r, 0.3, 20);
         kinds[i].volume = line_chance(r, 0.5) ? pattern->volume : NAN;
         kinds[i].dbh_sd = line_chance(r, 0.3) ? kinds[i].dbh * line_uniform(r, 0.01, 1) : 0;
@@ -207,6 +208,18 @@ static void add_stand(struct wild *w, struct line_random *r, int i)
     stand->offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
     stand->glancing = line_chance(r, 0.5) ? -1 : line_chance(r, 0.5);
     stand->hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
+    if (line_chance(r, 0.3))
+        stand->stumps = (struct ceduo_stumps){.per_ha = line_uniform(r, 1, 2000),
+                                              .diameter = line_uniform(r, 0.05, 0.4),
+                                              .height = line_uniform(r, 0.1, 1),
+                                              .energy = line_log_uniform(r, 10, 1e4)};
+    if (line_chance(r, 0.3))
+        stand->logs = (struct ceduo_logs){.per_ha = line_uniform(r, 1, 300),
+                                          .length = line_uniform(r, 1, 12),
+                                          .diameter = line_uniform(r, 0.1, 0.8),
+                                          .energy = line_log_uniform(r, 10, 1e4)};
+    w->plots[i].trees.group = line_chance(r, 0.4) ? (unsigned)line_uniform(r, 2, 30) : 1;
+    w->plots[i].trees.group_radius = line_chance(r, 0.2) ? 0 : line_log_uniform(r, 0.1, 40);
     if (line_chance(r, 0.3))
         return;
     stand->shoots_count = add_kinds(r, &w->plots[i].shoots, w->shoots[i]);

@@ -120,7 +120,9 @@ static void every_member_has_a_row(void **state)
     EXPECT_WHOLE(ceduo_schema_segment(), ceduo_segment);
     EXPECT_WHOLE(ceduo_schema_belt(), ceduo_belt);
     EXPECT_WHOLE(stand, ceduo_stand);
-    EXPECT_WHOLE(object_of(stand, "shoots"), ceduo_stems);
+    EXPECT_WHOLE(object_of(stand, "trees"), ceduo_stems);
+    EXPECT_WHOLE(object_of(stand, "stumps"), ceduo_stumps);
+    EXPECT_WHOLE(object_of(stand, "logs"), ceduo_logs);
     EXPECT_WHOLE(object_of(stand, "growth"), ceduo_growth);
     EXPECT_WHOLE(object_of(object_of(stand, "growth"), "shoots"), ceduo_curve);
 }
@@ -230,8 +232,10 @@ static void paths_of_rows(void **state)
 #define STAND                                                                                                          \
     "{name: wood, species: quercus-cerris, stools: {per_ha: 900, spacing_m: 0.4}, "                                    \
     "shoots: [{per_ha: 2000, dbh_m: 0.1, height_m: 9, dbh_sd_m: 0.02, age_y: 12}], "                                   \
-    "trees: [{per_ha: 80, dbh_m: 0.3, height_m: 14, age_y: 40}], "                                                     \
-    "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900}, "                   \
+    "trees: [{per_ha: 80, dbh_m: 0.3, height_m: 14, age_y: 40, groups: {stems: 5, radius_m: 4}}], "                    \
+    "stumps: {per_ha: 900, diameter_m: 0.2, height_m: 0.25, energy_kJ: 2}, "                                           \
+    "logs: {per_ha: 40, length_m: 4, diameter_m: 0.25, energy_kJ: 10}, "                                               \
+    "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900, stump_years: 4}, "                   \
     "cutting: {rotation_years: 20, cohorts: 2, stay_per_ha: [60, 20]}"
 #define BELT     "{from_m: 110, to_m: 190, cut_year: 3, stand: " STAND
 #define RULES                                                                                                       \
