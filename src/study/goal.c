@@ -15,7 +15,7 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
                            "the mean energy of the rocks that arrive through the forest (with contact_model: index what the "
                            "index leaves of the mean without forest)", NULL},
     [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, true,
-                           "the share of the released that arrive through the forest with more than the place bears", "0.05"},
+                           "the share of the released that arrive through the forest with more than the place withstands", "0.05"},
     [CEDUO_GOAL_ARRIVE] = {"arrive", N_("share that arrives"), "%", false, true,
                            "the share of the released that arrive through the forest (with contact_model: index without "
                            "forest)", NULL}};

@@ -19,9 +19,9 @@ struct subject {
     const struct ceduo_arrivals *arrivals; /* through the forest; NULL: by the index */
     const struct ceduo_arrivals *bare;
     size_t index;           /* of the option */
-    bool accepted;          /* what the place bears is given */
+    bool accepted;          /* what the place withstands is given */
     struct text where;      /* "road (135 m)" */
-    char bears[CEDUO_NUMBER_ROOM];
+    char withstands[CEDUO_NUMBER_ROOM];
 };
 
 static double share_of(const struct subject *s, const struct ceduo_arrivals *a)
@@ -37,12 +37,12 @@ static void ask(struct ceduo_page *page, const struct subject *s)
     const char *where = ceduo_text_string(&s->where);
     size_t n = s->result->scene->options_count;
     if (n == 1 && s->accepted)
-        ceduo_text_format(text, _("Does the forest protect what lies at %s and withstands %s kJ?"), where, s->bears);
+        ceduo_text_format(text, _("Does the forest protect what lies at %s and withstands %s kJ?"), where, s->withstands);
     else if (n == 1)
         ceduo_text_format(text, _("How many rocks does the forest keep from what lies at %s?"), where);
     else if (s->accepted)
         ceduo_text_format(text, _("Which of %zu ways to treat the forest protects best what lies at %s and withstands %s kJ?"), n,
-                          where, s->bears);
+                          where, s->withstands);
     else
         ceduo_text_format(text, _("Which of %zu ways to treat the forest keeps most rocks from what lies at %s?"), n, where);
 }
@@ -208,7 +208,7 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_chapter *c)
     s.arrivals = ceduo_result_wooded(r, s.index, r->last_control);
     ceduo_plot_control_name(&s.where, control);
     if (s.accepted)
-        ceduo_number_shortest(ceduo_words_accepted(control), s.bears);
+        ceduo_number_shortest(ceduo_words_accepted(control), s.withstands);
     ask(page, &s);
     struct text *first = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
     if (!s.arrivals)

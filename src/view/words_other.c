@@ -25,7 +25,7 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
                           o->reach_probability * 1000, ceduo_text_string(&mean));
     else
         ceduo_text_format(text,
-                          _("With the energy law %s: %.0f of 1000 arrive, %.0f with more than it bears; the mean of those "
+                          _("With the energy law %s: %.0f of 1000 arrive, %.0f with more than it withstands; the mean of those "
                             "that arrive is %s kJ."),
                           law, o->reach_probability * 1000, o->exceed_probability * 1000, ceduo_text_string(&mean));
     text->failed |= mean.failed;

@@ -58,7 +58,7 @@ def test_none():
 
 def test_page():
     """Page: a sentence with the shares and the mean under the other law, at each control"""
-    for more, words in (((), r"With the energy law dorren: {reach} of 1000 arrive, {exceed} with more than it bears; the mean of "
+    for more, words in (((), r"With the energy law dorren: {reach} of 1000 arrive, {exceed} with more than it withstands; the mean of "
                               r"those that arrive is {mean} kJ\."),
                         (("-s", "controls=[{x_m: 135}]"),
                          r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} kJ\.")):
