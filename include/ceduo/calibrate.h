@@ -81,6 +81,10 @@ struct ceduo_calibration {
     double *draws; /* [draw][parameter], in the file's unit */
 };
 
+/* Whether the rocks that were seen, to be fitted, are of two shapes: only then does what was seen tell mu of the law arm, as that
+ * acts through the shape. */
+bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, size_t n);
+
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED (before anything is known), or what ceduo_scene_check() says; then nothing is to be freed. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
 void ceduo_calibration_free(struct ceduo_calibration *answer);

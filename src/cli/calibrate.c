@@ -53,6 +53,22 @@ static bool shares_a_place(const struct ceduo_input *a, const struct ceduo_input
     return false;
 }
 
+/* mu acts through the shape of the rock, in one law. */
+static enum exit_status check_mu(const struct job *j, size_t i)
+{
+    size_t arms = 0;
+    if (strcmp(j->fields[i]->key, "mu") != 0)
+        return EXIT_DONE;
+    for (size_t s = 0; s < j->scenes_count; s++)
+        arms += j->files[s].scene.simulation.law == CEDUO_LAW_ARM;
+    if (arms == 0)
+        return ceduo_usage("calibrate", _("'%s' has no part in this law; only arm knows it"), j->paths[i]);
+    if (!ceduo_calibration_tells_mu(j->scenes, j->scenes_count))
+        return ceduo_usage("calibrate", _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"),
+                           j->paths[i]);
+    return EXIT_DONE;
+}
+
 /* PATH=LO:HI, which the options have checked; its places in every scene. */
 static enum exit_status find_value(struct job *j, size_t i)
 {
@@ -82,7 +98,8 @@ static enum exit_status find_value(struct job *j, size_t i)
     }
     if (places == 0)
         return ceduo_usage("calibrate", _("no scene has a value '%s'"), path);
-    return check_range(j, i);
+    enum exit_status status = check_range(j, i);
+    return status == EXIT_DONE ? check_mu(j, i) : status;
 }
 
 /* Something must have been seen. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stops of 80 rocks of three shapes at Tschamut (profiles/scenes/tschamut.yaml) against those of every law of contacts.
  *
- *   bench_tschamut [POINTS [ROCKS]]        default 512, 1000
+ *   bench_tschamut [POINTS [ROCKS]]        default 4096, 500
  *
  * Four values of the ground are looked for: Rn, roughness and friction, with Rt or, for arm, mu. POINTS grounds of Sobol's
  * sequence, then simplexes from the best three. CSV on stdout, a line for each law and question:
@@ -18,7 +18,7 @@
 
 #include "ceduo/ceduo.h"
 #include "io/scene_file.h"
-#include "measure.h"
+#include "physics/stops.h"
 
 #define BLOCKS 3
 #define VALUES 4
@@ -48,45 +48,6 @@ static void fail(const char *why)
     exit(1);
 }
 
-/* ---- distances ---- */
-
-/* The 95 % point for n values (Stephens 1974). */
-static double band_of(size_t n)
-{
-    double root = sqrt((double)n);
-    return 1.358 / (root + 0.12 + 0.11 / root);
-}
-
-/* Between what was seen and what was simulated; a rock that has no stop lies beyond all. */
-static double distance_of(const struct ceduo_observation *seen, double *simulated, size_t n, double *mean)
-{
-    double sum = 0, stopped = 0, most = 0;
-    for (size_t i = 0; i < n; i++)
-        if (isnan(simulated[i])) {
-            simulated[i] = INFINITY;
-        } else {
-            sum += simulated[i];
-            stopped++;
-        }
-    *mean = sum / stopped;
-    double *values = malloc(seen->n * sizeof *values);
-    if (!values)
-        fail("no memory");
-    for (size_t i = 0; i < seen->n; i++)
-        values[i] = seen->values[i];
-    qsort(simulated, n, sizeof *simulated, by_value);
-    qsort(values, seen->n, sizeof *values, by_value);
-    size_t below = 0;
-    for (size_t i = 0; i < seen->n; i++) {
-        while (below < n && simulated[below] < values[i])
-            below++;
-        double share = (double)below / (double)n, of = (double)seen->of;
-        most = fmax(most, fmax(fabs(share - (double)i / of), fabs(share - (double)(i + 1) / of)));
-    }
-    free(values);
-    return most;
-}
-
 /* ---- a ground ---- */
 
 static void set_ground(struct ceduo_scene *scene, const double at[VALUES])
@@ -111,7 +72,9 @@ static void look_at(struct site *site, struct fit *f, size_t from, size_t to, ui
         size_t n;
         if (ceduo_observer_values(site->observer, &site->file.scene, b, rocks, &values, &n) != CEDUO_OK)
             fail("the run failed");
-        f->distance[b] = distance_of(&site->seen[b], values, n, &f->mean[b]);
+        f->distance[b] = stops_distance(&site->seen[b], values, n, &f->mean[b]);
+        if (isnan(f->distance[b]))
+            fail("no memory");
         free(values);
     }
     f->misfit = 0;
@@ -249,7 +212,7 @@ static void read_site(struct site *site)
     if (ceduo_observer_create(site->seen, BLOCKS, &site->observer) != CEDUO_OK)
         fail("no memory");
     for (size_t b = 0; b < BLOCKS; b++)
-        site->band[b] = band_of(site->seen[b].n);
+        site->band[b] = stops_band(site->seen[b].n);
 }
 
 /* Every block a sphere of the same mean diameter. */
@@ -273,8 +236,8 @@ static void make_round(struct site *site)
 int main(int argc, char **argv)
 {
     static struct site site;
-    size_t points = argc > 1 ? strtoul(argv[1], NULL, 10) : 512;
-    site.rocks = argc > 2 ? strtoul(argv[2], NULL, 10) : 1000;
+    size_t points = argc > 1 ? strtoul(argv[1], NULL, 10) : 4096;
+    site.rocks = argc > 2 ? strtoul(argv[2], NULL, 10) : 500;
     if (points < STARTS || points > POINTS_MOST || site.rocks == 0)
         fail("usage: bench_tschamut [POINTS [ROCKS]]");
     read_site(&site);

@@ -118,6 +118,29 @@ class Results:
         rows = self.rows("bench_valley")
         return table(["scenes", "seconds", "scenes/s", "peak MiB"], [list(r.values()) for r in rows])
 
+    def fits(self, what):
+        return self.rows("bench_tschamut", what=what)
+
+    def tschamut(self):
+        blocks = ("block1", "block2", "plate")
+        words = {"block1": "block 1", "all": "all three"}
+        band = self.fits("band")[0]
+        rows = [["95 % point", "", *(digits(band[f"ks_{b}"]) for b in blocks), "", "", ""]]
+        for what, said in words.items():
+            rows += [[r["law"], said, *(digits(r[f"ks_{b}"]) for b in blocks), *(r[f"mean_{b}_m"] for b in blocks)]
+                     for r in self.fits(what)]
+        return table(["law", "fitted to", "block 1", "block 2", "plate", "block 1, m", "block 2, m", "plate, m"], rows)
+
+    def grounds(self):
+        return table(["law", "fitted to", "Rn", "roughness, rad", "friction", "Rt or mu"],
+                     [[r["law"], said, *(digits(r[k], 2) for k in ("rn", "roughness_rad", "friction", "rt_or_mu"))]
+                      for what, said in (("block1", "block 1"), ("all", "all three")) for r in self.fits(what)])
+
+    def shares(self):
+        return table(["law", "not refuted", "block 2", "plate", "both"],
+                     [[r["law"], *(r[k] for k in ("not_refuted", "predict_block2", "predict_plate", "predict_both"))]
+                      for r in self.fits("share")])
+
 
 def main():
     page = Path(sys.argv[1])

@@ -14,7 +14,7 @@ GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
 STOPS = [113.5, 114.6, 115.0, 116.7, 116.7, 118.0, 118.3, 119.3, 119.8, 120.3, 120.4, 120.5, 121.9, 122.8,
          124.0, 124.8, 125.0, 125.4, 125.6, 125.9, 126.5, 126.9, 127.8, 127.9, 128.2, 129.1, 129.5, 130.8, 131.0,
          132.6]
-RN, RT = "slope.segments[*].rn", "slope.segments[*].rt"
+RN, RT, MU = "slope.segments[*].rn", "slope.segments[*].rt", "slope.segments[*].mu"
 
 
 def quarry(observed=None, **changes):
@@ -125,6 +125,7 @@ def test_refused():
     with Folder() as f:
         path = f.write("s.yaml", quarry())
         nothing = f.write("n.yaml", quarry([]))
+        round_rock = f.write("r.yaml", quarry(simulation={"law": "arm"}))
         checks = f.write("c.yaml", quarry({"stops": {"x_m": STOPS, "use": "check"}}))
         for what, arguments in (("is not PATH=LO:HI", [f"{RT}", path]), ("the range 0.9:0.7 is empty", [f"{RT}=0.9:0.7", path]),
                                 ("'slope.colour' is not a number of a scene", ["slope.colour=0:1", path]),
@@ -134,6 +135,8 @@ def test_refused():
                                 ("are the same value", [f"{RT}=0.7:0.9", "--calibrate", "slope.segments[0].rt=0.7:0.9", path]),
                                 ("no scene says what was seen there", [f"{RT}=0.7:0.9", nothing]),
                                 ("no scene says what was seen there", [f"{RT}=0.7:0.9", checks]),
+                                ("has no part in this law; only arm knows it", [f"{MU}=0.2:1", path]),
+                                ("cannot be told from rocks of one shape", [f"{MU}=0.2:1", round_rock]),
                                 ("--check cannot be used with --calibrate", [f"{RT}=0.7:0.9", "--check", path]),
                                 ("cannot be used with --plot", [f"{RT}=0.7:0.9", "--years", path])):
             r = ceduo("--calibrate", *arguments)

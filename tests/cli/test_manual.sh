@@ -9,7 +9,7 @@ say() { # status name
     n=$((n + 1))
     if [ "$1" = 0 ]; then echo "ok $n - $2"; else echo "not ok $n - $2"; fi
 }
-for page in ceduo.1 ceduo.3 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-accuracy.7 ceduo-model.7 ceduo-workflows.7 it/ceduo.1 it/ceduo-workflows.7; do
+for page in ceduo.1 ceduo.3 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-accuracy.7 ceduo-model.7 ceduo-validation.7 ceduo-workflows.7 it/ceduo.1 it/ceduo-workflows.7; do
     mandoc -Tlint -W warning "man/$page" >"$dir/lint" 2>&1
     say $? "$page has no warning"
     sed 's/^/# /' "$dir/lint"

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shipped check of the law arm: on one ground the stops of three blocks of different shape at Tschamut are as they were
+ * seen, and without their shapes they are not. */
+#include "expect.h"
+
+#include "ceduo/calibrate.h"
+#include "io/scene_file.h"
+#include "stops.h"
+
+#define BLOCKS 3
+#define ROCKS 3000
+
+static struct scene_file file;
+
+static int read_scene(void **state)
+{
+    (void)state;
+    struct problems problems = {0};
+    return ceduo_scene_read(&file, "profiles/scenes/tschamut.yaml", NULL, 0, &problems) ? 0 : -1;
+}
+
+static int free_scene(void **state)
+{
+    (void)state;
+    ceduo_scene_release(&file);
+    return 0;
+}
+
+/* Distances and mean stops of the blocks as `seen` has them. */
+static void look(const struct ceduo_observation *seen, double distance[BLOCKS], double mean[BLOCKS])
+{
+    struct ceduo_observer *observer;
+    assert_int_equal(ceduo_observer_create(seen, BLOCKS, &observer), CEDUO_OK);
+    for (size_t b = 0; b < BLOCKS; b++) {
+        double *values;
+        size_t n;
+        assert_int_equal(ceduo_observer_values(observer, &file.scene, b, ROCKS, &values, &n), CEDUO_OK);
+        distance[b] = stops_distance(&seen[b], values, n, &mean[b]);
+        free(values);
+    }
+    ceduo_observer_free(observer);
+}
+
+static void one_ground_gives_all_three_blocks(void **state)
+{
+    (void)state;
+    double distance[BLOCKS], mean[BLOCKS];
+    assert_int_equal(file.observations_count, BLOCKS);
+    const size_t counts[BLOCKS] = {29, 25, 26}; /* Volkwein and Gerber 2018 */
+    look(file.observations, distance, mean);
+    for (size_t b = 0; b < BLOCKS; b++) {
+        EXPECT(file.observations[b].n, ==, counts[b]);
+        EXPECT(distance[b], <, stops_band(counts[b]));
+    }
+}
+
+/* Every block a sphere of the same mean diameter: all stop at one place. */
+static void without_its_shape_the_plate_goes_too_far(void **state)
+{
+    (void)state;
+    struct ceduo_observation round[BLOCKS];
+    struct ceduo_rock_def rocks[BLOCKS];
+    double distance[BLOCKS], mean[BLOCKS];
+    for (size_t b = 0; b < BLOCKS; b++) {
+        round[b] = file.observations[b];
+        const struct ceduo_rock_def *rock = round[b].rock ? round[b].rock : &file.scene.rock;
+        rocks[b] = ceduo_scene_default().rock;
+        rocks[b].diameter = ceduo_number(ceduo_rock_mean(rock).mean_diameter);
+        round[b].rock = &rocks[b];
+    }
+    look(round, distance, mean);
+    EXPECT(distance[2], >, 2 * stops_band(round[2].n));
+    EXPECT_NEAR(mean[2], mean[0], 1.5);
+}
+
+/* mu acts through the shape: one block that is fitted does not tell it, two do. */
+static void two_shapes_tell_mu(void **state)
+{
+    (void)state;
+    struct ceduo_observation seen[BLOCKS];
+    for (size_t b = 0; b < BLOCKS; b++)
+        seen[b] = file.observations[b];
+    struct ceduo_scene lumped = file.scene;
+    lumped.simulation.law = CEDUO_LAW_LUMPED;
+    struct ceduo_calibration_scene scenes[2] = {{.scene = &file.scene, .observations_count = BLOCKS, .observations = seen},
+                                                {.scene = &lumped, .observations_count = BLOCKS, .observations = seen}};
+    EXPECT(ceduo_calibration_tells_mu(scenes, 1), ==, 0);
+    seen[2].use = CEDUO_OBSERVED_FIT;
+    EXPECT(ceduo_calibration_tells_mu(scenes, 1), ==, 1);
+    EXPECT(ceduo_calibration_tells_mu(scenes + 1, 1), ==, 0);
+    seen[2].rock = seen[0].rock;
+    EXPECT(ceduo_calibration_tells_mu(scenes, 1), ==, 0);
+    EXPECT(ceduo_calibration_tells_mu(scenes, 0), ==, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_ground_gives_all_three_blocks),
+        cmocka_unit_test(without_its_shape_the_plate_goes_too_far),
+        cmocka_unit_test(two_shapes_tell_mu),
+    };
+    return cmocka_run_group_tests(tests, read_scene, free_scene);
+}
