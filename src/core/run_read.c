@@ -97,6 +97,8 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 
 struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
 {
+    if (run->sized)
+        return ceduo_run_sized_brief(run, control);
     struct sums s = ceduo_run_sums_at(run, control);
     const struct ceduo_moments *energy = &s.of[ENERGY];
     bool accepts = !isnan(run->ready.scene.controls[control].accepted);

@@ -30,6 +30,12 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
 
 /* The energy law of the scene against the other one; nothing where that is not known. */
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result);
+/* How often, and with how much: a section for each control, nothing where the scene has no blocks; one control, no heading. */
+void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_hazard_at(struct ceduo_page *page, const struct ceduo_result *result, size_t control);
+
+/* Percentiles of the rocks that arrive at a control, with their intervals; the design values where the scene asks for them. */
+void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control);
 
 /* Warnings of the whole run, and assumptions. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);

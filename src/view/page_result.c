@@ -30,6 +30,15 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_text_put(line, assumed_mark(report, "rock"));
 }
 
+static void add_blocks(struct ceduo_page *page, const struct ceduo_scene *s)
+{
+    for (size_t i = 0; i < s->blocks_count; i++) {
+        const struct ceduo_block_class *b = &s->blocks[i];
+        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%s a year of %s to %s m3, exponent %s"), SHOWN(b->per_year, 3),
+                          SHOWN(b->volumes[0], 3), SHOWN(b->volumes[1], 3), SHOWN(b->exponent, 3));
+    }
+}
+
 static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_scene *s = report->result->scene;
@@ -51,6 +60,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
 {
     const struct ceduo_result *r = report->result;
     add_rock(page, report);
+    add_blocks(page, r->scene);
     add_slope(page, report);
     ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"),
                       (unsigned long long)ceduo_result_rocks(r), (unsigned long long)r->scene->simulation.seed);
@@ -124,24 +134,19 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
     ceduo_text_char(line, '.');
 }
 
-static double of_1000(uint64_t count, uint64_t rocks)
-{
-    return (double)count / (double)rocks * 1000;
-}
-
 /* How the rocks end in the forest: up to a control, and on the whole profile. */
 static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, const struct ceduo_arrivals *a, bool last)
 {
-    const uint64_t *e = a->ended, *all = f->ends.count;
+    const double *missed = a->missed, *all = f->ends.share;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(
         line,
         _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
           "slope"),
-        a->reach_probability * 1000, of_1000(e[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(e[CEDUO_AT_REST], f->rocks),
-        of_1000(e[CEDUO_LEFT_SLOPE], f->rocks));
-    if (e[CEDUO_UNFINISHED] > 0)
-        ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)e[CEDUO_UNFINISHED],
+        a->reach_probability * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
+        missed[CEDUO_LEFT_SLOPE] * 1000);
+    if (a->unfinished > 0)
+        ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
                           (unsigned long long)f->rocks);
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
@@ -150,8 +155,7 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
         ceduo_text_format(
             ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
             _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-            of_1000(all[CEDUO_STOPPED_BY_STEMS], f->rocks), of_1000(all[CEDUO_AT_REST], f->rocks),
-            of_1000(all[CEDUO_LEFT_SLOPE], f->rocks));
+            all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
 /* What cannot mislead: the mean of those that arrive may be higher through the forest, as the slow ones are stopped. */
@@ -251,6 +255,8 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, r, i, k);
+        if (page->width >= CEDUO_PAGE_WIDTH && r->bare.rocks > 0)
+            ceduo_page_percentiles(page, r, i, k);
         say_lights(page, r, i, k);
         if (k == 0)
             ceduo_page_belts(page, report, i);
@@ -279,6 +285,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
         ceduo_page_option(&page, report, i);
     if (scene->options_count > 1 && scene->controls_count > 0)
         ceduo_page_comparison(&page, report);
+    ceduo_page_hazard(&page, report);
     ceduo_page_notes(&page, report);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);

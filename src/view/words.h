@@ -55,6 +55,11 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option, co
 /* Years of a verdict in a few words: "one whole rotation", "years 0 to 30". */
 void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
 
+/* How often what is feared at a control happens, in one sentence; "13 (9–14)" years; a class of intensity, -1: none. */
+void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+void ceduo_words_years(struct text *text, struct ceduo_rate rate);
+const char *ceduo_words_intensity(int intensity);
+
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
 const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */
 

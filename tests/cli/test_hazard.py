@@ -226,6 +226,47 @@ def test_csv():
         expect_equal({v for k, v in without.items() if ".hazard." in k}, {""})
 
 
+def test_page():
+    """The page says how often in words, with the figures of JSON, and puts each option into the square"""
+    def shown(value):
+        return f"{value:.{max(0, 1 - math.floor(math.log10(value)))}f}"
+
+    options = [{"name": "none", "forest": []}, {"name": "coppice", "forest": [WOOD]}]
+    with Folder() as f:
+        path = f.write("s.yaml", slope_site(forest=None, options=options))
+        page = " ".join(good("--batch", path).out.split())
+        result = good("--batch", "-f", "json", path).json()[0]
+        bare, wooded = hazard_of(result), hazard_of(result, "wooded", -1, 1)
+        years = [f"{shown(h['accepted_years'])} ({shown(h['accepted_years_lo'])}–{shown(h['accepted_years_hi'])})"
+                 for h in (bare, wooded)]
+        expect_in(f"A rock with more than 50 kJ reaches 'road' every {years[0]} years without forest, every {years[1]} years "
+                  "with 'coppice'.", page)
+        expect_in("A rock with more than 30 kJ reaches the place at 80 m every", page)
+        square = page.split("Intensity by return period")[2]
+        marks = {word: [[] for _ in range(3)] for word in ("none", "weak", "medium", "strong")}
+        for number, h in enumerate((bare, hazard_of(result, "wooded", -1, 0), wooded)):
+            for column, back in enumerate(h["return"][1:]):
+                classes = [m["intensity"] for m in h["matrix"] if m[f"to_{back['years']}_years"]]
+                expect_equal(len(classes), int(back["energy_kJ"] is not None), back)
+                marks[classes[0] if classes else "none"][column].append(str(number))
+        for word, head in (("strong", "strong, above 300 kJ"), ("medium", "medium, 30 to 300 kJ"),
+                           ("weak", "weak, below 30 kJ"), ("none", "none arrives")):
+            cells = " ".join(" ".join(cell) or "·" for cell in marks[word])
+            expect_in(f"{head} {cells} ", square)
+        expect_in("0 without forest, 1 none, 2 coppice.", square)
+        bare = result["options"][0]["controls"][1]["bare"]
+        expect_in(f"bare, {bare['rocks_reached']} of 2000 50 % 95 % 99 % speed, m/s {bare['speed_m_s']['p50']:.1f} "
+                  f"({bare['speed_m_s']['p50_lo']:.1f}–{bare['speed_m_s']['p50_hi']:.1f})", page)
+        alone = " ".join(good("--batch", f.write("t.yaml", slope_site(controls=[{"x_m": 140}]))).out.split())
+        expect_in("A rock reaches the place at 140 m every", alone)
+        stuck = " ".join(good("--batch", f.write("u.yaml", falls(POWER, controls=[{"x_m": 55}]))).out.split())
+        expect_in("every > ", stuck)
+        index = " ".join(good("--batch", "-s", "simulation.contact_model=index", path).out.split())
+        expect_in(f"reaches 'road' every {years[0]} years without forest. ", index)
+        without = good("--batch", f.write("v.yaml", slope_site(blocks=None))).out
+        expect("How often" not in without and "Blocks   " not in without, without)
+
+
 def test_tolerance_and_doubt():
     """-e works with weights; doubt of the sizes moves the answer"""
     result = run(slope_site(), "-e", "0.05")

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How often, and with how much, where the scene has blocks: in words, the energies of return periods, and the square of
+ * intensity and return period, with all options beside the slope without forest. */
+#include <math.h>
+
+#include "base/language.h"
+#include "page_parts.h"
+#include "words.h"
+
+/* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
+static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
+{
+    const struct ceduo_arrivals *a =
+        item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control);
+    return a ? &a->hazard : NULL;
+}
+
+static const char *name_of(const struct ceduo_result *r, size_t item)
+{
+    return item == 0 ? _("without forest") : r->scene->options_count == 1 ? _("through the wood")
+                                                                           : r->scene->options[item - 1].name;
+}
+
+/* ---- in words ---- */
+
+void ceduo_words_years(struct text *text, struct ceduo_rate rate)
+{
+    if (!(rate.rate > 0)) {
+        ceduo_text_format(text, "> %s", SHOWN(1 / rate.hi, 2));
+        return;
+    }
+    ceduo_text_put(text, SHOWN(1 / rate.rate, 2));
+    if (rate.lo > 0)
+        ceduo_text_format(text, " (%s\xe2\x80\x93%s)", SHOWN(1 / rate.hi, 2), SHOWN(1 / rate.lo, 2));
+    else
+        ceduo_text_format(text, " (> %s)", SHOWN(1 / rate.hi, 2));
+}
+
+void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
+{
+    const struct ceduo_control *c = &r->scene->controls[control];
+    const struct ceduo_hazard *bare = hazard_of(r, 0, control), *wooded = hazard_of(r, option + 1, control);
+    char room[CEDUO_NUMBER_ROOM];
+    struct text place = {0}, without = {0}, with = {0};
+    if (c->name)
+        ceduo_text_format(&place, "'%s'", c->name);
+    else
+        ceduo_text_format(&place, _("the place at %s m"), ceduo_number_shortest(c->x_given, room));
+    ceduo_words_years(&without, ceduo_hazard_feared(bare));
+    if (wooded)
+        ceduo_words_years(&with, ceduo_hazard_feared(wooded));
+    const char *where = ceduo_text_string(&place), *wood = ceduo_text_string(&with), *years = ceduo_text_string(&without);
+    const char *kJ = ceduo_number_shortest(ceduo_words_accepted(c), room);
+    if (isnan(c->accepted) && wooded)
+        ceduo_text_format(text, _("A rock reaches %s every %s years without forest, every %s years %s."), where, years, wood,
+                          name_of(r, option + 1));
+    else if (isnan(c->accepted))
+        ceduo_text_format(text, _("A rock reaches %s every %s years without forest."), where, years);
+    else if (wooded && r->scene->options_count > 1)
+        ceduo_text_format(text,
+                          _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years with '%s'."),
+                          kJ, where, years, wood, name_of(r, option + 1));
+    else if (wooded)
+        ceduo_text_format(
+            text,
+            _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years through the wood."), kJ,
+            where, years, wood);
+    else
+        ceduo_text_format(text, _("A rock with more than %s kJ reaches %s every %s years without forest."), kJ, where, years);
+    text->failed |= place.failed || without.failed || with.failed;
+    ceduo_text_free(&place);
+    ceduo_text_free(&without);
+    ceduo_text_free(&with);
+}
+
+/* ---- energies of return periods ---- */
+
+const char *ceduo_words_intensity(int intensity)
+{
+    static const char *const words[CEDUO_INTENSITIES] = {N_("weak"), N_("medium"), N_("strong")};
+    return intensity < 0 ? _("none") : _(words[intensity]);
+}
+
+static void add_return(struct ceduo_page *page, const struct ceduo_return *back)
+{
+    struct text *cell = ceduo_page_text(page);
+    if (isnan(back->energy)) {
+        ceduo_text_put(cell, _("none"));
+        return;
+    }
+    ceduo_text_put(cell, SHOWN(back->energy * KILO, 3));
+    const char *lo = isnan(back->lo) ? "0" : SHOWN(back->lo * KILO, 3);
+    if (isnan(back->hi))
+        ceduo_text_format(cell, " (> %s)", lo);
+    else
+        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", lo, SHOWN(back->hi * KILO, 3));
+}
+
+static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+{
+    static const struct ceduo_page_column columns[] = {{"", 22, 4, CEDUO_WHOLE},
+                                                       {N_("30 years"), -18, 0, CEDUO_WHOLE},
+                                                       {N_("100 years"), -18, 0, CEDUO_WHOLE},
+                                                       {N_("300 years"), -18, 0, CEDUO_WHOLE}};
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
+                   _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
+    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    for (size_t i = 0; i <= r->scene->options_count; i++) {
+        const struct ceduo_hazard *h = hazard_of(r, i, control);
+        if (!h)
+            continue;
+        ceduo_text_put(ceduo_page_text(page), name_of(r, i));
+        for (size_t t = 1; t < CEDUO_RETURNS; t++)
+            add_return(page, &h->returns[t]);
+    }
+}
+
+/* ---- the square ---- */
+
+/* Which of all have this intensity at that return period, by their numbers; class -1: none arrives so often. */
+static void add_mark(struct ceduo_page *page, const struct ceduo_result *r, size_t control, size_t t, int intensity)
+{
+    struct text *cell = ceduo_page_text(page);
+    bool several = false;
+    for (size_t i = 0; i <= r->scene->options_count; i++) {
+        const struct ceduo_hazard *h = hazard_of(r, i, control);
+        if (!h || ceduo_intensity_of(h->returns[t].energy) != intensity)
+            continue;
+        ceduo_text_format(cell, several ? " %zu" : "%zu", i);
+        several = true;
+    }
+    if (!several)
+        ceduo_text_put(cell, "\xc2\xb7");
+}
+
+static void add_square(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+{
+    static const struct ceduo_page_column columns[] = {{NP_("head", "intensity"), 26, 4, CEDUO_WHOLE},
+                                                       {N_("to 30 years"), 15, 0, CEDUO_WHOLE},
+                                                       {N_("to 100 years"), 15, 0, CEDUO_WHOLE},
+                                                       {N_("to 300 years"), 0, 0, 0}};
+    static const char *const rows[] = {N_("none arrives"), N_("weak, below 30 kJ"), N_("medium, 30 to 300 kJ"),
+                                       N_("strong, above 300 kJ")};
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
+                   _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
+    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) {
+        ceduo_text_put(ceduo_page_text(page), _(rows[i + 1]));
+        for (size_t t = 1; t < CEDUO_RETURNS; t++)
+            add_mark(page, r, control, t, i);
+    }
+    struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    for (size_t i = 0; i <= r->scene->options_count; i++)
+        if (hazard_of(r, i, control))
+            ceduo_text_format(names, i == 0 ? "%zu %s" : ", %zu %s", i, name_of(r, i));
+    ceduo_text_char(names, '.');
+}
+
+/* ---- at each control ---- */
+
+/* What the wood leaves of each intensity. */
+static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+{
+    const struct ceduo_hazard *h = hazard_of(r, option + 1, control);
+    struct text *line = h ? ceduo_page_add(page, CEDUO_PAGE_SENTENCE) : NULL;
+    char rooms[CEDUO_INTENSITIES][CEDUO_NUMBER_ROOM];
+    if (!h)
+        return;
+    for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
+        ceduo_words_shown(h->intensity[i].left * 100, 2, rooms[i]);
+    ceduo_text_format(line,
+                      r->scene->options_count > 1
+                          ? _("Of the rocks that would arrive without forest '%s' leaves %s %% of the weak ones, %s %% of the "
+                              "medium and %s %% of the strong.")
+                          : _("Of the rocks that would arrive without forest the wood of '%s' leaves %s %% of the weak ones, "
+                              "%s %% of the medium and %s %% of the strong."),
+                      r->scene->options[option].name, rooms[0], rooms[1], rooms[2]);
+}
+
+void ceduo_page_hazard_at(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+{
+    for (size_t i = 0; i < r->scene->options_count; i++) {
+        if (i == 0 || hazard_of(r, i + 1, control))
+            ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, i, control);
+        say_left(page, r, i, control);
+    }
+    if (page->width < CEDUO_PAGE_WIDTH)
+        return;
+    add_returns(page, r, control);
+    add_square(page, r, control);
+}
+
+void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    if (r->scene->blocks_count == 0 || r->bare.rocks == 0)
+        return;
+    for (size_t c = 0; c < r->scene->controls_count; c++) {
+        const struct ceduo_control *control = &r->scene->controls[c];
+        struct text *head = ceduo_page_add(page, CEDUO_PAGE_SECTION);
+        char room[CEDUO_NUMBER_ROOM];
+        const char *x = ceduo_number_shortest(control->x_given, room);
+        if (control->name)
+            ceduo_text_format(head, _("How often, at %s m, %s"), x, control->name);
+        else
+            ceduo_text_format(head, _("How often, at %s m"), x);
+        if (c == 0)
+            ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                              _("%s blocks come down a year. Rare large ones were simulated as often as small ones and "
+                                "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
+                              SHOWN(r->bare.arrivals[c].hazard.per_year, 3), (unsigned long long)r->bare.rocks,
+                              r->bare.arrivals[c].hazard.effective);
+        ceduo_page_hazard_at(page, r, c);
+    }
+}
