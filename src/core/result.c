@@ -70,7 +70,8 @@ void ceduo_flown_meets_nothing(struct ceduo_flown *f)
 
 void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
 {
-    for (size_t c = 0; c < f->controls; c++)
+    bool both = f->arrivals && bare->arrivals; /* one run may be without memory */
+    for (size_t c = 0; both && c < f->controls; c++)
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 
