@@ -51,6 +51,7 @@ struct ceduo_doubt_def {
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
     size_t points;  /* N >= 2 */
+    size_t first;   /* base points of a first look that ranks more inputs than can have an index, >= 2; 0: CEDUO_DOUBT_FIRST */
     uint64_t rocks; /* of each evaluation, >= 2 */
     unsigned threads;
     const atomic_bool *cancel; /* may be NULL */
@@ -110,6 +111,9 @@ enum ceduo_status ceduo_doubt_join(const struct ceduo_doubt_def *def, const stru
 
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
+
+/* Groups by the total index that they have for the main figure of one option, largest first: answer->groups of them. */
+void ceduo_doubt_order_of(const struct ceduo_doubt_answer *answer, size_t option, size_t *order);
 
 /* Whether a light of the last control changes within the 90 % band of doubt: contact, free run, or energy
  * (CEDUO_DOUBT_EXCEED). Returns how many groups it depends on above all, 1 or 2, the heaviest first; 0: it does not change. */

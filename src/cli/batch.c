@@ -18,7 +18,7 @@ static enum exit_status worse(enum exit_status a, enum exit_status b)
     return a > b ? a : b;
 }
 
-static enum exit_status print_scene(const struct arguments *a, const struct scene_file *file, struct text *out)
+static enum exit_status print_scene(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct ceduo_question question = ceduo_batch_question(a, file, NULL);
     if (a->plot != CEDUO_PLOT_NONE)
@@ -152,5 +152,6 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
 
 enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
 {
-    return a->shards > 0 ? ceduo_batch_run(a) : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_whole);
+    bool scene_by_scene = a->shards > 0 || a->plot != CEDUO_PLOT_NONE;
+    return scene_by_scene ? ceduo_batch_run(a) : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_whole);
 }

@@ -8,6 +8,7 @@
 #include "interrupt.h"
 #include "options.h"
 #include "say.h"
+#include "sensitivity.h"
 #include "study/outlook.h"
 
 /* ---- pages ---- */
@@ -166,8 +167,25 @@ static enum ceduo_status add_flown_plots(const struct arguments *a, const struct
     return status;
 }
 
-enum exit_status ceduo_print_plots(const struct arguments *a, const struct scene_file *file, struct text *out)
+static enum exit_status print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
 {
+    struct asked_doubt d;
+    enum ceduo_status status = ceduo_sensitivity_ask(a, file, &d);
+    if (status != CEDUO_OK)
+        return ceduo_batch_failed(file, status);
+    struct ceduo_picture picture = {
+        .scene = &file->scene, .control = ceduo_scene_last_control(&file->scene), .doubt = &d.report};
+    for (size_t start = out->length; picture.option < file->scene.options_count; picture.option++)
+        add_plot(a, &picture, start, out);
+    if (d.report.answer)
+        ceduo_doubt_free(&d.answer);
+    return EXIT_DONE;
+}
+
+enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    if (a->plot == CEDUO_PLOT_DOUBT)
+        return print_doubt(a, file, out);
     if (!ceduo_plot_kinds[a->plot].needs_run) {
         add_plots(a, &file->scene, NULL, NULL, NULL, out);
         return EXIT_DONE;

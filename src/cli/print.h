@@ -11,6 +11,6 @@ enum exit_status ceduo_print_report(const struct arguments *arguments, const str
                                     struct text *out);
 
 /* Adds the pictures of a scene, from runs where they need any. */
-enum exit_status ceduo_print_plots(const struct arguments *arguments, const struct scene_file *file, struct text *out);
+enum exit_status ceduo_print_plots(const struct arguments *arguments, struct scene_file *file, struct text *out);
 
 #endif

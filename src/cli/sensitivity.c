@@ -42,7 +42,7 @@ static struct ceduo_doubt_def def_of(const struct arguments *a, const struct sce
     return (struct ceduo_doubt_def){.scene = &file->scene,
                                     .inputs_count = inputs->n,
                                     .inputs = inputs->items,
-                                    .points = a->points,
+                                    .points = a->points > 0 ? a->points : CEDUO_DOUBT_POINTS,
                                     .rocks = ceduo_sensitivity_rocks(a),
                                     .threads = a->threads,
                                     .cancel = ceduo_interrupt_flag(),
@@ -50,35 +50,34 @@ static struct ceduo_doubt_def def_of(const struct arguments *a, const struct sce
                                     .context = progress};
 }
 
-/* Adds the answer that `status` is of; NULL where nothing is in doubt. */
-static enum exit_status report(const struct arguments *a, struct scene_file *file, const struct scene_inputs *inputs,
-                               struct ceduo_doubt_answer *answer, enum ceduo_status status, struct text *out)
+enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_file *file, struct asked_doubt *d)
 {
-    const struct ceduo_doubt_report report = {
-        .file = file, .inputs = inputs, .points = a->points, .rocks = ceduo_sensitivity_rocks(a), .answer = answer};
-    if (status != CEDUO_OK)
-        return ceduo_batch_failed(file, status);
-    put(out, a, &report);
-    if (answer)
-        ceduo_doubt_free(answer);
-    return EXIT_DONE;
+    struct progress progress = ceduo_progress_begin(a);
+    *d = (struct asked_doubt){0};
+    if (!ceduo_inputs_of(file, &d->inputs))
+        return CEDUO_NO_MEMORY;
+    struct ceduo_doubt_def def = def_of(a, file, &d->inputs, &progress);
+    d->report = (struct ceduo_doubt_report){.file = file, .inputs = &d->inputs, .points = def.points, .rocks = def.rocks};
+    if (d->inputs.n == 0)
+        return CEDUO_OK;
+    enum ceduo_status status = ceduo_doubt_ask(&def, &d->answer);
+    ceduo_progress_end(&progress);
+    d->report.answer = status == CEDUO_OK ? &d->answer : NULL;
+    return status;
 }
 
 enum exit_status ceduo_sensitivity_whole(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    struct scene_inputs inputs;
-    struct ceduo_doubt_answer answer;
-    struct progress progress = ceduo_progress_begin(a);
-    if (!ceduo_inputs_of(file, &inputs))
-        return ceduo_batch_failed(file, CEDUO_NO_MEMORY);
+    struct asked_doubt d;
+    enum ceduo_status status = ceduo_sensitivity_ask(a, file, &d);
+    if (status != CEDUO_OK)
+        return ceduo_batch_failed(file, status);
     if (a->format == CEDUO_TABLE && out->length > 0)
         ceduo_text_char(out, '\n');
-    if (inputs.n == 0)
-        return report(a, file, &inputs, NULL, CEDUO_OK, out);
-    struct ceduo_doubt_def def = def_of(a, file, &inputs, &progress);
-    enum ceduo_status status = ceduo_doubt_ask(&def, &answer);
-    ceduo_progress_end(&progress);
-    return report(a, file, &inputs, &answer, status, out);
+    put(out, a, &d.report);
+    if (d.report.answer)
+        ceduo_doubt_free(&d.answer);
+    return EXIT_DONE;
 }
 
 /* ---- parts ---- */
@@ -98,19 +97,24 @@ enum ceduo_status ceduo_sensitivity_part(const struct arguments *a, struct scene
 enum exit_status ceduo_sensitivity_join(const struct arguments *a, struct scene_file *file, const struct part *parts,
                                         size_t n, bool *bad, struct text *out)
 {
-    struct scene_inputs inputs;
-    struct ceduo_doubt_answer answer;
+    struct asked_doubt d = {0};
     struct progress progress = ceduo_progress_begin(a);
     struct ceduo_doubt_part *all = calloc(n + 1, sizeof *all);
     for (size_t i = 0; all && i < n; i++)
         all[i] = (struct ceduo_doubt_part){parts[i].runs, parts[i].runs_length};
-    enum ceduo_status status = all && ceduo_inputs_of(file, &inputs) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    bool nothing = status == CEDUO_OK && inputs.n == 0;
-    if (status == CEDUO_OK && !nothing) {
-        struct ceduo_doubt_def def = def_of(a, file, &inputs, &progress);
-        status = ceduo_doubt_join(&def, all, n, &answer);
+    enum ceduo_status status = all && ceduo_inputs_of(file, &d.inputs) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    struct ceduo_doubt_def def = def_of(a, file, &d.inputs, &progress);
+    d.report = (struct ceduo_doubt_report){.file = file, .inputs = &d.inputs, .points = def.points, .rocks = def.rocks};
+    if (status == CEDUO_OK && d.inputs.n > 0) {
+        status = ceduo_doubt_join(&def, all, n, &d.answer);
+        d.report.answer = status == CEDUO_OK ? &d.answer : NULL;
     }
     free(all);
     *bad = status == CEDUO_BAD_PART;
-    return *bad ? EXIT_INPUT : report(a, file, &inputs, nothing ? NULL : &answer, status, out);
+    if (status != CEDUO_OK)
+        return *bad ? EXIT_INPUT : ceduo_batch_failed(file, status);
+    put(out, a, &d.report);
+    if (d.report.answer)
+        ceduo_doubt_free(&d.answer);
+    return EXIT_DONE;
 }

@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "ceduo/key.h"
 
-enum kind { SEEK, FORESEE, FIGURES, OTHERS, YEARS, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
+enum kind { SEEK, FORESEE, FIGURES, OTHERS, YEARS, DOUBT, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
 
 struct job {
     bool wanted;     /* not done */
@@ -22,9 +22,10 @@ struct job {
     uint64_t rocks;  /* of the next step; a search has one, and goes first */
     double asked;
     size_t option;
+    size_t level, levels; /* of the doubt: the next, and so many */
     struct ceduo_scene scene;
     struct seek seek;
-    struct scene_file file; /* that the search changes, or that a change is foreseen of */
+    struct scene_file file; /* that the search changes, that a change is foreseen of, or whose doubt is asked for */
     char path[1024];        /* of the search; the change that is foreseen */
 };
 
@@ -218,6 +219,24 @@ static enum ceduo_status step_foresee(struct jobs *q, struct job *job)
     return CEDUO_OK;
 }
 
+static enum ceduo_status step_doubt(struct jobs *q, struct job *job)
+{
+    struct doubted *doubted;
+    enum ceduo_status status = ceduo_doubted_make(&job->file, job->level, q->threads, &q->cancel, &doubted);
+    if (status != CEDUO_OK)
+        return status;
+    if (!lock_result(q, DOUBT, job->number)) {
+        ceduo_doubted_free(doubted);
+        return CEDUO_OK;
+    }
+    struct job *asked = &q->jobs[DOUBT];
+    asked->level = doubted->inputs.n > 0 ? job->level + 1 : DOUBT_LEVELS; /* without inputs there is nothing finer */
+    ceduo_doubted_free(q->news.doubted);
+    q->news.doubted = doubted;
+    unlock_result(q);
+    return CEDUO_OK;
+}
+
 /* ---- the thread ---- */
 
 static enum kind next_kind(const struct jobs *q)
@@ -229,6 +248,12 @@ static enum kind next_kind(const struct jobs *q)
     return next;
 }
 
+/* The first look at the doubt goes after the first figures and years, all else of it after all of theirs. */
+static uint64_t rocks_before(size_t level)
+{
+    return level == 0 ? FLIGHTS_FIRST : 10 * FLIGHTS_MOST;
+}
+
 /* What comes of a step: the job is done, goes on finer, or with the same step where it was interrupted. */
 static void end_step(struct jobs *q, enum kind kind, const struct job *done, enum ceduo_status status)
 {
@@ -236,14 +261,14 @@ static void end_step(struct jobs *q, enum kind kind, const struct job *done, enu
     if (job->number != done->number || status == CEDUO_CANCELLED)
         return;
     q->news.failed |= status != CEDUO_OK;
-    job->wanted = status == CEDUO_OK && done->wanted;
-    job->rocks *= 10;
+    job->wanted = status == CEDUO_OK && (kind == DOUBT ? job->level < job->levels : done->wanted);
+    job->rocks = kind == DOUBT ? rocks_before(job->level) : job->rocks * 10;
 }
 
 static void *work(void *argument)
 {
     static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {
-        step_seek, step_foresee, step_figures, step_others, step_years};
+        step_seek, step_foresee, step_figures, step_others, step_years, step_doubt};
     struct jobs *q = argument;
     pthread_mutex_lock(&q->lock);
     while (!q->quit) {
@@ -275,6 +300,7 @@ static void release(struct jobs *q)
     ceduo_outlook_free(q->news.outlook);
     drop_years(&q->news);
     free(q->news.others);
+    ceduo_doubted_free(q->news.doubted);
     ceduo_sought_free(q->news.sought);
     if (q->pipe[0] >= 0) {
         close(q->pipe[0]);
@@ -392,6 +418,35 @@ bool ceduo_jobs_show(struct jobs *q, const struct ceduo_scene *scene, uint64_t k
     return asked;
 }
 
+bool ceduo_jobs_doubt(struct jobs *q, const struct scene_file *file, size_t levels)
+{
+    struct job job = {.key = (uint64_t)(uintptr_t)file->root, .levels = levels, .rocks = rocks_before(0), .file = *file};
+    job.file.arena = (struct arena){.shelf = file->arena.shelf};
+    pthread_mutex_lock(&q->lock);
+    struct job *now = &q->jobs[DOUBT];
+    uint64_t before = q->requests;
+    if (levels == 0) {
+        drop(q, DOUBT);
+    } else if (now->number == 0 || now->key != job.key) {
+        ceduo_doubted_free(q->news.doubted); /* of what was asked before */
+        q->news.doubted = NULL;
+        ask(q, DOUBT, &job);
+    } else if (levels > now->levels) { /* goes on where it is */
+        now->levels = levels;
+        if (!now->wanted && now->level < levels) {
+            now->wanted = true;
+            now->number = ++q->requests;
+            now->rocks = rocks_before(now->level);
+            pthread_cond_broadcast(&q->changed);
+        }
+    } else {
+        now->levels = levels;
+    }
+    bool asked = q->requests != before;
+    pthread_mutex_unlock(&q->lock);
+    return asked;
+}
+
 void ceduo_jobs_seek(struct jobs *q, const struct seek *seek)
 {
     struct job job = {.seek = *seek, .file = *seek->file};
@@ -441,6 +496,7 @@ struct jobs_news ceduo_jobs_news(struct jobs *q)
     q->news.years = NULL;
     q->news.years_count = 0;
     q->news.others = NULL;
+    q->news.doubted = NULL;
     q->news.sought = NULL;
     q->news.foresaw = false;
     pthread_mutex_unlock(&q->lock);

@@ -2,6 +2,7 @@
 #ifndef CEDUO_JOBS_H
 #define CEDUO_JOBS_H
 
+#include "doubted.h"
 #include "flights.h"
 #include "foresee.h"
 #include "seek.h"
@@ -33,6 +34,10 @@ void ceduo_jobs_stop_seek(struct jobs *jobs);
  * it is now. */
 void ceduo_jobs_foresee(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
 
+/* Asks what doubt does to a scene, up to so many levels (doubted.h); 0: nothing. A scene whose nodes are the same is asked for
+ * once. Figures and years of as many rocks go before it. True where something is to be done. */
+bool ceduo_jobs_doubt(struct jobs *jobs, const struct scene_file *file, size_t levels);
+
 /* What a search came to. */
 struct sought {
     enum ceduo_status status;
@@ -57,6 +62,7 @@ struct jobs_news {
     struct ceduo_other_energy *others; /* newest under the other energy law, one for each option and control, in rows by
                                         * option; NULL: none are new. The caller's from now on */
     size_t others_options, others_controls;
+    struct doubted *doubted;       /* newest; NULL: none is new. The caller's from now on */
     size_t done, all;              /* of the step under way in the years: options, of so many; all 0: none is */
     uint64_t rocks;                /* of each run of that step, or of the figures' */
     struct sought *sought;         /* NULL: none is done; the caller's from now on */

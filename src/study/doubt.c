@@ -26,6 +26,11 @@ static const struct ceduo_arrivals *arrivals_of(const struct ceduo_result *r, si
 
 /* ---- a first look at many inputs ---- */
 
+static size_t first_points(const struct ceduo_doubt_def *def)
+{
+    return def->first > 0 ? def->first : CEDUO_DOUBT_FIRST;
+}
+
 /* The variance that an input brings (Jansen 1999), of the base points alone: enough to rank. */
 static double weight_of(const struct ceduo_halves *values, const struct ceduo_design *d, size_t group)
 {
@@ -60,7 +65,7 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
     coarse.rocks = def->rocks > COARSE_LEAST * COARSE ? def->rocks / COARSE : def->rocks;
     for (size_t from = 0; ranked && status == CEDUO_OK && from < n; from += GROUPS - 1) {
         size_t own = n - from < GROUPS - 1 ? n - from : GROUPS - 1;
-        struct plan plan = {.design = {n, CEDUO_DOUBT_FIRST, def->scene->simulation.seed + from, own + 1, group}};
+        struct plan plan = {.design = {n, first_points(def), def->scene->simulation.seed + from, own + 1, group}};
         for (size_t i = 0; i < n; i++)
             group[i] = i >= from && i < from + own ? i - from : own;
         status = ceduo_plan_fill(&coarse, &plan);
@@ -282,18 +287,37 @@ static enum ceduo_status read_orders(const struct ceduo_doubt_def *def, const st
     return CEDUO_OK;
 }
 
-/* Groups by the largest total index that they have for the main figure of any option. */
+/* Groups by weight. */
+static void put_in_order(struct ranked *ranks, size_t n, size_t *order)
+{
+    qsort(ranks, n, sizeof *ranks, heavier_first);
+    for (size_t g = 0; g < n; g++)
+        order[g] = ranks[g].input;
+}
+
+static double total_of(const struct ceduo_doubt_answer *a, size_t option, size_t group)
+{
+    return a->figures[option * CEDUO_DOUBT_KINDS + a->main].indices.total[group].value;
+}
+
+/* By the largest total index that they have for the main figure of any option. */
 static void order_groups(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *a)
 {
     struct ranked ranks[GROUPS];
     for (size_t g = 0; g < a->groups; g++) {
         ranks[g] = (struct ranked){g, 0};
         for (size_t i = 0; i < def->scene->options_count; i++)
-            ranks[g].weight = fmax(ranks[g].weight, a->figures[i * CEDUO_DOUBT_KINDS + a->main].indices.total[g].value);
+            ranks[g].weight = fmax(ranks[g].weight, total_of(a, i, g));
     }
-    qsort(ranks, a->groups, sizeof *ranks, heavier_first);
+    put_in_order(ranks, a->groups, a->order);
+}
+
+void ceduo_doubt_order_of(const struct ceduo_doubt_answer *a, size_t option, size_t *order)
+{
+    struct ranked ranks[GROUPS];
     for (size_t g = 0; g < a->groups; g++)
-        a->order[g] = ranks[g].input;
+        ranks[g] = (struct ranked){g, fmax(0, total_of(a, option, g))};
+    put_in_order(ranks, a->groups, order);
 }
 
 /* ---- making a plan ---- */
@@ -311,7 +335,7 @@ static uint64_t evaluations_of(const struct ceduo_doubt_def *def, size_t groups)
 {
     uint64_t all = def->points * (groups + 2) + 2 * groups, n = def->inputs_count;
     if (n > GROUPS)
-        all += (n + GROUPS - 2) / (GROUPS - 1) * CEDUO_DOUBT_FIRST * (GROUPS + 2);
+        all += (n + GROUPS - 2) / (GROUPS - 1) * first_points(def) * (GROUPS + 2);
     return all;
 }
 

@@ -140,6 +140,8 @@ void ceduo_app_refresh(struct app *app)
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_figures_follow(&app->figures, scene, app->option, view->years);
+    app->doubts |= view->doubt;
+    ceduo_figures_doubt(&app->figures, &app->document.file, view->doubt ? DOUBT_LEVELS : app->doubts ? DOUBT_BEHIND : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form);
     if (view->build) {
@@ -273,7 +275,7 @@ static void took_document(struct app *app)
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
                       bool no_recovery, struct problems *problems)
 {
-    *app = (struct app){.charset = charset, .no_recovery = no_recovery};
+    *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
         return false;
     if (!ceduo_figures_create(&app->figures, threads)) {

@@ -11,6 +11,7 @@
 #include "view/cells.h"
 #include "view/plot.h"
 #include "view/report.h"
+#include "view/report_doubt.h"
 
 /* The terminal program without a terminal: its state, and the calls that all its parts share. The parts stand on it in
  * layers: popups; editing of fields and lists; views; the screen, which draws them all; and the program, which handles
@@ -37,6 +38,7 @@ struct view {
     const char *title; /* marked for translation */
     int panes;         /* that Tab goes through; the first is the form */
     bool years;        /* compute the years to come while it is open */
+    bool doubt;        /* compute the doubt as finely as may be while it is open */
     bool result;       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form);        /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
@@ -88,6 +90,7 @@ struct app {
     struct popup *popup;
     bool opened;           /* a document was just opened: offer unsaved work that was left behind */
     bool no_recovery;      /* for a script: offer no unsaved work and keep no copy */
+    bool doubts;           /* compute the doubt behind the figures; a script does so once it has looked at it */
     void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
     bool quit, redraw;     /* redraw: paint the whole terminal again */
     bool stopped;          /* out of memory: cannot go on */

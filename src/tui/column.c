@@ -130,6 +130,23 @@ static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, con
     put_missed(pen, _("unfinished"), CEDUO_UNFINISHED, wood, bare, false);
 }
 
+/* The range of what may be true of the figure in the line above, once it is known: in the unit of that line. */
+static bool put_doubt(struct pen *pen, bool energy)
+{
+    struct app *app = pen->app;
+    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    char range[64];
+    if (!d || d->inputs.n == 0 || (d->answer.main == CEDUO_DOUBT_ENERGY) != energy || app->view == VIEW_ROTATION)
+        return false;
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&d->answer, app->option, d->answer.main, false);
+    if (energy)
+        snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * KILO, f->p95 * KILO);
+    else
+        snprintf(range, sizeof range, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
+    put_pair(pen, CEDUO_ROLE_DIM, _("  doubt"), range, "");
+    return true;
+}
+
 /* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). `other`
  * may be NULL. */
 static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
@@ -143,6 +160,7 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
                                            .height = none};
     wood = wood ? wood : &nothing;
     char a[32], b[32], limit[32];
+    bool told = false;
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
     put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
@@ -152,10 +170,12 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
         snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * KILO);
         put_pair_in(pen, limit, a, b);
         put_other(pen, other);
+        told = put_doubt(pen, false);
     }
     put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
+    told |= put_doubt(pen, true);
     put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
-    if (pen->area.height >= HEIGHT_FOR_MOST)
+    if (pen->area.height >= (told ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
         put_figures(pen, "  95 % kJ", wood->energy.p95 * KILO, bare->energy.p95 * KILO);
     if (pen->area.height >= HEIGHT_FOR_ALL)
         put_figures(pen, "  95 % m", wood->height.p95, bare->height.p95);

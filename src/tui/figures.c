@@ -16,6 +16,7 @@ void ceduo_figures_free(struct figures *f)
     ceduo_result_free(f->result);
     ceduo_outlook_free(f->outlook);
     free(f->others);
+    ceduo_doubted_free(f->doubted);
     ceduo_jobs_free_years(f->years, f->years_count);
     ceduo_verdict_release(&f->verdict);
     ceduo_sought_free(f->sought);
@@ -132,10 +133,20 @@ void ceduo_figures_follow(struct figures *f, const struct ceduo_scene *scene, si
     refresh(f, scene);
 }
 
+void ceduo_figures_doubt(struct figures *f, const struct scene_file *file, size_t levels)
+{
+    f->busy |= ceduo_jobs_doubt(f->jobs, file, levels);
+}
+
+const struct doubted *ceduo_figures_doubted(const struct figures *f, const struct scene_file *file)
+{
+    return f->doubted && f->doubted->file.root == file->root ? f->doubted : NULL;
+}
+
 bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool *failed)
 {
     struct jobs_news news = ceduo_jobs_news(f->jobs);
-    bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.sought || news.foresaw || news.failed;
+    bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.doubted || news.sought || news.foresaw || news.failed;
     f->busy = news.busy;
     *failed = news.failed;
     if (news.outlook) {
@@ -150,6 +161,10 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
     bool years = news.years != NULL;
     if (years)
         take_years(f, &news);
+    if (news.doubted) {
+        ceduo_doubted_free(f->doubted);
+        f->doubted = news.doubted;
+    }
     bool others = news.others != NULL;
     if (others) {
         free(f->others);

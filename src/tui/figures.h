@@ -13,6 +13,7 @@ struct figures {
     struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
     struct ceduo_other_energy *others; /* newest, as jobs_news has them; NULL before the first */
     size_t others_options, others_controls;
+    struct doubted *doubted;       /* newest; NULL before the first, and where it is not asked for */
     struct ceduo_years **years;    /* newest of each option, NULL: not computed */
     size_t years_count;            /* options that there is room for */
     struct ceduo_verdict verdict;  /* of the result and of the years that fit the scene; n 0: none */
@@ -36,6 +37,12 @@ bool ceduo_figures_restart(struct figures *figures);
 
 /* The scene has changed. `years`: the years to come of the option as well. */
 void ceduo_figures_follow(struct figures *figures, const struct ceduo_scene *scene, size_t option, bool years);
+
+/* The doubt of the scene up to so many levels, see ceduo_jobs_doubt(). */
+void ceduo_figures_doubt(struct figures *figures, const struct scene_file *file, size_t levels);
+
+/* What is known of the doubt of this scene, NULL where that is nothing yet. */
+const struct doubted *ceduo_figures_doubted(const struct figures *figures, const struct scene_file *file);
 
 /* Takes the news of the jobs; true where something has changed. `*failed`: there is no memory for more. */
 bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene, bool *failed);

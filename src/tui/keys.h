@@ -45,7 +45,8 @@ enum key {
     V(ROCK, rock, '3', "3", N_("view: rock and release")) \
     V(RESULTS, results, '4', "4", N_("view: results")) \
     V(COMPARE, compare, '5', "5", N_("view: compare")) \
-    V(ROTATION, rotation, '6', "6", N_("view: rotation"))
+    V(ROTATION, rotation, '6', "6", N_("view: rotation")) \
+    V(DOUBT, doubt, '7', "7", N_("view: doubt"))
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help)
 

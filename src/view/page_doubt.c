@@ -111,21 +111,24 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                                                                          "%zu other inputs have hardly any effect.", rest), rest);
 }
 
-static void put_orders(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    for (size_t i = 0; i < r->answer->orders_count; i++) {
-        const struct ceduo_doubt_order *o = &r->answer->orders[i];
-        struct text *t = ceduo_page_add(page, CEDUO_PAGE_ITEM);
-        struct text better = {0}, than = {0};
-        ceduo_text_safe(&better, s->options[o->better].name);
-        ceduo_text_safe(&than, s->options[o->than].name);
-        ceduo_text_format(t, _("%s is better than %s in %.0f %% of what may be true: %s."), ceduo_text_string(&better),
-                          ceduo_text_string(&than), o->probability * 100, ceduo_doubt_verdict(o->probability));
-        t->failed |= better.failed || than.failed;
-        ceduo_text_free(&better);
-        ceduo_text_free(&than);
-    }
+    const struct ceduo_doubt_order *o = &r->answer->orders[i];
+    struct text better = {0}, than = {0};
+    ceduo_text_safe(&better, s->options[o->better].name);
+    ceduo_text_safe(&than, s->options[o->than].name);
+    ceduo_text_format(text, _("%s is better than %s in %.0f %% of what may be true: %s."), ceduo_text_string(&better),
+                      ceduo_text_string(&than), o->probability * 100, ceduo_doubt_verdict(o->probability));
+    text->failed |= better.failed || than.failed;
+    ceduo_text_free(&better);
+    ceduo_text_free(&than);
+}
+
+static void put_orders(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    for (size_t i = 0; i < r->answer->orders_count; i++)
+        ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_ITEM), r, i);
 }
 
 /* "dbh, ADS 1 and per hectare, ADS 1" */
@@ -198,6 +201,15 @@ static void put_together(struct ceduo_page *page, const struct ceduo_doubt_repor
     ceduo_text_free(&paths);
 }
 
+void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
+{
+    double scale = scale_of(r);
+    put_value(text, f->value, scale);
+    ceduo_text_put(text, " (");
+    put_range(text, f->p5, f->p95, scale);
+    ceduo_text_char(text, ')');
+}
+
 /* What a reader takes along: both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
@@ -224,25 +236,38 @@ static void put_answer(struct ceduo_page *page, const struct ceduo_doubt_report 
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
 }
 
-/* Three lines in words: what to measure, and what would be left of the doubt. */
-static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+/* What to measure `nth`, from 0, and what would be left of the doubt. */
+bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t nth)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, 0);
+    const struct ceduo_doubt_figure *f = main_of(r, option);
     double scale = scale_of(r);
-    size_t told = 0;
-    for (size_t i = 0; i < r->answer->groups && told < FIRST; i++) {
-        size_t g = r->answer->order[i];
-        if (!matters(f, g) || isnan(f->left[g]))
+    size_t order[CEDUO_SENSITIVITY_GROUPS], told = 0;
+    ceduo_doubt_order_of(r->answer, option, order);
+    for (size_t i = 0; i < r->answer->groups; i++) {
+        size_t g = order[i];
+        if (!matters(f, g) || isnan(f->left[g]) || told++ < nth)
             continue;
-        struct text *t = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         struct text name = {0};
         ceduo_doubt_input_name(&name, r, g);
-        ceduo_text_format(t, told == 0 ? _("Measure first: %s; of a doubt %.3g wide it would leave %.3g.")
-                                       : _("then: %s; of a doubt %.3g wide it would leave %.3g."),
+        ceduo_text_format(text, nth == 0 ? _("Measure first: %s; of a doubt %.3g wide it would leave %.3g.")
+                                         : _("then: %s; of a doubt %.3g wide it would leave %.3g."),
                           ceduo_text_string(&name), (f->p95 - f->p5) * scale, f->left[g] * scale);
-        t->failed |= name.failed;
+        text->failed |= name.failed;
         ceduo_text_free(&name);
-        told++;
+        return true;
+    }
+    return false;
+}
+
+/* Three lines in words. */
+static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    for (size_t i = 0; i < FIRST; i++) {
+        struct text words = {0};
+        if (ceduo_doubt_advice(&words, r, 0, i))
+            ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), ceduo_text_string(&words));
+        page->failed |= words.failed;
+        ceduo_text_free(&words);
     }
 }
 

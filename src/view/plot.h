@@ -19,6 +19,7 @@ struct ceduo_span {
 };
 
 /* What a picture shows. */
+struct ceduo_doubt_report;
 struct ceduo_picture {
     const struct ceduo_scene *scene;       /* checked */
     const struct ceduo_outlook *outlook;   /* NULL: nothing is computed yet */
@@ -32,6 +33,7 @@ struct ceduo_picture {
     size_t year;                     /* index of the one under the cursor; beyond them all: none */
     const struct ceduo_verdict *verdict; /* of all options; NULL: not computed */
     struct ceduo_span *span; /* where the slope stands: a profile writes it, strips stand in it; NULL: the area's own */
+    const struct ceduo_doubt_report *doubt; /* NULL: not computed */
     bool no_x_axis;          /* of a strip that another one stands below */
 };
 
@@ -65,7 +67,8 @@ struct ceduo_picture {
     X(ROTATION, rotation, true, false, true)                                                                           \
     X(STAND, stand, false, false, true)                                                                                \
     X(COMPARE, compare, true, false, false)                                                                            \
-    X(TRADEOFF, tradeoff, true, false, false)
+    X(TRADEOFF, tradeoff, true, false, false)                                                                          \
+    X(DOUBT, doubt, false, false, true)
 
 enum ceduo_plot {
     CEDUO_PLOT_NONE,

@@ -69,6 +69,9 @@ static void put_subject(struct text *text, enum ceduo_plot plot, const struct ce
     case CEDUO_PLOT_HISTOGRAM:
         ceduo_text_format(text, wooded ? _("energy at %s") : _("energy at %s, without forest"), where);
         break;
+    case CEDUO_PLOT_DOUBT:
+        ceduo_text_format(text, _("how sure it is at %s"), where);
+        break;
     default:
         ceduo_text_format(text, _("%s, from above"), belt && belt->name ? belt->name : _("no forest"));
     }

@@ -33,6 +33,15 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
+/* "469 (92–740)": a figure with its doubt. */
+void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure);
+
+/* What to measure first (`nth` 0), second … for an option, and what that would leave; false where there is no more. */
+bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t nth);
+
+/* In how much of what may be true an order of two options holds. */
+void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);
+
 /* "Whether the test of energy passes depends on …"; nothing where the light does not change within what may be true. */
 void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option,
                              enum ceduo_doubt_kind light);

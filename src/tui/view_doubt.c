@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 7: how sure the answer is, what it depends on, whether the options separate, and the ranges that the scene names. */
+#include <stdio.h>
+
+#include "app.h"
+#include "base/language.h"
+
+static bool has_mean(const struct node *rows)
+{
+    for (size_t i = 0; i < rows->n; i++)
+        if (ceduo_node_get(rows->items[i], "mean"))
+            return true;
+    return false;
+}
+
+static void build(struct app *app, struct form *form)
+{
+    static const char *const all[] = {"path", "lo", "hi", "mean", "sd", NULL}, *const few[] = {"path", "lo", "hi", NULL};
+    const struct field *doubt = ceduo_schema_field(ceduo_schema_scene(), "doubt");
+    const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
+    if (rows && rows->kind == NODE_LIST && rows->n > 0)
+        ceduo_form_table(form, &app->document, doubt->object, "doubt", has_mean(rows) ? all : few, "");
+    else
+        ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
+}
+
+static struct ceduo_doubt_report report_of(const struct doubted *d)
+{
+    struct doubted *own = (struct doubted *)(uintptr_t)d; /* its scene is only read */
+    return (struct ceduo_doubt_report){.file = &own->file,
+                                       .inputs = &own->inputs,
+                                       .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                       .points = own->points,
+                                       .rocks = own->rocks};
+}
+
+/* ---- what it says ---- */
+
+static void say_state(const struct app *app, const struct doubted *d, struct text *words)
+{
+    if (d->level + 1 < DOUBT_LEVELS && app->figures.busy)
+        ceduo_text_format(words, _("Rough so far: %llu scenes of %llu rocks; being refined.\n"),
+                          (unsigned long long)d->answer.evaluations, (unsigned long long)d->rocks);
+    else
+        ceduo_text_format(words, _("%llu scenes of %llu rocks.\n"), (unsigned long long)d->answer.evaluations,
+                          (unsigned long long)d->rocks);
+}
+
+/* Each in a line of its own, where there is anything to say. */
+static void end_line(struct text *words, size_t before)
+{
+    if (words->length > before)
+        ceduo_text_char(words, '\n');
+}
+
+static void say_all(const struct app *app, const struct doubted *d, const struct ceduo_doubt_report *r, struct text *words)
+{
+    static const enum ceduo_doubt_kind lights[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
+    size_t before = words->length;
+    ceduo_doubt_both(words, r, app->option);
+    end_line(words, before);
+    before = words->length;
+    ceduo_doubt_advice(words, r, app->option, 0);
+    end_line(words, before);
+    for (size_t i = 0; i < 3; i++) {
+        before = words->length;
+        ceduo_doubt_light_words(words, r, app->option, lights[i]);
+        end_line(words, before);
+    }
+    for (size_t i = 0; i < r->answer->orders_count; i++) {
+        const struct ceduo_doubt_order *o = &r->answer->orders[i];
+        before = words->length;
+        if (o->better == app->option || o->than == app->option)
+            ceduo_doubt_order_words(words, r, i);
+        end_line(words, before);
+    }
+    say_state(app, d, words);
+}
+
+/* ---- drawing ---- */
+
+#define PICTURE_LEAST 7
+
+/* Lines that the picture fills: options, inputs, and a line above each. */
+static int picture_lines(const struct ceduo_doubt_report *r)
+{
+    size_t inputs = r->answer->groups < 12 ? r->answer->groups : 12;
+    return (int)(r->file->scene.options_count + inputs + 2);
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    struct text words = {0};
+    int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 2;
+    struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
+    area.height -= form + 1;
+    struct ceduo_picture picture = ceduo_app_picture(app);
+    struct ceduo_doubt_report r;
+    int said = 0;
+    if (d) {
+        r = report_of(d);
+        picture.doubt = &r;
+    }
+    if (d && r.answer) {
+        say_all(app, d, &r, &words);
+        said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
+        said = said > area.height - PICTURE_LEAST ? area.height - PICTURE_LEAST : said;
+        int lines = picture_lines(&r);
+        if (lines < area.height - said - 1)
+            area.height = lines + said + 1;
+    }
+    struct ceduo_area top = {area.left, area.top, area.width, area.height - said - (said > 0)};
+    struct ceduo_area text = {area.left, area.top + area.height - said, area.width, said};
+    ceduo_plot_draw(CEDUO_PLOT_DOUBT, &app->cells->canvas, &top, &picture);
+    ceduo_app_put(app, text, CEDUO_ROLE_TEXT, &words);
+    ceduo_app_draw_form(app, below, true);
+}
+
+/* ---- a range of one's own ---- */
+
+static bool is_named(const struct node *rows, const char *path)
+{
+    for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
+        const char *own = ceduo_node_text(rows->items[i], "path");
+        if (own && strcmp(own, path) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Names the most important input that the scene does not name yet, with the range that it has now. */
+static void add(struct app *app)
+{
+    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
+    size_t order[CEDUO_SENSITIVITY_GROUPS];
+    if (!d || d->inputs.n == 0 || (rows && rows->kind != NODE_LIST)) {
+        ceduo_app_say(app, "%s", d ? _("nothing here has a range") : _("not computed yet"));
+        return;
+    }
+    ceduo_doubt_order_of(&d->answer, app->option, order);
+    const struct ceduo_doubt_report r = report_of(d);
+    for (size_t i = 0; i < d->answer.groups; i++) {
+        const struct ceduo_input *input = &d->inputs.items[d->answer.input[order[i]]];
+        bool several = d->answer.together > 0 && order[i] + 1 == d->answer.groups;
+        if (several || input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
+            continue;
+        struct text row = {0};
+        ceduo_text_format(&row, "{path: '%s', lo: ", input->places[0]);
+        ceduo_doubt_input_end(&row, &r, order[i], 0);
+        ceduo_text_put(&row, ", hi: ");
+        ceduo_doubt_input_end(&row, &r, order[i], 1);
+        ceduo_text_char(&row, '}');
+        if (!rows)
+            ceduo_text_put(&row, "]");
+        size_t n = rows ? rows->n : 0;
+        bool good = rows ? ceduo_document_insert(&app->document, "doubt", n, ceduo_text_string(&row), &app->problems) : false;
+        if (!rows) {
+            struct text list = {0};
+            ceduo_text_format(&list, "[%s", ceduo_text_string(&row));
+            good = ceduo_document_set(&app->document, "doubt", ceduo_text_string(&list), &app->problems);
+            ceduo_text_free(&list);
+        }
+        ceduo_text_free(&row);
+        if (ceduo_app_edited(app, good))
+            ceduo_form_go(ceduo_app_form(app), "doubt", n);
+        return;
+    }
+    ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
+}
+
+static bool act(struct app *app, enum action action)
+{
+    if (action == ACTION_ADD)
+        add(app);
+    return action == ACTION_ADD;
+}
+
+const struct view ceduo_view_doubt = {
+    .title = N_("doubt"), .panes = 1, .doubt = true, .build = build, .draw = draw, .act = act,
+    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("a range")}, {ACTION_DELETE, N_("delete")},
+            {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How sure the answer is: for each option the range of what may be true, in it the error of the rocks; below, what the
+ * option of the picture depends on, as bars of the share of each input, with the width of the doubt if it were known. */
+#include <math.h>
+
+#include "base/language.h"
+#include "plot_parts.h"
+#include "report_doubt.h"
+
+#define SHOWN_LEAST  0.005 /* of the share of an input */
+#define WIDTH_LEAST  40
+#define HEIGHT_LEAST 4
+#define NAME_MOST    34
+#define VALUES       24 /* columns of "1000  1000–1000" and the like */
+
+struct sure {
+    struct ceduo_canvas *canvas;
+    const struct ceduo_doubt_report *report;
+    size_t option;
+    int left, width, name, bars; /* columns: bars begin after the name */
+    int y, end;
+    double scale, most; /* of the figures shown; where the axis ends */
+};
+
+static const struct ceduo_doubt_figure *main_of(const struct sure *s, size_t option)
+{
+    return ceduo_doubt_figure_of(s->report->answer, option, s->report->answer->main, false);
+}
+
+static int column_of(const struct sure *s, double value)
+{
+    double share = fmin(1, fmax(0, value * s->scale / s->most));
+    return s->left + s->name + 1 + (int)(share * (s->bars - 1));
+}
+
+/* The ends of a line are always there, and what the rocks leave open at least one cell. */
+static void draw_range(const struct sure *s, const struct ceduo_doubt_figure *f)
+{
+    int from = column_of(s, f->p5), to = column_of(s, f->p95);
+    for (int x = from; x <= to; x++)
+        ceduo_canvas_label(s->canvas, x, s->y, CEDUO_ROLE_MEAN, x == from ? "\xe2\x94\x9c" : x == to ? "\xe2\x94\xa4" : "\xe2\x94\x80");
+    for (int x = column_of(s, f->sampling_lo); x <= column_of(s, f->sampling_hi); x++)
+        ceduo_canvas_bar(s->canvas, x, s->y, 1, 1, CEDUO_ROLE_TITLE);
+}
+
+static void draw_option(struct sure *s, size_t i)
+{
+    const struct ceduo_doubt_figure *f = main_of(s, i);
+    struct text values = {0};
+    ceduo_plot_say(s->canvas, s->left, s->y, s->name, i == s->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, "%s",
+                   s->report->file->scene.options[i].name);
+    draw_range(s, f);
+    ceduo_doubt_range(&values, s->report, f);
+    ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_TEXT, &values);
+    s->y++;
+}
+
+static void put_caption(const struct sure *s, const struct ceduo_control *control)
+{
+    struct text words[2] = {{0}, {0}};
+    bool share = s->report->answer->main == CEDUO_DOUBT_EXCEED;
+    double accepted = ceduo_words_accepted(control);
+    if (share) {
+        ceduo_text_format(&words[0], _("of 1000 rocks those with more than %g kJ, 0 to 1000"), accepted);
+        ceduo_text_format(&words[1], _("of 1000 more than %g kJ"), accepted);
+    } else {
+        ceduo_text_format(&words[0], _("kJ per released rock, 0 to %.4g"), s->most);
+        ceduo_text_put(&words[1], _("kJ per rock"));
+    }
+    ceduo_plot_put_fitting(s->canvas, s->left, s->y, s->width - VALUES - 1, CEDUO_ROLE_AXIS, 2, words);
+}
+
+static void draw_options(struct sure *s)
+{
+    const struct ceduo_scene *scene = &s->report->file->scene;
+    size_t n = scene->options_count, room = (size_t)(s->end - s->y) / 2, first = 0;
+    room = room > 0 ? room : 1;
+    if (n > room && s->option >= room)
+        first = s->option - room + 1;
+    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_AXIS, "%s", _("now (doubt, 90 %)"));
+    put_caption(s, &scene->controls[ceduo_scene_last_control(scene)]);
+    s->y++;
+    for (size_t i = first; i < n && i < first + room; i++)
+        draw_option(s, i);
+}
+
+static void draw_input(struct sure *s, size_t g)
+{
+    const struct ceduo_doubt_figure *f = main_of(s, s->option);
+    double share = fmin(1, fmax(0, f->indices.total[g].value));
+    struct text name = {0}, left = {0};
+    ceduo_doubt_input_name(&name, s->report, g);
+    ceduo_plot_say(s->canvas, s->left, s->y, s->name, CEDUO_ROLE_TEXT, "%s", ceduo_text_string(&name));
+    ceduo_text_free(&name);
+    ceduo_canvas_bar(s->canvas, s->left + s->name + 1, s->y, s->bars, share, CEDUO_ROLE_MEAN);
+    ceduo_text_format(&left, "%.0f %%", share * 100);
+    if (!isnan(f->left[g]))
+        ceduo_text_then(&left, "  ", _("leaves %.3g"), f->left[g] * s->scale);
+    ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_TEXT, &left);
+    s->y++;
+}
+
+static void draw_inputs(struct sure *s)
+{
+    const struct ceduo_doubt_figure *f = main_of(s, s->option);
+    if (s->y + 1 >= s->end)
+        return;
+    ceduo_plot_say(s->canvas, s->left, s->y, s->width - VALUES - 1, CEDUO_ROLE_AXIS, _("%s depends on"),
+                   s->report->file->scene.options[s->option].name);
+    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_AXIS, _("of %.3g wide"),
+                         (f->p95 - f->p5) * s->scale);
+    s->y++;
+    size_t order[CEDUO_SENSITIVITY_GROUPS];
+    ceduo_doubt_order_of(s->report->answer, s->option, order);
+    for (size_t i = 0; i < s->report->answer->groups && s->y < s->end; i++)
+        if (f->indices.total[order[i]].value >= SHOWN_LEAST)
+            draw_input(s, order[i]);
+}
+
+const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                             const struct ceduo_picture *picture)
+{
+    const struct ceduo_doubt_report *r = picture->doubt;
+    if (!r)
+        return _("not computed yet");
+    if (!r->answer)
+        return _("nothing is marked as assumed or named by 'doubt'");
+    if (area->width < WIDTH_LEAST || area->height < HEIGHT_LEAST)
+        return _("too narrow");
+    int name = (area->width - VALUES) / 2 < NAME_MOST ? (area->width - VALUES) / 2 : NAME_MOST;
+    struct sure s = {.canvas = canvas,
+                     .report = r,
+                     .option = picture->option,
+                     .left = area->left,
+                     .width = area->width,
+                     .name = name,
+                     .bars = area->width - VALUES - name - 2,
+                     .y = area->top,
+                     .end = area->top + area->height,
+                     .scale = r->answer->main == CEDUO_DOUBT_ENERGY ? KILO : 1000};
+    for (size_t i = 0; i < r->file->scene.options_count; i++)
+        s.most = fmax(s.most, fmax(main_of(&s, i)->p95, main_of(&s, i)->sampling_hi) * s.scale);
+    s.most = s.most > 0 ? s.scale > 1 ? 1000 : ceduo_plot_round(s.most, true) : 1;
+    draw_options(&s);
+    draw_inputs(&s);
+    return NULL;
+}

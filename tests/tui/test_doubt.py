@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""View 7: how sure the answer is, and what it depends on; the doubt in the column on the right; ranges edited there."""
+import json
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import CUTS, WOOD, Place  # noqa: E402
+from harness import ceduo, expect, expect_equal, expect_in, run_all  # noqa: E402
+
+DOUBT = """
+doubt:
+  - {path: "forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}
+  - {path: release.vx_m_s, lo: 2.9, hi: 3.1}
+"""
+NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
+
+
+def test_nothing():
+    """A scene with nothing in doubt says so, computes nothing, and has no doubt in the column"""
+    with Place() as place:
+        place.write("sure.yaml", NO_LAW + "doubt: none\n")
+        sure, = place.play("key 7\nwait idle\ndump", "sure.yaml")
+        expect_in("nothing is marked as assumed or named by 'doubt'", sure.body)
+        expect("doubt" not in sure.now, sure.now)
+
+
+def test_view():
+    """View 7 at 80x24 and 200x50: the answer with both errors as the batch has it, the inputs in their order, the column"""
+    with Place() as place:
+        place.write("unsure.yaml", NO_LAW + DOUBT)
+        small, large, slope = place.play("key 7\nwait idle\ndump\nresize 200 50\ndump\nkey 1\ndump", "unsure.yaml")
+        run = json.loads(ceduo("--sensitivity=64", "-n", 1000, "-f", "json", place.path / "unsure.yaml").out)
+    figure, = (f for f in run["figures"] if f["figure"] == "exceed_probability" and f["against"] is None)
+    band = [round(figure[k] * 1000) for k in ("doubt_p5", "doubt_p95")]
+    answer = f"{figure['value'] * 1000:.0f} of 1000 (rocks "
+    for screen in (small, large):
+        screen.whole().has(answer, f"doubt {band[0]}–{band[1]})", "Measure first: U, J/m3, upper")
+        expect(re.search(r"^U, J/m3\S* .*\d+ % +leaves", screen.body, re.M), "the input with its share in", screen)
+        expect_in("Enter edit", screen.bar)
+    for screen in (small, large, slope):
+        expect(re.search(rf"^ +doubt +{band[0]}-{band[1]}$", screen.now, re.M), "the doubt in the column:", screen.now)
+
+
+def test_scripts_look_first():
+    """A script computes no doubt before it looks at it; then every edit computes it anew"""
+    with Place() as place:
+        place.write("unsure.yaml", NO_LAW + DOUBT)
+        before, first, edited, undone = place.play(
+            "wait idle\ndump\nkey 7\nwait idle\ndump\nkey 3\nfind rock.density_kg_m3\nset 4000\nwait idle\ndump\nkey u\nwait idle\ndump",
+            "unsure.yaml")
+    doubt = [re.findall(r"doubt +(\S+)$", s.now, re.M) for s in (before, first, edited, undone)]
+    expect_equal([len(d) for d in doubt], [0, 1, 1, 1])
+    expect(doubt[2] != doubt[1], "a heavier rock has another doubt", doubt)
+
+
+def test_ranges():
+    """A range of the scene is edited in view 7, and undone; a names another input with the range that it has"""
+    with Place() as place:
+        place.write("unsure.yaml", NO_LAW + DOUBT)
+        start, wider, back = place.play(
+            "key 7\nwait idle\ndump\nfind doubt[0].hi\nset 150000\nwait idle\ndump\nkey u\nwait idle\ndump", "unsure.yaml")
+        expect_in("200000", start.body)
+        expect("200000" not in wider.body, wider)
+        expect_in("200000", back.body)
+        assumed = WOOD.replace("{per_ha: 60, dbh_m: 0.2", "{source: {kind: assumed, text: a guess}, per_ha: 60, dbh_m: 0.2")
+        place.write("assumed.yaml", assumed)
+        none, named = place.play("key 7\nwait idle\ndump\nkey a\nwait idle\ndump\nkey s", "assumed.yaml")
+        expect_in("a: name a range in the scene", none.body)
+        expect(re.search(r"^1 +\S+", named.body, re.M), "a row in", named)
+        expect(re.search(r"doubt:", place.text("assumed.yaml")), place.text("assumed.yaml"))
+
+
+def test_options():
+    """Options: whether they separate, for the one that is shown"""
+    with Place() as place:
+        place.write("cuts.yaml", CUTS + DOUBT.replace("forest[0]", "options[*].forest[0]"))
+        thick, = place.play("key 7\nwait idle\ndump", "cuts.yaml")
+    thick.has("thick is better than thin in", "clear.", "thick depends on")
+
+
+if __name__ == "__main__":
+    run_all(__name__)
