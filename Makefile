@@ -95,18 +95,19 @@ $(BUILD)/src/cli/language.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_
 
 $(MO): $(BUILD)/locale/%/LC_MESSAGES/ceduo.mo: src/po/%.po
 	@mkdir -p $(@D)
-	msgfmt -c -o $@ $<
+	msgfmt -o $@ $<
 
-# All text that is marked, by the files in which it stands.
+# All text that is marked, by the files in which it stands. "95 % of" is no format, though xgettext takes it for one.
 TEMPLATE := $(BUILD)/ceduo.pot
 .PHONY: $(TEMPLATE)
 $(TEMPLATE):
 	@mkdir -p $(@D)
 	@ls src/*/*.[ch] | LC_ALL=C sort | xgettext -f - -o $@ --force-po --from-code=UTF-8 -L C -k -k_ -kN_ -kngettext:1,2 -kP_:1c,2 -kNP_:1c,2 --flag=N_:1:no-c-format --add-location=file -c'Translators:' \
 	    --package-name=ceduo --copyright-holder=
+	@awk -v RS= '!/%[-+\#0-9.*]*(ll|l|z|h)?[diouxXeEfgGscp%]/ { sub(/\#, c-format\n/, "") } { gsub(/"POT-Creation-Date[^\n]*\n/, ""); print $$0 "\n" }' \
+	    $@ >$@.tmp && mv $@.tmp $@
 
 po: $(TEMPLATE)
-	@sed -i '/^"POT-Creation-Date/d' $(TEMPLATE)
 	@for l in $(LANGUAGES); do msgmerge -q --update --backup=none --no-wrap --add-location=file src/po/$$l.po $(TEMPLATE) && \
 	    msgfmt -c --statistics -o /dev/null src/po/$$l.po || exit 1; done
 
