@@ -271,7 +271,7 @@ static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report 
     }
 }
 
-void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, bool all)
 {
     put_section(page, r);
     put_options(page, r);
@@ -283,7 +283,8 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     put_advice(page, r);
     put_lights(page, r);
     put_orders(page, r);
-    put_together(page, r);
+    if (all)
+        put_together(page, r);
     put_answer(page, r);
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                       _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
@@ -300,7 +301,7 @@ void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, boo
         return;
     }
     ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), r->file->scene.title);
-    ceduo_doubt_blocks(&page, r);
+    ceduo_doubt_blocks(&page, r, true);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }

@@ -14,11 +14,11 @@
 static const char style[] =
     "@page{size:A4;margin:14mm 16mm}\n"
     "*{box-sizing:border-box}\n"
-    "html{background:#fff;color:#1c1c1c;font:9.5pt/1.35 sans-serif;-webkit-print-color-adjust:exact;"
+    "html{background:#fff;color:#1c1c1c;font:9.25pt/1.32 sans-serif;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
     "body{max-width:178mm;margin:0 auto;padding:0 4mm}\n"
     "h1{font-size:17pt;line-height:1.2;margin:5mm 0 2mm;overflow-wrap:anywhere}\n"
-    "h2{font-size:12pt;line-height:1.25;margin:4mm 0 1.5mm;padding-bottom:.5mm;border-bottom:.3mm solid #14532d;color:#14532d;"
+    "h2{font-size:12pt;line-height:1.25;margin:3.5mm 0 1.5mm;padding-bottom:.5mm;border-bottom:.3mm solid #14532d;color:#14532d;"
     "overflow-wrap:anywhere}\n"
     "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
     "h1,h2,h3,caption{break-after:avoid}\n"
@@ -33,7 +33,7 @@ static const char style[] =
     "dt{color:#4a4a4a}\n"
     "dd{margin:0}\n"
     "ul{margin:1mm 0;padding-left:5mm}\n"
-    "table{border-collapse:collapse;width:100%;margin:1.5mm 0 2.5mm;font-size:8.5pt;line-height:1.3;"
+    "table{border-collapse:collapse;width:100%;margin:1.5mm 0 2.5mm;font-size:8.5pt;line-height:1.22;"
     "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
     "caption{text-align:left;padding-bottom:1mm;color:#4a4a4a}\n"
     "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid #c9cfc4;overflow-wrap:break-word}\n"
@@ -98,9 +98,12 @@ static void put_cell(struct ceduo_html *html, const struct ceduo_page_block *tab
     ceduo_text_free(&text);
 }
 
+/* One with heads alone says nothing. */
 static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
 {
     size_t n = table->columns_count;
+    if (table->cells_count < 2 * n)
+        return;
     ceduo_html_open(html, "table", NULL);
     if (caption)
         ceduo_html_leaf(html, "caption", ceduo_text_string(&caption->text), NULL);
@@ -116,8 +119,7 @@ static void put_table(struct ceduo_html *html, const struct ceduo_page_block *ta
         if (row == 0)
             ceduo_html_close(html);
     }
-    if (table->cells_count >= 2 * n)
-        ceduo_html_close(html);
+    ceduo_html_close(html);
     ceduo_html_close(html);
 }
 

@@ -82,10 +82,10 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
 static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     if (c->doubt && c->doubt->answer)
-        ceduo_doubt_blocks(page, c->doubt);
+        ceduo_doubt_blocks(page, c->doubt, false);
 }
 
-#define YEARS_ROWS 20
+#define YEARS_ROWS 17
 
 /* Whether the years of an option differ at all. */
 static bool has_years(const struct ceduo_chapter *c, size_t option)
@@ -119,6 +119,9 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
                    _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
     bool both = has_yields(v);
+    if (both)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+                       _("Numbers beside points stand for the options in the order of the tables."));
     add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
                 _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
                   "arrive with too much energy, and below them which tests each year passes."));
