@@ -131,19 +131,24 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
                       "upwards."));
 }
 
-static void add_limits(struct ceduo_page *page)
+static void add_limits(struct ceduo_page *page, const struct ceduo_scene *scene)
 {
     static const char *const limits[] = {
         N_("Rocks move in one vertical plane: what leaves it to the side, and what lies beside it, is not seen."),
         N_("Each rock finds the forest undamaged; rocks do not break, and do not hit each other."),
         N_("Shrubs, falling trees, air and soil that deforms are not in it; a stem is a straight line as wide as its dbh."),
         N_("What a hit takes from a rock is known from few kinds of trees; for thin stems it is the largest doubt of all."),
-        N_("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall can tell."),
         N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the situation "
            "on the ground.")};
     section(page, _("What the model cannot tell"));
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(limits[i]));
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM),
+                   scene->blocks_count > 0
+                       ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
+                           "foot can tell.")
+                       : _("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall "
+                           "can tell."));
 }
 
 /* As it would stand in its file: with what the command line changed, and the names of other files. */
@@ -187,8 +192,9 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_page_laws(page, c->report->result);
         add_doubt(page, c);
         add_years(page, c);
+        ceduo_page_hazard(page, c->report);
     }
     ceduo_page_notes(page, c->report);
-    add_limits(page);
+    add_limits(page, scene);
     add_origin(page, c);
 }

@@ -17,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import FULL, PROFILES, SANITIZED, SLOWER, Folder, Skip, expect, expect_equal, good, run_all  # noqa: E402
 
-SCENES = ("four-systems", "rotation", "paper-site", "vaujany")
+SCENES = ("four-systems", "rotation", "paper-site", "blocks-above-the-road", "vaujany")
 QUICK = ("-n", 2000, "--sensitivity=8")
 
 # Looks at every element that has text of its own: its boxes, its colours, and whether it stays within its place.
