@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --survey: the stand of a CSV file of sample plots. */
+#include <string.h>
+
 #include "batch.h"
+#include "io/file.h"
 #include "io/survey_file.h"
 #include "output.h"
 #include "say.h"
@@ -11,7 +14,10 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     struct problems problems = {0};
     struct survey_file file;
     struct text yaml = {0};
-    bool good = ceduo_survey_read(&file, &arena, a->survey, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    bool standard = strcmp(a->survey, "-") == 0;
+    const char *found = standard ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
+    bool good = ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
+                ceduo_survey_stand(&file, &yaml, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     enum exit_status status = good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;

@@ -39,7 +39,7 @@ static double standards_of(const struct ceduo_stand *stand)
 struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r, const struct ceduo_stand *stand)
 {
     struct ceduo_compliance c = {.standards = standards_of(stand), .turn = NAN};
-    if (!r->name || !(stand->stools_per_ha > 0))
+    if (!r->name || stand->system == CEDUO_HIGH_FOREST || stand->system == CEDUO_BARE)
         return c;
     if (stand->cutting.rotation > 0)
         c.turn = (double)stand->cutting.rotation * (stand->cutting.cohorts > 1 ? stand->cutting.cohorts : 1);

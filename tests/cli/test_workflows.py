@@ -179,10 +179,11 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
-    for way, least in (("four-systems", 4), ("two-cuts", 7), ("reserves", 3), ("doubt", 2), ("page", 3), ("sections", 2), ("shards", 4), ("valley", 6)):
+    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("doubt", 2), ("page", 3), ("sections", 2),
+                       ("shards", 4), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "two-cuts", "reserves", "doubt", "page", "sections", "shards", "valley")
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "doubt", "page", "sections", "shards", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -322,6 +323,31 @@ def test_two_cuts_new():
     expect(re.search("✘✘[✔✘]( |$)", simple), "contact and free run of the simple coppice", simple)
     expect(re.search("✔✔[✔✘]( |$)", selection), "contact and free run of the selection coppice", selection)
     expect(not re.search(r"^current", screen, re.M), screen)
+
+
+def test_survey():
+    """From a survey to a page: the stand, the comparison, how sure, and the page in two languages"""
+    walk = walked("survey")
+    head = walk.read("stand.yaml")
+    stools, shoots, standards = (float(re.search(rf"^# {name} +(\d+)", head, re.M)[1]) for name in ("stools", "shoots", "standards"))
+    expect(590 < stools < 610 and 1430 < shoots < 1445 and 105 < standards < 115, head)
+    expect(re.search(r"^# standards .* 63 to 159$", head, re.M), head)
+    expect_in("36 measured; 106 by N\u00e4slund", head)
+    rows = side_by_side(walk.outputs[3])
+    now, alone, selection = (rows[name]["share"] for name in ("as it is", "standards alone", "selection"))
+    expect(0.35 < selection / now < 0.65 and 1.6 < alone / now < 2.4, rows)
+    expect_equal([rows["standards alone"][light] for light in ("contact", "free_run", "energy")], ["FAIL"] * 3)
+    page = " ".join(walk.outputs[3].split())
+    expect(re.search(r"standards: Toscana asks for 60 standards a hectare at least \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
+                     page), page)
+    expect(re.search(r"is better than .*: (clear|likely|undecided)\.", " ".join(walk.outputs[4].split())), walk.outputs[4])
+    expect(re.search(r"as it is: Whether the test of energy passes depends on .*roughness", " ".join(walk.outputs[4].split())),
+           walk.outputs[4])
+    for name, language in (("page.html", "en"), ("pagina.html", "it")):
+        html = walk.read(name)
+        expect_in(f'lang="{language}"', html[:200])
+        expect_in("Coppice above the road", html)
+        expect_in("six-plots", html)
 
 
 def test_reserves():
