@@ -6,6 +6,7 @@
 #   make run        compute the paper's site        make bench      measure speed against a plain C loop
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
+#   make deb        build packages for Debian, in build/deb
 #   make man        write the tables of the program into the manual
 #   make pictures   draw the pictures of README
 #   make po         bring the marked text of the sources into src/po/*.po
@@ -272,7 +273,7 @@ do-check-all: do-check
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
 	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
-	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist
+	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist do-check-deb
 
 # These tests use threads: workers of a run and of a pool, of the terminal program, of years and parts.
 THREADED := $(addprefix $(T)/,unit/test_jobs $(addprefix physics/test_,statistics_of_runs part years))
@@ -305,6 +306,10 @@ do-check-slurm: all
 do-check-dist: dist
 	+to=$$(mktemp -d) && tar -xzf $(DIST).tar.gz -C "$$to" && \
 	    $(MAKE) --no-print-directory -C "$$to/$(DIST)" check; status=$$?; rm -rf "$$to"; exit $$status
+
+# Builds the packages for Debian, installs, uses and purges them.
+do-check-deb: deb
+	CC=$(CC) tests/deb.sh || [ $$? = 77 ]
 
 # The number of random scenes; each core runs a part of them.
 STRESS ?= 10000000
@@ -417,8 +422,23 @@ dist:
 	    -cf - $(DIST) | gzip -n >$(DIST).tar.gz
 	rm -rf build/$(DIST)
 
+# Packages for Debian, built from the sources packed as above with src/packaging as their folder debian.
+DEBIAN_DEB := debhelper lintian
+DEB := build/deb
+deb: dist
+	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN) $(DEBIAN_DEB)" deps
+	rm -rf $(DEB) && mkdir -p $(DEB)
+	tar -xzf $(DIST).tar.gz -C $(DEB)
+	cp -R $(DEB)/$(DIST)/src/packaging $(DEB)/$(DIST)/debian
+	epoch=$${SOURCE_DATE_EPOCH:-$$(date +%s -r NEWS.md)}; \
+	sed -i "s/@VERSION@/$(VERSION)/; s/@DATE@/$$(date -R -u -d @$$epoch)/" $(DEB)/$(DIST)/debian/changelog; \
+	find $(DEB)/$(DIST) -exec touch -h -d @$$epoch {} +
+	cd $(DEB)/$(DIST) && DEB_BUILD_OPTIONS="noautodbgsym parallel=$(CORES)" dpkg-buildpackage -b -us -uc
+	rm -rf $(DEB)/$(DIST)
+	@for p in $(DEB)/*.deb; do echo "$$p"; dpkg-deb -f "$$p" Package Version Architecture Installed-Size Depends; done
+
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist man pictures po install uninstall dist clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man pictures po install uninstall dist deb clean
 .DELETE_ON_ERROR:

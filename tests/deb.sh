@@ -1,0 +1,54 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The packages of `make deb`: lintian finds nothing, they are installed, used and purged, and nothing is left. Status 77: it
+# cannot be done here, and why.
+set -eu
+
+skip() {
+    echo "skipped: $1"
+    exit 77
+}
+
+fail() {
+    echo "FAILED: $1" >&2
+    exit 1
+}
+
+[ "$(id -u)" = 0 ] || skip "packages are installed by root"
+command -v lintian >/dev/null || skip "lintian is not installed"
+! dpkg-query -W -f '${Status}' ceduo 2>/dev/null | grep -q installed || skip "a package ceduo is installed here"
+
+set -- build/deb/ceduo_*.deb build/deb/libceduo-dev_*.deb
+[ -f "$2" ] || fail "no packages in build/deb; run make deb"
+lintian --allow-root --fail-on error,warning build/deb/*.changes "$@"
+
+work=$(mktemp -d)
+trap 'dpkg --purge ceduo libceduo-dev >/dev/null 2>&1 || :; rm -rf "$work"' EXIT
+DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "./$1" "./$2" >"$work/apt.log" 2>&1 ||
+    { cat "$work/apt.log"; fail "apt-get install"; }
+dpkg -L ceduo libceduo-dev | while read -r path; do [ -d "$path" ] || echo "$path"; done >"$work/files"
+
+# used by somebody who has no sources
+cd "$work"
+export HOME="$work" XDG_DATA_HOME="$work/share" LC_ALL=C.UTF-8
+program=/usr/bin/ceduo
+$program --batch -n 100 paper-site | grep -q 'Energy per released rock' || fail "the page of the paper's site"
+$program --list-profiles | grep -q '^/usr/share/ceduo/rules/toscana.yaml' || fail "profiles"
+cp /usr/share/ceduo/surveys/six-plots.csv .
+$program --survey six-plots.csv -o stand.yaml
+grep -q '^  - {path: stools.per_ha' stand.yaml || fail "the stand of a survey"
+$program --language it --help >it; $program --help >en
+! cmp -s it en || fail "translations"
+[ -x /usr/share/ceduo/jobs/ceduo-array.sbatch ] || fail "the job for Slurm"
+for page in ceduo.1 ceduo-scene.5 ceduo-workflows.7 ceduo.3; do
+    [ -f "/usr/share/man/man${page##*.}/$page.gz" ] || fail "$page"
+done
+bash -c '. /usr/share/bash-completion/completions/ceduo && complete -p ceduo' >/dev/null || fail "completion"
+[ -f /usr/share/zsh/vendor-completions/_ceduo ] || fail "completion of zsh"
+printf '#include <ceduo/ceduo.h>\nint main(void) { return ceduo_species_find("acer") < 0; }\n' >use.c
+${CC:-gcc} -std=c17 use.c $(pkg-config --cflags --libs ceduo) -o use && ./use || fail "the library"
+
+dpkg --purge ceduo libceduo-dev >/dev/null
+while read -r path; do [ ! -e "$path" ] || fail "left behind: $path"; done <files
+[ ! -e /usr/share/ceduo ] || fail "left behind: /usr/share/ceduo"
+echo "installed, used and purged: $(wc -l <files) files"
