@@ -19,7 +19,7 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 /* Columns of the title of a view: its number, and blanks. */
 static int title_columns(int view)
 {
-    return (int)ceduo_utf8_width(_(ceduo_views[view]->title)) + 4;
+    return (int)ceduo_utf8_width(ceduo_translate_in(ceduo_views[view]->title)) + 4;
 }
 
 enum view_number ceduo_screen_view_at(int column)
@@ -36,7 +36,7 @@ static void draw_title(struct app *app)
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; x += title_columns(v++))
         ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, " %d %s ", v + 1,
-                        _(ceduo_views[v]->title));
+                        ceduo_translate_in(ceduo_views[v]->title));
     struct text title = {0};
     ceduo_text_format(&title, "%s", ceduo_document_unsaved(&app->document) ? "* " : "");
     ceduo_text_safe(&title, app->document.file.scene.title);

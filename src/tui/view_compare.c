@@ -479,6 +479,6 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_compare = {
-    .title = N_("compare"), .panes = PANES, .years = true, .result = true, .build = build, .draw = draw, .act = act,
+    .title = NP_("view", "compare"), .panes = PANES, .years = true, .result = true, .build = build, .draw = draw, .act = act,
     .bar = {{ACTION_ADD, N_("add")}, {ACTION_DUPLICATE, N_("copy")}, {ACTION_DELETE, N_("delete")},
             {ACTION_EDIT, N_("name")}, {ACTION_NEXT_PANE, N_("pictures")}}};

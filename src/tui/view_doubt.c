@@ -178,6 +178,6 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_doubt = {
-    .title = N_("doubt"), .panes = 1, .doubt = true, .build = build, .draw = draw, .act = act,
+    .title = NP_("view", "doubt"), .panes = 1, .doubt = true, .build = build, .draw = draw, .act = act,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("a range")}, {ACTION_DELETE, N_("delete")},
             {ACTION_NEXT_OPTION, N_("next option")}}};

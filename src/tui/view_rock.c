@@ -69,6 +69,6 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 const struct view ceduo_view_rock = {
-    .title = N_("rock"), .panes = 1, .build = build, .draw = draw,
+    .title = NP_("view", "rock"), .panes = 1, .build = build, .draw = draw,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")},
             {ACTION_PRESETS, N_("presets")}}};

@@ -237,5 +237,5 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_rotation = {
-    .title = N_("rotation"), .panes = 2, .years = true, .build = build, .draw = draw, .act = act, .follow = ceduo_app_follow_belt,
+    .title = NP_("view", "rotation"), .panes = 2, .years = true, .build = build, .draw = draw, .act = act, .follow = ceduo_app_follow_belt,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_NEXT_PANE, N_("years")}, {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -145,6 +145,6 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_slope = {
-    .title = N_("slope"), .panes = PANES, .build = build, .draw = draw, .act = act,
+    .title = NP_("view", "slope"), .panes = PANES, .build = build, .draw = draw, .act = act,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("add")}, {ACTION_DELETE, N_("delete")},
             {ACTION_NEXT_PANE, N_("picture")}, {ACTION_ZOOM, N_("nearer")}, {ACTION_NEXT_ROCK, N_("a rock")}}};

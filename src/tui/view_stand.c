@@ -122,6 +122,6 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 const struct view ceduo_view_stand = {
-    .title = N_("stand"), .panes = 1, .build = build, .draw = draw, .follow = ceduo_app_follow_belt,
+    .title = NP_("view", "stand"), .panes = 1, .build = build, .draw = draw, .follow = ceduo_app_follow_belt,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_PRESETS, N_("stands")}, {ACTION_COUNTS, N_("sample plot")},
             {ACTION_ADD, N_("add")}, {ACTION_DELETE, N_("delete")}}};

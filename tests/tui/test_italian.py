@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, expect, play  # noqa: E402
 from harness import expect_equal, run_all  # noqa: E402
 
-VIEWS = "\n".join(f"key {i}\nwait idle\ndump" for i in range(1, 7))
+VIEWS = "\n".join(f"key {i}\nwait idle\ndump" for i in range(1, 8))
 POPUPS = "\n".join(f"key {view}\nkey {key}\ndump\nkey Esc" for view, key in ((2, "?"), (2, "p"), (2, "c"), (4, "e"), (2, "n"), (1, "o")))
 CUT = "\u2026"
 SCENES = ("fast.yaml", "options.yaml", "cuts.yaml", "wood.yaml")
@@ -33,6 +33,7 @@ def test_views():
             text = str(italian)
             expect(len(words_cut(italian)) <= len(words_cut(english)), f"{scene}, view {number}", words_cut(italian), text)
             expect("nplurals" not in text, text)
+            expect(" 1 versante  2 bosco  3 blocco  4 risultati  5 confronto  6 turno  7 dubbio " in text, text)
 
 
 def test_numbers():
