@@ -45,6 +45,7 @@ static void rock_of_table_2(void **state)
     expect_exact(rock.mean_diameter, 0.68);
     expect_exact(rock.radius, 0.34);
     expect_exact(rock.k, 0.5);
+    expect_exact(rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 3 * 0.56 + 4 * 0.8);
     expect_exact(rock.moment, 0.5 * rock.mass * 0.34 * 0.34);
     expect_decimals(0.5 * rock.mass * 20.94 * 20.94 / 1e3, 112.319, 3);              /* Table 5's mean speed */
     expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);                 /* the speed seen by video */
@@ -77,6 +78,7 @@ static void rock_shapes(void **state)
     expect_exact(rock.volume, pi / 6 * 0.75);
     expect_exact(rock.mean_diameter, 1);
     expect_exact(rock.k, 0.4);
+    expect_exact(rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 0.5 + 2 * 1.5 + 4);
     def.shape = CEDUO_BLOCK;
     def.mass = ceduo_number(1000);
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
