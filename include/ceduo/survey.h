@@ -33,6 +33,7 @@ struct ceduo_survey_stem {
     double dbh;     /* m, > 0; of a stump: its diameter */
     double height;  /* m; NaN: not measured */
     double spacing; /* m, of a shoot: between neighbouring shoots of its stool; NaN: not measured */
+    double energy;  /* J, of a stump: what it takes from a rock; NaN: not said */
 };
 
 struct ceduo_survey {
@@ -88,7 +89,8 @@ struct ceduo_survey_answer {
     struct ceduo_survey_heights shoots, trees;
     size_t classes_count; /* by kind, then by dbh */
     struct ceduo_survey_class *classes;
-    double stump_height; /* m, the mean; NaN: not measured */
+    double stump_diameter, stump_height; /* m, the mean; NaN: there are none, not measured */
+    double stump_energy;                 /* J, the mean; NaN: not said */
 };
 
 /* Of a kind other than stumps at least one height must be given: otherwise heights are NaN. CEDUO_NO_MEMORY or CEDUO_OK;

@@ -15,8 +15,9 @@
 #define PLOTS_MOST 1000
 #define STEMS_MOST 200000
 #define SLOPE_MOST 85 /* degrees */
+#define STUMP_MOST 20 /* m of height, as in a stand */
 
-enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, COLUMNS };
+enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
 
 /* Names of a column, the first one is that of the manual; in other languages as their spreadsheets have them. */
 static const char *const names[COLUMNS][5] = {
@@ -29,13 +30,15 @@ static const char *const names[COLUMNS][5] = {
     [STOOL] = {"stool", "ceppaia", "stock"},
     [DBH] = {"dbh_cm", "diametro_cm", "bhd_cm"},
     [HEIGHT] = {"height_m", "altezza_m", "h\xc3\xb6he_m"},
-    [SPACING] = {"spacing_m", "distanza_m", "abstand_m"}};
+    [SPACING] = {"spacing_m", "distanza_m", "abstand_m"},
+    [ENERGY] = {"energy_kJ", "energia_kJ", "energie_kJ"}};
 
 static const struct {
     double lo, hi;
     const char *unit;
 } ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},   [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, "degrees"},
-                     [DBH] = {0.1, 1000, "cm"}, [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"}};
+                     [DBH] = {0.1, 1000, "cm"}, [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
+                     [ENERGY] = {0, 1e6, "kJ"}};
 
 /* Words of a kind of stem, the first one is that of the manual. */
 static const char *const kinds[CEDUO_SURVEY_KINDS_COUNT][4] = {[CEDUO_SURVEY_SHOOT] = {"shoot", "pollone"},
@@ -238,6 +241,7 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
     bool good = read_number(r, DBH, &stem->dbh);
     good = read_number(r, HEIGHT, &stem->height) && good;
     good = read_number(r, SPACING, &stem->spacing) && good;
+    good = read_number(r, ENERGY, &stem->energy) && good;
     if (!good)
         return false;
     if (isnan(stem->dbh))
@@ -246,13 +250,18 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
         ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems,
                            _("%g m: a stem with a diameter at breast height is higher than %g m"), stem->height,
                            CEDUO_BREAST_HEIGHT);
-    else if (stem->kind == CEDUO_SURVEY_STUMP && !(isnan(stem->height) || stem->height > 0))
-        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems, _("the height must be above 0"));
+    else if (stem->kind == CEDUO_SURVEY_STUMP && !(isnan(stem->height) || (stem->height > 0 && stem->height <= STUMP_MOST)))
+        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems, _("the height of a stump must be above 0 and at most %d m"),
+                           STUMP_MOST);
     else if (stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing))
         ceduo_csv_complain(&r->csv, r->fields[SPACING], r->problems,
                            _("spacing_m is the distance between the shoots of a stool; leave it empty here"));
+    else if (stem->kind != CEDUO_SURVEY_STUMP && !isnan(stem->energy))
+        ceduo_csv_complain(&r->csv, r->fields[ENERGY], r->problems,
+                           _("energy_kJ is what a stump takes from a rock; leave it empty here"));
     else {
         stem->dbh /= 100;
+        stem->energy *= 1000;
         return true;
     }
     return false;
@@ -260,7 +269,7 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
 
 static bool is_stem(const struct reader *r)
 {
-    static const enum column columns[] = {SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING};
+    static const enum column columns[] = {SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY};
     for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
         if (r->fields[columns[i]].n > 0)
             return true;

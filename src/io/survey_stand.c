@@ -122,24 +122,24 @@ static void remark_species(struct writer *w)
     ceduo_text_put(w->out, said ? "\n" : "");
 }
 
-/* Nobody knows what a stump takes from a rock: that is asked for, not made up. */
+static bool has_stumps(const struct writer *w)
+{
+    return !isnan(w->answer->stump_height) && !isnan(w->answer->stump_energy);
+}
+
+/* What a stump takes from a rock has no default: it is asked for, not made up. */
 static void remark_stumps(struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
-    double sum = 0, n = 0;
-    for (size_t i = 0; i < a->classes_count; i++)
-        if (a->classes[i].kind == CEDUO_SURVEY_STUMP) {
-            sum += a->classes[i].dbh * (double)a->classes[i].stems;
-            n += (double)a->classes[i].stems;
-        }
-    if (n == 0)
+    if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || has_stumps(w))
         return;
-    ceduo_text_put(w->out, "# The stumps are not in the stand: what one takes from a rock must be known.\n");
+    ceduo_text_put(w->out, "# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
+                           "# in at least one row of the survey, or here:\n");
     put_number(w->out, "# stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
-    put_number(w->out, ", diameter_m: ", sum / n);
+    put_number(w->out, ", diameter_m: ", a->stump_diameter);
     if (!isnan(a->stump_height))
         put_number(w->out, ", height_m: ", a->stump_height);
-    ceduo_text_put(w->out, ", energy_kJ: ?}\n");
+    ceduo_text_put(w->out, isnan(a->stump_height) ? ", height_m: ?, energy_kJ: ?}\n" : ", energy_kJ: ?}\n");
 }
 
 static void remark(struct writer *w)
@@ -263,6 +263,22 @@ static void put_stools(struct writer *w)
     ceduo_text_put(w->out, "}\n");
 }
 
+static void put_stumps(struct writer *w)
+{
+    const struct ceduo_survey_answer *a = w->answer;
+    struct text what = {0};
+    if (!has_stumps(w))
+        return;
+    put_number(w->out, "stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
+    put_number(w->out, ", diameter_m: ", a->stump_diameter);
+    put_number(w->out, ", height_m: ", a->stump_height);
+    put_number(w->out, ", energy_kJ: ", a->stump_energy / 1000);
+    ceduo_text_put(w->out, ",\n  ");
+    ceduo_text_put(&what, "counted; what one takes from a rock is not measured");
+    put_source(w->out, true, &what);
+    ceduo_text_put(w->out, "}\n");
+}
+
 /* ---- doubt ---- */
 
 /* The standard error of a mean; where a normal distribution would reach below 0, a uniform one of the same spread. */
@@ -290,6 +306,8 @@ static void put_doubts(struct writer *w)
     size_t n = 0, at[2] = {0};
     put_doubt(w, &n, "stools.per_ha", &a->stools, stools_of(w));
     put_doubt(w, &n, "stools.spacing_m", &a->spacing, a->spacing.mean);
+    if (has_stumps(w))
+        put_doubt(w, &n, "stumps.per_ha", &a->per_ha[CEDUO_SURVEY_STUMP], a->per_ha[CEDUO_SURVEY_STUMP].mean);
     for (size_t i = 0; i < a->classes_count; i++) {
         char path[64];
         const struct ceduo_survey_class *c = &a->classes[i];
@@ -310,12 +328,13 @@ static void put_stand(struct writer *w)
     bool stems = a->stools.mean > 0 || a->per_ha[CEDUO_SURVEY_STANDARD].mean + a->per_ha[CEDUO_SURVEY_TREE].mean > 0;
     ceduo_text_put(w->out, "ceduo: stand/1\nname: ");
     ceduo_emit_scalar(w->out, w->file->name, true);
-    ceduo_text_put(w->out, stems ? "\n" : "\nsystem: bare\n");
+    ceduo_text_put(w->out, stems || has_stumps(w) ? "\n" : "\nsystem: bare\n");
     if (a->species >= 0)
         ceduo_text_format(w->out, "species: %s\n", ceduo_species_words.names[a->species]);
     put_stools(w);
     put_classes(w, "shoots:\n", false);
     put_classes(w, "trees:\n", true);
+    put_stumps(w);
     ceduo_text_format(&what, "survey of %zu plots, %.0f m2 of the map", w->file->survey.plots_count,
                       map_area(&w->file->survey));
     put_source(w->out, false, &what);

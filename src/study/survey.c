@@ -5,6 +5,7 @@
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define HECTARE 10000
 #define CLASSES_MOST 1000 /* of dbh; thicker stems share the last */
@@ -149,14 +150,18 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
     return fitted != CEDUO_NO_MEMORY;
 }
 
-static double stump_height(const struct ceduo_survey *survey)
+/* The mean of a member of all stumps where it is known. */
+static double of_stumps(const struct ceduo_survey *survey, size_t offset)
 {
     double sum = 0, n = 0;
-    for (size_t i = 0; i < survey->stems_count; i++)
-        if (survey->stems[i].kind == CEDUO_SURVEY_STUMP && !isnan(survey->stems[i].height)) {
-            sum += survey->stems[i].height;
+    for (size_t i = 0; i < survey->stems_count; i++) {
+        double value;
+        memcpy(&value, (const char *)&survey->stems[i] + offset, sizeof value);
+        if (survey->stems[i].kind == CEDUO_SURVEY_STUMP && !isnan(value)) {
+            sum += value;
             n++;
         }
+    }
     return n > 0 ? sum / n : NAN;
 }
 
@@ -236,7 +241,9 @@ static bool compute(struct surveyor *s)
     for (int kind = 0; kind < CEDUO_SURVEY_KINDS_COUNT; kind++)
         a->per_ha[kind] = density_of_kind(s, (enum ceduo_survey_kind)kind);
     a->species = main_species(s->survey);
-    a->stump_height = stump_height(s->survey);
+    a->stump_diameter = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, dbh));
+    a->stump_height = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, height));
+    a->stump_energy = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, energy));
     return count_stools(s) && complete_heights(s, true, &a->shoots) && complete_heights(s, false, &a->trees) &&
            make_classes(s);
 }

@@ -146,6 +146,18 @@ def test_stumps():
         expect_in("# stumps: {per_ha: ", text)
         expect_in("diameter_m: 0.25, height_m: 0.2, energy_kJ: ?}", text)
         stand_of(f, text)
+        rows = "A,,,,stump,,30,0.2,,2\nB,,,,ceppo,,20,,,\nC,,,,stump,,20,0.4,,4\n"
+        text = survey(f, table().replace(HEAD, HEAD + ",energy_kJ") + rows).out
+        each = [10000 / (area * math.cos(math.radians(slope))) for area, slope, _ in STEMS.values()]
+        expect_in(f"stumps: {{per_ha: {statistics.mean(each):.6g}, diameter_m: 0.233333, height_m: 0.3, energy_kJ: 3,", text)
+        expect_in("kind: assumed, text: \"counted; what one takes", text)
+        expect_in(f"path: stumps.per_ha, mean: {statistics.mean(each):.6g}, sd: {statistics.stdev(each) / math.sqrt(3):.6g}", text)
+        _, path = stand_of(f, text)
+        r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
+        expect_in("forest[0].stand.stumps.per_ha", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
+        alone = survey(f, HEAD + ",energy_kJ\nA,200,,,stump,,30,0.2,,2\nB,200,,,,,,,,\n").out
+        expect("system: bare" not in alone, alone)
+        stand_of(f, alone)
 
 
 def test_bare():
@@ -206,9 +218,10 @@ BAD = [  # (content, place, words)
     (HEAD + "\n" + ROW.replace("tree", "shoot"), ":2:17", "the stool of this shoot is missing"),
     (HEAD + "\n" + ROW.replace(",12,", ",12,0.3"), ":2:23", "spacing_m is the distance between the shoots of a stool"),
     (HEAD + "\n" + ROW.replace("tree,,20,12,", "shoot,1,6,5,0"), ":2:23", "below 0.01 m"),
-    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "the height must be above 0"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "the height of a stump must be above 0"),
     (HEAD.replace(",", ";") + "\n" + ROW.replace(",", ";").replace("20;12", "20,5;1.2e1"), ":2:22", "not both"),
     (HEAD + "\nA,1,,,tree,,20,12,\n" + "A,,,,tree,,20,12,\n" * 101, "", "are the areas in m2?"),
+    (HEAD + ",energy_kJ\n" + ROW.replace("\n", ",3\n"), ":2:24", "energy_kJ is what a stump takes from a rock"),
     ("\n".join([HEAD] + [f"P{i},200,,,,,,," for i in range(1001)]), ":1002:1", "more than 1000 plots"),
 ]
 

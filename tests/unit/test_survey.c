@@ -179,7 +179,7 @@ static void naslund_is_refused(void **context)
 
 static struct ceduo_survey_stem stem(enum ceduo_survey_kind kind, int species, double dbh, double height)
 {
-    return (struct ceduo_survey_stem){.kind = kind, .species = species, .dbh = dbh, .height = height, .spacing = NAN};
+    return (struct ceduo_survey_stem){.kind = kind, .species = species, .dbh = dbh, .height = height, .spacing = NAN, .energy = NAN};
 }
 
 /* Classes of 5 cm, each kind by itself, with mean, sd and the volume of each stem by its own species. */
@@ -194,6 +194,7 @@ static void classes_by_hand(void **context)
                                         stem(CEDUO_SURVEY_STUMP, -1, 80, NAN)};
     stems[3].stool = stems[4].stool = 0;
     stems[4].spacing = .3;
+    stems[5].energy = 3000;
     struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 7, .stems = stems};
     struct ceduo_survey_answer a;
     assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
@@ -218,6 +219,8 @@ static void classes_by_hand(void **context)
     assert_int_equal(c[4].kind, CEDUO_SURVEY_STUMP);
     assert_true(isnan(c[4].volume));
     EXPECT_NEAR(a.stump_height, .2, 1e-12);
+    EXPECT_NEAR(a.stump_diameter, 40.2, 1e-12);
+    EXPECT_NEAR(a.stump_energy, 3000, 1e-9);
     EXPECT_NEAR(a.spacing.mean, .3, 1e-12);
     EXPECT_NEAR(a.stools.mean, 100, 1e-9);
     ceduo_survey_free(&a);
