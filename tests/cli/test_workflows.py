@@ -15,7 +15,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import harness
-from harness import CEDUO, ROOT, Folder, expect, expect_equal, expect_in
+from harness import CEDUO, ROOT, Folder, expect, expect_equal, expect_in, expect_near
 
 PAGE = ROOT / "man" / "ceduo-workflows.7"
 README = ROOT / "README.md"
@@ -179,11 +179,11 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
-    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("doubt", 2), ("page", 3), ("sections", 2),
-                       ("shards", 4), ("valley", 6)):
+    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("doubt", 2), ("page", 3),
+                       ("sections", 2), ("shards", 4), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "survey", "two-cuts", "reserves", "doubt", "page", "sections", "shards", "valley")
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "page", "sections", "shards", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -359,6 +359,28 @@ def test_reserves():
     expect_in("nearest: 1, ADC 99.2", walk.outputs[1])
     many = int(re.search(r"per_ha = (\d+)", walk.outputs[2])[1])
     expect(379 < many < 600, walk.outputs[2])
+
+
+def test_groups():
+    """Standards in groups: as many a hectare, more free runs, more rocks with too much energy; the figures of the page"""
+    walk = walked("groups")
+    runs, stands = ({row["option"]: row for row in csv.DictReader(walk.read(name).splitlines())} for name in ("groups.csv", "stands.csv"))
+    rows = {name: (float(stands[name]["free_run_probability"]),
+                   *(float(run[f"wooded.exceed_{key}"]) for key in ("probability", "lo", "hi"))) for name, run in runs.items()}
+    shown = {m[1]: tuple(map(float, m.groups()[1:])) for m in
+             re.finditer(r"^\.It (s\S+ .*) Ta ([\d.]+) Ta (\d+) \((\d+) to (\d+)\)$", PAGE.read_text(), re.M)}
+    expect_equal(sorted(shown), sorted(rows), "options")
+    for name, (free, *share) in rows.items():
+        expect_near(100 * free, shown[name][0], 0.05001, f"{name}: free run")
+        for found, wanted in zip(share, shown[name][1:], strict=True):
+            expect_near(1000 * found, wanted, 0.50001, f"{name}: of 1000")
+    for name, nothing in (("standards in groups, just cut", 24), ("single standards, just cut", 13)):
+        expect_near(100 * float(runs[name]["summary.meet_nothing_probability"]), nothing, 0.5, f"{name}: nothing met")
+    mean, se = (float(runs["standards in groups, just cut"][f"difference.exceed_probability.{key}"]) for key in ("mean", "se"))
+    expect_near(1000 * mean, 25, 0.5, "more of 1000")
+    expect_near(1000 * se, 2, 0.5, "standard error")
+    expect(mean > 3 * se, "clearly more", mean, se)
+    expect_in("standards in groups", walk.outputs[1])
 
 
 def test_doubt():
