@@ -99,25 +99,45 @@ static void draw_figures(struct app *app, struct ceduo_area area)
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
 }
 
+#define BOTH_LEAST 18 /* lines that hold the plan and the way of a rock through it */
+
+/* The stand from above, to scale; below it the stems that the rock came to, where there is room for both. */
+static void draw_plan(struct app *app, struct ceduo_area area)
+{
+    struct ceduo_picture picture = ceduo_app_picture(app), pattern = picture;
+    if (app->belt >= ceduo_app_option(app)->belts_count)
+        return;
+    if (picture.stems_count > 0 && area.height >= BOTH_LEAST) {
+        struct ceduo_area top = {area.left, area.top, area.width, area.height * 3 / 5};
+        pattern.stems = NULL;
+        pattern.stems_count = 0;
+        ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &top, &pattern);
+        area.top += top.height + 1;
+        area.height -= top.height + 1;
+    }
+    ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &area, &picture);
+}
+
+#define WIDE       80 /* columns that hold form and plan side by side */
+#define WIDER      110
+#define PLAN_LEAST 32
+
 static void draw(struct app *app, struct ceduo_area area)
 {
-    const struct ceduo_option *o = ceduo_app_option(app);
     ceduo_app_follow_rock(app);
-    struct ceduo_picture picture = ceduo_app_picture(app);
-    bool wide = area.width >= 84;
-    int plan = wide ? area.width / 2 - 1 : 0;
+    bool wide = area.width >= WIDE;
+    int plan = !wide ? 0 : area.width < WIDER ? PLAN_LEAST : area.width / 2 - 1;
     struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - 3};
     struct ceduo_area figures = {area.left, area.top + area.height - 3, area.width, 3};
     if (!wide && area.height >= 30) { /* the plan below the form */
         form.height = area.height * 3 / 5;
         struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
-        if (app->belt < o->belts_count)
-            ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &below, &picture);
+        draw_plan(app, below);
     }
     ceduo_app_draw_form(app, form, true);
     struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
-    if (wide && app->belt < o->belts_count)
-        ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &beside, &picture);
+    if (wide)
+        draw_plan(app, beside);
     draw_figures(app, figures);
 }
 

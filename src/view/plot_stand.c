@@ -180,8 +180,8 @@ static void draw_stems(struct plan *p)
 
 static void draw_strip(const struct plan *p)
 {
-    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_CURSOR, (p->height - p->strip) / 2);
-    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_CURSOR, (p->height + p->strip) / 2);
+    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_AXIS, (p->height - p->strip) / 2);
+    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_AXIS, (p->height + p->strip) / 2);
 }
 
 static void put_words(const struct plan *p, const struct ceduo_area *area)
@@ -192,11 +192,12 @@ static void put_words(const struct plan *p, const struct ceduo_area *area)
         return;
     }
     char room[PLOT_NUMBER_ROOM];
-    struct text words[2] = {{0}};
+    struct text words[3] = {{0}}; /* the longest first */
     ceduo_text_format(&words[0], _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
                       ceduo_plot_number(p->strip, 2, room), p->met, PATCH_M);
     ceduo_text_format(&words[1], _("One pattern of many: %zu stools or trees are met"), p->met);
-    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 2, words);
+    ceduo_text_format(&words[2], _("One pattern of many: %zu met"), p->met);
+    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
 }
 
 static void draw_pattern(struct plan *p, const struct ceduo_area *area, bool words)
@@ -260,7 +261,9 @@ struct tally {
 
 static void put_words_of_way(const struct plan *p, const struct ceduo_area *area, const struct tally *t)
 {
-    struct text words[3] = {{0}}; /* the longest first */
+    struct text words[4] = {{0}}; /* the longest first */
+    ceduo_text_format(&words[3], ngettext("This rock: %zu hit in %.3g m", "This rock: %zu hits in %.3g m", t->hit), t->hit,
+                      t->metres);
     ceduo_text_format(&words[2],
                       ngettext("The way of this rock: %zu stem hit in %.3g m",
                                "The way of this rock: %zu stems hit in %.3g m", t->hit),
@@ -271,7 +274,7 @@ static void put_words_of_way(const struct plan *p, const struct ceduo_area *area
             ceduo_text_then(&words[i], ", ", _("%zu flown over"), t->flown_over);
         ceduo_text_then(&words[i], "; ", _("across \xc3\x97%.2g"), t->factor);
     }
-    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
+    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 4, words);
 }
 
 /* The stems that the rock came to from `from` on, at their places along and beside its trajectory. */
