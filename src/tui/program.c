@@ -182,7 +182,7 @@ void ceduo_program_click(struct app *app, int x, int y)
     if (app->popup || app->editing)
         return;
     if (y == 0) {
-        enum view_number view = ceduo_screen_view_at(x);
+        enum view_number view = ceduo_screen_view_at(app, x);
         if (view < VIEW_COUNT)
             ceduo_app_show(app, view);
     } else if (ceduo_form_hit(&state->form, state->form_area, x, y, &row, &column)) {

@@ -16,17 +16,19 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define WIDTH_LEAST  60
 #define HEIGHT_LEAST 20
 
+#define WIDE 100 /* columns with room for a blank more between the names of the views */
+
 /* Columns of the title of a view: its number, and blanks. */
-static int title_columns(int view)
+static int title_columns(const struct app *app, int view)
 {
-    return (int)ceduo_utf8_width(ceduo_translate_in(ceduo_views[view]->title)) + 4;
+    return (int)ceduo_utf8_width(ceduo_translate_in(ceduo_views[view]->title)) + (app->width < WIDE ? 3 : 4);
 }
 
-enum view_number ceduo_screen_view_at(int column)
+enum view_number ceduo_screen_view_at(const struct app *app, int column)
 {
     int v = 0;
     for (int end = 0; v < VIEW_COUNT; v++)
-        if (column < (end += title_columns(v)))
+        if (column < (end += title_columns(app, v)))
             break;
     return (enum view_number)v;
 }
@@ -34,8 +36,9 @@ enum view_number ceduo_screen_view_at(int column)
 static void draw_title(struct app *app)
 {
     int x = 0;
-    for (int v = 0; v < VIEW_COUNT; x += title_columns(v++))
-        ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, " %d %s ", v + 1,
+    for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
+        ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+                        app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                         ceduo_translate_in(ceduo_views[v]->title));
     struct text title = {0};
     ceduo_text_format(&title, "%s", ceduo_document_unsaved(&app->document) ? "* " : "");

@@ -183,7 +183,7 @@ def test_open():
     screens[0].has("fast.yaml", "yours", "(now)", "four-systems", "paper-site")
     own, shipped = (screens[0].popup.find(name) for name in ("options.yaml", "four-systems"))
     expect(0 <= own < shipped, "the user's own come first", screens[0])
-    screens[1].has("Four systems, befo", "Rock 0.68 m 512.3 kg")
+    screens[1].has("Four systems, be", "Rock 0.68 m 512.3 kg")
     screens[2].has("Wood thick")
     screens[3].has("there is no file 'missing.yaml'")
     screens[4].has("Wood thick")
