@@ -47,6 +47,43 @@ static bool split_path(struct document *d, const char *path, char **parent, char
     return *parent && *last;
 }
 
+/* What became of an item of a list: one was put in before `from` (by 1), or that one was taken out (by -1), or moved to
+ * another place (by 0). */
+struct shift {
+    size_t from, to;
+    int by;
+};
+
+static const struct node *shifted(struct document *d, const struct node *root, const char *list, struct shift s)
+{
+    return s.by == 0 ? ceduo_doubt_moved(&d->file.arena, root, list, s.from, s.to)
+                     : ceduo_doubt_shifted(&d->file.arena, root, list, s.from, s.by);
+}
+
+/* Rows of doubt about the items of a list go along with them: those of the scene, and those of the stand that the list is
+ * in. A stand without rows says so, for the file that it starts from may have some. */
+static const struct node *shift_doubts(struct document *d, const struct node *root, const char *list, struct shift shift,
+                                       struct problems *problems)
+{
+    struct arena *arena = &d->file.arena;
+    const char *within = strstr(list, ".stand.");
+    root = shifted(d, root, list, shift);
+    if (!root || !within)
+        return root;
+    const char *path = ceduo_arena_copy(arena, list, (size_t)(within - list) + strlen(".stand"));
+    const struct node *stand = path ? node_at(root, path) : NULL;
+    const struct node *now = shifted(d, stand, within + strlen(".stand."), shift);
+    if (!now || now == stand)
+        return now ? root : NULL;
+    if (!ceduo_node_get(now, "doubt")) {
+        const struct node *none = ceduo_node_scalar(arena, stand->source, "none", false);
+        now = none ? ceduo_node_with(arena, now, "doubt", none) : NULL;
+    }
+    if (now)
+        ceduo_node_keep_written(now, stand);
+    return now ? put(d, root, path, now, problems) : NULL;
+}
+
 /* root without the entry of a mapping or the item of a list. A list that is empty then is taken out whole, unless it is
  * that of options: `*path` is what was taken out. */
 static const struct node *without(struct document *d, const struct node *root, const char **path,
@@ -66,13 +103,13 @@ static const struct node *without(struct document *d, const struct node *root, c
         return NULL;
     if (less->kind == NODE_LIST && less->n == 0 && strcmp(parent, "options") != 0) {
         *path = parent;
-        root = ceduo_doubt_shifted(&d->file.arena, root, parent, strtoul(last, NULL, 10), -1);
+        root = shift_doubts(d, root, parent, (struct shift){strtoul(last, NULL, 10), 0, -1}, problems);
         return root ? without(d, root, path, problems) : NULL;
     }
     ceduo_node_keep_written(less, holder);
     root = parent[0] ? put(d, root, parent, less, problems) : less;
     bool item = root && less->kind == NODE_LIST;
-    return item ? ceduo_doubt_shifted(&d->file.arena, root, parent, strtoul(last, NULL, 10), -1) : root;
+    return item ? shift_doubts(d, root, parent, (struct shift){strtoul(last, NULL, 10), 0, -1}, problems) : root;
 }
 
 /* root with an item put into a list, which is made where there is none. */
@@ -87,7 +124,7 @@ static const struct node *with_item(struct document *d, const struct node *root,
     index = index > holder->n ? holder->n : index;
     const struct node *more = plain ? ceduo_node_inserted(&d->file.arena, holder, index, plain) : NULL;
     root = put(d, root, list, more, problems);
-    return root ? ceduo_doubt_shifted(&d->file.arena, root, list, index, 1) : NULL;
+    return root ? shift_doubts(d, root, list, (struct shift){index, 0, 1}, problems) : NULL;
 }
 
 /* root with PATH=VALUE, or without PATH. */
@@ -192,7 +229,7 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
     const struct node *less = ceduo_node_removed(&d->file.arena, holder, from);
     const struct node *moved = less ? ceduo_node_inserted(&d->file.arena, less, to, holder->items[from]) : NULL;
     const struct node *root = moved ? put(d, d->file.root, list, moved, problems) : NULL;
-    root = ceduo_doubt_moved(&d->file.arena, root, list, from, to);
+    root = root ? shift_doubts(d, root, list, (struct shift){from, to, 0}, problems) : NULL;
     return ceduo_document_commit(d, root, list, problems);
 }
 

@@ -55,6 +55,37 @@ def test_items_that_move():
     expect_equal(paths_after("key 2\nfind trees[1]\nkey < >"), [ALL, STOOLS, TREE, LOWER, ROCK], "and back")
 
 
+OWN = """\
+ceduo: stand/1
+stools: {per_ha: 3000, spacing_m: 0.4}
+shoots: [{per_ha: 7000, dbh_m: 0.06, height_m: 6}]
+trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}, {per_ha: 30, dbh_m: 0.3, height_m: 15}]
+doubt:
+  - {path: stools.per_ha, lo: 2700, hi: 3300}
+  - {path: "trees[1].dbh_m", lo: 0.25, hi: 0.35}
+"""
+
+
+def own_after(keys):
+    """The rows of a stand in its own file, as the scene saves them; None: they are still the file's."""
+    with Place() as place:
+        place.write("own.yaml", OWN)
+        place.write("scene.yaml", re.sub(r"(?s)forest:.*?(?=\n\w|\Z)", "forest: [{from_m: 10, to_m: 80, stand: own.yaml}]", FAST))
+        place.play(f"{keys}\nkey s\ndump", "scene.yaml")
+        check_good(place.path, "scene.yaml")
+        saved = place.text("scene.yaml")
+        return re.findall(r'path: "?([^",]+)"?,', saved.split("doubt:")[1]) if "doubt:" in saved else None
+
+
+def test_rows_of_a_stand():
+    """The rows of a stand go along with its classes too, over those of the file that it starts from."""
+    expect_equal(own_after(""), None, "nothing done")
+    expect_equal(own_after("key 2\nfind trees[0]\nkey d"), ["stools.per_ha", "trees[0].dbh_m"], "the first class deleted")
+    expect_equal(own_after("key 2\nfind trees[1]\nkey d"), ["stools.per_ha"], "the second class deleted")
+    expect_equal(own_after("key 2\nfind trees[0]\nkey y"), ["stools.per_ha", "trees[2].dbh_m"], "the first class doubled")
+    expect_equal(own_after("key 2\nfind trees[0]\nkey >"), ["stools.per_ha", "trees[0].dbh_m"], "the first class moved behind the second")
+
+
 def test_options():
     """Rows about the forest are about the option 'current' once there are options, whatever their order."""
     current = [p.replace("forest", "options[current].forest", 1) for p in (STOOLS, TREE, LOWER)]
