@@ -25,7 +25,9 @@ def test_plain_ascii():
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         text = ascii_only(good("--batch", "-n", 100, path, env=plain)).out
         wide = good("--batch", "-n", 100, path).out
-        expect_equal(re.findall(r"\d+\.\d+", text), re.findall(r"\d+\.\d+", wide), "numbers")
+        # A mean has as many digits as its column has room for, and "+-" takes a column more than its sign.
+        texts = [re.sub(r"\S+ ?(\+-|\u00b1)\S+", "", page) for page in (text, wide)]
+        expect_equal(*(re.findall(r"\d+\.\d+", page) for page in texts), "numbers")
         expect_width(text)
     ascii_only(good("--batch", "-n", 5, PAPER, "-s", "title=Überraschung — 𝄞", env=plain))
 
