@@ -53,7 +53,8 @@ def test_install():
                 "share/locale/it/LC_MESSAGES/ceduo.mo",
                 "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
-        shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
+        shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
+                    *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
         expect_equal(len(names), len(shipped) + 5, "files installed")
         for name in names:
             expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)
