@@ -15,7 +15,8 @@ enum ceduo_input_kind {
     CEDUO_INPUT_RANGE,  /* uniform between lo and hi */
     CEDUO_INPUT_FACTOR, /* its value in the scene times a factor, uniform between lo and hi */
     CEDUO_INPUT_NORMAL, /* normal, cut at three standard deviations: lo and hi */
-    CEDUO_INPUT_WORDS   /* one of several words, each as likely */
+    CEDUO_INPUT_WORDS,  /* one of several words, each as likely */
+    CEDUO_INPUT_DRAWS   /* one of several rows, each with a value for each place: what a calibration left open */
 };
 
 /* One thing that is not known. It may stand at several places of the scene, which then change together. */
@@ -27,6 +28,8 @@ struct ceduo_input {
     size_t words_count;
     const int *words; /* values of the choice */
     size_t places_count;
+    size_t draws_count;
+    const double *const *draws; /* CEDUO_INPUT_DRAWS: of each place its values, row by row */
     const char *const *places; /* paths, each with its place in brackets: forest[0].stand.trees[0].per_ha */
 };
 

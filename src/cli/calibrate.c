@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --calibrate: values of one or several scenes, fitted to what was seen there. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +9,9 @@
 #include "base/language.h"
 #include "batch.h"
 #include "interrupt.h"
+#include "io/file.h"
 #include "io/inputs.h"
+#include "model/keep_fit.h"
 #include "output.h"
 #include "say.h"
 #include "view/report_calibration.h"
@@ -177,6 +180,101 @@ static void put(const struct job *j, const struct ceduo_calibration_report *repo
         ceduo_calibration_page(out, report, !ceduo_say_utf8());
 }
 
+/* ---- writing the scene ---- */
+
+static bool writes_scene(const struct arguments *a)
+{
+    const char *dot = a->output ? strrchr(a->output, '.') : NULL;
+    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+}
+
+/* What all fitted values rest on. */
+static void put_source(struct text *source, const struct ceduo_calibration_report *r)
+{
+    for (size_t i = 0; i < r->answer->parameters_count; i++) {
+        if (i > 0)
+            ceduo_text_put(source, "; ");
+        ceduo_calibration_source(source, r, i);
+    }
+}
+
+/* The heads of the table of draws: the places of each value in the first scene. */
+static void put_heads(const struct job *j, struct text *heads, const char **to)
+{
+    for (size_t i = 0; i < j->parameters_count; i++) {
+        for (size_t k = 0; k < j->inputs[i].places_count; k++)
+            ceduo_text_format(&heads[i], "%s%s", k > 0 ? " " : "", j->inputs[i].places[k]);
+        to[i] = heads[i].length > 0 ? ceduo_text_string(&heads[i]) : j->paths[i];
+    }
+}
+
+static enum exit_status write_draws(const struct job *j, const struct ceduo_calibration *answer, const char *path)
+{
+    struct text out = {0}, heads[MOST] = {{0}};
+    const char *names[MOST];
+    put_heads(j, heads, names);
+    ceduo_calibration_draws(&out, answer, names);
+    bool good = !out.failed && ceduo_file_write(path, ceduo_text_string(&out), out.length);
+    if (!good)
+        ceduo_say_why(path, out.failed ? _("out of memory") : strerror(errno));
+    for (size_t i = 0; i < j->parameters_count; i++)
+        ceduo_text_free(&heads[i]);
+    ceduo_text_free(&out);
+    return good ? EXIT_DONE : EXIT_OUTPUT;
+}
+
+static bool edit_scene(const struct job *j, const struct ceduo_calibration_report *r, const char *draws,
+                       struct document *document, struct problems *problems)
+{
+    const struct arguments *a = j->arguments;
+    struct text source = {0};
+    double best[MOST];
+    put_source(&source, r);
+    for (size_t i = 0; i < j->parameters_count; i++)
+        best[i] = r->answer->parameters[i].best;
+    const struct fit_values fit = {j->parameters_count, j->inputs, j->fields, best, ceduo_text_string(&source), draws};
+    bool good = ceduo_document_open(document, a->scenes[0], problems) &&
+                (a->sets.n == 0 || ceduo_document_set_all(document, (const char *const *)a->sets.items, a->sets.n, "", problems)) &&
+                ceduo_keep_fit(document, &fit, problems);
+    ceduo_text_free(&source);
+    return good;
+}
+
+/* The first scene with the best values, and the draws beside it. */
+static enum exit_status write_scene(const struct job *j, const struct ceduo_calibration_report *r)
+{
+    const char *output = j->arguments->output;
+    struct text path = {0};
+    struct document document;
+    struct problems problems = {0};
+    bool anew;
+    ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
+    enum exit_status status = r->answer->draws_count > 0 ? write_draws(j, r->answer, ceduo_text_string(&path)) : EXIT_DONE;
+    const char *draws = r->answer->draws_count > 0 ? ceduo_text_string(&path) : NULL;
+    bool edited = status == EXIT_DONE && edit_scene(j, r, draws, &document, &problems);
+    if (edited && !ceduo_document_save(&document, output, &anew)) {
+        ceduo_say_why(output, strerror(errno));
+        status = EXIT_OUTPUT;
+    } else if (!edited && status == EXIT_DONE) {
+        ceduo_problems_close(&problems);
+        ceduo_say(&problems.text);
+        status = EXIT_RUN;
+    }
+    if (edited || problems.count > 0)
+        ceduo_document_close(&document);
+    ceduo_problems_free(&problems);
+    ceduo_text_free(&path);
+    return status;
+}
+
+static enum exit_status print_answer(const struct job *j, const struct text *out)
+{
+    struct arguments plain = *j->arguments;
+    if (writes_scene(&plain))
+        plain.output = NULL;
+    return ceduo_output_write(&plain, out);
+}
+
 static enum exit_status compute(struct job *j)
 {
     const struct arguments *a = j->arguments;
@@ -205,7 +303,9 @@ static enum exit_status compute(struct job *j)
                                               .answer = &answer};
     put(j, &report, &out);
     ceduo_say_plainly(&out);
-    enum exit_status written = ceduo_output_write(a, &out);
+    enum exit_status written = print_answer(j, &out);
+    if (written == EXIT_DONE && writes_scene(a))
+        written = write_scene(j, &report);
     ceduo_text_free(&out);
     ceduo_calibration_free(&answer);
     return written;

@@ -23,6 +23,7 @@ struct deriver {
     size_t inputs_count; /* what the scene says is not known, then what its stands say */
     size_t inputs_of_scene;
     struct ceduo_input *inputs;
+    const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
     size_t observations_count;
     struct ceduo_observation *observations;
     double origin;       /* what was taken off every x */
@@ -62,6 +63,12 @@ void ceduo_derive_controls(struct deriver *d);
 void ceduo_derive_options(struct deriver *d);
 void ceduo_derive_doubts(struct deriver *d);
 void ceduo_derive_observed(struct deriver *d);
+
+/* What a calibration left open, from d->draws, as one input. False where there is none. */
+bool ceduo_derive_draws(struct deriver *d, struct ceduo_input *input);
+
+/* All places of a path, [*] and grounds unfolded, to input->places; NULL where it is no number of a scene. */
+const struct field *ceduo_derive_find(struct deriver *d, const char *path, bool talus, struct ceduo_input *input);
 
 /* What was seen may be written in several forms: brings them into the one that the table of keys has. */
 void ceduo_observed_arrange(struct deriver *d);

@@ -343,12 +343,13 @@ void ceduo_derive_doubts(struct deriver *d)
     size_t n = ceduo_derive_sound(d, "doubt") ? d->draft.doubts_count : 0;
     struct stand_rows s = {.d = d};
     each_stand(d, count_rows, &s);
-    if (n + s.n == 0 || !d->profile || ceduo_derive_too_many(d, "doubt", n))
+    if (n + s.n + (d->draws != NULL) == 0 || !d->profile || ceduo_derive_too_many(d, "doubt", n))
         return;
     s.items = ceduo_bind_take(d->arena, s.n, sizeof *s.items, d->problems);
-    s.inputs = ceduo_bind_take(d->arena, n + s.n, sizeof *s.inputs, d->problems);
+    s.inputs = ceduo_bind_take(d->arena, n + s.n + 1, sizeof *s.inputs, d->problems);
     if (!s.items || !s.inputs)
         return;
+    s.inputs_count = d->draws && ceduo_derive_draws(d, s.inputs) ? 1 : 0;
     for (size_t i = 0; i < n; i++)
         derive_row(d, i, s.inputs, &s.inputs_count);
     s.n = 0;
@@ -371,11 +372,11 @@ static void add_stretches(struct places *p, const char *key)
         add_place(p, ceduo_derive_text(p->d, "slope.segments[%zu].%s", j, key));
 }
 
-static void find_ground(struct places *p, const struct scene_file *file, const char *path)
+static void find_ground(struct places *p, bool talus, const char *path)
 {
     const char *key = NULL, *name = ground_of(p->d, path, &key);
-    bool listed = file->scene.slope.segments_given > 0;
-    if (name && file->ground_assumed && strcmp(name, ceduo_material_talus()->name) == 0)
+    bool listed = p->d->draft.scene.slope.segments_given > 0;
+    if (name && talus && strcmp(name, ceduo_material_talus()->name) == 0)
         add_stretches(p, key);
     else if (!name && !listed && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         add_stretches(p, path + sizeof SEGMENTS - 1);
@@ -383,21 +384,26 @@ static void find_ground(struct places *p, const struct scene_file *file, const c
         add_all(p, path);
 }
 
+const struct field *ceduo_derive_find(struct deriver *d, const char *path, bool talus, struct ceduo_input *input)
+{
+    struct places p = {.d = d, .room = d->draft.scene.slope.vertices + CEDUO_ITEMS_MOST};
+    struct value v;
+    const struct field *field = row_of(d, path);
+    p.items = ceduo_bind_take(d->arena, p.room, sizeof *p.items, d->problems);
+    *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE, .places = p.items};
+    if (!is_number_or_word(field) || field->type == FIELD_CHOICE || !p.items)
+        return NULL;
+    find_ground(&p, talus, path);
+    for (size_t i = 0; i < p.n; i++)
+        if (ceduo_value_find(&d->draft.scene, p.items[i], &v) && v.field == field && v.part == VALUE_WHOLE)
+            p.items[input->places_count++] = p.items[i];
+    return d->arena->failed ? NULL : field;
+}
+
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)
 {
     struct problems problems = {0};
     struct deriver d = {.arena = &file->arena, .root = file->root, .problems = &problems};
-    struct places p = {.d = &d, .room = file->scene.slope.vertices + CEDUO_ITEMS_MOST};
-    struct value v;
     d.draft.scene = file->scene;
-    const struct field *field = row_of(&d, path);
-    p.items = ceduo_bind_take(&file->arena, p.room, sizeof *p.items, &problems);
-    *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE, .places = p.items};
-    if (!is_number_or_word(field) || field->type == FIELD_CHOICE || !p.items)
-        return NULL;
-    find_ground(&p, file, path);
-    for (size_t i = 0; i < p.n; i++)
-        if (ceduo_value_find(&file->scene, p.items[i], &v) && v.field == field && v.part == VALUE_WHOLE)
-            p.items[input->places_count++] = p.items[i];
-    return file->arena.failed ? NULL : field;
+    return ceduo_derive_find(&d, path, file->ground_assumed, input);
 }

@@ -109,8 +109,26 @@ static const struct node *list_of_rows(struct deriver *d, const struct node *see
     return list;
 }
 
+/* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone. */
+static void arrange_doubt(struct deriver *d)
+{
+    const struct node *doubt = ceduo_node_get(d->root, "doubt"), *rows = ceduo_node_get(doubt, "rows");
+    if (!doubt || doubt->kind != NODE_MAP || !(d->draws = ceduo_node_get(doubt, "draws")))
+        return;
+    for (size_t i = 0; i < doubt->n; i++)
+        if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
+            ceduo_node_problem(d->problems, doubt->items[i], "doubt", _("unknown key; known here: draws, rows"));
+    const struct node *root = ceduo_node_without(d->arena, d->root, "doubt");
+    root = root && rows ? ceduo_node_with(d->arena, root, "doubt", ceduo_node_renamed(d->arena, rows, "doubt")) : root;
+    if (root)
+        d->root = root;
+    else
+        ceduo_problem_memory(d->problems);
+}
+
 void ceduo_observed_arrange(struct deriver *d)
 {
+    arrange_doubt(d);
     const struct node *seen = ceduo_node_get(d->root, "observed");
     if (!seen || seen->kind == NODE_SCALAR)
         return;

@@ -98,6 +98,18 @@ static const struct node *reference_from(struct document *d, const struct node *
     return stays ? node : scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL;
 }
 
+/* A table of draws lies beside the scene that was written with it: then its bare name is enough. */
+static const struct node *draws_from(struct document *d, const struct node *node, const char *to)
+{
+    const char *slash = strrchr(node->text, '/'), *name = slash ? slash + 1 : node->text;
+    struct arena found = {0};
+    const char *now = ceduo_resolve_path(&found, node, "scenes"), *then = ceduo_file_find(&found, name, to, "scenes");
+    bool beside = now && then && ceduo_file_same(now, then);
+    const struct node *scalar = beside ? ceduo_node_scalar(&d->file.arena, node->source, name, false) : NULL;
+    ceduo_arena_free(&found);
+    return beside ? (scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL) : reference_from(d, node, "scenes", to);
+}
+
 /* All paths of an unresolved tree, for a scene that lies at `to`. */
 static const struct node *references_from(struct document *d, const struct node *node, const char *to)
 {
@@ -105,6 +117,8 @@ static const struct node *references_from(struct document *d, const struct node 
     for (size_t i = 0; i < 4 && node->kind == NODE_SCALAR && node->key; i++)
         if (strcmp(node->key, keys[i][0]) == 0)
             return reference_from(d, node, keys[i][1], to);
+    if (node->kind == NODE_SCALAR && node->key && strcmp(node->key, "draws") == 0)
+        return draws_from(d, node, to);
     const struct node *out = node;
     for (size_t i = 0; node->kind != NODE_SCALAR && out && i < node->n; i++) {
         const struct node *item = references_from(d, node->items[i], to);

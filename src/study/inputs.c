@@ -80,7 +80,7 @@ void ceduo_inputs_release(struct input_scene *copy)
 
 /* ---- setting ---- */
 
-static double value_at(const struct ceduo_input *input, const struct input_place *place, double u)
+static double value_at(const struct ceduo_input *input, size_t k, const struct input_place *place, double u)
 {
     double between = input->lo + u * (input->hi - input->lo), least = gsl_cdf_ugaussian_P(-CUT);
     switch (input->kind) {
@@ -90,6 +90,8 @@ static double value_at(const struct ceduo_input *input, const struct input_place
         return input->mean + input->sd * gsl_cdf_ugaussian_Pinv(least + u * (1 - 2 * least));
     case CEDUO_INPUT_WORDS:
         return input->words[(size_t)fmin(u * (double)input->words_count, (double)(input->words_count - 1))];
+    case CEDUO_INPUT_DRAWS:
+        return input->draws[k][(size_t)fmin(u * (double)input->draws_count, (double)(input->draws_count - 1))];
     default:
         return between;
     }
@@ -119,6 +121,6 @@ void ceduo_inputs_set(struct input_scene *copy, const double *u)
     const struct input_place *p = copy->places;
     for (size_t i = 0; i < copy->inputs_count; i++)
         for (size_t k = 0; k < copy->inputs[i].places_count; k++, p++)
-            put(&p->value, isnan(u[i]) ? p->given : value_at(&copy->inputs[i], p, u[i]));
+            put(&p->value, isnan(u[i]) ? p->given : value_at(&copy->inputs[i], k, p, u[i]));
     mend_stools(&copy->scene);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a fit says of all that was seen. For draws from what is not refuted, new samples as large as those seen are drawn, with
- * the error of the simulated rocks; how often they lie as far from the simulated rocks as what was seen, is p. */
+ * the error of the simulated rocks; how often they lie as far from the simulated rocks as what was seen, is p. The rocks are
+ * others than those of the fit: it prefers values whose rocks happen to do what was seen. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
@@ -10,7 +11,8 @@
 
 #include "fitting.h"
 
-#define SAMPLES 20 /* for each draw */
+#define SAMPLES     20 /* for each draw */
+#define OTHER_ROCKS 0x5eed /* in the seed */
 
 static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i)
 {
@@ -131,6 +133,9 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
             places[k * d + i] = k < draws ? (value - input->lo) / (input->hi - input->lo) : f->best[i];
         }
     f->draws = places;
+    for (size_t w = 0; w < f->workers_count; w++)
+        for (size_t s = 0; s < f->def->scenes_count; s++)
+            f->workers[w].copies[s].scene.simulation.seed ^= OTHER_ROCKS;
     if (status == CEDUO_OK)
         status = ceduo_fitting_each(f, draws + 1, look_at_draw);
     if (status == CEDUO_OK) {

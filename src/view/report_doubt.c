@@ -46,6 +46,10 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
         return;
     }
     const char *place = input->places[0], *stand = stand_name(r, input);
+    if (input->kind == CEDUO_INPUT_DRAWS) {
+        ceduo_text_put(text, _("left open by calibration"));
+        return;
+    }
     if (!ceduo_value_find(&r->file->scene, place, &v)) {
         ceduo_text_safe(text, input->path);
         return;

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from harness import CEDUO, DONE, ROOT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, run_all, scene
+from harness import CEDUO, DONE, INPUT, ROOT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, run_all, scene
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
 # stops of 30 rocks on that ground, of seed 777: the same law, so that the fit must be able to give them
@@ -118,6 +118,49 @@ def test_scars():
     with Folder() as f:
         page = ceduo("-n", 50, "--calibrate", f"{RT}=0.7:0.98", f.write("s.yaml", what)).out
         expect_in("A survey finds too few scars", page)
+
+
+def test_written():
+    """-o writes the scene with the best value and the draws beside it, which doubt reads back"""
+    materials = {"vertices_m": [[0, 60], [40, 20], [60, 8], [200, 0]],
+                 "materials": [{"from_m": 0, "to_m": 50, "material": "talus"}, {"from_m": 50, "to_m": 200, "material": "colluvium"}]}
+    with Folder() as f:
+        for path, what in ((RT, quarry()), ("slope.materials[talus].rt", quarry(slope=materials))):
+            for output in ("fitted.yaml", "elsewhere/fitted.yaml"):
+                out = f.path / output
+                out.parent.mkdir(exist_ok=True)
+                r = ceduo("-f", "json", "-n", 50, "--calibrate", f"{path}=0.7:0.98", "-o", out, f.write("s.yaml", what))
+                expect_equal((r.status, r.err), (DONE, ""), r)
+                best = json.loads(r.out)["parameters"][0]["best"]
+                text = out.read_text()
+                expect_in(f"rt: {best}", text)
+                expect_in("kind: calibrated", text)
+                expect_in("doubt: {draws: fitted.draws.csv}", text)
+                draws = (out.parent / "fitted.draws.csv").read_text().splitlines()
+                expect_in("slope.segments[0].rt", draws[0])
+                expect(len(draws) > 200)
+                r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, out)
+                expect_equal((r.status, r.err), (DONE, ""), r)
+                expect_in("draws", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
+
+
+def test_draws():
+    """A table of draws that does not fit"""
+    with Folder() as f:
+        f.write("good.csv", "slope.segments[0].rt\n0.8\n0.9\n")
+        f.write("other.csv", "slope.colour\n0.8\n")
+        f.write("short.csv", "slope.segments[0].rt,slope.segments[0].rn\n0.8\n")
+        f.write("empty.csv", "slope.segments[0].rt\n")
+        good = f.write("s.yaml", quarry(doubt={"draws": "good.csv", "rows": [{"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]}))
+        expect_equal(ceduo("--check", good).err, "")
+        for doubt, what in (({"draws": "none.csv"}, "cannot find 'none.csv' beside this file"),
+                            ({"draws": "other.csv"}, "a column 'slope.colour', which is no value of this scene"),
+                            ({"draws": "short.csv"}, "too few columns"), ({"draws": "empty.csv"}, "the table has no row"),
+                            ({"draws": ["good.csv"]}, "expected the path of a table"),
+                            ({"draws": "good.csv", "row": []}, "unknown key; known here: draws, rows")):
+            r = ceduo("--check", f.write("s.yaml", quarry(doubt=doubt)))
+            expect_equal(r.status, INPUT, r)
+            expect_in(what, r.err)
 
 
 def test_refused():
