@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (Folder, Suite, belt, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
+from harness import (Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
                      wooded_scene)
 from pages import expect_width
 from runs import expect_run, through
@@ -257,6 +257,37 @@ def test_ratio_of_species():
             expect_equal(found["energy_per_contact_J"], given["energy_per_contact_J"], species)
             warned = any("fracture ratio" in w for w in found["warnings"])
             expect_equal(warned, ratio is None, f"{species}: {found['warnings']}")
+
+
+def test_low_wood():
+    """Stumps and logs: nothing is assumed of them; what cannot be read is told once; none are none"""
+    whole = {"stumps": {"per_ha": 300, "diameter_m": 0.2, "height_m": 0.3, "energy_kJ": 2},
+             "logs": {"per_ha": 30, "length_m": 5, "diameter_m": 0.3, "energy_kJ": 9}}
+    trees = [{"per_ha": 100, "dbh_m": 0.2, "height_m": 12, "groups": {"stems": 4, "radius_m": 2}}]
+    with Folder() as f:
+        def refused(**more):
+            path = f.write("s.yaml", wooded_scene(forest=[belt(10, 95, **more)]))
+            return ceduo("--check", path)
+
+        found = result(f.write("s.yaml", wooded_scene(forest=[belt(10, 95, trees=trees, **whole)])), "-n", "50")
+        s = found["options"][0]["stands"][0]
+        expect_equal((s["stumps_per_ha"], s["logs_per_ha"], s["grouped_per_ha"]), (300, 30, 100))
+        expect(any("stumps and logs" in w for w in s["warnings"]), s["warnings"])
+        for low, values in whole.items():
+            for key in values:
+                if key == "per_ha":
+                    continue
+                less = {k: v for k, v in values.items() if k != key}
+                expect_in(f"{low} need", refused(**{low: less}).err)
+                expect_equal(refused(**{low: {**less, "per_ha": 0}}).status, 0, f"no {low} lack nothing")
+                wrong = refused(**{low: {**values, key: "x"}}).err
+                expect_in("'x' is not a number", wrong)
+                expect("need" not in wrong, wrong)
+        for groups, said in (({"stems": 4}, "groups of 4 trees need radius_m"), ({"stems": 4, "radius_m": "x"}, "'x' is not a number"),
+                             ({"stems": 201, "radius_m": 2}, "201"), ({"stems": 0, "radius_m": 2}, "0"),
+                             ({"stems": 4, "radius_m": -1}, "-1")):
+            expect_in(said, refused(trees=[{**trees[0], "groups": groups}]).err)
+        expect_equal(refused(trees=[{**trees[0], "groups": {"stems": 1}}]).status, 0, "single trees")
 
 
 def test_dorren_thin():

@@ -495,6 +495,19 @@ static void groups_stand_around_the_release(void **state)
         sweep_end();
         expect_mean("per metre beside the release", &met, per_metre(400, B + TREE));
     }
+    /* so many around it that drawing them pauses */
+    clear_plane(120);
+    plant_groups(10, 110, 1e5, 200, 30);
+    line_scene_release(&plane.line, 60, 1, -1200, 0, 0);
+    struct spread met = {0};
+    sweep_begin();
+    for (uint64_t number = 0; number < 300; number++) {
+        sweep_rock(number);
+        EXPECT(sweep.way.end, ==, CEDUO_LEFT_SLOPE);
+        spread_add(&met, (double)sweep.count / 50);
+    }
+    sweep_end();
+    expect_mean("per metre behind the release, dense", &met, per_metre(1e5, B + TREE));
 }
 
 /* radius 0: n trees at one place; a very large one: single trees. */

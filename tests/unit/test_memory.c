@@ -23,6 +23,8 @@ static void init(enum ceduo_contact_model model, enum ceduo_law law)
     site.scene.release.vx.mean = 14;
     site.scene.release.vz.mean = -5;
     site.control.accepted = 50e3;
+    site.plots[1].trees.group = 5;
+    site.plots[1].trees.group_radius = 3;
 }
 
 /* The status at last, which is CEDUO_OK: a call that fails changes nothing and can be made again. */
