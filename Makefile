@@ -289,6 +289,7 @@ VALGRIND := valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=d
 do-check-memory: all
 	$(VALGRIND) $(PROGRAM) --batch -n 200 profiles/scenes/*.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --plot profile -n 200 profiles/scenes/paper-site.yaml >/dev/null
+	$(VALGRIND) $(PROGRAM) --report - -n 100 -s doubt=none profiles/scenes/paper-site.yaml profiles/scenes/staggered.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --years 0:3 -f json -n 100 profiles/scenes/rotation.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --sensitivity=3 -n 50 profiles/scenes/paper-site.yaml profiles/scenes/four-systems.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --find forest[0].stand.stools.per_ha=500:5000 --goal adc=30 profiles/scenes/paper-site.yaml >/dev/null

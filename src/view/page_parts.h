@@ -9,6 +9,9 @@
  * what it would show as a table. */
 #define CEDUO_PAGE_WIDTH 80
 
+/* What is to be said of the stands of n options: warnings, and what the rules of a region ask. */
+void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *result, size_t first, size_t n);
+
 /* Rock, slope and rocks, a line each. */
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
 

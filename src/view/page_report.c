@@ -51,8 +51,8 @@ static struct text *section(struct ceduo_page *page, const char *title)
 
 /* ---- sections ---- */
 
-#define SLOPE_ROWS  22
-#define ENERGY_ROWS 13
+#define SLOPE_ROWS  19
+#define ENERGY_ROWS 11
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
@@ -62,10 +62,13 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
-    if (c->outlook)
+    if (c->outlook && c->report->result->scene->controls_count > 0)
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
+    const struct ceduo_result *r = c->report->result;
+    if (r->scene->options_count > 1 && r->scene->controls_count > 0 && r->bare.rocks > 0)
+        ceduo_page_percentiles(page, r, picture.option, r->last_control); /* of one option they stand with all its figures */
 }
 
 static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -195,6 +198,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_page_hazard(page, c->report);
     }
     ceduo_page_notes(page, c->report);
+    if (scene->options_count > 1)
+        ceduo_page_stands(page, c->report->result, 0, scene->options_count);
     add_limits(page, scene);
     add_origin(page, c);
 }

@@ -242,6 +242,18 @@ static void say_rule_once(void *context, bool met, const char *sentence)
         ceduo_text_put(ceduo_page_add(w->page, CEDUO_PAGE_SENTENCE), sentence);
 }
 
+void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
+{
+    struct stand_warnings w = {page, page->last};
+    for (size_t i = first; i < first + n; i++) {
+        const struct ceduo_option *o = &r->scene->options[i];
+        for (size_t k = 0; k < o->belts_count; k++)
+            ceduo_words_stand_warnings(r->scene, &o->belts[k], &r->options[i].stands[k], warn_once, &w);
+        for (size_t k = 0; k < o->belts_count; k++)
+            ceduo_words_rules(&o->belts[k], &r->options[i].stands[k].rules, say_rule_once, &w);
+    }
+}
+
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), report->result->scene->options[i].name);
@@ -251,7 +263,6 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_option *o = &r->scene->options[i];
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, r, i, k);
@@ -266,11 +277,7 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
         ceduo_page_sizes(page, r, &report->blocks[i * CEDUO_BLOCKS]);
     if (report->years)
         ceduo_page_years(page, report, i);
-    struct stand_warnings w = {page, page->last};
-    for (size_t k = 0; k < o->belts_count; k++)
-        ceduo_words_stand_warnings(r->scene, &o->belts[k], &r->options[i].stands[k], warn_once, &w);
-    for (size_t k = 0; k < o->belts_count; k++)
-        ceduo_words_rules(&o->belts[k], &r->options[i].stands[k].rules, say_rule_once, &w);
+    ceduo_page_stands(page, r, i, 1);
 }
 
 /* ---- the page ---- */
