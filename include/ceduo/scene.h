@@ -87,6 +87,22 @@ struct ceduo_block_class {
     double *volumes;      /* m3: the smallest and the largest */
 };
 
+/* How good a survey is: of the ground, of the blocks. */
+#define CEDUO_QUALITIES(X) \
+    X(GOOD, "good")        \
+    X(POOR, "poor")
+
+enum ceduo_quality {
+#define X(NAME, word) CEDUO_SURVEY_##NAME,
+    CEDUO_QUALITIES(X)
+#undef X
+};
+
+/* What design values are asked for; -1: none. */
+struct ceduo_design_values {
+    int survey, blocks; /* enum ceduo_quality */
+};
+
 /* Everything that a run depends on. */
 struct ceduo_scene {
     char *title;
@@ -100,6 +116,7 @@ struct ceduo_scene {
     size_t options_count;           /* >= 1 */
     struct ceduo_option *options;   /* the first is the baseline */
     struct ceduo_simulation simulation;
+    struct ceduo_design_values design;
     double rocks_per_year;          /* that come down; NaN: not said */
     double year_first, year_last;   /* of the years to come that are looked at; NaN: one whole rotation of each option */
     double reserves_minimum;        /* single trees per ha that a forest must keep; NaN: not said */

@@ -314,7 +314,7 @@ static const struct option_row rows[] = {
      N_("compute part I of N of each scene and write it for --merge")},
     {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
-     N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff or doubt")},
+     N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
     {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, NOT_CHECK,
      N_("characters that pictures are made of (from the locale)")},

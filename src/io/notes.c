@@ -23,6 +23,14 @@ bool ceduo_notes_assume(const struct source_note *notes, const char *path)
     return false;
 }
 
+bool ceduo_notes_calibrated(const struct source_note *notes, const char *path)
+{
+    for (; notes; notes = notes->before)
+        if (strcmp(notes->kind, "calibrated") == 0 && ceduo_path_leads_to(path, notes->path))
+            return true;
+    return false;
+}
+
 const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path)
 {
     const struct source_note *best = NULL;

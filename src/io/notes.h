@@ -22,6 +22,9 @@ bool ceduo_note_of_years(const struct source_note *note);
 /* True where some value below `path` is marked as an assumption, but for growth and cutting. */
 bool ceduo_notes_assume(const struct source_note *notes, const char *path);
 
+/* True where something below `path` was fitted to what was seen. */
+bool ceduo_notes_calibrated(const struct source_note *notes, const char *path);
+
 /* The note of the innermost mapping around a value; NULL where nothing is said. */
 const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path);
 

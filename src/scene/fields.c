@@ -499,6 +499,14 @@ static const struct field simulation_fields[] = {
 };
 static const struct object simulation_object = OBJECT(ceduo_simulation, simulation_fields, NULL);
 
+static const struct field design_fields[] = {
+    WORD("survey", NAMED(N_("survey of the ground"), NULL),
+        AT(ceduo_design_values, survey), REQUIRED | UNFLOWN, NULL, N_("how good the survey of the slope is"), &ceduo_quality_words),
+    WORD("blocks", NAMED(N_("survey of the blocks"), NULL),
+        AT(ceduo_design_values, blocks), REQUIRED | UNFLOWN, NULL, N_("how good the survey of the blocks is"), &ceduo_quality_words),
+};
+static const struct object design_object = OBJECT(ceduo_design_values, design_fields, NULL);
+
 static const struct field minimum_fields[] = {
     NUMBER("reserves_per_ha", NAMED(N_("reserves per ha"), NULL),
         AT(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5, REQUIRED | UNFLOWN, NULL,
@@ -672,6 +680,8 @@ static const struct field scene_fields[] = {
     ITEMS("observed", NAMED(N_("seen"), NULL),
         LIST(scene_draft, seen, seen_count), FIELD_DRAFT | UNFLOWN,
         N_("what was seen of real rocks, for --calibrate; each row is of one kind"), &seen_object),
+    GROUP("design", NAMED(N_("design values"), NULL),
+        AT(scene_draft, scene.design), 0, N_("prints the design values of UNI 11211-4"), &design_object),
     GROUP("minimum", NAMED(N_("minimum"), NULL),
         SAME, 0, N_("what a forest must keep"), &minimum_object),
     GROUP("rules", NAMED(N_("rules"), NULL),

@@ -21,7 +21,15 @@ static void draw(struct app *app, struct ceduo_area area)
     }
     if (adc.height > 4)
         ceduo_plot_draw(CEDUO_PLOT_ADC, &app->cells->canvas, &adc, &picture);
-    ceduo_plot_draw(CEDUO_PLOT_HISTOGRAM, &app->cells->canvas, &histogram, &picture);
+    if (picture.scene->blocks_count > 0 && histogram.height >= 20) { /* beside the energies how often they come */
+        struct ceduo_area hazard = {area.left, histogram.top + histogram.height / 2, half, (histogram.height + 1) / 2};
+        histogram.height = histogram.height / 2 - 1;
+        ceduo_plot_draw(CEDUO_PLOT_HAZARD, &app->cells->canvas, &hazard, &picture);
+        ceduo_plot_draw(CEDUO_PLOT_HISTOGRAM, &app->cells->canvas, &histogram, &picture);
+    } else {
+        ceduo_plot_draw(picture.scene->blocks_count > 0 ? CEDUO_PLOT_HAZARD : CEDUO_PLOT_HISTOGRAM, &app->cells->canvas,
+                        &histogram, &picture);
+    }
     page.width -= 2; /* the mark of more below stands beside the text */
     struct text text = {0};
     struct ceduo_report report = ceduo_app_report(app);

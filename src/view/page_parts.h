@@ -37,8 +37,11 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result)
 void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_hazard_at(struct ceduo_page *page, const struct ceduo_result *result, size_t control);
 
-/* Percentiles of the rocks that arrive at a control, with their intervals; the design values where the scene asks for them. */
+/* Percentiles of the rocks that arrive at a control, with their intervals. */
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control);
+
+/* Design values, each factor named, where the scene asks for them. */
+void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control);
 
 /* Warnings of the whole run, and assumptions. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);

@@ -268,6 +268,7 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
         add_arrivals(page, r, i, k);
         if (page->width >= CEDUO_PAGE_WIDTH && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k);
+        ceduo_page_design(page, report, i, k);
         say_lights(page, r, i, k);
         if (k == 0)
             ceduo_page_belts(page, report, i);

@@ -57,7 +57,9 @@ struct ceduo_picture {
  *   energy (or at all, where no accepted energy is given), the mean energy of those that arrive; with the contact model
  *   index ADC, kJ taken per 100 m, kJ left.
  * tradeoff: what the options yield against what they let through, over one whole rotation of each: a point with its error
- *   for each option, marked where another is better in both. */
+ *   for each option, marked where another is better in both.
+ * hazard: how often which energy is exceeded at the control, without forest and with each option, where the scene has
+ *   blocks: years against energy, both by decades, with the limits of intensity and return period of Swiss practice. */
 #define CEDUO_PLOT_LIST(X)                                                                                             \
     X(PROFILE, profile, true, false, true)                                                                             \
     X(ENERGY, energy, true, true, true)                                                                                \
@@ -68,7 +70,8 @@ struct ceduo_picture {
     X(STAND, stand, false, false, true)                                                                                \
     X(COMPARE, compare, true, false, false)                                                                            \
     X(TRADEOFF, tradeoff, true, false, false)                                                                          \
-    X(DOUBT, doubt, false, false, true)
+    X(DOUBT, doubt, false, false, true)                                                                                \
+    X(HAZARD, hazard, true, false, false)
 
 enum ceduo_plot {
     CEDUO_PLOT_NONE,

@@ -89,6 +89,8 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
         ceduo_text_format(text, _("Options side by side, up to %s"), where);
     } else if (plot == CEDUO_PLOT_TRADEOFF) {
         ceduo_text_format(text, _("Protection and yield of the options, up to %s"), where);
+    } else if (plot == CEDUO_PLOT_HAZARD) {
+        ceduo_text_format(text, _("How often, and with how much, at %s"), where);
     } else {
         ceduo_text_format(text, "%s: ", option && option->name ? option->name : "");
         put_subject(text, plot, p, where);

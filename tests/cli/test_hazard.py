@@ -267,6 +267,49 @@ def test_page():
         expect("How often" not in without and "Blocks   " not in without, without)
 
 
+def test_design():
+    """Design values are the 95th percentiles times factors that are named; the model's is 1.02 only for a fitted ground"""
+    slope = {"vertices_m": [[0, 100], [150, 0], [200, 0]], "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]}
+    fitted = {**slope, "segments": [{**slope["segments"][0], "source": {"kind": "calibrated", "text": "20 stops"}}]}
+    with Folder() as f:
+        for ground, survey, blocks in ((slope, "good", "poor"), (slope, "poor", "good"), (fitted, "good", "good")):
+            path = f.write("s.yaml", slope_site(slope=ground, design={"survey": survey, "blocks": blocks}))
+            page = " ".join(good("--batch", path).out.split())
+            control = good("--batch", "-f", "json", path).json()[0]["options"][0]["controls"][1]
+            factor = {"good": 1.02, "poor": 1.10}
+            model = 1.02 if ground is fitted else 1.10
+            way = factor[survey] * model
+            for side, where in (("bare", "without forest"), ("wooded", "as long as the wood stands as in this option")):
+                expect_in(f"Design values of UNI 11211-4, {where}: speed {control[side]['speed_m_s']['p95'] * way:.1f} m/s, energy "
+                          f"{control[side]['energy_kJ']['p95'] * way ** 2 * factor[blocks]:.0f} kJ, height "
+                          f"{control[side]['height_m']['p95'] * way:.2f} m. These are the 95th percentiles times "
+                          f"{factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
+                          f"{'fitted to what was seen' if ground is fitted else 'not fitted here'}; the energy times their square "
+                          f"and {factor[blocks]:.2f} for the survey of the blocks.", page)
+        expect("UNI 11211" not in good("--batch", f.write("t.yaml", slope_site())).out, "design values unasked")
+        r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
+        expect_equal(r.status, INPUT, r)
+        expect_in("'blocks' is missing", r.err)
+
+
+def test_plot():
+    """--plot hazard draws every option by its number; without blocks it says why not"""
+    with Folder() as f:
+        path = f.write("s.yaml", slope_site(forest=None, options=[{"name": "none", "forest": []},
+                                                                  {"name": "coppice", "forest": [WOOD]}]))
+        for size in ("100x30", "50x20"):
+            picture = good("--plot", "hazard", "--size", size, "--charset", "ascii", path).out
+            for text in ("How often, and with how much, at", "0 without forest", "1 none", "2 coppice", "10 y", "30 y", "1 kJ", "300"):
+                expect_in(text, picture)
+        expect_in("too narrow", good("--plot", "hazard", "--size", "20x12", path).out)
+        expect_in("the scene does not say which blocks come down",
+                  good("--plot", "hazard", f.write("t.yaml", slope_site(blocks=None))).out)
+        rare = f.write("u.yaml", falls({**POWER, "per_year": 0.0002}))
+        expect_in("less than once in a thousand years", good("--plot", "hazard", rare).out)
+        alone = good("--plot", "hazard", "-s", "simulation.contact_model=index", path).out
+        expect("2 coppice" not in alone and "0 without forest" in alone, alone)
+
+
 def test_tolerance_and_doubt():
     """-e works with weights; doubt of the sizes moves the answer"""
     result = run(slope_site(), "-e", "0.05")

@@ -397,6 +397,20 @@ def test_doubt():
     expect(re.search(r"is better than .*: (clear|likely|undecided)\.", re.sub(r"\s+", " ", walk.outputs[1])), walk.outputs[1])
 
 
+def test_hazard():
+    """How often: years without and with the old coppice, just cut, the energy of 300 years, the picture"""
+    walk = walked("hazard")
+    page = " ".join(walk.outputs[0].split())
+    often = dict(re.findall(r"every 22 \(\S+\) years without forest, every (\d+ \(\d+–\d+\)) years with '([^']*)'", page))
+    expect_equal({name: years for years, name in often.items()}["simple coppice"], "99 (91–108)")
+    expect_in("every 27 (25–29) years with 'simple coppice, just cut'", page)
+    bare, coppice = (re.search(rf"{name} .*?(\d+) \(\d+–\d+\)$", walk.outputs[0], re.M)[1]
+                     for name in ("    without forest", "    simple coppice"))
+    expect(385 < int(bare) < 400 and 230 < int(coppice) < 240, "390 to some 240 kJ", bare, coppice)
+    expect_in("1 simple coppice", walk.outputs[1])
+    expect_in('"rate_left"', walk.read("hazard.json"))
+
+
 def test_page():
     """A page to hand in: question and answer with both kinds of error, chapters, names of one's own"""
     walk = walked("page")

@@ -156,6 +156,7 @@ static const struct field scene_fields[] = {
     FIELD(ceduo_scene, options_count, COUNT, 0),
     FIELD(ceduo_scene, options, ELSEWHERE, 0),
     FIELD(ceduo_scene, simulation, ELSEWHERE, 0),
+    FIELD(ceduo_scene, design, ELSEWHERE, 0),
     FIELD(ceduo_scene, rocks_per_year, NUMBER, 0),
     FIELD(ceduo_scene, reserves_minimum, NUMBER, 0),
     FIELD(ceduo_scene, rules, ELSEWHERE, 0),

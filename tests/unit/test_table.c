@@ -261,7 +261,8 @@ static const char *const scenes[] = {
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
     "simulation: {contact_model: poisson}\nforest: [" BELT ", energy: {model: inertia}}}]" REST,
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
-    "blocks: [{per_year: 1, volume_m3: [0.1, 1], exponent: 1}, {per_year: 1, volume_m3: [1, 5]}]\n",
+    "blocks: [{per_year: 1, volume_m3: [0.1, 1], exponent: 1}, {per_year: 1, volume_m3: [1, 5]}]\n"
+    "design: {survey: good, blocks: poor}\n",
 };
 
 /* What a scene decides about. */
