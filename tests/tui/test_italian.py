@@ -33,7 +33,7 @@ def test_views():
             text = str(italian)
             expect(len(words_cut(italian)) <= len(words_cut(english)), f"{scene}, view {number}", words_cut(italian), text)
             expect("nplurals" not in text, text)
-            top = " ".join(text.split("\n")[0].split())
+            top = " ".join(italian.text.split("\n")[0].split())
             expect(top.startswith("1 versante 2 bosco 3 blocco 4 risultati 5 confronto 6 turno 7 dubbio"), text)
 
 
