@@ -135,7 +135,7 @@ static bool put_doubt(struct pen *pen, bool energy)
 {
     struct app *app = pen->app;
     const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
-    char range[64];
+    char range[64], name[64];
     if (!d || d->inputs.n == 0 || (d->answer.main == CEDUO_DOUBT_ENERGY) != energy || app->view == VIEW_ROTATION)
         return false;
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&d->answer, app->option, d->answer.main, false);
@@ -143,7 +143,8 @@ static bool put_doubt(struct pen *pen, bool energy)
         snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * KILO, f->p95 * KILO);
     else
         snprintf(range, sizeof range, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
-    put_pair(pen, CEDUO_ROLE_DIM, _("  doubt"), range, "");
+    snprintf(name, sizeof name, "  %s", P_("view", "doubt"));
+    put_pair(pen, CEDUO_ROLE_DIM, name, range, "");
     return true;
 }
 
