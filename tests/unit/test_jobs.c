@@ -2,6 +2,8 @@
 /* The queue of jobs of the live program. */
 #include "expect.h"
 
+#include <stdlib.h>
+
 #include "base/clock.h"
 #include "model/jobs.h"
 
@@ -36,6 +38,8 @@ static void release(struct jobs_news *news)
     ceduo_outlook_free(news->outlook);
     ceduo_jobs_free_years(news->years, news->years_count);
     ceduo_sought_free(news->sought);
+    ceduo_doubted_free(news->doubted);
+    free(news->others);
 }
 
 static struct seek seek_of(uint64_t rocks)
@@ -109,6 +113,68 @@ static void a_search_comes_first(void **state)
     release(&news);
 }
 
+/* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
+static void the_other_law_comes_along(void **state)
+{
+    (void)state;
+    show(false);
+    ceduo_jobs_wait(jobs);
+    struct jobs_news news = ceduo_jobs_news(jobs);
+    assert_non_null(news.others);
+    assert_int_equal(news.others_options, 1);
+    assert_int_equal(news.others_controls, file.scene.controls_count);
+    assert_true(news.others[0].known && news.others[0].stems);
+    assert_int_equal(news.others[0].model, CEDUO_DORREN);
+    double before = news.others[0].reach_probability;
+    release(&news);
+    for (size_t i = 0; i < 2; i++)
+        file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
+    assert_true(show(false));
+    ceduo_jobs_wait(jobs);
+    news = ceduo_jobs_news(jobs);
+    assert_non_null(news.others);
+    EXPECT(news.others[0].reach_probability, <, before);
+    assert_null(news.outlook);
+    release(&news);
+    file.scene.simulation.contact_model = CEDUO_INDEX;
+    show(false);
+    ceduo_jobs_wait(jobs);
+    news = ceduo_jobs_news(jobs);
+    assert_null(news.others);
+    release(&news);
+}
+
+/* The doubt goes from level to level; the same scene is asked for once, more levels go on where it is, none stops it. */
+static void the_doubt_comes_last(void **state)
+{
+    (void)state;
+    assert_true(ceduo_jobs_doubt(jobs, &file, 1));
+    assert_false(ceduo_jobs_doubt(jobs, &file, 1));
+    ceduo_jobs_wait(jobs);
+    struct jobs_news news = ceduo_jobs_news(jobs);
+    assert_non_null(news.doubted);
+    assert_int_equal(news.doubted->level, 0);
+    assert_int_equal(news.doubted->inputs.n, 12);
+    assert_true(news.doubted->file.root == file.root);
+    EXPECT(news.doubted->answer.figures[CEDUO_DOUBT_EXCEED].p5, <, news.doubted->answer.figures[CEDUO_DOUBT_EXCEED].p95);
+    release(&news);
+    assert_true(ceduo_jobs_doubt(jobs, &file, 2));
+    assert_false(ceduo_jobs_doubt(jobs, &file, 1)); /* fewer are enough */
+    ceduo_jobs_doubt(jobs, &file, 0);
+    ceduo_jobs_wait(jobs);
+    news = ceduo_jobs_news(jobs);
+    assert_null(news.doubted);
+    release(&news);
+    file.scene.controls_count = 0;
+    assert_true(ceduo_jobs_doubt(jobs, &file, 2));
+    ceduo_jobs_wait(jobs);
+    news = ceduo_jobs_news(jobs);
+    assert_non_null(news.doubted); /* without a control there is nothing to be in doubt of */
+    assert_int_equal(news.doubted->inputs.n, 0);
+    release(&news);
+    file.scene.controls_count = 1;
+}
+
 /* What is stopped ends soon, and nothing comes of it. */
 static void a_search_is_stopped(void **state)
 {
@@ -132,6 +198,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_search_comes_first, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_search_is_stopped, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_other_law_comes_along, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_doubt_comes_last, set_up, tear_down),
         cmocka_unit_test_setup_teardown(figures_and_years_come_to_an_end, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

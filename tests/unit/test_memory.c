@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "ceduo/doubt.h"
 #include "core/run_pack.h"
 #include "physics/paper_site.h"
 #include "study/outlook.h"
@@ -292,6 +293,80 @@ static bool ask(struct ceduo_question q)
     return status == CEDUO_OK;
 }
 
+/* Under both energy laws. */
+static bool ask_both_laws(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    q.run.other_energy = true;
+    return ask(q);
+}
+
+/* A doubt of two inputs: whole where `parts` is 0. */
+static bool doubt(uint64_t parts)
+{
+    static const char *const density = "rock.density_kg_m3", *const speed = "release.vx_m_s";
+    const struct ceduo_input inputs[2] = {{density, CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
+                                          {speed, CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    const struct ceduo_doubt_def def = {
+        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 1};
+    struct ceduo_doubt_answer answer;
+    struct ceduo_doubt_part written[3] = {{0}};
+    enum ceduo_status status = CEDUO_OK;
+    for (uint64_t i = 0; i < parts && status == CEDUO_OK; i++) {
+        unsigned char *bytes;
+        status = ceduo_doubt_ask_part(&def, i + 1, parts, &bytes, &written[i].length);
+        written[i].bytes = bytes;
+    }
+    if (status == CEDUO_OK)
+        status = parts > 0 ? ceduo_doubt_join(&def, written, parts, &answer) : ceduo_doubt_ask(&def, &answer);
+    if (status == CEDUO_OK) {
+        add(&answer.figures[CEDUO_DOUBT_ENERGY].p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].p50);
+        add(answer.order, 2 * sizeof answer.order[0]);
+        ceduo_doubt_free(&answer);
+    }
+    for (uint64_t i = 0; i < parts; i++)
+        free((void *)(uintptr_t)written[i].bytes);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
+}
+
+static bool doubt_whole(void)
+{
+    return doubt(0);
+}
+
+static bool doubt_in_parts(void)
+{
+    return doubt(3);
+}
+
+/* Bytes that are not those of this doubt. */
+static void parts_that_do_not_fit(void **state)
+{
+    (void)state;
+    static const char *const speed = "release.vx_m_s";
+    const struct ceduo_input input = {speed, CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    const struct ceduo_doubt_def def = {
+        .scene = &site.scene, .inputs_count = 1, .inputs = &input, .points = 2, .rocks = 8, .threads = 1};
+    struct ceduo_doubt_answer answer;
+    unsigned char *bytes;
+    size_t n;
+    assert_int_equal(ceduo_doubt_ask_part(&def, 1, 1, &bytes, &n), CEDUO_OK);
+    for (size_t length = 0; length <= n; length += 8) {
+        struct ceduo_doubt_part part = {bytes, length};
+        enum ceduo_status status = ceduo_doubt_join(&def, &part, 1, &answer);
+        assert_int_equal(status, length == n ? CEDUO_OK : CEDUO_BAD_PART);
+        if (status == CEDUO_OK)
+            ceduo_doubt_free(&answer);
+    }
+    bytes[8] = 1; /* a group that is not there */
+    assert_int_equal(ceduo_doubt_join(&def, &(struct ceduo_doubt_part){bytes, n}, 1, &answer), CEDUO_BAD_PART);
+    free(bytes);
+}
+
 static bool ask_by_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
@@ -486,6 +561,9 @@ static void what_stands_on_runs(void **state)
     without_memory(join_pools);
     without_memory(question);
     without_memory(ask_by_index);
+    without_memory(ask_both_laws);
+    without_memory(doubt_whole);
+    without_memory(doubt_in_parts);
     without_memory(ask_of_one_option);
     without_memory(ask_part);
     without_memory(assess);
@@ -501,6 +579,7 @@ int main(void)
         cmocka_unit_test(runs_go_on),
         cmocka_unit_test(parts_are_joined),
         cmocka_unit_test(what_stands_on_runs),
+        cmocka_unit_test(parts_that_do_not_fit),
         cmocka_unit_test(what_is_to_be_seen_of_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
