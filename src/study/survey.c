@@ -183,8 +183,8 @@ static void add_volume(struct ceduo_survey_class *c, const struct ceduo_survey_s
     c->form_factor_main += from == CEDUO_VOLUME_FORM_FACTOR && stem->species == main_one && main_one >= 0;
 }
 
-/* Fills a class of a kind; false where it has no stem. */
-static bool fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ceduo_survey_kind kind, size_t k)
+/* Fills a class of a kind, which has a stem. */
+static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ceduo_survey_kind kind, size_t k)
 {
     const struct ceduo_survey *survey = s->survey;
     double squares = 0;
@@ -202,14 +202,11 @@ static bool fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
         if (kind != CEDUO_SURVEY_STUMP)
             add_volume(c, stem, s->heights[i], s->answer->species);
     }
-    if (c->stems == 0)
-        return false;
     double n = (double)c->stems;
     c->per_ha = density(s);
     c->dbh_sd = c->stems > 1 ? sqrt(squares / (n - 1)) : 0;
     c->height = kind == CEDUO_SURVEY_STUMP ? s->answer->stump_height : c->height / n;
     c->volume = kind == CEDUO_SURVEY_STUMP ? NAN : c->volume / n;
-    return true;
 }
 
 static bool make_classes(struct surveyor *s)
@@ -227,8 +224,7 @@ static bool make_classes(struct surveyor *s)
     s->answer->classes = classes;
     for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST; k++)
         if (present[k])
-            s->answer->classes_count +=
-                fill_class(s, &classes[s->answer->classes_count], k / CLASSES_MOST, k % CLASSES_MOST);
+            fill_class(s, &classes[s->answer->classes_count++], k / CLASSES_MOST, k % CLASSES_MOST);
     free(present);
     return classes != NULL;
 }

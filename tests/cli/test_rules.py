@@ -56,7 +56,7 @@ def test_shipped_say_where_from():
         text = path.read_text()
         rows = [row for row in text.splitlines() if row.startswith("  - {")]
         expect(rows and all("article:" in row and "year:" in row for row in rows), path)
-        expect_in(str(path) + " ", listed)
+        expect_in(f"profiles/rules/{path.name} ", listed)
     expect_in("rules  Toscana", listed)
 
 
@@ -110,7 +110,8 @@ def test_page():
 def test_no_coppice():
     """A high forest, a gap and a scene without rules are asked for nothing; no figure of a run changes"""
     high = coppice(stools=None, shoots=None)
-    for what, rules in ((high, "umbria"), (coppice(), None)):
+    bare = stand(stools=None, shoots=None, trees=None, system="bare")
+    for what, rules in ((high, "umbria"), (bare, "umbria"), (coppice(), None)):
         expect_equal(rules_of(what, rules), None)
     with Folder() as f:
         runs = [result(f.write("s.yaml", site(coppice(), rules)), "-n", 50)["options"] for rules in (None, "umbria")]

@@ -85,7 +85,8 @@ def test_same_bytes():
             words = words.replace(english, other)
         for content in (table(separator=";", comma=True, head=italian), words, table(separator=";", comma=True, head=german),
                         table().replace("\n", "\r\n"), "\ufeff" + table(), table(separator="\t"),
-                        table().replace("ostrya-carpinifolia", "Ostrya carpinifolia").replace("quercus-cerris", "Turkey oak")):
+                        table().replace("ostrya-carpinifolia", "Ostrya carpinifolia").replace("quercus-cerris", "Turkey oak"),
+                        table().replace("quercus-cerris", "quercus_cerris")):
             expect_equal(survey(f, content).out, wanted, content)
         expect_equal(survey(f, table(), "--language", "it").out, wanted)
         expect_equal(ceduo("--survey", "-", stdin=table().encode()).out, wanted.replace("plots", "survey", 1)
@@ -139,6 +140,31 @@ def test_what_is_assumed():
         stand_of(f, text)
 
 
+def test_any_order():
+    """Rows may come in any order, and stools have any names; the name of the file may be any"""
+    with Folder() as f:
+        rows = [f"{plot},100,0,,shoot,{stool},{5 + stool / 10},6,\n" for stool in range(1, 13) for plot in "BA"]
+        text = survey(f, HEAD + "\n" + "".join(rows)).out
+        stand, _ = stand_of(f, text)
+        expect_near(stand["stools_per_ha"], 1200, 1e-9)
+        for name in ("plots.txt", "p"):
+            other = ceduo("--survey", f.write(name, HEAD + "\n" + "".join(sorted(rows)))).out
+            # the mean is summed in another order
+            expect_equal(other.splitlines()[1:6], text.splitlines()[1:6], name)
+            expect_in(f"name: {name}\n", other)
+
+
+def test_other_species():
+    """A class with stems of another species that lie outside its equation has their volume given, and is marked"""
+    with Folder() as f:
+        main = "A,200,0,quercus-cerris,tree,,30,15,\nB,200,0,quercus-cerris,tree,,31,15,\n"
+        for rows, wanted in (("A,,,quercus-ilex,tree,,5.5,6.5,\n", "n = 1; volume of 1"),
+                             ("A,,,quercus-ilex,tree,,5.5,6.5,\nA,,,quercus-cerris,tree,,6,7,\n", "n = 2; volume of 1")):
+            line = next(row for row in survey(f, HEAD + "\n" + main + rows).out.split("  - ") if wanted in row)
+            expect_in("volume_m3: ", line)
+            expect_in("kind: assumed", line)
+
+
 def test_stumps():
     """Stumps are counted, and what a stump takes is asked for"""
     with Folder() as f:
@@ -155,6 +181,7 @@ def test_stumps():
         _, path = stand_of(f, text)
         r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
         expect_in("forest[0].stand.stumps.per_ha", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
+        expect_in("height_m: ?, energy_kJ: ?}", survey(f, table() + "A,,,,stump,,30,,\n").out)
         alone = survey(f, HEAD + ",energy_kJ\nA,200,,,stump,,30,0.2,,2\nB,200,,,,,,,,\n").out
         expect("system: bare" not in alone, alone)
         stand_of(f, alone)
@@ -173,6 +200,8 @@ def test_columns():
     with Folder() as f:
         text = survey(f, table().replace("\n", ",x\n").replace("spacing_m,x", "spacing_m,weather")).out
         expect_in("# columns that were not used: weather", text)
+        long = "weather" * 20
+        expect_in(long, survey(f, table().replace("spacing_m", f"spacing_m,{long},")).out)
         r = survey(f, table().replace("slope_deg", "slope_degr"))
         expect_equal(r.status, INPUT, r)
         expect_in("plots.csv:1:14: 'slope_degr': unknown column; did you mean 'slope_deg'?", r.err)
@@ -222,6 +251,12 @@ BAD = [  # (content, place, words)
     (HEAD.replace(",", ";") + "\n" + ROW.replace(",", ";").replace("20;12", "20,5;1.2e1"), ":2:22", "not both"),
     (HEAD + "\nA,1,,,tree,,20,12,\n" + "A,,,,tree,,20,12,\n" * 101, "", "are the areas in m2?"),
     (HEAD + ",energy_kJ\n" + ROW.replace("\n", ",3\n"), ":2:24", "energy_kJ is what a stump takes from a rock"),
+    (HEAD + ",energy_kJ\n" + ROW.replace("tree", "stump").replace("\n", ",x\n"), ":2:25", "'x' is not a number"),
+    (HEAD.replace("area_m2", "radius_m") + "\n" + ROW.replace("200", "-1"), ":2:3", "below 0.5 m"),
+    (HEAD + "\n" + ROW.replace("tree", "b" * 120), ":2:11", "b' is no kind of stem"),
+    (HEAD + "\n" + ROW.replace(",,tree", "," + "o" * 120 + ",tree"), ":2:10", "o' is an unknown species"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,21"), ":2:21", "at most 20 m"),
+    (HEAD + "\n" + ROW + "A\n" * 200000, ":200002:1", "more than 200000 rows"),
     ("\n".join([HEAD] + [f"P{i},200,,,,,,," for i in range(1001)]), ":1002:1", "more than 1000 plots"),
 ]
 

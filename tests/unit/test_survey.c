@@ -169,11 +169,12 @@ static void naslund_is_refused(void **context)
 {
     (void)context;
     const double dbh[] = {.05, .1, .15, .2, .25}, same[] = {.1, .1, .1, .1, .1};
-    const double rises[] = {5, 8, 10, 11, 12}, falls[] = {12, 9, 6, 4, 2};
+    const double rises[] = {5, 8, 10, 11, 12}, falls[] = {12, 9, 6, 4, 2}, runs_away[] = {1.35, 1.7, 2.65, 4.5, 7.55};
     struct ceduo_naslund curve;
     assert_int_equal(ceduo_naslund_fit(4, dbh, rises, &curve), CEDUO_BAD_PART);
     assert_int_equal(ceduo_naslund_fit(5, same, rises, &curve), CEDUO_BAD_PART);
     assert_int_equal(ceduo_naslund_fit(5, dbh, falls, &curve), CEDUO_BAD_PART);
+    assert_int_equal(ceduo_naslund_fit(5, dbh, runs_away, &curve), CEDUO_BAD_PART); /* as d3: b is below 0 */
     assert_int_equal(ceduo_naslund_fit(5, dbh, rises, &curve), CEDUO_OK);
 }
 
@@ -190,7 +191,7 @@ static void classes_by_hand(void **context)
     const double area = 100;
     struct ceduo_survey_stem stems[] = {stem(CEDUO_SURVEY_STANDARD, cerris, .15, 10), stem(CEDUO_SURVEY_STANDARD, beech, .19, 12),
                                         stem(CEDUO_SURVEY_TREE, cerris, .16, 11),     stem(CEDUO_SURVEY_SHOOT, beech, .049, 4),
-                                        stem(CEDUO_SURVEY_SHOOT, beech, .03, 3),      stem(CEDUO_SURVEY_STUMP, -1, .4, .2),
+                                        stem(CEDUO_SURVEY_SHOOT, beech, .03, 3),      stem(CEDUO_SURVEY_STUMP, beech, .4, .2),
                                         stem(CEDUO_SURVEY_STUMP, -1, 80, NAN)};
     stems[3].stool = stems[4].stool = 0;
     stems[4].spacing = .3;
