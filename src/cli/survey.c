@@ -16,7 +16,9 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     struct text yaml = {0};
     bool standard = strcmp(a->survey, "-") == 0;
     const char *found = standard ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
-    bool good = ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
+    if (arena.failed)
+        ceduo_problem_memory(&problems);
+    bool good = !arena.failed && ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
                 ceduo_survey_stand(&file, &yaml, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);

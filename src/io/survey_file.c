@@ -396,6 +396,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
         return false;
     read_header(&r, &unused);
     file->unused = ceduo_arena_string(arena, ceduo_text_string(&unused));
+    problems->memory |= unused.failed;
     ceduo_text_free(&unused);
     if (problems->met > before || !read_rows(&r))
         return false;

@@ -121,6 +121,12 @@ def test_memory_plot():
     no_memory(("--plot", "profile", "-n", 20, "-j", 1, "scene.yaml"), True)
 
 
+def test_memory_survey():
+    """Allocations of a survey fails once, and from some allocation on"""
+    no_memory(("--survey", "six-plots.csv"), False)
+    no_memory(("--survey", "six-plots.csv"), True)
+
+
 def test_memory_output():
     """Allocations of a run that writes a file fails once: the old file is whole, or the new one"""
     with Place() as place:

@@ -163,6 +163,9 @@ def test_other_species():
             line = next(row for row in survey(f, HEAD + "\n" + main + rows).out.split("  - ") if wanted in row)
             expect_in("volume_m3: ", line)
             expect_in("kind: assumed", line)
+        text = survey(f, HEAD + "\n" + main + "A,,,quercus-ilex,tree,,3.5,4,\n").out  # the form factor is the program's own
+        line = next(row for row in text.split("  - ") if "n = 1; volume of 1" in row)
+        expect("volume_m3" not in line and "kind: measured" in line, line)
 
 
 def test_stumps():
