@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* error_picture CSV SVG: draws what bench_error found, the error of the mean energy against run time, with the program's own
- * vectors. Both axes are logarithmic. */
+/* error_picture CSV SVG: draws what bench_error found, the error of the mean energy against run time, with the
+ * program's own vectors. Both axes are logarithmic. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -82,7 +82,8 @@ static void draw(struct ceduo_canvas *canvas, const struct points *points)
     struct ceduo_frame frame = {7, 2, COLUMNS - 9, ROWS - 5, -4, 1, -2, 1};
     struct ceduo_tick ticks[8];
     int n = decades(&frame, canvas, true, -2, 1, ticks);
-    ceduo_canvas_label(canvas, 0, 0, CEDUO_ROLE_TITLE, "error of the mean energy, kJ (of 115), against the time that the run takes");
+    ceduo_canvas_label(canvas, 0, 0, CEDUO_ROLE_TITLE,
+                       "error of the mean energy, kJ (of 115), against the time that the run takes");
     canvas->surface->axis_left(canvas->to, &frame, n, ticks);
     n = decades(&frame, canvas, false, -4, 1, ticks);
     canvas->surface->axis_bottom(canvas->to, &frame, n, ticks);

@@ -4,8 +4,8 @@
 
 #include "base/text.h"
 
-/* Writes HTML and SVG. All that comes from outside goes through here and nowhere else: text and values of attributes are
- * escaped, control characters and bytes that are no UTF-8 become visible. Names of elements and attributes are the
+/* Writes HTML and SVG. All that comes from outside goes through here and nowhere else: text and values of attributes
+ * are escaped, control characters and bytes that are no UTF-8 become visible. Names of elements and attributes are the
  * program's own. */
 
 #define CEDUO_HTML_DEEPEST 24

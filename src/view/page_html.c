@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a page as HTML. Blocks of one kind that follow one another become one list; a caption goes into the table after
- * it. */
+/* Writes a page as HTML. Blocks of one kind that follow one another become one list; a caption goes into the table
+ * after it. */
 #include "page_html.h"
 
 #include <stdio.h>
@@ -18,7 +18,8 @@ static const char style[] =
     "print-color-adjust:exact}\n"
     "body{max-width:180mm;margin:0 auto;padding:0 4mm}\n"
     "h1{font-size:17pt;line-height:1.2;margin:2mm 0 2mm;overflow-wrap:anywhere}\n"
-    "h2{font-size:11.5pt;line-height:1.2;margin:3mm 0 1.2mm;padding-bottom:.5mm;border-bottom:.3mm solid #14532d;color:#14532d;"
+    "h2{font-size:11.5pt;line-height:1.2;margin:3mm 0 1.2mm;padding-bottom:.5mm;border-bottom:.3mm solid "
+    "#14532d;color:#14532d;"
     "overflow-wrap:anywhere}\n"
     "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
     "h1,h2,h3,caption{break-after:avoid}\n"
@@ -36,7 +37,8 @@ static const char style[] =
     "table{border-collapse:collapse;width:100%;margin:1.2mm 0 2mm;font-size:8.25pt;line-height:1.18;"
     "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
     "caption{text-align:left;padding-bottom:1mm;color:#4a4a4a}\n"
-    "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid #c9cfc4;overflow-wrap:break-word}\n"
+    "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid "
+    "#c9cfc4;overflow-wrap:break-word}\n"
     "thead th,thead td{border-bottom:.35mm solid #4a4a4a;vertical-align:bottom;font-weight:bold}\n"
     "tbody th{font-weight:normal}\n"
     ".n{text-align:right;white-space:nowrap}\n"
@@ -44,7 +46,8 @@ static const char style[] =
     ".half{display:inline-block;width:49%;vertical-align:top}\n"
     "figcaption{font-size:8.5pt;color:#4a4a4a;margin-top:1mm}\n"
     "svg{display:block;width:100%;height:auto}\n"
-    "pre{font:6.5pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm 3mm;background:#f5f5f2;"
+    "pre{font:6.5pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
+    "3mm;background:#f5f5f2;"
     "break-inside:avoid;columns:2;column-gap:5mm}\n"
     "pre.line{columns:1}\n"
     "section+section{break-before:page}\n"
@@ -99,7 +102,8 @@ static void put_cell(struct ceduo_html *html, const struct ceduo_page_block *tab
 }
 
 /* One with heads alone says nothing. */
-static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
+static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table,
+                      const struct ceduo_page_block *caption)
 {
     size_t n = table->columns_count;
     if (table->cells_count < 2 * n)
@@ -145,12 +149,12 @@ static const char *list_of(enum ceduo_page_kind kind)
 /* The element of a kind, and its class; no element: not shown by this. */
 static const struct {
     const char *element, *class;
-} elements[] = {[CEDUO_PAGE_TITLE] = {"h1", NULL},         [CEDUO_PAGE_SECTION] = {"h2", NULL},
-                [CEDUO_PAGE_PLACE] = {"h3", NULL},         [CEDUO_PAGE_CAPTION] = {"p", "detail"},
-                [CEDUO_PAGE_SENTENCE] = {"p", NULL},       [CEDUO_PAGE_DETAIL] = {"p", "detail"},
-                [CEDUO_PAGE_NOTE] = {"p", NULL},           [CEDUO_PAGE_ITEM] = {"li", NULL},
-                [CEDUO_PAGE_WARNING] = {"p", "warning"},   [CEDUO_PAGE_QUESTION] = {"p", "question"},
-                [CEDUO_PAGE_ANSWER] = {"p", NULL},         [CEDUO_PAGE_CODE] = {"pre", NULL}};
+} elements[] = {[CEDUO_PAGE_TITLE] = {"h1", NULL},       [CEDUO_PAGE_SECTION] = {"h2", NULL},
+                [CEDUO_PAGE_PLACE] = {"h3", NULL},       [CEDUO_PAGE_CAPTION] = {"p", "detail"},
+                [CEDUO_PAGE_SENTENCE] = {"p", NULL},     [CEDUO_PAGE_DETAIL] = {"p", "detail"},
+                [CEDUO_PAGE_NOTE] = {"p", NULL},         [CEDUO_PAGE_ITEM] = {"li", NULL},
+                [CEDUO_PAGE_WARNING] = {"p", "warning"}, [CEDUO_PAGE_QUESTION] = {"p", "question"},
+                [CEDUO_PAGE_ANSWER] = {"p", NULL},       [CEDUO_PAGE_CODE] = {"pre", NULL}};
 
 static void put_block(struct ceduo_html *html, const struct ceduo_page_block *block)
 {

@@ -72,17 +72,19 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
     if (!any_is_known(r))
         return;
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), _("One energy law against the other"));
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                   _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et al. "
-                     "2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot decide."));
+    ceduo_text_put(
+        ceduo_page_add(page, CEDUO_PAGE_NOTE),
+        _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et al. "
+          "2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot decide."));
     ceduo_number_shortest(c->x_given, x);
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     if (isnan(c->accepted))
         ceduo_text_format(caption, _("The same rocks at %s m: how many of 1000 arrive, and their mean energy:"), x);
     else
-        ceduo_text_format(caption,
-                          _("The same rocks at %s m: how many of 1000 arrive with more than %s kJ, and the mean energy of those "
-                            "that arrive:"),
-                          x, ceduo_number_shortest(ceduo_words_accepted(c), accepted));
+        ceduo_text_format(
+            caption,
+            _("The same rocks at %s m: how many of 1000 arrive with more than %s kJ, and the mean energy of those "
+              "that arrive:"),
+            x, ceduo_number_shortest(ceduo_words_accepted(c), accepted));
     put_table(page, r);
 }

@@ -16,7 +16,8 @@ void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *resul
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
 
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
-void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t option); /* no heading */
+/* The same without its heading. */
+void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 
 /* The belts of an option and what their stems could take, by the index. */
 void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
@@ -28,7 +29,8 @@ void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *result
 /* An option year by year; all options side by side, as filed and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 /* What is to be said of the years together. */
-void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
+void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result,
+                            const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* The energy law of the scene against the other one; nothing where that is not known. */

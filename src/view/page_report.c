@@ -12,8 +12,8 @@
 
 /* ---- pictures ---- */
 
-#define WHOLE 92 /* cells of a picture across the page */
-#define HALF  46 /* of one that has another beside it */
+#define WHOLE 92  /* cells of a picture across the page */
+#define HALF  46  /* of one that has another beside it */
 #define WIDE  112 /* of one whose rows are few in many columns */
 
 /* Adds one, so many cells large. */
@@ -59,16 +59,19 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
     struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
     section(page, _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
-                _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
-                  "upright lines."));
+    add_picture(
+        page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
+        _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
+          "upright lines."));
     if (c->outlook && c->report->result->scene->controls_count > 0)
-        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
-                    _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
-                      "through the forest and without it."));
+        add_picture(
+            page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
+            _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
+              "through the forest and without it."));
     const struct ceduo_result *r = c->report->result;
     if (r->scene->options_count > 1 && r->scene->controls_count > 0 && r->bare.rocks > 0)
-        ceduo_page_percentiles(page, r, picture.option, r->last_control); /* of one option they stand with all its figures */
+        ceduo_page_percentiles(page, r, picture.option,
+                               r->last_control); /* of one option they stand with all its figures */
 }
 
 static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -77,9 +80,10 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
     struct ceduo_picture picture = picture_of(c, 0);
     int rows = 4 + (int)(scene->options_count < 16 ? scene->options_count : 16);
     ceduo_page_comparison(page, c->report);
-    add_picture(page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
-                _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
-                  "energy, and their mean energy."));
+    add_picture(
+        page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
+        _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
+          "energy, and their mean energy."));
 }
 
 static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -125,9 +129,10 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
     if (both)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
                        _("Numbers beside points stand for the options in the order of the tables."));
-    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
-                _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
-                  "arrive with too much energy, and below them which tests each year passes."));
+    add_picture(
+        page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
+        _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
+          "arrive with too much energy, and below them which tests each year passes."));
     if (both)
         add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, &picture,
                     _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
@@ -139,19 +144,23 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_scene *scene)
     static const char *const limits[] = {
         N_("Rocks move in one vertical plane: what leaves it to the side, and what lies beside it, is not seen."),
         N_("Each rock finds the forest undamaged; rocks do not break, and do not hit each other."),
-        N_("Shrubs, falling trees, air and soil that deforms are not in it; a stem is a straight line as wide as its dbh."),
-        N_("What a hit takes from a rock is known from few kinds of trees; for thin stems it is the largest doubt of all."),
-        N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the situation "
+        N_("Shrubs, falling trees, air and soil that deforms are not in it; a stem is a straight line as wide as its "
+           "dbh."),
+        N_("What a hit takes from a rock is known from few kinds of trees; for thin stems it is the largest doubt of "
+           "all."),
+        N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the "
+           "situation "
            "on the ground.")};
     section(page, _("What the model cannot tell"));
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(limits[i]));
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM),
-                   scene->blocks_count > 0
-                       ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
-                           "foot can tell.")
-                       : _("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall "
-                           "can tell."));
+    ceduo_text_put(
+        ceduo_page_add(page, CEDUO_PAGE_ITEM),
+        scene->blocks_count > 0
+            ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
+                "foot can tell.")
+            : _("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall "
+                "can tell."));
 }
 
 /* As it would stand in its file: with what the command line changed, and the names of other files. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Draws pictures as vectors. Lines that follow one another become one path, from which points are left out as long as
- * the path stays within TOLERANCE of them; paths are put in the order of their roles' ranks. A grid of cells is drawn on
- * along with it: it holds the text, and knows what is taken. */
+ * the path stays within TOLERANCE of them; paths are put in the order of their roles' ranks. A grid of cells is drawn
+ * on along with it: it holds the text, and knows what is taken. */
 #include "svg.h"
 
 #include <limits.h>
@@ -40,16 +40,16 @@ struct ceduo_svg {
 /* Lightness and width tell roles apart, too. */
 static const struct ceduo_svg_theme paper = {
     .font = "sans-serif",
-    .looks = {[CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},   [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
-              [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},     [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
-              [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},    [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
-              [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},   [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
-              [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL},  [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
-              [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL},  [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
-              [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL},  [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
-              [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL},  [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
-              [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL},  [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
-              [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},    [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}}};
+    .looks = {[CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
+              [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
+              [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
+              [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
+              [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
+              [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL}, [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
+              [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL}, [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
+              [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
+              [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL}, [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
+              [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}}};
 
 /* ---- paths ---- */
 
@@ -233,7 +233,8 @@ static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int coun
         double x = floor(ticks[i].at * SVG_CELL) + 0.5;
         bool moved = ticks[i].start != ticks[i].cell - (length - 1) / 2;
         ceduo_text_format(&svg->axes, "M%.1f %.1fv4", x, y);
-        put_number(svg, moved ? (ticks[i].start + length / 2.0) * SVG_CELL : x, row * 2 * SVG_CELL + BELOW, "middle", ticks[i].label);
+        put_number(svg, moved ? (ticks[i].start + length / 2.0) * SVG_CELL : x, row * 2 * SVG_CELL + BELOW, "middle",
+                   ticks[i].label);
         mark_drawn(svg, ticks[i].start, row + 1, length);
     }
     mark_drawn(svg, frame->left, row, frame->width);

@@ -6,12 +6,12 @@
 #include "html.h"
 
 /*
- * The second surface of the canvas: vectors for a page. A picture is laid out in the same cells as in a terminal; lines,
- * axes, bars and discs are drawn where they are and not at the nearest dot, text in the reader's own fonts. A grid of
- * cells goes along that holds the text and knows which cells are taken.
+ * The second surface of the canvas: vectors for a page. A picture is laid out in the same cells as in a terminal;
+ * lines, axes, bars and discs are drawn where they are and not at the nearest dot, text in the reader's own fonts. A
+ * grid of cells goes along that holds the text and knows which cells are taken.
  *
- * Colours have a contrast of 4.5 to white at least, and differ in lightness and stroke, too, so that a grey print can be
- * read.
+ * Colours have a contrast of 4.5 to white at least, and differ in lightness and stroke, too, so that a grey print can
+ * be read.
  */
 
 struct ceduo_svg;
@@ -23,8 +23,8 @@ void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
 /* To draw on. */
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
 
-/* What is told of a picture beside what is drawn. `id` is unlike that of every other picture of the page; NULL: the picture
- * is a file of its own. */
+/* What is told of a picture beside what is drawn. `id` is unlike that of every other picture of the page; NULL: the
+ * picture is a file of its own. */
 struct ceduo_svg_words {
     const char *id, *title, *description;
 };

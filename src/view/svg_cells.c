@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells as vectors: runs of characters become text; lines of boxes, blocks, dots and signs become paths, so that no font
- * needs to have them. One path for each role and kind keeps the file small. */
+/* Cells as vectors: runs of characters become text; lines of boxes, blocks, dots and signs become paths, so that no
+ * font needs to have them. One path for each role and kind keeps the file small. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +37,8 @@ void ceduo_svg_stroke(struct ceduo_html *html, const struct ceduo_svg_look *look
     if (path->length == 0)
         return;
     ceduo_svg_number(&width, look->width);
-    ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", ceduo_text_string(&width), "d",
-                     path->bytes, extra, value, NULL);
+    ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", ceduo_text_string(&width),
+                     "d", path->bytes, extra, value, NULL);
     ceduo_text_free(&width);
 }
 
@@ -52,11 +52,21 @@ static unsigned arms_of(uint32_t code)
     static const struct {
         uint16_t code;
         uint8_t arms;
-    } table[] = {{0x2500, LEFT | RIGHT},        {0x2501, LEFT | RIGHT},       {0x2502, UP | DOWN},
-                 {0x2503, UP | DOWN},           {0x250C, RIGHT | DOWN},       {0x2510, LEFT | DOWN},
-                 {0x2514, UP | RIGHT},          {0x2518, UP | LEFT},          {0x251C, UP | RIGHT | DOWN},
-                 {0x2524, UP | LEFT | DOWN},    {0x252C, LEFT | RIGHT | DOWN}, {0x2534, LEFT | RIGHT | UP},
-                 {0x253C, UP | RIGHT | DOWN | LEFT}, {0x254C, LEFT | RIGHT},  {0x2550, LEFT | RIGHT}};
+    } table[] = {{0x2500, LEFT | RIGHT},
+                 {0x2501, LEFT | RIGHT},
+                 {0x2502, UP | DOWN},
+                 {0x2503, UP | DOWN},
+                 {0x250C, RIGHT | DOWN},
+                 {0x2510, LEFT | DOWN},
+                 {0x2514, UP | RIGHT},
+                 {0x2518, UP | LEFT},
+                 {0x251C, UP | RIGHT | DOWN},
+                 {0x2524, UP | LEFT | DOWN},
+                 {0x252C, LEFT | RIGHT | DOWN},
+                 {0x2534, LEFT | RIGHT | UP},
+                 {0x253C, UP | RIGHT | DOWN | LEFT},
+                 {0x254C, LEFT | RIGHT},
+                 {0x2550, LEFT | RIGHT}};
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
         if (table[i].code == code)
             return table[i].arms;
@@ -115,10 +125,10 @@ static bool add_sign(struct painter *p, unsigned role, uint32_t code, int x, int
         uint16_t code;
         bool filled;
         const char *path; /* from the corner of the cell */
-    } signs[] = {{0x2713, false, "m1 9 2 3 4-8"},       {0x2714, false, "m1 9 2 3 4-8"},
+    } signs[] = {{0x2713, false, "m1 9 2 3 4-8"},         {0x2714, false, "m1 9 2 3 4-8"},
                  {0x2717, false, "m1.5 4.5 5 7m0-7-5 7"}, {0x2718, false, "m1.5 4.5 5 7m0-7-5 7"},
-                 {0x25B2, true, "m4 3.5 4 9h-8z"},      {0x25BC, true, "m0 4h8l-4 9z"},
-                 {0x25B6, true, "m.5 4 7.5 4-7.5 4z"},  {0x25C0, true, "m7.5 4-7.5 4 7.5 4z"}};
+                 {0x25B2, true, "m4 3.5 4 9h-8z"},        {0x25BC, true, "m0 4h8l-4 9z"},
+                 {0x25B6, true, "m.5 4 7.5 4-7.5 4z"},    {0x25C0, true, "m7.5 4-7.5 4 7.5 4z"}};
     for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++) {
         if (signs[i].code != code)
             continue;
@@ -163,7 +173,8 @@ static int run_end(const struct painter *p, const struct ceduo_cell *row, int co
 {
     int end = column, width = p->cells->width;
     for (; end < width && is_text(p, &row[end], end) && row[end].role == row[column].role; end++)
-        if (row[column].role != CEDUO_ROLE_CURSOR && row[end].code == ' ' && end + 1 < width && row[end + 1].code == ' ')
+        if (row[column].role != CEDUO_ROLE_CURSOR && row[end].code == ' ' && end + 1 < width &&
+            row[end + 1].code == ' ')
             break;
     return end;
 }
@@ -190,8 +201,10 @@ static void put_run(struct painter *p, const struct ceduo_cell *row, int y, int 
     snprintf(length, sizeof length, "%d", (end - from) * CELL);
     if (word.length > 0)
         ceduo_html_leaf(&p->words, "text", word.bytes, "x", x, "y", down, "fill",
-                        turned && p->theme->paper ? p->theme->paper : turned ? "#fff" : look->colour, "font-weight",
-                        look->weight, p->theme->spaced ? "textLength" : NULL, length, NULL);
+                        turned && p->theme->paper ? p->theme->paper
+                        : turned                  ? "#fff"
+                                                  : look->colour,
+                        "font-weight", look->weight, p->theme->spaced ? "textLength" : NULL, length, NULL);
     p->texts.failed |= word.failed;
     ceduo_text_free(&word);
 }
@@ -255,16 +268,16 @@ static const struct ceduo_svg_theme terminal = {
     .font = "monospace",
     .spaced = true,
     .dots = true,
-    .looks = {[CEDUO_ROLE_BLANK] = {"#d6dbe1", 1, NULL},   [CEDUO_ROLE_TEXT] = {"#d6dbe1", 1, NULL},
-              [CEDUO_ROLE_DIM] = {"#8d96a0", 1, NULL},     [CEDUO_ROLE_TITLE] = {"#f2f5f8", 1, "bold"},
-              [CEDUO_ROLE_AXIS] = {"#8d96a0", 1, NULL},    [CEDUO_ROLE_GROUND] = {"#d9b45b", 1, NULL},
-              [CEDUO_ROLE_CLOUD] = {"#56b6c2", 1, NULL},   [CEDUO_ROLE_ENVELOPE] = {"#7aa7f0", 1, NULL},
-              [CEDUO_ROLE_MEAN] = {"#f2f5f8", 1, "bold"},  [CEDUO_ROLE_WAY] = {"#e08ce0", 1, "bold"},
-              [CEDUO_ROLE_STEM] = {"#7ec46b", 1, NULL},    [CEDUO_ROLE_STOOL] = {"#7ec46b", 1, NULL},
-              [CEDUO_ROLE_BELT] = {"#7ec46b", 1, NULL},    [CEDUO_ROLE_CONTROL] = {"#f2777a", 1, NULL},
-              [CEDUO_ROLE_GOOD] = {"#8fd97a", 1, "bold"},  [CEDUO_ROLE_BAD] = {"#ff8a85", 1, "bold"},
-              [CEDUO_ROLE_WARN] = {"#d9b45b", 1, NULL},    [CEDUO_ROLE_BARE] = {"#56b6c2", 1, NULL},
-              [CEDUO_ROLE_WOOD] = {"#7ec46b", 1, NULL},    [CEDUO_ROLE_CURSOR] = {"#d6dbe1", 1, NULL}}};
+    .looks = {[CEDUO_ROLE_BLANK] = {"#d6dbe1", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#d6dbe1", 1, NULL},
+              [CEDUO_ROLE_DIM] = {"#8d96a0", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#f2f5f8", 1, "bold"},
+              [CEDUO_ROLE_AXIS] = {"#8d96a0", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#d9b45b", 1, NULL},
+              [CEDUO_ROLE_CLOUD] = {"#56b6c2", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#7aa7f0", 1, NULL},
+              [CEDUO_ROLE_MEAN] = {"#f2f5f8", 1, "bold"}, [CEDUO_ROLE_WAY] = {"#e08ce0", 1, "bold"},
+              [CEDUO_ROLE_STEM] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_STOOL] = {"#7ec46b", 1, NULL},
+              [CEDUO_ROLE_BELT] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_CONTROL] = {"#f2777a", 1, NULL},
+              [CEDUO_ROLE_GOOD] = {"#8fd97a", 1, "bold"}, [CEDUO_ROLE_BAD] = {"#ff8a85", 1, "bold"},
+              [CEDUO_ROLE_WARN] = {"#d9b45b", 1, NULL},   [CEDUO_ROLE_BARE] = {"#56b6c2", 1, NULL},
+              [CEDUO_ROLE_WOOD] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_CURSOR] = {"#d6dbe1", 1, NULL}}};
 
 void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const char *title)
 {

@@ -11,7 +11,7 @@ enum { SVG_CELL = 8, SVG_DRAWN = 0xE000 /* code of a cell whose content is drawn
 
 struct ceduo_svg_look {
     const char *colour;
-    double width;     /* of lines, units */
+    double width;       /* of lines, units */
     const char *weight; /* of text; NULL: normal */
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The vector surface: where lines, axes, bars and discs stand on a page, what is text and what a drawing; and the writer of
- * HTML. A cell is 8 units wide and 16 high, so that places can be told by hand. */
+/* The vector surface: where lines, axes, bars and discs stand on a page, what is text and what a drawing; and the
+ * writer of HTML. A cell is 8 units wide and 16 high, so that places can be told by hand. */
 #include "unit/grid.h"
 
 #include <stdio.h>
@@ -97,13 +97,13 @@ static void axes_and_bars(void **state)
     ceduo_canvas_disc(canvas, &frame, CEDUO_ROLE_STEM, 10, 10, 1);
     assert_false(ceduo_canvas_is_blank(canvas, 3, 3)); /* the axis itself */
     char *picture = put(svg);
-    expect_has(picture, "M29.5 16V96");                        /* left of the frame, over its rows */
-    expect_has(picture, "M29.5 98.5H192");                     /* below it */
+    expect_has(picture, "M29.5 16V96");    /* left of the frame, over its rows */
+    expect_has(picture, "M29.5 98.5H192"); /* below it */
     expect_has(picture, "text-anchor=\"end\">10</text>");
-    expect_has(picture, "x=\"34.5\"");                         /* 0 stands at the middle of the first column of dots */
+    expect_has(picture, "x=\"34.5\""); /* 0 stands at the middle of the first column of dots */
     expect_has(picture, ">m</text>");
-    expect_has(picture, "M16 147h20v10h-20z");                 /* a quarter of ten cells */
-    expect_has(picture, "A4 4 0 0 0 78 54A4 4 0 0 0 70 54");   /* around (74, 54): 4 * (8 + 10.5), 4 * (4 + 9.5) */
+    expect_has(picture, "M16 147h20v10h-20z");               /* a quarter of ten cells */
+    expect_has(picture, "A4 4 0 0 0 78 54A4 4 0 0 0 70 54"); /* around (74, 54): 4 * (8 + 10.5), 4 * (4 + 9.5) */
     free(picture);
 }
 
@@ -118,7 +118,8 @@ static void text_and_signs(void **state)
     ceduo_canvas_label(canvas, 1, 3, CEDUO_ROLE_TITLE, "(\xe2\x94\x82 30)");
     char *picture = put(svg);
     expect_has(picture, "<text x=\"8\" y=\"12\" fill=\"#1c1c1c\">one two</text>");
-    expect_has(picture, "<text x=\"80\" y=\"12\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* at its own cell after two blanks */
+    expect_has(picture,
+               "<text x=\"80\" y=\"12\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* at its own cell after two blanks */
     expect_not(picture, "\xe2\x9c\x94");
     expect_not(picture, "\xe2\x94\x9c");
     expect_has(picture, "M12 40H16M12 32V48M16 40H24"); /* the corner and the line of a belt */
@@ -165,9 +166,12 @@ static void html_is_escaped(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_are_where_they_are), cmocka_unit_test(curves_need_few_points),
-        cmocka_unit_test(axes_and_bars),            cmocka_unit_test(text_and_signs),
-        cmocka_unit_test(screens),                  cmocka_unit_test(html_is_escaped),
+        cmocka_unit_test(lines_are_where_they_are),
+        cmocka_unit_test(curves_need_few_points),
+        cmocka_unit_test(axes_and_bars),
+        cmocka_unit_test(text_and_signs),
+        cmocka_unit_test(screens),
+        cmocka_unit_test(html_is_escaped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
