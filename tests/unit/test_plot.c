@@ -1160,7 +1160,9 @@ static void pictures_draw_on_another_surface(void **state)
         ceduo_plot_draw(plot, &canvas, &area, &p);
         if (page.labels == 0 || page.strayed)
             fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
-        if (plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
+        bool computed = plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_DOUBT &&
+                        plot != CEDUO_PLOT_HAZARD;
+        if (computed && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
             fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
         if (plot == CEDUO_PLOT_PROFILE && page.ways == 0)
             fail_msg("profile: no ways");
@@ -1239,6 +1241,8 @@ static void titles_name_what_is_shown(void **state)
             "kept: coppice, from above",
             "Options side by side, up to path (40 m)",
             "Protection and yield of the options, up to path (40 m)",
+            "kept: how sure it is at path (40 m)",
+            "How often, and with how much, at path (40 m)",
         },
         {
             "",
@@ -1251,6 +1255,8 @@ static void titles_name_what_is_shown(void **state)
             "kept: coppice, from above",
             "Options side by side, up to path (40 m)",
             "Protection and yield of the options, up to path (40 m)",
+            "kept: how sure it is at path (40 m)",
+            "How often, and with how much, at path (40 m)",
         },
     };
     for (int i = 0; i < 2 * (CEDUO_PLOTS - 1); i++) {
