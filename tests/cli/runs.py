@@ -16,10 +16,16 @@ SPREAD = {k: MAYBE for k in ("mean", "se", "sd", "p50", "p50_lo", "p50_hi", "p95
                               "p99_hi", "max")}
 PAIR = {"mean": MAYBE, "se": MAYBE}
 MISSED = {k: NUMBER for k in ("stopped_by_stems", "came_to_rest", "left_slope", "unfinished")}
+HAZARD = {"per_year": NUMBER, "effective_rocks": NUMBER, "reach_per_year": NUMBER, "reach_years": MAYBE,
+          "exceed_rate": [{k: NUMBER for k in ("energy_kJ", "per_year", "lo", "hi")}],
+          "return": [{"years": NUMBER, **{k: MAYBE for k in ("energy_kJ", "lo", "hi")}}],
+          **{k: MAYBE for k in ("accepted_per_year", "accepted_years", "accepted_years_lo", "accepted_years_hi", "rate_left")},
+          "matrix": [{"intensity": TEXT, "from_kJ": NUMBER, "to_kJ": MAYBE, "per_year": NUMBER, "lo": NUMBER, "hi": NUMBER,
+                      "rate_left": MAYBE, **{k: FLAG for k in ("to_30_years", "to_100_years", "to_300_years")}}]}
 ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
             "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED,
-            "hazard": NULL}  # without blocks
+            "hazard": HAZARD}  # null without blocks
 INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "reach_probability": NUMBER, "exceed_probability": MAYBE, "energy_kJ_mean": MAYBE}  # null without stems
@@ -73,7 +79,7 @@ def expect_shape(value, shape, path="$"):
         expect(shape or not value, f"{path}: {value!r} is not empty")
         for i, item in enumerate(value):
             expect_shape(item, shape[0], f"{path}[{i}]")
-    elif shape in (STOPS, YIELD, OTHER) and value is None:
+    elif shape in (STOPS, YIELD, OTHER, HAZARD) and value is None:
         return
     else:
         expect(isinstance(value, dict), f"{path}: {value!r} is no object")
@@ -90,7 +96,7 @@ def by_index(shape):
         return NULL
     if isinstance(shape, list):
         return [by_index(item) for item in shape]
-    special = shape in (INDEX, STOPS) if isinstance(shape, dict) else True
+    special = shape in (INDEX, STOPS, HAZARD) if isinstance(shape, dict) else True
     return shape if special else {key: by_index(inner) for key, inner in shape.items()}
 
 

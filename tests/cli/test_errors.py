@@ -359,7 +359,7 @@ CASES = {
     "expected a list of three numbers": sc(ROCK, "rock: {shape: block, axes_m: @@[1, 2]}"),
     "expected a mapping {kind, text}": st("source: {kind: measured, text: by hand}", "source: @@by hand"),
     "expected a list of keys": st("text: by hand", "except: @@stools"),
-    "'kind' is missing: measured, literature or assumed": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
+    "'kind' is missing: measured, literature, assumed or calibrated": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
     "'mean' is missing": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
     "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(
         "diameter_m: 0.5}", "diameter_m: @@{mean: 0.8, spread: 1.2, kind: uniform}}"),
