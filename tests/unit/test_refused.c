@@ -38,6 +38,7 @@ static void slopes_are_refused(void **state)
         expect_slope(&s->rn.spread, negative[i], CEDUO_BAD_SLOPE);
         expect_slope(&s->rt.spread, negative[i], CEDUO_BAD_SLOPE);
         expect_slope(&s->friction, negative[i], CEDUO_BAD_SLOPE);
+        expect_slope(&s->mu, negative[i], CEDUO_BAD_SLOPE);
         expect_slope(&s->roughness_rad, negative[i], CEDUO_BAD_SLOPE);
     }
     expect_slope(&s->rn.mean, 0, CEDUO_OK);
@@ -209,7 +210,8 @@ static void alike_neighbours_are_one(void **state)
     }
     *b = *a;
     assert_int_equal(segments_made(), 1);
-    double *const numbers[] = {&b->rn.mean, &b->rt.mean, &b->friction, &b->roughness_rad, &b->rn.spread, &b->rt.spread, &slope->z[1]};
+    double *const numbers[] = {&b->rn.mean, &b->rt.mean, &b->friction, &b->mu, &b->roughness_rad,
+                               &b->rn.spread, &b->rt.spread, &slope->z[1]};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         double was = *numbers[i];
         *numbers[i] += .01;
