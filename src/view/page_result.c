@@ -283,6 +283,18 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
 
 /* ---- the page ---- */
 
+/* The errors on the page are of the sample alone. */
+static void say_doubt(struct ceduo_page *page, const struct scene_file *file)
+{
+    bool assumed = file->inputs_count > 0;
+    for (const struct source_note *n = file->notes; n && !assumed; n = n->before)
+        assumed = strcmp(n->kind, "assumed") == 0;
+    if (assumed)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                       _("The errors above are of the rocks alone: 'ceduo --sensitivity' shows how far what is not known may "
+                         "move the answer."));
+}
+
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
 {
     const struct ceduo_scene *scene = report->result->scene;
@@ -295,6 +307,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
         ceduo_page_comparison(&page, report);
     ceduo_page_hazard(&page, report);
     ceduo_page_notes(&page, report);
+    say_doubt(&page, report->file);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }

@@ -56,6 +56,30 @@ def test_nothing():
         expect_in("nothing was computed", page)
 
 
+def test_page_of_a_run():
+    """A page says how to get the other error where anything is in doubt, and is silent where nothing is"""
+    for what, says in ((measured(), False), (measured(doubt=[DENSITY]), True)):
+        with Folder() as f:
+            page = " ".join(good("--batch", "-n", 50, f.write("s.yaml", what)).out.split())
+            expect_equal("The errors above are of the rocks alone: 'ceduo --sensitivity'" in page, says, page)
+
+
+def test_lights():
+    """A light that changes within what may be true says on what it depends; one that does not is silent"""
+    speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
+    for doubt, energy, contact in (([speed], True, False),
+                                   ([{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}], False, True)):
+        accepted = 150 if energy else 1e6
+        with Folder() as f:
+            path = f.write("s.yaml", measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
+            result = answer(measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
+            exceed = figure(result, "exceed_probability")
+            expect_equal(exceed["doubt_p5"] <= 0.05 < exceed["doubt_p95"], energy, exceed)
+            page = " ".join(ceduo(f"--sensitivity={POINTS}", "-n", 200, path).out.split())
+            expect_equal("Whether the test of energy passes depends on " in page, energy, page)
+            expect_equal("Whether the test of contact passes depends on " in page, contact, page)
+
+
 def test_named():
     """What a scene names is varied within its range, and nothing else"""
     result = answer(measured(doubt=[LAW, DENSITY]))
