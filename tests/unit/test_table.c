@@ -80,6 +80,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(slope, ceduo_slope, origin_z),
         DERIVED(belt, ceduo_belt, name),
         DERIVED(belt, ceduo_belt, assumed),
+        DERIVED(belt, ceduo_belt, changed),
         DERIVED(belt, ceduo_belt, felled),
     };
     (void)scene;

@@ -30,7 +30,8 @@
 static const char *const scenes[] = {
     HEAD "rock: {shape: block, axes_m: [1, 1, 1]}\ncontrols: [{x_m: 90}]\n"
          "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
-         "forest: [{from_m: 10, to_m: 80, stand: " STAND "}]\nminimum: {reserves_per_ha: 5}\n" RULES,
+         "forest: [{from_m: 10, to_m: 80, stand: " STAND "}]\nminimum: {reserves_per_ha: 5}\n"
+         "blocks: [{volume_m3: [0.1, 2], per_year: 1, exponent: 1.2}]\n" RULES,
     HEAD "rock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
          "slope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100, material: talus}]}\n"
          "options: [{name: a, forest: [{from_m: 10, to_m: 80, stand: " STAND "}]}]\n"};
