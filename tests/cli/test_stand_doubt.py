@@ -90,7 +90,7 @@ def test_no_change_of_a_run():
         outs = []
         for rows in ([], [STOOLS]):
             f.write("c.yaml", coppice(*rows))
-            r = ceduo("--batch", "-n", 50, f.write("s.yaml", site([belt("c.yaml")])))
+            r = ceduo("--batch", "-n", 50, "-f", "csv", f.write("s.yaml", site([belt("c.yaml")])))
             expect_equal(r.status, DONE, r)
             outs.append(r.out)
         expect_equal(outs[0], outs[1])
