@@ -116,7 +116,11 @@ ALL_SIZES = {"diameter_m", "height_m", "axes_m", "volume_m3", "mass_kg", "densit
 NAMES = ["road", "Straße 7", "house, \"old\"", "l'orto", "a; b", "x: y # z", "% \\ {1}", "日本の道", "naïve", "é", "- 1", "~",
          "wall\tand fence", "one\ntwo", "bell\u0007", "a name that is rather longer than the column in which it is to stand",
          "word" * 30, " ", "null", "1e3", "[0]", "=SUM(A1)"]
-SOURCES = ["measured", "literature", "assumed"]
+SOURCES = ["measured", "literature", "assumed", "calibrated"]
+
+# What stands beside a scene and changes no figure of a run: tests of their own draw it.
+BESIDE_KEYS = ("observed", "rules")
+BESIDE = ("observed[]", "rules.", "forest[].stand.doubt[]")
 
 
 def clamp(value, lo, hi):
@@ -580,6 +584,16 @@ class Maker:
         self.case.used |= {f"doubt[].{key}" for one in keys for key in rows[one]}
         return [rows[key] for key in keys]
 
+    def blocks(self):
+        """What comes down: by a power law, or in classes that do not overlap."""
+        lo = self.rng.uniform(0.01, 0.5)
+        hi = lo * self.rng.uniform(1.5, 20)
+        self.case.used |= {f"blocks[].{key}" for key in ("per_year", "volume_m3", "exponent")}
+        if self.chance(0.5):
+            return {"per_year": self.rng.uniform(0.01, 5), "volume_m3": [lo, hi], "exponent": self.rng.uniform(0.3, 2)}
+        return [{"per_year": self.rng.uniform(0.01, 5), "volume_m3": [lo, hi]},
+                {"per_year": self.rng.uniform(0.01, 5), "volume_m3": [hi, 2 * hi]}]
+
     # ---- all together ----
 
     def make(self):
@@ -596,9 +610,13 @@ class Maker:
         scene["simulation"] = self.fill(tree["simulation"], {}, ("rocks",))
         scene["simulation"]["rocks"] = case.rocks = self.rng.choice([1, 2, 3, 10, 20, 50])
         case.used.add("simulation.rocks")
-        self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release", "doubt"))
+        self.fill(tree, scene, ("controls", "controls_m", "forest", "options", "simulation", "release", "doubt", "blocks", *BESIDE_KEYS))
         if self.chance(0.2):
             scene["doubt"] = self.doubt()
+        if self.chance(0.1):
+            scene["blocks"] = self.blocks()
+        if self.chance(0.1):
+            scene["rules"] = self.rng.choice(["toscana", "umbria", "marche"])
         if self.chance(0.08):
             self.spoil()
         self.orders()
