@@ -266,10 +266,10 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, r, i, k);
+        say_lights(page, r, i, k);
         if (page->width >= CEDUO_PAGE_WIDTH && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k);
         ceduo_page_design(page, report, i, k);
-        say_lights(page, r, i, k);
         if (k == 0)
             ceduo_page_belts(page, report, i);
         ceduo_page_residual(page, r, i, k);

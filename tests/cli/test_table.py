@@ -145,7 +145,7 @@ def test_table_lights():
         with Folder() as f:
             text = good("--batch", f.write("s.yaml", scene_mapping or wooded_scene()), *arguments).out
             flat_text = re.sub(r"\s+", " ", text)
-            return {name: re.findall(rf"\b{name}: (.*?\.) (?=Free run:|Energy:|With the energy law|At |m stand|By the index)", flat_text)[where]
+            return {name: re.findall(rf"\b{name}: (.*?\.) (?=Free run:|Energy:|With the energy law|Percentiles of |At |m stand|By the index)", flat_text)[where]
                     for name in ("Contact", "Free run", "Energy")}
     lights = said()
     expect(re.fullmatch(r"passes\. Every belt has an ADC below 30 m \([\d.]+ m at most\) and no gap is longer\."
