@@ -403,7 +403,7 @@ def test_script_stdout():
     with Place() as place:
         done = run_script(place.path, "key 3\ndump -\n", "fast.yaml", "--charset", "ascii")
         expect_equal(done.out.count("\n"), 24, "lines")
-        expect(done.out.startswith(" 1 slope  2 stand") and done.err == "", done)
+        expect(done.out.startswith(" 1 slope 2 stand") and done.err == "", done)
 
 
 def test_without_scene():
