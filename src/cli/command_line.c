@@ -147,8 +147,9 @@ static enum exit_status check_arguments(struct arguments *a)
     if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->window.step > 0 || a->tolerance > 0))
         return ceduo_usage(NULL, _("--find cannot be used with --plot, a range of --years or --tolerance"));
     if (a->mode == MODE_REPORT && (a->plot != CEDUO_PLOT_NONE || a->format != CEDUO_TABLE || a->stands || a->find ||
-                                   ceduo_option_given(a, "output")))
-        return ceduo_usage(NULL, _("--report names its file; it cannot be used with --output, --plot, --format, --rows or --find"));
+                                   ceduo_option_given(a, "output") || ceduo_option_given(a, "calibrate")))
+        return ceduo_usage(NULL, _("--report names its file; it cannot be used with --output, --plot, --format, --rows, --find "
+                                   "or --calibrate"));
     if (a->mode == MODE_SENSITIVITY && ((a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_DOUBT) || a->years || a->tolerance > 0 || a->stands))
         return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
     if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))

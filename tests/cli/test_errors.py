@@ -496,7 +496,7 @@ CASES = {
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
     "--find cannot be used with --plot, a range of --years or --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
-    "--report names its file; it cannot be used with --output, --plot, --format, --rows or --find":
+    "--report names its file; it cannot be used with --output, --plot, --format, --rows, --find or --calibrate":
         Words("--report", "x.html", "-f", "json", "@"),
     "--size requires --plot": Words("--batch", "--size", "80x24", "@"),
     "--plot prints a picture; it cannot be used with --format csv or json": Words("--plot", "adc", "-f", "csv", "@"),
