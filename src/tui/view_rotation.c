@@ -101,9 +101,9 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         ceduo_text_put(text, "; ");
     }
     double thick = y->controls[c].thick.worst_adc;
-    ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), SHOWN(y->controls[c].worst_adc, 3));
+    ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), WRITTEN(y->controls[c].worst_adc, 3));
     if (ceduo_index_hangs_on_thin(&y->controls[c]))
-        ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"), SHOWN(thick, 3));
+        ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"), WRITTEN(thick, 3));
     ceduo_text_put(text, ". ");
     say_felled(app, y->year, text);
     for (size_t i = 0; i < y->option.belts_count; i++)

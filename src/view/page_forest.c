@@ -40,7 +40,7 @@ static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const 
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line, _("%s%s: ADC %s m, free run %.1f %%, %s kJ per 100 m (%s)"), b->name, b->assumed ? "*" : "",
-                      SHOWN(s->adc_m, 3), s->free_run_probability * 100, SHOWN(s->per_100m * KILO, 3),
+                      WRITTEN(s->adc_m, 3), s->free_run_probability * 100, WRITTEN(s->per_100m * KILO, 3),
                       s->bare ? _("no stems") : ceduo_rule_words.names[s->rule]);
 }
 
@@ -95,7 +95,7 @@ static void say_measured(struct ceduo_page *page, const struct ceduo_control *c,
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
-                      SHOWN(index->measured * KILO, 3), c->measured_speed);
+                      WRITTEN(index->measured * KILO, 3), c->measured_speed);
 }
 
 /* Where contacts take shares, so that Eq. 4 has no meaning. */
@@ -113,22 +113,22 @@ static void say_share_left(struct text *line, const char *rule, const struct ced
     else
         ceduo_text_format(line, _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
                                   "%s kJ are left."),
-                          rule, SHOWN(a->energy.mean * KILO, 4), SHOWN(index->residual * KILO, 3));
+                          rule, WRITTEN(a->energy.mean * KILO, 4), WRITTEN(index->residual * KILO, 3));
 }
 
 static void say_amount_left(struct text *line, const char *rule, const struct ceduo_index *index,
                             const struct ceduo_arrivals *a)
 {
-    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, SHOWN(index->dissipated * KILO, 3));
+    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, WRITTEN(index->dissipated * KILO, 3));
     if (index->length > 0)
-        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), SHOWN(index->per_100m * KILO, 3), rule);
+        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), WRITTEN(index->per_100m * KILO, 3), rule);
     if (a->reached == 0)
         ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
     else if (index->exhausted)
         ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
     else
-        ceduo_text_then(line, "; ", _("left (Eq. 5): %s \xe2\x88\x92 %s = %s kJ."), SHOWN(a->energy.mean * KILO, 4),
-                        SHOWN(index->dissipated * KILO, 3), SHOWN(index->residual * KILO, 3));
+        ceduo_text_then(line, "; ", _("left (Eq. 5): %s \xe2\x88\x92 %s = %s kJ."), WRITTEN(a->energy.mean * KILO, 4),
+                        WRITTEN(index->dissipated * KILO, 3), WRITTEN(index->residual * KILO, 3));
 }
 
 void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)

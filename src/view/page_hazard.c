@@ -26,14 +26,14 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
 void ceduo_words_years(struct text *text, struct ceduo_rate rate)
 {
     if (!(rate.rate > 0)) {
-        ceduo_text_format(text, "> %s", SHOWN(1 / rate.hi, 2));
+        ceduo_text_format(text, "> %s", WRITTEN(1 / rate.hi, 2));
         return;
     }
-    ceduo_text_put(text, SHOWN(1 / rate.rate, 2));
+    ceduo_text_put(text, WRITTEN(1 / rate.rate, 2));
     if (rate.lo > 0)
-        ceduo_text_format(text, " (%s\xe2\x80\x93%s)", SHOWN(1 / rate.hi, 2), SHOWN(1 / rate.lo, 2));
+        ceduo_text_format(text, " (%s\xe2\x80\x93%s)", WRITTEN(1 / rate.hi, 2), WRITTEN(1 / rate.lo, 2));
     else
-        ceduo_text_format(text, " (> %s)", SHOWN(1 / rate.hi, 2));
+        ceduo_text_format(text, " (> %s)", WRITTEN(1 / rate.hi, 2));
 }
 
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
@@ -88,12 +88,12 @@ static void add_return(struct ceduo_page *page, const struct ceduo_return *back)
         ceduo_text_put(cell, _("none"));
         return;
     }
-    ceduo_text_put(cell, SHOWN(back->energy * KILO, 3));
-    const char *lo = isnan(back->lo) ? "0" : SHOWN(back->lo * KILO, 3);
+    ceduo_text_put(cell, WRITTEN(back->energy * KILO, 3));
+    const char *lo = isnan(back->lo) ? "0" : WRITTEN(back->lo * KILO, 3);
     if (isnan(back->hi))
         ceduo_text_format(cell, " (> %s)", lo);
     else
-        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", lo, SHOWN(back->hi * KILO, 3));
+        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", lo, WRITTEN(back->hi * KILO, 3));
 }
 
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
@@ -208,7 +208,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
             ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
                               _("%s blocks come down a year. Rare large ones were simulated as often as small ones and "
                                 "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
-                              SHOWN(r->bare.arrivals[c].hazard.per_year, 3), (unsigned long long)r->bare.rocks,
+                              WRITTEN(r->bare.arrivals[c].hazard.per_year, 3), (unsigned long long)r->bare.rocks,
                               r->bare.arrivals[c].hazard.effective);
         ceduo_page_hazard_at(page, r, c);
     }

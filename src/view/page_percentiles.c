@@ -16,13 +16,13 @@ static void add_percentile(struct ceduo_page *page, double value, double lo, dou
         ceduo_text_char(cell, '-');
         return;
     }
-    ceduo_text_put(cell, SHOWN(value, DIGITS(value)));
+    ceduo_text_put(cell, WRITTEN(value, DIGITS(value)));
     if (!isnan(lo) && !isnan(hi))
-        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SHOWN(lo, DIGITS(lo)), SHOWN(hi, DIGITS(hi)));
+        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", WRITTEN(lo, DIGITS(lo)), WRITTEN(hi, DIGITS(hi)));
     else if (!isnan(lo))
-        ceduo_text_format(cell, " (> %s)", SHOWN(lo, DIGITS(lo)));
+        ceduo_text_format(cell, " (> %s)", WRITTEN(lo, DIGITS(lo)));
     else if (!isnan(hi))
-        ceduo_text_format(cell, " (< %s)", SHOWN(hi, DIGITS(hi)));
+        ceduo_text_format(cell, " (< %s)", WRITTEN(hi, DIGITS(hi)));
 }
 
 static void add_row(struct ceduo_page *page, const char *name, const struct ceduo_distribution *d, double scale)
@@ -68,8 +68,8 @@ static void say_design(struct ceduo_page *page, const struct ceduo_report *repor
                                  : _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height %s m. These are the 95th "
                                      "percentiles times %.2f for the survey of the ground and %.2f for the model, not fitted "
                                      "here; the energy times their square and %.2f for the survey of the blocks."),
-                      where, SHOWN(a->speed.p95 * way, 3), SHOWN(a->energy.p95 * KILO * way * way * blocks, 3),
-                      SHOWN(a->height.p95 * way, 3), survey, model, blocks);
+                      where, WRITTEN(a->speed.p95 * way, 3), WRITTEN(a->energy.p95 * KILO * way * way * blocks, 3),
+                      WRITTEN(a->height.p95 * way, 3), survey, model, blocks);
 }
 
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control)

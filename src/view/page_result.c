@@ -26,7 +26,7 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_text_format(line,
                       ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
                                                          : _("%s, %s kg, mean diameter %s m"),
-                      _(shapes[r->scene->rock.shape]), SHOWN(r->rock.mass, 4), SHOWN(r->rock.mean_diameter, 3));
+                      _(shapes[r->scene->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
     ceduo_text_put(line, assumed_mark(report, "rock"));
 }
 
@@ -34,8 +34,8 @@ static void add_blocks(struct ceduo_page *page, const struct ceduo_scene *s)
 {
     for (size_t i = 0; i < s->blocks_count; i++) {
         const struct ceduo_block_class *b = &s->blocks[i];
-        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%s a year of %s to %s m3, exponent %s"), SHOWN(b->per_year, 3),
-                          SHOWN(b->volumes[0], 3), SHOWN(b->volumes[1], 3), SHOWN(b->exponent, 3));
+        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%s a year of %s to %s m3, exponent %s"), WRITTEN(b->per_year, 3),
+                          WRITTEN(b->volumes[0], 3), WRITTEN(b->volumes[1], 3), WRITTEN(b->exponent, 3));
     }
 }
 
@@ -52,7 +52,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_format(line,
                       ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
                                "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
-                      SHOWN(slope->x[slope->vertices - 1], 4), SHOWN(high - low, 4), slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
+                      WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
                       _(facets[slope->facets]), assumed_mark(report, "slope"));
 }
 
@@ -123,14 +123,14 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
 static void say_arrivals(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, SHOWN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
+    ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
     if (!isnan(a->exceed_probability))
         ceduo_text_then(line, ", ", _("%s with more than it withstands"),
-                        SHOWN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi));
+                        WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi));
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("of those that arrive the mean is %s \xc2\xb1 %s kJ, 95 %% below %s"),
-                        SHOWN(a->energy.mean * KILO, 4), SHOWN(ceduo_half_width(a->energy.se, a->reached) * KILO, 2),
-                        SHOWN(a->energy.p95 * KILO, 3));
+                        WRITTEN(a->energy.mean * KILO, 4), WRITTEN(ceduo_half_width(a->energy.se, a->reached) * KILO, 2),
+                        WRITTEN(a->energy.p95 * KILO, 3));
     ceduo_text_char(line, '.');
 }
 
@@ -163,12 +163,12 @@ static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arriva
                               const struct ceduo_arrivals *bare)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    const char *mean = SHOWN(bare->energy_per_released * KILO, 3);
-    const char *half = SHOWN(ceduo_half_width(bare->energy_per_released_se, bare->released) * KILO, 2);
+    const char *mean = WRITTEN(bare->energy_per_released * KILO, 3);
+    const char *half = WRITTEN(ceduo_half_width(bare->energy_per_released_se, bare->released) * KILO, 2);
     if (wooded)
         ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ through the wood, %s \xc2\xb1%s without it."),
-                          SHOWN(wooded->energy_per_released * KILO, 3),
-                          SHOWN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * KILO, 2), mean, half);
+                          WRITTEN(wooded->energy_per_released * KILO, 3),
+                          WRITTEN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * KILO, 2), mean, half);
     else
         ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ."), mean, half);
 }

@@ -34,7 +34,7 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
 
 void ceduo_words_number(struct text *text, double value, int digits)
 {
-    ceduo_text_put(text, SHOWN(value, digits));
+    ceduo_text_put(text, WRITTEN(value, digits));
 }
 
 __attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *say, void *context, const char *format, ...)
@@ -267,7 +267,7 @@ const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[
 
 void ceduo_words_of_1000(struct text *text, double p, double lo, double hi)
 {
-    ceduo_text_put(text, SHOWN_OF_1000(p, lo, hi));
+    ceduo_text_put(text, WRITTEN_OF_1000(p, lo, hi));
 }
 
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
@@ -284,7 +284,7 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
         ceduo_text_put(text, _("Not computed yet."));
     } else {
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          SHOWN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * KILO,
+                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
         if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
             ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);

@@ -76,7 +76,7 @@ void ceduo_words_number(struct text *text, double value, int digits);
 /* The same two in a string, for a sentence: it lives as long as the block in which it is made. */
 const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
-#define SHOWN(value, digits) ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
-#define SHOWN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
+#define WRITTEN(value, digits) ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
+#define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
 
 #endif
