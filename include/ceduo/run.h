@@ -142,7 +142,8 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
 const double *ceduo_run_weights(const struct ceduo_run *run);
 
 /* Energies (J) of the rocks that reached a control, in the order of the rocks, for a histogram: at most `most` of them,
- * the first. Returns how many were written; 0 where the samples are not kept. */
+ * the first. Returns how many were written; 0 where the samples are not kept. Where rocks have weights, energies are
+ * taken as often as their weights say. */
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
 
 /* What each rock brought to a control, in the order of the rocks, NaN where it did not arrive; and where each stopped, NaN

@@ -58,6 +58,7 @@ struct ceduo_years {
     uint64_t marked;          /* rocks that have a mark: all, or the first if there are very many */
     uint16_t *marks;          /* of each rock the years in which it reaches the last control with more than is
                                * accepted, or reaches it where that is not said */
+    double *weights;          /* of those rocks, where the scene has blocks; otherwise NULL */
 };
 
 /* Grows the stands of an option to the years of a window; nothing is simulated and nothing assessed yet. What the

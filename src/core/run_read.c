@@ -251,6 +251,8 @@ const double *ceduo_run_weights(const struct ceduo_run *run)
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
 {
     size_t n = 0;
+    if (run->sized)
+        return ceduo_run_sized_energies(run, control, to, most);
     for (uint64_t r = 0; run->room > 0 && r < run->rocks && n < most; r++) {
         double energy = ceduo_run_sample_energy(run, control, r);
         if (!isnan(energy))

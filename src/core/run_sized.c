@@ -137,6 +137,25 @@ enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t c
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
+/* At even steps of the sum of their weights: light rocks are left out, heavy ones taken several times. */
+size_t ceduo_run_sized_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
+{
+    const double *energy = samples_of(run, control, ENERGY);
+    double all = 0, before = 0;
+    size_t reached = 0, n = 0;
+    for (uint64_t r = 0; run->room > 0 && r < run->rocks; r++)
+        if (!isnan(energy[r])) {
+            all += run->weights[r];
+            reached++;
+        }
+    most = reached < most ? reached : most;
+    for (uint64_t r = 0; n < most && r < run->rocks; r++)
+        if (!isnan(energy[r]))
+            for (before += run->weights[r]; n < most && ((double)n + 0.5) * all <= before * (double)most; n++)
+                to[n] = energy[r];
+    return n;
+}
+
 /* ---- differences ---- */
 
 struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "weighted.h"
+
 /* ---- windows ---- */
 
 bool ceduo_belt_is_alike(const struct ceduo_belt *belt)
@@ -135,6 +137,7 @@ void ceduo_years_free(struct ceduo_years *years)
         free_year(&years->years[i]);
     free(years->years);
     free(years->marks);
+    free(years->weights);
     free(years);
 }
 
@@ -147,6 +150,16 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
         struct ceduo_year *y = &years->years[i];
         ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
     }
+}
+
+/* Where the scene has blocks: the weights of the rocks that get marks. */
+static bool keep_weights(struct ceduo_years *years, const double *weights)
+{
+    size_t n = (size_t)years->marked;
+    years->weights = malloc((n + 1) * sizeof *years->weights);
+    for (size_t i = 0; years->weights && i < n; i++)
+        years->weights[i] = weights[i];
+    return years->weights != NULL;
 }
 
 /* Simulates a year and reads it; rocks that bring too much get a mark. */
@@ -162,6 +175,8 @@ static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *
     if (status != CEDUO_OK)
         return status;
     ceduo_flown_meets_nothing(&y->wooded);
+    if (ceduo_run_weights(run) && !years->weights && !keep_weights(years, ceduo_run_weights(run)))
+        return CEDUO_NO_MEMORY;
     if (years->scene.controls_count > 0)
         years->marked = ceduo_run_mark(run, years->last_control, years->marks, years->marked);
     return CEDUO_OK;
@@ -170,6 +185,8 @@ static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *
 static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
 {
     free(years->marks);
+    free(years->weights);
+    years->weights = NULL;
     years->rocks = 0;
     years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
     years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
@@ -209,9 +226,25 @@ static double share_of_years(const struct ceduo_years *years, uint64_t rock)
     return (double)years->marks[rock] / (double)years->count;
 }
 
+/* The mean of those shares, less those of `less` (NULL: of nothing), by the weights of the rocks. */
+static struct ceduo_paired weighted_difference(const struct ceduo_years *years, const struct ceduo_years *less, uint64_t rocks)
+{
+    struct released all = {.n = (double)rocks};
+    struct weighted_sum sum = {0};
+    for (uint64_t r = 0; r < rocks; r++) {
+        double w = years->weights[r];
+        all.w += w;
+        all.ww += w * w;
+        weighted_sum_add(&sum, w, share_of_years(years, r) - (less ? share_of_years(less, r) : 0));
+    }
+    return (struct ceduo_paired){sum.t / all.w, ceduo_weighted_se(&all, &sum)};
+}
+
 /* Every rock goes through all years, so its own mean is one sample. */
 static double marks_se(const struct ceduo_years *years)
 {
+    if (years->weights)
+        return weighted_difference(years, NULL, years->marked).se;
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < years->marked; r++)
         ceduo_moments_add(&m, share_of_years(years, r));
@@ -220,7 +253,7 @@ static double marks_se(const struct ceduo_years *years)
 
 static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a, struct ceduo_years_summary *s)
 {
-    double n = (double)a->released;
+    double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
     bool says = !isnan(a->exceed_probability);
     s->flown++;
     s->reach.mean += a->reach_probability;
@@ -273,6 +306,8 @@ struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, cons
     if (years->rocks == 0 || less->rocks == 0 || years->scene.controls_count == 0)
         return (struct ceduo_paired){NAN, NAN};
     uint64_t rocks = less->marked < years->marked ? less->marked : years->marked;
+    if (years->weights)
+        return weighted_difference(years, less, rocks);
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
         ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -290,6 +291,36 @@ def test_design():
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)
         expect_in("'blocks' is missing", r.err)
+
+
+def test_years():
+    """Over a rotation: rates are means of the years' rates, the error of the mean share holds what other seeds give"""
+    curve = {"dbh_most_m": 0.3, "dbh_rate_1_y": 0.03, "height_most_m": 20, "height_rate_1_y": 0.05}
+    grown = stand(growth={"shoots": curve, "trees": curve}, cutting={"rotation_years": 12, "stay_per_ha": [100]})
+    site = slope_site(forest=[{"from_m": 0, "to_m": 140, "stand": grown}], simulation={"rocks": 300})
+    means, errors = [], []
+    for seed in range(12):
+        option = run(site, "--years", "0:11", "--seed", seed + 1)["options"][0]
+        rates = [y["controls"][1]["wooded"]["hazard"]["accepted_per_year"] for y in option["years"]]
+        expect_near(option["rotation"]["exceeds_per_year"], sum(rates) / 12, 1e-9, "rate over the rotation")
+        worst = max(option["years"], key=lambda y: y["controls"][1]["wooded"]["hazard"]["accepted_per_year"])
+        expect_equal(option["rotation"]["worst_year"], worst["year"])
+        means.append(option["rotation"]["exceed_probability"]["mean"])
+        errors.append(option["rotation"]["exceed_probability"]["se"])
+    middle = sum(means) / 12
+    spread = math.sqrt(sum((m - middle) ** 2 for m in means) / 11)
+    expect(0.4 * spread < sum(errors) / 12 < 3 * spread, "the error, beside the spread of seeds", errors, spread)
+
+
+def test_histogram():
+    """The histogram of energies is that of the blocks that come down, not of the rocks that were drawn"""
+    with Folder() as f:
+        path = f.write("s.yaml", falls(POWER, simulation={"rocks": 20000, "contact_model": "index"}))
+        picture = good("--plot", "histogram", "--size", "100x30", "--charset", "ascii", path).out
+    first = re.search(r"([\d.]+) %", picture)
+    below = 1 - rate_above([POWER], 20) / POWER["per_year"]
+    expect_in("0-20 kJ", picture)
+    expect_near(float(first[1]), 100 * below, 0.3, picture)
 
 
 def test_plot():

@@ -407,7 +407,7 @@ def test_hazard():
     bare, coppice = (re.search(rf"{name} .*?(\d+) \(\d+–\d+\)$", walk.outputs[0], re.M)[1]
                      for name in ("    without forest", "    simple coppice"))
     expect(385 < int(bare) < 400 and 230 < int(coppice) < 240, "390 to some 240 kJ", bare, coppice)
-    expect_in("1 simple coppice", walk.outputs[1])
+    expect_in("How often, and with how much, at road (135 m)", walk.outputs[0])
     expect_in('"rate_left"', walk.read("hazard.json"))
 
 
