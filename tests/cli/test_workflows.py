@@ -179,11 +179,19 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
+<<<<<<< HEAD
     for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("hazard", 2), ("doubt", 2), ("page", 3),
                        ("sections", 2), ("shards", 4), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
     ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "hazard", "doubt", "page", "sections", "shards", "valley")
+=======
+    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("doubt", 2), ("fit", 2), ("page", 3),
+                       ("sections", 2), ("shards", 4), ("valley", 6)):
+        expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
+    marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "fit", "page", "sections", "shards", "valley")
+>>>>>>> ba7bd45 (profiles, man, tests: a quarry to try a calibration on, Vaujany to be checked, and does it fit my slope)
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -409,6 +417,18 @@ def test_hazard():
     expect(385 < int(bare) < 400 and 230 < int(coppice) < 240, "390 to some 240 kJ", bare, coppice)
     expect_in("How often, and with how much, at road (135 m)", walk.outputs[0])
     expect_in('"rate_left"', walk.read("hazard.json"))
+
+
+def test_fit():
+    """Does it fit: the ranges hold the values that the stops were made with, and the scene that is written carries them"""
+    walk = walked("fit")
+    for name, truth in (("bounce Rn", 0.36), ("slide Rt", 0.87)):
+        low, high = map(float, re.search(name + r" .* (0\.\d+)–(0\.\d+)$", walk.outputs[0], re.M).groups())
+        expect(low < truth < high, name, low, high)
+    expect_in("only both are known", walk.outputs[0])
+    expect_in("The model can give all that it was fitted to", walk.outputs[0])
+    expect_in("kind: calibrated", walk.read("fitted.yaml"))
+    expect_in("How sure is it?", walk.outputs[1])
 
 
 def test_page():
