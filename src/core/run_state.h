@@ -72,14 +72,15 @@ struct ceduo_run {
     struct envelope_cell *cells;
 };
 
+/* NULL where there are none: before the first rock, or beyond what is kept. */
 static inline double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
 {
-    return run->samples[control * (size_t)run->kept + (size_t)quantity];
+    return run->samples ? run->samples[control * (size_t)run->kept + (size_t)quantity] : NULL;
 }
 
 static inline double *stops_of(const struct ceduo_run *run)
 {
-    return run->samples[run->columns - 1];
+    return run->samples ? run->samples[run->columns - 1] : NULL;
 }
 
 static inline struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
