@@ -179,19 +179,11 @@ def write_readme():
 
 def test_marks():
     """The marked blocks of the page are found"""
-<<<<<<< HEAD
-    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("hazard", 2), ("doubt", 2), ("page", 3),
-                       ("sections", 2), ("shards", 4), ("valley", 6)):
+    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("doubt", 2), ("hazard", 2), ("fit", 2),
+                       ("page", 3), ("sections", 2), ("shards", 4), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "hazard", "doubt", "page", "sections", "shards", "valley")
-=======
-    for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("doubt", 2), ("fit", 2), ("page", 3),
-                       ("sections", 2), ("shards", 4), ("valley", 6)):
-        expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
-    marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "fit", "page", "sections", "shards", "valley")
->>>>>>> ba7bd45 (profiles, man, tests: a quarry to try a calibration on, Vaujany to be checked, and does it fit my slope)
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "hazard", "fit", "page", "sections", "shards", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
