@@ -192,7 +192,7 @@ static void find_out(size_t sites, uint64_t seen_rocks, uint64_t rocks)
 
 int main(int argc, char **argv)
 {
-    size_t sites = argc > 1 ? strtoul(argv[1], NULL, 10) : 200;
+    size_t sites = argc > 1 ? strtoul(argv[1], NULL, 10) : 40;
     uint64_t rocks = argc > 2 ? strtoul(argv[2], NULL, 10) : CEDUO_CALIBRATION_ROCKS;
     double start = ceduo_clock();
     printf("what,sites,seen,value\n");
