@@ -114,10 +114,14 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
  * first only. */
 uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t most);
 
+#define CEDUO_EARLY_M 10.0
+
 /* How the trajectories ended, and where the rocks lie that came to rest or were stopped by stems. */
 struct ceduo_ends {
     uint64_t count[CEDUO_ENDS];
     double share[CEDUO_ENDS]; /* of all released */
+    uint64_t uphill;          /* rocks that left the slope over its upper end */
+    uint64_t early;           /* rocks that stems stopped within CEDUO_EARLY_M of the mean release, where they have no speed yet */
     struct ceduo_moments stop_x;
     double stop_p50, stop_p95, stop_max; /* m, relative; NaN where none stopped */
 };

@@ -124,6 +124,9 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     }
     w->block->contacts += walker->contacts;
     w->block->ends[end]++;
+    w->block->uphill += end == CEDUO_LEFT_SLOPE && !(walker->at.x > 0);
+    w->block->early += end == CEDUO_STOPPED_BY_STEMS &&
+                       walker->at.x < w->run->ready.scene.release.x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     note_missed(w, walker, end);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)

@@ -35,6 +35,8 @@ static void pack_block(const struct ceduo_run *run, struct bytes *b, struct bloc
     ceduo_bytes_count(b, &block->contacts);
     for (int e = 0; e < CEDUO_ENDS; e++)
         ceduo_bytes_count(b, &block->ends[e]);
+    ceduo_bytes_count(b, &block->uphill);
+    ceduo_bytes_count(b, &block->early);
     ceduo_bytes_count(b, &block->stems.drawn);
     ceduo_bytes_count(b, &block->stems.hit);
     ceduo_bytes_count(b, &block->stems.met);
@@ -98,7 +100,8 @@ static bool good_sum(const struct weighted_sum *s)
 static bool good_block(const struct ceduo_run *run, const struct block *block, uint64_t rocks)
 {
     uint64_t stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
-    if (!good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) ||
+    if (block->uphill > block->ends[CEDUO_LEFT_SLOPE] || block->early > block->ends[CEDUO_STOPPED_BY_STEMS] ||
+        !good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) ||
         !good_weights(block->ended))
         return false;
     for (size_t c = 0; c < run->controls; c++) {

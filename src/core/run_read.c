@@ -207,6 +207,8 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     if (run->def.arrivals_only)
         return CEDUO_OK;
     ends->stop_x = run->whole.stop_x;
+    ends->uphill = run->whole.uphill + run->tail.uphill;
+    ends->early = run->whole.early + run->tail.early;
     for (int e = 0; e < CEDUO_ENDS; e++) {
         ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
         ends->share[e] = (double)ends->count[e] / (double)run->rocks;

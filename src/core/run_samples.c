@@ -38,6 +38,8 @@ static void merge_sums(struct sums *into, const struct sums *from)
 void ceduo_run_block_merge(struct block *into, const struct block *from, size_t controls)
 {
     into->contacts += from->contacts;
+    into->uphill += from->uphill;
+    into->early += from->early;
     into->stems.drawn += from->stems.drawn;
     into->stems.hit += from->stems.hit;
     into->stems.met += from->stems.met;

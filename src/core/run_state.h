@@ -36,6 +36,7 @@ struct sums {
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
 struct block {
     uint64_t contacts, ends[CEDUO_ENDS];
+    uint64_t uphill, early; /* of those that left the slope, and of those that stems stopped: see struct ceduo_ends */
     double ended[CEDUO_ENDS]; /* ends by the weights of the rocks, where they have any */
     struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;

@@ -423,13 +423,12 @@ static void put_observation(const struct seen_place *p, const struct seen *row, 
 static bool find_option(struct deriver *d, const char *at, const struct seen *row, size_t *option)
 {
     const struct ceduo_scene *s = &d->draft.scene;
-    struct text all = {0};
-    for (*option = 0; *option < s->options_count; ++*option) {
-        const char *name = s->options[*option].name;
-        if (!row->option || (name && strcmp(name, row->option) == 0))
+    for (*option = 0; *option < s->options_count; ++*option)
+        if (!row->option || (s->options[*option].name && strcmp(s->options[*option].name, row->option) == 0))
             return true;
-        ceduo_text_format(&all, "%s%s", all.length > 0 ? ", " : "", name ? name : "");
-    }
+    struct text all = {0};
+    for (size_t i = 0; i < s->options_count; i++)
+        ceduo_text_then(&all, i > 0 ? ", " : "", "%s", s->options[i].name ? s->options[i].name : "");
     if (row->option)
         ceduo_derive_complain(d, ceduo_derive_text(d, "%s.option", at), _("the scene has no option '%s'; it has: %s"),
                               row->option, ceduo_text_string(&all));

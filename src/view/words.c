@@ -165,6 +165,39 @@ static void say_close_calls(const struct ceduo_result *result, ceduo_words_say *
         }
 }
 
+/* Rocks that leave the slope over its upper end: those would lie above it, or come down again. */
+static void say_uphill(const struct ceduo_result *result, ceduo_words_say *say, void *context)
+{
+    uint64_t most = result->bare.ends.uphill, rocks = result->bare.rocks;
+    for (size_t i = 0; result->wooded && i < result->scene->options_count; i++)
+        if (result->options[i].wooded.ends.uphill > most) {
+            most = result->options[i].wooded.ends.uphill;
+            rocks = result->options[i].wooded.rocks;
+        }
+    if (most > 0)
+        say_format(say, context,
+                   _("Of %llu rocks simulated %llu bounce back over the upper end of the profile and are counted as gone: let "
+                     "it begin farther up."),
+                   (unsigned long long)rocks, (unsigned long long)most);
+}
+
+/* Rocks that stems stop just below the release, in the option where they are most. */
+static void say_early(const struct ceduo_result *result, ceduo_words_say *say, void *context)
+{
+    double most = 0;
+    size_t option = 0;
+    for (size_t i = 0; result->wooded && i < result->scene->options_count; i++) {
+        const struct ceduo_flown *f = &result->options[i].wooded;
+        double share = f->rocks > 0 ? (double)f->ends.early / (double)f->rocks : 0;
+        option = share > most ? i : option;
+        most = share > most ? share : most;
+    }
+    if (most * 1000 >= 0.5)
+        say_format(say, context,
+                   _("%s: of 1000 rocks simulated stems stop %.0f within %g m of the release, before they have any speed."),
+                   result->scene->options[option].name, most * 1000, CEDUO_EARLY_M);
+}
+
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
                               ceduo_words_say *say, void *context)
 {
@@ -187,6 +220,8 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                             (unsigned long)unfinished),
                    (unsigned long long)unfinished, CEDUO_CONTACTS_MOST);
     say_close_calls(result, say, context);
+    say_uphill(result, say, context);
+    say_early(result, say, context);
     if (remarks->ground_assumed)
         say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
     if (result->scene->controls_count > 0 && !result->bare.arrivals[0].exact)

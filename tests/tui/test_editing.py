@@ -426,17 +426,17 @@ def test_belts():
 def test_cohorts():
     """Cohorts of shoots and classes of trees: y and a, d, < and >."""
     head = "per hectare diameter, cm"
-    start, copy, moved, fewer, one, none = lists(2, "shoots[0]", ["y", ">", "d", "d", "d"], head)
+    start, copy, moved, fewer, one, none = lists(2, "shoots[0]", ["y", ">", "d", "d", "d"], head, "200 70")
     expect_equal([r[1] for r in start], ["9000", "500"], "shoots")
     expect_equal([r[1] for r in copy], ["9000", "9000", "500"], "after y")
     expect_equal([r[1] for r in moved], ["9000", "500", "9000"], "after >")
     expect_equal([r[1] for r in fewer], ["9000", "500"], "after d")
     expect_equal(len(one), 1, "after d d")
     expect_equal(none, [], "after d d d")
-    start, later, earlier = lists(2, "shoots[1]", ["<", ">"], head)
+    start, later, earlier = lists(2, "shoots[1]", ["<", ">"], head, "200 70")
     expect_equal([r[1] for r in later], ["500", "9000"], "after <")
     expect_equal(earlier, start, "after < >")
-    screens = fast("""resize 120 60
+    screens = fast("""resize 100 60
         key 2
         find trees[0]
         key y
