@@ -84,7 +84,7 @@ def expect_places(err, contents):
         shown, caret = lines[i].replace("\ufeff", "", 1) if mark else lines[i], lines[i + 1]
         if column <= 100:
             expect(shown.startswith("  " + safe(row)[:90]), "another line is shown:", repr(shown), repr(row), err)
-            expect_equal(len(caret) - 1, 2 + len(safe(row[:column - 1])), "caret" + "\n" + err)
+            expect_equal(len(caret) - 1, 2 + len(safe(row[:column - 1]).replace("\ufeff", "")), "caret" + "\n" + err)
         else:  # a long line is shown in part: the right character stands above the caret
             expect(len(shown) <= 420, "too long a line is shown")
             here = safe(row[column - 1:column])

@@ -251,7 +251,7 @@ def test_bash():
         expect_equal(completed(place, program, "-f", ""), ["table", "csv", "json"])
         expect_equal(completed(place, program, "--format", "=", "j"), ["json"])
         expect_equal(completed(place, program, "--format", "="), ["table", "csv", "json"])
-        expect_equal(completed(place, program, "--plot", "h"), ["height", "histogram"])
+        expect_equal(completed(place, program, "--plot", "h"), ["height", "histogram", "hazard"])
         expect_equal(completed(place, program, "--goal", "e"), ["energy", "exceed"])
         expect_equal(completed(place, program, "-s", "simulation.scale"), ["simulation.scale_rn="])
         expect_equal(completed(place, program, "--find", "rocks_per"), ["rocks_per_year="])

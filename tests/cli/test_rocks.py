@@ -7,15 +7,15 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, wooded_scene
-from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated, without_seconds
+from harness import USAGE, Folder, belt, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, wooded_scene
+from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated, warned, without_seconds
 
 
 def test_rocks_and_seed():
     """-n and --seed: reported, the same seed gives the same bytes, another others; the first rocks stay the same"""
     runs = [without_seconds(good("--batch", "-f", "json", "-n", 500, "--seed", s, PAPER).out) for s in (1, 1, 2)]
     expect(runs[0] == runs[1] != runs[2], "seeds")
-    for model, runs in (("index", 1), ("poisson", 2), ("stems", 2)):
+    for model, runs in (("index", 1), ("poisson", 3), ("stems", 3)):
         run = result("-n", 500, "--seed", 9007199254740992, *through(model), PAPER)
         expect_equal((run["rocks"], run["seed"], run["work"]["rocks_flown"]), (500, 9007199254740992, 500 * runs), model)
     expect_equal(result("-n", 1, "--seed", 0, PAPER)["seed"], 0)
@@ -58,7 +58,7 @@ def test_tolerance_met():
         run = result("-e", 0.01, *two, *through(model), PAPER)
         expect_run(run, model)
         expect_tolerance(run, 0.01)
-        expect_equal(run["warnings"], [])
+        expect_equal(warned(run), [])
         expect(1000 < run["rocks"] < 100000, run["rocks"])
         expect_equal(run["options"], result("-e", 0.01, "-n", 1000000, "-j", 16, *two, *through(model), PAPER)["options"])
         needed = max((half_width(a) / 0.01) ** 2 * run["rocks"] for c in run["options"][0]["controls"]
@@ -88,7 +88,7 @@ def test_tolerance_options():
         run = result(path, "-e", 0.02)
         expect_run(run)
         expect_tolerance(run, 0.02)
-        expect_equal(run["warnings"], [])
+        expect_equal(warned(run), [])
         widths = [half_width(c[which]) for o in run["options"] for c in o["controls"] for which in ("bare", "wooded")]
         bare = result(path, "-e", 0.02, *through("index"))
         expect(bare["rocks"] < run["rocks"], "what is least known decides", bare["rocks"], run["rocks"], widths)
@@ -116,7 +116,7 @@ def test_tolerance_not_met():
     """-e with -n too small: a warning that names the tolerance, status 0"""
     run = result("-e", 0.001, "-n", 2000, PAPER)
     expect_equal(run["rocks"], 2000)
-    expect(len(run["warnings"]) == 1 and "0.001" in run["warnings"][0] and "not met" in run["warnings"][0], run["warnings"])
+    expect(len(warned(run)) == 1 and "0.001" in warned(run)[0] and "not met" in warned(run)[0], run["warnings"])
     expect_in("not met", good("--batch", "-e", 0.001, "-n", 2000, PAPER).out, "table")
     _, rows = read_csv(good("--batch", "-f", "csv", "-e", 0.001, "-n", 2000, PAPER).out)
     expect_in("not met", rows[0]["warnings"], "CSV")
@@ -135,6 +135,43 @@ def test_tolerance_few():
         expect(half_width(near["bare"]) < 0.05, near["bare"])
         expect(any("199 m" in w for w in run["warnings"]), run["warnings"])
         expect(not any("not met" in w or "25 m" in w for w in run["warnings"]), run["warnings"])
+
+
+def said(run, what):
+    return [w for w in run["warnings"] if what in w]
+
+
+def test_stopped_at_the_release():
+    """Rocks that stems stop within 10 m of the release are named with their share: all that are stopped where the forest ends
+    there, none where it begins behind"""
+    with Folder() as f:
+        near = f.write("near.yaml", wooded_scene(release={"x_m": 20}, forest=[belt(10, 30)]))
+        far = f.write("far.yaml", wooded_scene(release={"x_m": 20}, forest=[belt(31, 95)]))
+        run = result(near)
+        stopped = run["options"][0]["ends"]["stopped_by_stems"]
+        expect(stopped > 0.01, run["options"][0]["ends"])
+        sentence = said(run, "within 10 m of the release")
+        expect_equal(sentence, [f"current: of 1000 rocks simulated stems stop {1000 * stopped:.0f} within 10 m of the release, "
+                                "before they have any speed."], "all that are stopped")
+        away = result(far)
+        expect(away["options"][0]["ends"]["stopped_by_stems"] > 0, away["options"][0]["ends"])
+        expect_equal(said(away, "within 10 m of the release"), [], "the forest begins 11 m below")
+
+
+def test_uphill():
+    """Rocks that leave a profile over its upper end are counted and named; where it goes on uphill there are none"""
+    thrown = {"x_m": 0, "height_m": 2, "vx_m_s": {"mean": 0, "spread": 1, "kind": "uniform"}}
+    with Folder() as f:
+        # A wall at the foot: what leaves, leaves uphill.
+        short = f.write("short.yaml", scene(release=thrown, slope={"vertices_m": [[0, 40], [90, 0], [100, 80]], "segments": [
+            {"rn": 0.35, "rt": 0.875, "friction": 0.5}]}))
+        long_ = f.write("long.yaml", scene(release=thrown, slope={"vertices_m": [[-50, 62], [0, 40], [90, 0], [100, 80]],
+                                                                  "segments": [{"rn": 0.35, "rt": 0.875, "friction": 0.5}]}))
+        run = result(short)
+        left = round(200 * run["options"][0]["ends"]["left_slope"])
+        expect(60 < left < 140, f"{left} of 200 leave")  # those that are thrown uphill
+        expect(said(run, f"Of 200 rocks simulated {left} bounce back over the upper end of the profile"), run["warnings"])
+        expect_equal(said(result(long_), "upper end"), [], "a profile that begins farther up")
 
 
 if __name__ == "__main__":

@@ -72,7 +72,8 @@ int main(void)
 {
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         static const char *const names[][4] = {{"lumped", "lumped-forest", "lumped-cut", "lumped-moved"},
-                                               {"crsp", "crsp-forest", "crsp-cut", "crsp-moved"}};
+                                               {"crsp", "crsp-forest", "crsp-cut", "crsp-moved"},
+                                               {"arm", "arm-forest", "arm-cut", "arm-moved"}};
         const char *const *name = names[law];
         static struct paper_site site;
         paper_site_init(&site);

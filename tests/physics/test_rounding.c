@@ -61,7 +61,7 @@ static void the_way_to_a_stop(void **state)
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
         for (size_t m = 0; m < LENGTH(modes); m++) {
             line_scene_init(&scene, 2, x, z, (struct line_ground){.5, 1, .3}, 1, (enum ceduo_law)law);
-            double k = law == CEDUO_LAW_CRSP ? .4 : 0;
+            double k = law == CEDUO_LAW_LUMPED ? 0 : .4; /* a sphere, which rolls */
             line_scene_release(&scene, 10, 0, 5, 0, k > 0 ? 5 : 0);
             follow(&scene, modes[m], &way);
             assert_int_equal(way.way.end, CEDUO_AT_REST);
