@@ -46,7 +46,8 @@ struct ceduo_calibration_def {
     uint64_t seed;
     unsigned threads;
     size_t steps_most;         /* of each chain; 0: as many as is usual */
-    const atomic_bool *cancel; /* may be NULL: what is known so far is the answer */
+    const atomic_bool *cancel; /* may be NULL; where it is set what is known so far is the answer, */
+    bool whole;                /* or nothing is: CEDUO_CANCELLED, at once */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
     void *context;
 };
@@ -84,6 +85,12 @@ struct ceduo_calibration {
 /* Whether the rocks that were seen, to be fitted, are of two shapes: only then does what was seen tell mu of the law arm, as that
  * acts through the shape. */
 bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, size_t n);
+
+/* What a scene as it is says of what was seen there, without any fit: `to` has one for each observation, p_value and range of new
+ * samples as large as those seen. Simulates `rocks` rocks of each setting on this thread. CEDUO_NO_MEMORY, CEDUO_CANCELLED, or what
+ * ceduo_scene_check() says. */
+enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
+                                             const atomic_bool *cancel, struct ceduo_predicted *to);
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED (before anything is known), or what ceduo_scene_check() says; then nothing is to be freed. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);

@@ -188,16 +188,6 @@ static bool writes_scene(const struct arguments *a)
     return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
 }
 
-/* What all fitted values rest on. */
-static void put_source(struct text *source, const struct ceduo_calibration_report *r)
-{
-    for (size_t i = 0; i < r->answer->parameters_count; i++) {
-        if (i > 0)
-            ceduo_text_put(source, "; ");
-        ceduo_calibration_source(source, r, i);
-    }
-}
-
 /* The heads of the table of draws: the places of each value in the first scene. */
 static void put_heads(const struct job *j, struct text *heads, const char **to)
 {
@@ -229,7 +219,7 @@ static bool edit_scene(const struct job *j, const struct ceduo_calibration_repor
     const struct arguments *a = j->arguments;
     struct text source = {0};
     double best[MOST];
-    put_source(&source, r);
+    ceduo_calibration_sources(&source, r);
     for (size_t i = 0; i < j->parameters_count; i++)
         best[i] = r->answer->parameters[i].best;
     const struct fit_values fit = {j->parameters_count, j->inputs, j->fields, best, ceduo_text_string(&source), draws};

@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "ceduo/key.h"
 
-enum kind { SEEK, FORESEE, FIGURES, OTHERS, YEARS, DOUBT, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
+enum kind { SEEK, FORESEE, FIGURES, OTHERS, LOOK, FIT, YEARS, DOUBT, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
 
 struct job {
     bool wanted;     /* not done */
@@ -22,10 +22,11 @@ struct job {
     uint64_t rocks;  /* of the next step; a search has one, and goes first */
     double asked;
     size_t option;
-    size_t level, levels; /* of the doubt: the next, and so many */
+    size_t level, levels; /* of the doubt and of a look at what was seen: the next, and so many */
     struct ceduo_scene scene;
     struct seek seek;
-    struct scene_file file; /* that the search changes, that a change is foreseen of, or whose doubt is asked for */
+    struct fit_wish wish;
+    struct scene_file file; /* of all but the runs: what the search changes, for one */
     char path[1024];        /* of the search; the change that is foreseen */
 };
 
@@ -237,6 +238,60 @@ static enum ceduo_status step_doubt(struct jobs *q, struct job *job)
     return CEDUO_OK;
 }
 
+static enum ceduo_status step_look(struct jobs *q, struct job *job)
+{
+    struct sighted *sighted;
+    enum ceduo_status status = ceduo_sighted_make(&job->file, job->level, &q->cancel, &sighted);
+    if (status != CEDUO_OK)
+        return status;
+    if (!lock_result(q, LOOK, job->number)) {
+        ceduo_sighted_free(sighted);
+        return CEDUO_OK;
+    }
+    q->jobs[LOOK].level = job->level + 1;
+    ceduo_sighted_free(q->news.sighted);
+    q->news.sighted = sighted;
+    unlock_result(q);
+    return CEDUO_OK;
+}
+
+struct teller {
+    struct jobs *queue;
+    const struct job *job;
+    double told;
+};
+
+/* Ten times a second is enough to look at. */
+static void tell_fit(void *context, const struct ceduo_calibration_state *state)
+{
+    struct teller *t = context;
+    double now = ceduo_clock();
+    if (now - t->told < 0.1 || !lock_result(t->queue, FIT, t->job->number))
+        return;
+    t->told = now;
+    t->queue->news.fit_state = *state;
+    unlock_result(t->queue);
+}
+
+static enum ceduo_status step_fit(struct jobs *q, struct job *job)
+{
+    struct teller teller = {.queue = q, .job = job};
+    const struct fit_run run = {q->threads, &q->cancel, tell_fit, &teller};
+    struct fit *fit;
+    enum ceduo_status status = ceduo_fit_make(&job->file, &job->wish, &run, &fit);
+    job->wanted = false;
+    if (status != CEDUO_OK)
+        return status;
+    if (!lock_result(q, FIT, job->number)) {
+        ceduo_fit_free(fit);
+        return CEDUO_OK;
+    }
+    ceduo_fit_free(q->news.fit);
+    q->news.fit = fit;
+    unlock_result(q);
+    return CEDUO_OK;
+}
+
 /* ---- the thread ---- */
 
 static enum kind next_kind(const struct jobs *q)
@@ -254,6 +309,11 @@ static uint64_t rocks_before(size_t level)
     return level == 0 ? FLIGHTS_FIRST : 10 * FLIGHTS_MOST;
 }
 
+static bool has_levels(enum kind kind)
+{
+    return kind == DOUBT || kind == LOOK;
+}
+
 /* What comes of a step: the job is done, goes on finer, or with the same step where it was interrupted. */
 static void end_step(struct jobs *q, enum kind kind, const struct job *done, enum ceduo_status status)
 {
@@ -261,14 +321,14 @@ static void end_step(struct jobs *q, enum kind kind, const struct job *done, enu
     if (job->number != done->number || status == CEDUO_CANCELLED)
         return;
     q->news.failed |= status != CEDUO_OK;
-    job->wanted = status == CEDUO_OK && (kind == DOUBT ? job->level < job->levels : done->wanted);
+    job->wanted = status == CEDUO_OK && (has_levels(kind) ? job->level < job->levels : done->wanted);
     job->rocks = kind == DOUBT ? rocks_before(job->level) : job->rocks * 10;
 }
 
 static void *work(void *argument)
 {
     static enum ceduo_status (*const steps[KINDS])(struct jobs * q, struct job * job) = {
-        step_seek, step_foresee, step_figures, step_others, step_years, step_doubt};
+        step_seek, step_foresee, step_figures, step_others, step_look, step_fit, step_years, step_doubt};
     struct jobs *q = argument;
     pthread_mutex_lock(&q->lock);
     while (!q->quit) {
@@ -301,6 +361,8 @@ static void release(struct jobs *q)
     drop_years(&q->news);
     free(q->news.others);
     ceduo_doubted_free(q->news.doubted);
+    ceduo_sighted_free(q->news.sighted);
+    ceduo_fit_free(q->news.fit);
     ceduo_sought_free(q->news.sought);
     if (q->pipe[0] >= 0) {
         close(q->pipe[0]);
@@ -447,6 +509,59 @@ bool ceduo_jobs_doubt(struct jobs *q, const struct scene_file *file, size_t leve
     return asked;
 }
 
+/* A fit that is under way, or that nobody has taken; under the lock. */
+static void forget_fit(struct jobs *q)
+{
+    drop(q, FIT);
+    ceduo_fit_free(q->news.fit);
+    q->news.fit = NULL;
+}
+
+static struct job job_of(const struct scene_file *file)
+{
+    struct job job = {.key = (uint64_t)(uintptr_t)file->root, .rocks = FLIGHTS_FIRST, .file = *file};
+    job.file.arena = (struct arena){.shelf = file->arena.shelf};
+    return job;
+}
+
+bool ceduo_jobs_look(struct jobs *q, const struct scene_file *file, size_t levels)
+{
+    struct job job = job_of(file);
+    job.levels = levels;
+    pthread_mutex_lock(&q->lock);
+    struct job *now = &q->jobs[LOOK];
+    bool asked = levels > 0 && (now->number == 0 || now->key != job.key);
+    if (q->jobs[FIT].key != job.key)
+        forget_fit(q);
+    if (asked) {
+        ceduo_sighted_free(q->news.sighted); /* of what was asked before */
+        q->news.sighted = NULL;
+        ask(q, LOOK, &job);
+    } else if (levels == 0) {
+        drop(q, LOOK);
+    }
+    pthread_mutex_unlock(&q->lock);
+    return asked;
+}
+
+void ceduo_jobs_fit(struct jobs *q, const struct scene_file *file, const struct fit_wish *wish)
+{
+    struct job job = job_of(file);
+    job.wish = *wish;
+    pthread_mutex_lock(&q->lock);
+    forget_fit(q);
+    q->news.fit_state = (struct ceduo_calibration_state){0};
+    ask(q, FIT, &job);
+    pthread_mutex_unlock(&q->lock);
+}
+
+void ceduo_jobs_stop_fit(struct jobs *q)
+{
+    pthread_mutex_lock(&q->lock);
+    forget_fit(q);
+    pthread_mutex_unlock(&q->lock);
+}
+
 void ceduo_jobs_seek(struct jobs *q, const struct seek *seek)
 {
     struct job job = {.seek = *seek, .file = *seek->file};
@@ -491,12 +606,15 @@ struct jobs_news ceduo_jobs_news(struct jobs *q)
         ;
     pthread_mutex_lock(&q->lock);
     q->news.busy = q->working != NONE || next_kind(q) != NONE;
+    q->news.fitting = q->jobs[FIT].wanted;
     struct jobs_news news = q->news;
     q->news.outlook = NULL;
     q->news.years = NULL;
     q->news.years_count = 0;
     q->news.others = NULL;
     q->news.doubted = NULL;
+    q->news.sighted = NULL;
+    q->news.fit = NULL;
     q->news.sought = NULL;
     q->news.foresaw = false;
     pthread_mutex_unlock(&q->lock);

@@ -3,9 +3,11 @@
 #define CEDUO_JOBS_H
 
 #include "doubted.h"
+#include "fit.h"
 #include "flights.h"
 #include "foresee.h"
 #include "seek.h"
+#include "sighted.h"
 
 /* The queue of jobs of the live program: one thread in the background simulates rocks on a snapshot of the scene. A job goes
  * in steps from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one cancels
@@ -38,6 +40,14 @@ void ceduo_jobs_foresee(struct jobs *jobs, const struct scene_file *file, const 
  * once. Figures and years of as many rocks go before it. True where something is to be done. */
 bool ceduo_jobs_doubt(struct jobs *jobs, const struct scene_file *file, size_t levels);
 
+/* Asks what a scene says of what was seen there, up to so many levels (sighted.h); 0: nothing. True where something is to be done. A
+ * fit of another scene is stopped, and forgotten. */
+bool ceduo_jobs_look(struct jobs *jobs, const struct scene_file *file, size_t levels);
+
+/* Asks for a fit of a scene to what was seen there. What interrupts it lets it begin again. */
+void ceduo_jobs_fit(struct jobs *jobs, const struct scene_file *file, const struct fit_wish *wish);
+void ceduo_jobs_stop_fit(struct jobs *jobs);
+
 /* What a search came to. */
 struct sought {
     enum ceduo_status status;
@@ -63,6 +73,10 @@ struct jobs_news {
                                         * option; NULL: none are new. The caller's from now on */
     size_t others_options, others_controls;
     struct doubted *doubted;       /* newest; NULL: none is new. The caller's from now on */
+    struct sighted *sighted;       /* likewise */
+    struct fit *fit;               /* likewise: it is done */
+    bool fitting;                  /* a fit is under way, and has come so far: */
+    struct ceduo_calibration_state fit_state;
     size_t done, all;              /* of the step under way in the years: options, of so many; all 0: none is */
     uint64_t rocks;                /* of each run of that step, or of the figures' */
     struct sought *sought;         /* NULL: none is done; the caller's from now on */

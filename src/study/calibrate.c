@@ -474,7 +474,7 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     enum ceduo_status status = open_fitting(&f, def);
     status = status == CEDUO_OK ? fit(&f, &chains) : status;
     a->complete = status == CEDUO_OK;
-    if (status == CEDUO_CANCELLED && isfinite(f.most)) /* what is known so far is the answer */
+    if (status == CEDUO_CANCELLED && !def->whole && isfinite(f.most)) /* what is known so far is the answer */
         status = CEDUO_OK;
     if (status == CEDUO_OK && !read_draws(&f, &chains, a))
         status = CEDUO_NO_MEMORY;

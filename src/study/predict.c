@@ -12,14 +12,15 @@
 #include "fitting.h"
 
 #define SAMPLES     20 /* for each draw */
+#define SAMPLES_ONE 2000 /* of a scene as it is */
 #define OTHER_ROCKS 0x5eed /* in the seed */
 
 static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i)
 {
     struct ceduo_counterpart *to = f->drawn + i * f->all_count;
     enum ceduo_status status =
-        ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, NULL, to);
-    return status == CEDUO_NO_MEMORY || status == CEDUO_OK ? status : CEDUO_NO_MEMORY;
+        ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, f->def->whole ? f->def->cancel : NULL, to);
+    return status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY;
 }
 
 /* ---- samples ---- */
@@ -73,28 +74,33 @@ static double seen_of(const struct ceduo_observation *o, const struct ceduo_coun
     return o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : c->seen_mean;
 }
 
+/* What simulated rocks say of one observation, draw by draw. */
+struct drawn {
+    const struct ceduo_counterpart *first;
+    size_t stride, draws, samples; /* samples: of each draw */
+};
+
 /* `values`: room for all samples. */
-static void read_one(const struct fitting *f, size_t draws, size_t which, const struct ceduo_observation *o, gsl_rng *random,
-                     double *values, struct ceduo_predicted *to)
+static void read_one(const struct drawn *d, const struct ceduo_observation *o, gsl_rng *random, double *values,
+                     struct ceduo_predicted *to)
 {
     size_t n = 0;
     double farther = 0;
-    to->at_best = f->drawn[draws * f->all_count + which];
     to->seen = seen_of(o, &to->at_best);
     to->p_value = to->lo = to->hi = NAN;
-    for (size_t i = 0; i < draws; i++) {
-        const struct ceduo_counterpart *c = &f->drawn[i * f->all_count + which];
-        for (size_t k = 0; k < SAMPLES; k++) {
+    for (size_t i = 0; i < d->draws; i++) {
+        const struct ceduo_counterpart *c = &d->first[i * d->stride];
+        for (size_t k = 0; k < d->samples; k++) {
             double value, deviance = sample(o, c, random, &value);
             farther += deviance >= c->deviance;
             if (!isnan(value))
                 values[n++] = value;
         }
     }
-    if (draws == 0 || n == 0)
+    if (d->draws == 0 || n == 0)
         return;
     gsl_sort(values, 1, n);
-    to->p_value = farther / (double)(draws * SAMPLES);
+    to->p_value = farther / (double)(d->draws * d->samples);
     to->lo = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.025);
     to->hi = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.975);
     to->inside = to->seen >= to->lo && to->seen <= to->hi;
@@ -109,7 +115,8 @@ static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *v
             struct ceduo_predicted *to = &a->predicted[which];
             to->scene = s;
             to->observation = i;
-            read_one(f, draws, which, o, random, values, to);
+            to->at_best = f->drawn[draws * f->all_count + which];
+            read_one(&(struct drawn){f->drawn + which, f->all_count, draws, SAMPLES}, o, random, values, to);
             bool misfit = to->p_value < CEDUO_MISFIT;
             a->misfit |= misfit && o->use == CEDUO_OBSERVED_FIT;
             a->refuted |= misfit && o->use == CEDUO_OBSERVED_CHECK;
@@ -146,5 +153,31 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
     free(places);
     free(values);
     free(f->drawn);
+    return status;
+}
+
+/* ---- without a fit ---- */
+
+enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
+                                             const atomic_bool *cancel, struct ceduo_predicted *to)
+{
+    size_t n = scene->observations_count;
+    struct ceduo_observer *observer = NULL;
+    struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
+    double *values = calloc(SAMPLES_ONE, sizeof *values);
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    enum ceduo_status status = found && values && random ? ceduo_observer_create(scene->observations, n, &observer) : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        status = ceduo_observer_look(observer, scene->scene, rocks, cancel, found);
+    if (status == CEDUO_OK)
+        gsl_rng_set(random, (unsigned long)scene->scene->simulation.seed + 1);
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        to[i] = (struct ceduo_predicted){.observation = i, .at_best = found[i]};
+        read_one(&(struct drawn){&found[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], random, values, &to[i]);
+    }
+    ceduo_observer_free(observer);
+    gsl_rng_free(random);
+    free(values);
+    free(found);
     return status;
 }

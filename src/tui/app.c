@@ -142,6 +142,7 @@ void ceduo_app_refresh(struct app *app)
     ceduo_figures_follow(&app->figures, scene, app->option, view->years);
     app->doubts |= view->doubt;
     ceduo_figures_doubt(&app->figures, &app->document.file, view->doubt ? DOUBT_LEVELS : app->doubts ? DOUBT_BEHIND : 0);
+    ceduo_figures_look(&app->figures, &app->document.file, view->seen && app->document.file.observations_count > 0 ? SIGHT_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form);
     if (view->build) {

@@ -39,6 +39,7 @@ struct view {
     int panes;         /* that Tab goes through; the first is the form */
     bool years;        /* compute the years to come while it is open */
     bool doubt;        /* compute the doubt as finely as may be while it is open */
+    bool seen;         /* look at what was seen while it is open */
     bool result;       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form);        /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);

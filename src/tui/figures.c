@@ -17,6 +17,8 @@ void ceduo_figures_free(struct figures *f)
     ceduo_outlook_free(f->outlook);
     free(f->others);
     ceduo_doubted_free(f->doubted);
+    ceduo_sighted_free(f->sighted);
+    ceduo_fit_free(f->fit);
     ceduo_jobs_free_years(f->years, f->years_count);
     ceduo_verdict_release(&f->verdict);
     ceduo_sought_free(f->sought);
@@ -143,10 +145,40 @@ const struct doubted *ceduo_figures_doubted(const struct figures *f, const struc
     return f->doubted && f->doubted->file.root == file->root ? f->doubted : NULL;
 }
 
+void ceduo_figures_look(struct figures *f, const struct scene_file *file, size_t levels)
+{
+    if (f->fit && f->fit->file.root != file->root)
+        ceduo_figures_drop_fit(f);
+    f->busy |= ceduo_jobs_look(f->jobs, file, levels);
+}
+
+const struct sighted *ceduo_figures_sighted(const struct figures *f, const struct scene_file *file)
+{
+    return f->sighted && f->sighted->file.root == file->root ? f->sighted : NULL;
+}
+
+void ceduo_figures_fit(struct figures *f, const struct scene_file *file, const struct fit_wish *wish)
+{
+    ceduo_figures_drop_fit(f);
+    f->wish = *wish;
+    ceduo_jobs_fit(f->jobs, file, wish);
+    f->busy = f->fitting = true;
+}
+
+void ceduo_figures_drop_fit(struct figures *f)
+{
+    ceduo_jobs_stop_fit(f->jobs);
+    ceduo_fit_free(f->fit);
+    f->fit = NULL;
+    f->fitting = false;
+    f->fit_state = (struct ceduo_calibration_state){0};
+}
+
 bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool *failed)
 {
     struct jobs_news news = ceduo_jobs_news(f->jobs);
-    bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.doubted || news.sought || news.foresaw || news.failed;
+    bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.doubted || news.sighted ||
+                   news.fit || news.fit_state.evaluations != f->fit_state.evaluations || news.sought || news.foresaw || news.failed;
     f->busy = news.busy;
     *failed = news.failed;
     if (news.outlook) {
@@ -165,6 +197,16 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
         ceduo_doubted_free(f->doubted);
         f->doubted = news.doubted;
     }
+    if (news.sighted) {
+        ceduo_sighted_free(f->sighted);
+        f->sighted = news.sighted;
+    }
+    if (news.fit) {
+        ceduo_fit_free(f->fit);
+        f->fit = news.fit;
+    }
+    f->fitting = news.fitting;
+    f->fit_state = news.fit_state;
     bool others = news.others != NULL;
     if (others) {
         free(f->others);

@@ -14,6 +14,11 @@ struct figures {
     struct ceduo_other_energy *others; /* newest, as jobs_news has them; NULL before the first */
     size_t others_options, others_controls;
     struct doubted *doubted;       /* newest; NULL before the first, and where it is not asked for */
+    struct sighted *sighted;       /* newest look at what was seen; likewise */
+    struct fit *fit;               /* that is done, and nobody has taken or dropped; NULL: none */
+    struct fit_wish wish;          /* that was asked for last */
+    bool fitting;                  /* it is under way, and has come so far: */
+    struct ceduo_calibration_state fit_state;
     struct ceduo_years **years;    /* newest of each option, NULL: not computed */
     size_t years_count;            /* options that there is room for */
     struct ceduo_verdict verdict;  /* of the result and of the years that fit the scene; n 0: none */
@@ -43,6 +48,12 @@ void ceduo_figures_doubt(struct figures *figures, const struct scene_file *file,
 
 /* What is known of the doubt of this scene, NULL where that is nothing yet. */
 const struct doubted *ceduo_figures_doubted(const struct figures *figures, const struct scene_file *file);
+
+/* What the scene says of what was seen there, up to so many levels; a fit of another scene is forgotten. */
+void ceduo_figures_look(struct figures *figures, const struct scene_file *file, size_t levels);
+const struct sighted *ceduo_figures_sighted(const struct figures *figures, const struct scene_file *file);
+void ceduo_figures_fit(struct figures *figures, const struct scene_file *file, const struct fit_wish *wish);
+void ceduo_figures_drop_fit(struct figures *figures);
 
 /* Takes the news of the jobs; true where something has changed. `*failed`: there is no memory for more. */
 bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene, bool *failed);

@@ -46,7 +46,8 @@ enum key {
     V(RESULTS, results, '4', "4", N_("view: results")) \
     V(COMPARE, compare, '5', "5", N_("view: compare")) \
     V(ROTATION, rotation, '6', "6", N_("view: rotation")) \
-    V(DOUBT, doubt, '7', "7", N_("view: doubt"))
+    V(DOUBT, doubt, '7', "7", N_("view: doubt")) \
+    V(SEEN, seen, '8', "8", N_("view: what was seen"))
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help)
 
@@ -76,6 +77,7 @@ enum key {
     X(PRESETS, 'p', "p", K_F5, "F5", 1, N_("presets"))                                                  \
     X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                   \
     VIEWS(VIEW_ACTION)                                                                                 \
+    X(STOP, K_ESCAPE, "Esc", K_NONE, "", 0, N_("stop a fit, or leave what it found"))                  \
     X(FIND, 'f', "f", K_NONE, "", 1, N_("find the value here that reaches a goal"))                    \
     X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                   \
     X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \

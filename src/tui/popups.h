@@ -16,6 +16,7 @@ void ceduo_popup_export(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 void ceduo_popup_survey(struct app *app);
+void ceduo_popup_fit(struct app *app);
 
 /* What the search came to that ceduo_popup_find() started. */
 void ceduo_popup_found(struct app *app, struct sought *sought);

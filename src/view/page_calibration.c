@@ -166,6 +166,23 @@ static void put_end(struct ceduo_page *page, const struct ceduo_calibration_repo
                           (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
 }
 
+static void put_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)
+{
+    put_misfits(page, r);
+    put_limits(page, r);
+    put_correlations(page, r);
+    put_end(page, r);
+}
+
+void ceduo_calibration_words(struct text *text, const struct ceduo_calibration_report *r, size_t width)
+{
+    struct ceduo_page page = {.width = width};
+    put_words(&page, r);
+    text->failed |= page.failed;
+    ceduo_page_print(text, &page, false);
+    ceduo_page_free(&page);
+}
+
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *r, bool plain)
 {
     struct ceduo_page page = {.width = 80};
@@ -176,10 +193,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     put_seen(&page, r);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    put_misfits(&page, r);
-    put_limits(&page, r);
-    put_correlations(&page, r);
-    put_end(&page, r);
+    put_words(&page, r);
     text->failed |= page.failed;
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);

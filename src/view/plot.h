@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "ceduo/years.h"
 #include "study/outlook.h"
+#include "study/seen.h"
 #include "study/verdict.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
@@ -97,6 +98,11 @@ extern const char *const ceduo_plot_names;
 /* Draws a picture, or says in the middle of the area why there is none. */
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
                      const struct ceduo_picture *picture);
+
+/* Stops beside simulated ones, not among the pictures above as it needs no run; `origin`: where the slope begins in the user's
+ * coordinates. */
+void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *stops,
+                     double origin);
 
 /* One line that says what the picture shows. */
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture);

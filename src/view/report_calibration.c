@@ -66,6 +66,15 @@ void ceduo_calibration_source(struct text *text, const struct ceduo_calibration_
         ceduo_text_put(text, "; not determined");
 }
 
+void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *r)
+{
+    for (size_t i = 0; i < r->answer->parameters_count; i++) {
+        if (i > 0)
+            ceduo_text_put(text, "; ");
+        ceduo_calibration_source(text, r, i);
+    }
+}
+
 /* ---- JSON ---- */
 
 static void put_parameter(struct json *j, const struct ceduo_calibration_report *r, size_t i)

@@ -27,6 +27,8 @@ const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_rep
 size_t ceduo_seen_number(const struct ceduo_observation *o);
 
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *report, bool plain);
+/* What the page says in words: misfit, what is not determined, what is known only together. */
+void ceduo_calibration_words(struct text *text, const struct ceduo_calibration_report *report, size_t width);
 void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *report); /* "ceduo-calibration-1" */
 void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *report); /* a row for each value */
 
@@ -35,5 +37,6 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *
 
 /* "48 stops; 95 % .44–.51": where a fitted value comes from. */
 void ceduo_calibration_source(struct text *text, const struct ceduo_calibration_report *report, size_t parameter);
+void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *report); /* of all */
 
 #endif

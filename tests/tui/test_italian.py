@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, expect, play  # noqa: E402
 from harness import expect_equal, run_all  # noqa: E402
 
-VIEWS = "\n".join(f"key {i}\nwait idle\ndump" for i in range(1, 8))
+VIEWS = "\n".join(f"key {i}\nwait idle\ndump" for i in range(1, 9))
 POPUPS = "\n".join(f"key {view}\nkey {key}\ndump\nkey Esc" for view, key in ((2, "?"), (2, "p"), (2, "c"), (4, "e"), (2, "n"), (1, "o")))
 CUT = "\u2026"
 SCENES = ("fast.yaml", "options.yaml", "cuts.yaml", "wood.yaml")

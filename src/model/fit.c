@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "fit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/inputs.h"
+#include "scene/ranges.h"
+#include "scene/value.h"
+
+/* ---- what may be fitted ---- */
+
+static void offer(const struct scene_file *file, struct fit_wish *to, const char *path, double lo, double hi)
+{
+    struct scene_file own = *file;
+    struct ceduo_input input = {0};
+    own.arena = (struct arena){.shelf = file->arena.shelf};
+    const struct field *field = ceduo_input_find(&own, path, &input);
+    bool there = field && input.places_count > 0;
+    ceduo_arena_free(&own.arena);
+    if (!there || to->n == CEDUO_CALIBRATION_MOST || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
+        return;
+    to->fields[to->n] = field;
+    snprintf(to->paths[to->n], FIT_PATH_ROOM, "%s", path);
+    to->lo[to->n] = lo;
+    to->hi[to->n++] = hi;
+}
+
+static void offer_named(const struct scene_file *file, struct fit_wish *to)
+{
+    for (size_t i = 0; i < file->inputs_of_scene; i++) {
+        const struct ceduo_input *input = &file->inputs[i];
+        if (input->kind == CEDUO_INPUT_RANGE && input->places_count > 0)
+            offer(file, to, input->path, input->lo, input->hi);
+    }
+}
+
+static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction"};
+#define KEYS (sizeof keys / sizeof keys[0])
+
+static bool law_knows(const struct scene_file *file, size_t key)
+{
+    return key != 1 || file->scene.simulation.law != CEDUO_LAW_ARM;
+}
+
+static struct range hull(struct range a, struct range b)
+{
+    a.lo = fmin(a.lo, b.lo);
+    a.hi = fmax(a.hi, b.hi);
+    return a;
+}
+
+/* All that grounds of the library may be. */
+static struct range range_of_library(const char *key)
+{
+    size_t n;
+    const struct ceduo_material *all = ceduo_materials(&n);
+    struct range range = ceduo_range_of_material(&all[0], key);
+    for (size_t i = 1; i < n; i++)
+        range = hull(range, ceduo_range_of_material(&all[i], key));
+    return range;
+}
+
+/* What the values that the scene has may be, by their own row of ranges. */
+static struct range range_around(const struct scene_file *file, const char *key)
+{
+    const struct field *field = ceduo_schema_field(ceduo_schema_segment(), key);
+    struct range range = *ceduo_range_of(field);
+    double lo = INFINITY, hi = -INFINITY;
+    for (size_t i = 0; i + 1 < file->scene.slope.vertices; i++) {
+        struct ceduo_segment one = file->scene.slope.segments[i];
+        struct value v = {.field = field, .at = (char *)&one + field->offset};
+        lo = fmin(lo, ceduo_value_get(&v));
+        hi = fmax(hi, ceduo_value_get(&v));
+    }
+    if (range.kind == CEDUO_INPUT_FACTOR) {
+        range.lo = fmax(field->lo, range.lo * lo);
+        range.hi = fmin(field->hi, range.hi * hi);
+    }
+    return range;
+}
+
+/* The ground of all stretches as one. What it is, is known where nothing was said of it: talus; otherwise it may be all that the
+ * library has, and what is near the scene's own values. Roughness as a length has no library. */
+static void offer_everywhere(const struct scene_file *file, struct fit_wish *to)
+{
+    bool length = !isnan(file->scene.slope.segments[0].roughness_m);
+    for (size_t k = 0; k < KEYS; k++) {
+        char path[FIT_PATH_ROOM];
+        const char *key = k == 2 && length ? "roughness_m" : keys[k];
+        struct range range = range_around(file, key);
+        if (file->ground_assumed)
+            range = ceduo_range_of_material(ceduo_material_talus(), key);
+        else if (key == keys[k])
+            range = hull(range, range_of_library(key));
+        snprintf(path, sizeof path, "slope.segments[*].%s", key);
+        if (law_knows(file, k))
+            offer(file, to, path, range.lo, range.hi);
+    }
+}
+
+static void offer_material(const struct scene_file *file, const struct ceduo_material *m, struct fit_wish *to)
+{
+    for (size_t k = 0; k < KEYS; k++) {
+        char path[FIT_PATH_ROOM];
+        struct range range = ceduo_range_of_material(m, keys[k]);
+        snprintf(path, sizeof path, "slope.materials[%s].%s", m->name, keys[k]);
+        if (law_knows(file, k))
+            offer(file, to, path, range.lo, range.hi);
+    }
+}
+
+static void offer_materials(const struct scene_file *file, const struct node *rows, struct fit_wish *to)
+{
+    size_t n;
+    const struct ceduo_material *library = ceduo_materials(&n);
+    for (size_t m = 0; m < n; m++) {
+        bool there = false;
+        for (size_t i = 0; i < rows->n; i++) {
+            const char *name = ceduo_node_text(rows->items[i], "material");
+            there |= name && strcmp(name, library[m].name) == 0;
+        }
+        if (there)
+            offer_material(file, &library[m], to);
+    }
+}
+
+void ceduo_fit_offer(const struct scene_file *file, struct fit_wish *to)
+{
+    const struct node *rows = ceduo_node_get(ceduo_node_get(file->root, "slope"), "materials");
+    uint64_t own = file->scene.simulation.rocks;
+    *to = (struct fit_wish){.rocks = own > 0 && own < CEDUO_CALIBRATION_ROCKS ? own : CEDUO_CALIBRATION_ROCKS};
+    offer_named(file, to);
+    if (to->n > 0)
+        return;
+    if (!file->ground_assumed && file->scene.slope.segments_given == 0 && rows && rows->kind == NODE_LIST)
+        offer_materials(file, rows, to);
+    else
+        offer_everywhere(file, to);
+}
+
+bool ceduo_fit_has_seen(const struct scene_file *file)
+{
+    for (size_t i = 0; i < file->observations_count; i++)
+        if (file->observations[i].use == CEDUO_OBSERVED_FIT)
+            return true;
+    return false;
+}
+
+/* ---- fitting ---- */
+
+static bool find_places(struct fit *f)
+{
+    for (size_t i = 0; i < f->wish.n; i++) {
+        f->paths[i] = f->wish.paths[i];
+        const struct field *field = ceduo_input_find(&f->file, f->wish.paths[i], &f->inputs[i]);
+        f->inputs[i].lo = f->wish.lo[i];
+        f->inputs[i].hi = f->wish.hi[i];
+        if (!field)
+            return false;
+    }
+    return true;
+}
+
+enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_wish *wish, const struct fit_run *run,
+                                 struct fit **fit)
+{
+    struct fit *f = *fit = calloc(1, sizeof *f);
+    if (!f) {
+        struct arena arena = file->arena;
+        ceduo_arena_free(&arena);
+        return CEDUO_NO_MEMORY;
+    }
+    f->file = *file;
+    f->wish = *wish;
+    const struct ceduo_calibration_scene scene = {&f->file.scene, f->inputs, file->observations_count, file->observations};
+    const struct ceduo_calibration_def def = {.scenes_count = 1,
+                                              .scenes = &scene,
+                                              .parameters_count = wish->n,
+                                              .rocks = wish->rocks,
+                                              .seed = file->scene.simulation.seed,
+                                              .threads = run->threads,
+                                              .cancel = run->cancel,
+                                              .whole = true,
+                                              .progress = run->progress,
+                                              .context = run->context};
+    enum ceduo_status status = find_places(f) ? ceduo_calibrate(&def, &f->answer) : CEDUO_NO_MEMORY;
+    if (status != CEDUO_OK) {
+        ceduo_fit_free(f);
+        *fit = NULL;
+    }
+    return status;
+}
+
+void ceduo_fit_free(struct fit *f)
+{
+    if (!f)
+        return;
+    ceduo_calibration_free(&f->answer);
+    ceduo_arena_free(&f->file.arena);
+    free(f);
+}

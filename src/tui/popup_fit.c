@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which values are fitted to what was seen, and between which bounds? */
+#include <string.h>
+
+#include "base/language.h"
+#include "popup.h"
+#include "popups.h"
+#include "view/report_calibration.h"
+#include "view/typed.h"
+
+#define FILLED 4 /* values that are offered with their range; to fit more at once takes long, and is for who wants it */
+
+/* ---- bounds ---- */
+
+static void put_bounds(struct text *text, const struct fit_wish *w, size_t i)
+{
+    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo), ceduo_shown_number(w->fields[i], w->hi[i], hi));
+}
+
+/* One end in the unit that is shown; false where it is none, which is said. */
+static bool read_end(struct app *app, const struct field *field, const char *typed, double *end)
+{
+    struct text value = {0}, why = {0};
+    double plain;
+    bool number = ceduo_typed_number(typed, &plain) == CEDUO_NUMBER_GOOD, good = number && ceduo_typed_in_range(field, typed, &why);
+    ceduo_typed_value(field, typed, &value);
+    good = good && value.bytes && ceduo_number_read(value.bytes, end) == CEDUO_NUMBER_GOOD;
+    if (!number)
+        ceduo_app_warn(app, "%s", _("bounds are two numbers, as 0.3:0.4; an empty field is not fitted"));
+    else if (!good)
+        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
+    ceduo_text_free(&value);
+    ceduo_text_free(&why);
+    return good;
+}
+
+static bool read_bounds(struct app *app, const struct popup *p, size_t i, const struct field *field, double *lo, double *hi)
+{
+    char typed[sizeof p->fields[i].text];
+    snprintf(typed, sizeof typed, "%s", p->fields[i].text);
+    char *colon = strchr(typed, ':');
+    const char *second = colon ? colon + 1 : "";
+    if (colon)
+        *colon = '\0';
+    if (!read_end(app, field, typed, lo) || !read_end(app, field, second, hi))
+        return false;
+    if (*lo < *hi)
+        return true;
+    ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+    return false;
+}
+
+/* ---- the popup ---- */
+
+/* Values that follow are moved into the place of those that are not fitted. */
+static bool read_wish(struct app *app, struct popup *p, struct fit_wish *w)
+{
+    struct fit_wish all;
+    ceduo_fit_offer(&app->document.file, &all);
+    *w = (struct fit_wish){.rocks = all.rocks};
+    for (size_t i = 0; i < all.n; i++) {
+        if (p->fields[i].text[0] == '\0')
+            continue;
+        if (!read_bounds(app, p, i, all.fields[i], &w->lo[w->n], &w->hi[w->n]))
+            return false;
+        snprintf(w->paths[w->n], sizeof w->paths[w->n], "%s", all.paths[i]);
+        w->fields[w->n++] = all.fields[i];
+    }
+    if (w->n == 0)
+        ceduo_app_warn(app, "%s", _("nothing is to be fitted: give one value its bounds, as 0.3:0.4"));
+    return w->n > 0;
+}
+
+static bool filled_fit(struct app *app, struct popup *p)
+{
+    struct fit_wish wish;
+    if (!read_wish(app, p, &wish))
+        return false;
+    ceduo_figures_fit(&app->figures, &app->document.file, &wish);
+    return true;
+}
+
+static void put_about(struct popup *p, const struct fit_wish *w)
+{
+    ceduo_text_format(&p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
+                      (unsigned long long)w->rocks);
+    for (size_t i = FILLED; i < w->n; i++) {
+        ceduo_text_put(&p->text, i == FILLED ? " " : "; ");
+        if (i == FILLED)
+            ceduo_text_format(&p->text, "%s ", _("Usual bounds of the others:"));
+        ceduo_calibration_name(&p->text, w->paths[i], w->fields[i]);
+        ceduo_text_char(&p->text, ' ');
+        put_bounds(&p->text, w, i);
+    }
+}
+
+void ceduo_popup_fit(struct app *app)
+{
+    struct fit_wish wish;
+    ceduo_fit_offer(&app->document.file, &wish);
+    struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
+    if (!p)
+        return;
+    put_about(p, &wish);
+    for (size_t i = 0; i < wish.n; i++) {
+        struct text label = {0}, bounds = {0};
+        ceduo_calibration_name(&label, wish.paths[i], wish.fields[i]);
+        if (i < FILLED)
+            put_bounds(&bounds, &wish, i);
+        ceduo_popup_field(p, ceduo_text_string(&label), ceduo_text_string(&bounds));
+        ceduo_text_free(&label);
+        ceduo_text_free(&bounds);
+    }
+}

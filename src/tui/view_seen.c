@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* View 8: what was seen beside what is simulated, and a fit to it that goes on while one looks. */
+#include <math.h>
+
+#include "app.h"
+#include "base/language.h"
+#include "base/utf8.h"
+#include "model/keep_fit.h"
+#include "popups.h"
+#include "view/report_calibration.h"
+#include "view/words.h"
+
+#define PICTURE_LEAST 8
+#define RANGE         "\xe2\x80\x93"
+
+/* ---- rows: observed, simulated with its band ---- */
+
+#define SEEN_WIDTH 8
+#define BAND_WIDTH 11
+#define WORD_WIDTH 7
+#define NAME_WIDTH(width) ((width) - SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
+
+/* A cell of at least so many columns. */
+static void put_cell(struct text *row, const char *string, int columns, bool right)
+{
+    int blank = columns - (int)ceduo_utf8_width(string);
+    blank = blank > 0 ? blank : 0;
+    ceduo_text_format(row, "%*s%s%*s", right ? blank : 0, "", string, right ? 0 : blank, "");
+}
+
+/* A name that has no room stands in a line above. */
+static void put_row(struct text *row, int width, const char *name, const char *seen, const char *band, const char *word)
+{
+    int columns = NAME_WIDTH(width);
+    bool fits = (int)ceduo_utf8_width(name) <= columns;
+    if (!fits)
+        ceduo_text_format(row, "%s\n", name);
+    put_cell(row, fits ? name : "", columns, false);
+    ceduo_text_char(row, ' ');
+    put_cell(row, seen, SEEN_WIDTH, true);
+    ceduo_text_char(row, ' ');
+    put_cell(row, band, BAND_WIDTH, true);
+    ceduo_text_format(row, " %s\n", word);
+}
+
+static const char *unit_of(enum ceduo_observed_kind kind)
+{
+    switch (kind) {
+    case CEDUO_OBSERVED_PASSED:
+        return "";
+    case CEDUO_OBSERVED_SPEED:
+    case CEDUO_OBSERVED_LARGEST_SPEED:
+    case CEDUO_OBSERVED_WAY_SPEED:
+        return "m/s";
+    case CEDUO_OBSERVED_ENERGY:
+    case CEDUO_OBSERVED_WAY_ENERGY:
+        return "kJ";
+    default:
+        return "m";
+    }
+}
+
+static void put_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
+{
+    if (o->kind == CEDUO_OBSERVED_PASSED)
+        ceduo_text_format(text, "%.0f", value);
+    else
+        ceduo_words_number(text, ceduo_seen_shown(o->kind, value, origin), 3);
+}
+
+static void put_observation(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
+{
+    const struct ceduo_observation *o = &file->observations[p->observation];
+    double origin = file->scene.slope.origin_x;
+    struct text name = {0}, seen = {0}, band = {0};
+    ceduo_text_safe(&name, o->name);
+    if (o->use == CEDUO_OBSERVED_CHECK)
+        ceduo_text_format(&name, " %s", _("(check)"));
+    put_number(&seen, o, p->seen, origin);
+    ceduo_text_format(&seen, "%s%s", unit_of(o->kind)[0] ? " " : "", unit_of(o->kind));
+    put_number(&band, o, p->lo, origin);
+    ceduo_text_put(&band, RANGE);
+    put_number(&band, o, p->hi, origin);
+    put_row(text, width, ceduo_text_string(&name), ceduo_text_string(&seen), isnan(p->lo) ? "-" : ceduo_text_string(&band),
+            p->inside ? _("inside") : _("OUTSIDE"));
+    ceduo_text_free(&name);
+    ceduo_text_free(&seen);
+    ceduo_text_free(&band);
+}
+
+static void put_rows(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
+{
+    put_row(text, width, _("mean or count"), _("seen"), _("sim., 95 %"), "");
+    for (size_t i = 0; i < file->observations_count; i++)
+        put_observation(text, file, &p[i], width);
+    ceduo_text_char(text, '\n');
+}
+
+/* ---- words ---- */
+
+/* Of each list and count by its probability, which sees the form of a list, too. */
+static void put_misfits(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p)
+{
+    struct text bad = {0};
+    for (size_t i = 0; i < file->observations_count; i++) {
+        if (p[i].p_value >= CEDUO_MISFIT)
+            continue;
+        if (bad.length > 0)
+            ceduo_text_put(&bad, "; ");
+        ceduo_text_safe(&bad, file->observations[i].name);
+        if (isnan(p[i].p_value))
+            ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
+        else
+            ceduo_text_format(&bad, " (p %s)", p[i].p_value < 0.001 ? "<.001" : WRITTEN(p[i].p_value, 2));
+    }
+    if (bad.length > 0)
+        ceduo_text_format(text, _("The scene as it is does not give what was seen: %s.\n"), ceduo_text_string(&bad));
+    else
+        ceduo_text_put(text, _("The scene as it is can give all that was seen.\n"));
+    text->failed |= bad.failed;
+    ceduo_text_free(&bad);
+}
+
+static void say_as_it_is(struct app *app, struct text *text, int width)
+{
+    const struct scene_file *file = &app->document.file;
+    const struct sighted *s = ceduo_figures_sighted(&app->figures, file);
+    if (!s) {
+        ceduo_text_put(text, _("not computed yet"));
+        return;
+    }
+    put_rows(text, file, s->predicted, width);
+    put_misfits(text, file, s->predicted);
+    if (ceduo_fit_has_seen(file))
+        ceduo_text_put(text, _("c fits the ground to what was seen; only a fit says what of it is determined.\n"));
+    ceduo_text_format(text, _("Simulated: %llu rocks.\n"), (unsigned long long)s->rocks);
+}
+
+static void put_best(struct text *text, const struct fit_wish *w, size_t i, double best)
+{
+    ceduo_calibration_name(text, w->paths[i], w->fields[i]);
+    ceduo_text_char(text, ' ');
+    ceduo_calibration_number(text, w->fields[i], best);
+}
+
+static void say_fitting(const struct figures *f, struct text *text)
+{
+    const struct ceduo_calibration_state *s = &f->fit_state;
+    ceduo_text_put(text, _("A fit is under way. Esc stops it, and nothing of it is kept.\n"));
+    if (s->evaluations == 0)
+        return;
+    if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
+        ceduo_text_format(text, _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200).\n"),
+                          (unsigned long long)s->evaluations, s->rhat, s->effective_size);
+    else
+        ceduo_text_format(text, _("%llu scenes; log-likelihood %.2f.\n"), (unsigned long long)s->evaluations, s->log_likelihood);
+    ceduo_text_put(text, _("The best values so far:\n"));
+    for (size_t i = 0; i < f->wish.n; i++) {
+        ceduo_text_put(text, "  ");
+        put_best(text, &f->wish, i, s->best[i]);
+        ceduo_text_char(text, '\n');
+    }
+}
+
+static struct ceduo_calibration_report report_of(const struct fit *f)
+{
+    return (struct ceduo_calibration_report){.scenes_count = 1,
+                                             .files = &f->file,
+                                             .paths = f->paths,
+                                             .fields = f->wish.fields,
+                                             .rocks = f->wish.rocks,
+                                             .seed = f->file.scene.simulation.seed,
+                                             .answer = &f->answer};
+}
+
+static void say_fit(const struct fit *f, struct text *text, int width)
+{
+    const struct ceduo_calibration_report r = report_of(f);
+    ceduo_text_put(text, _("Fitted. Enter takes these values into the scene, Esc leaves it as it is.\n"));
+    for (size_t i = 0; i < f->wish.n; i++) {
+        const struct ceduo_fitted *one = &f->answer.parameters[i];
+        ceduo_text_put(text, "  ");
+        put_best(text, &f->wish, i, one->best);
+        ceduo_text_put(text, " (");
+        ceduo_calibration_number(text, f->wish.fields[i], one->p2_5);
+        ceduo_text_put(text, RANGE);
+        ceduo_calibration_number(text, f->wish.fields[i], one->p97_5);
+        ceduo_text_put(text, ")");
+        if (!one->determined)
+            ceduo_text_format(text, ", %s", _("not determined"));
+        ceduo_text_char(text, '\n');
+    }
+    ceduo_text_char(text, '\n');
+    put_rows(text, &f->file, f->answer.predicted, width);
+    ceduo_calibration_words(text, &r, (size_t)width);
+}
+
+static void say_nothing_seen(struct text *text)
+{
+    ceduo_text_put(text, _("This scene does not say what was seen on its slope.\n\n"));
+    ceduo_text_put(text, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: what of it "
+                           "is known is written into the scene's file, for example:\n\n"));
+    ceduo_text_put(text, "observed:\n  - stops: {x_m: [41, 44.5, 52, 61], of: 6}\n  - passed: {x_m: 60, count: 2, of: 6}\n\n");
+    ceduo_text_put(text, _("That is four rocks that stopped, of six released, and two of six that passed a road. All kinds stand in "
+                           "man ceduo-scene. Here it is then compared with simulated rocks, and c fits the ground to it.\n"));
+}
+
+/* ---- drawing ---- */
+
+/* Stops of the option that is shown, otherwise the first there are; NULL: none. */
+static const struct ceduo_seen_stops *stops_of(const struct app *app, const struct sighted *s)
+{
+    const struct ceduo_seen_stops *first = NULL;
+    for (size_t i = 0; s && i < s->file.observations_count; i++) {
+        if (!s->stops[i].known)
+            continue;
+        if (s->file.observations[i].option == app->option)
+            return &s->stops[i];
+        first = first ? first : &s->stops[i];
+    }
+    return first;
+}
+
+static void draw_text(struct app *app, struct ceduo_area area, struct text *text)
+{
+    if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, ceduo_text_string(text), &ceduo_app_state(app)->scroll))
+        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
+    ceduo_text_free(text);
+}
+
+static void draw(struct app *app, struct ceduo_area area)
+{
+    const struct scene_file *file = &app->document.file;
+    const struct figures *f = &app->figures;
+    const struct ceduo_seen_stops *stops = stops_of(app, ceduo_figures_sighted(f, file));
+    struct text text = {0};
+    area.width -= 2; /* the mark of more below stands beside the text */
+    if (file->observations_count == 0)
+        say_nothing_seen(&text);
+    else if (f->fitting)
+        say_fitting(f, &text);
+    else if (f->fit)
+        say_fit(f->fit, &text, area.width);
+    else
+        say_as_it_is(app, &text, area.width);
+    int most = area.height - ceduo_app_text_lines(app, ceduo_text_string(&text), area.width) - 1;
+    int height = most > area.height / 2 ? most : area.height / 2;
+    if (stops && height >= PICTURE_LEAST) {
+        struct ceduo_area top = {area.left, area.top, area.width, height};
+        ceduo_plot_seen(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
+        area.top += height + 1;
+        area.height -= height + 1;
+    }
+    draw_text(app, area, &text);
+}
+
+/* ---- keys ---- */
+
+static void start(struct app *app)
+{
+    if (app->document.file.observations_count == 0)
+        ceduo_app_warn(app, "%s", _("nothing was seen here that could be fitted: write it under 'observed' in the scene's file"));
+    else if (!ceduo_fit_has_seen(&app->document.file))
+        ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
+    else
+        ceduo_popup_fit(app);
+}
+
+/* The best values into the scene, as one edit. */
+static void take(struct app *app)
+{
+    const struct fit *f = app->figures.fit;
+    if (!f) {
+        ceduo_app_say(app, "%s", app->figures.fitting ? _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
+        return;
+    }
+    const struct ceduo_calibration_report r = report_of(f);
+    struct text source = {0};
+    double best[CEDUO_CALIBRATION_MOST];
+    for (size_t i = 0; i < f->wish.n; i++)
+        best[i] = f->answer.parameters[i].best;
+    ceduo_calibration_sources(&source, &r);
+    const struct fit_values values = {f->wish.n, f->inputs, f->wish.fields, best, ceduo_text_string(&source), NULL};
+    bool good = !source.failed && ceduo_keep_fit(&app->document, &values, &app->problems);
+    if (ceduo_app_edited(app, good))
+        ceduo_app_say(app, "%s", _("the fitted values are the scene's now; u takes them back"));
+    ceduo_text_free(&source);
+}
+
+static void stop(struct app *app)
+{
+    if (app->figures.fitting)
+        ceduo_app_say(app, "%s", _("the fit is stopped; the scene is as it was"));
+    else if (app->figures.fit)
+        ceduo_app_say(app, "%s", _("the scene is left as it was"));
+    ceduo_figures_drop_fit(&app->figures);
+}
+
+static bool act(struct app *app, enum action action)
+{
+    switch (action) {
+    case ACTION_COUNTS: start(app); return true;
+    case ACTION_EDIT: take(app); return true;
+    case ACTION_STOP: stop(app); return true;
+    default: return false;
+    }
+}
+
+const struct view ceduo_view_seen = {
+    .title = NP_("view", "seen"), .panes = 1, .seen = true, .draw = draw, .act = act,
+    .bar = {{ACTION_COUNTS, N_("fit")}, {ACTION_EDIT, N_("take the fit")}, {ACTION_STOP, N_("leave it")},
+            {ACTION_DOWN, N_("read on")}, {ACTION_NEXT_OPTION, N_("next option")}}};
