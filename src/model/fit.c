@@ -12,13 +12,22 @@
 
 /* ---- what may be fitted ---- */
 
+/* mu acts through the shape of the rock, in one law; only rocks of two shapes tell it. */
+static bool is_told(const struct scene_file *file, const struct field *field)
+{
+    const struct ceduo_calibration_scene scene = {.observations_count = file->observations_count, .observations = file->observations,
+                                                  .scene = &file->scene};
+    return strcmp(field->key, "mu") != 0 ||
+           (file->scene.simulation.law == CEDUO_LAW_ARM && ceduo_calibration_tells_mu(&scene, 1));
+}
+
 static void offer(const struct scene_file *file, struct fit_wish *to, const char *path, double lo, double hi)
 {
     struct scene_file own = *file;
     struct ceduo_input input = {0};
     own.arena = (struct arena){.shelf = file->arena.shelf};
     const struct field *field = ceduo_input_find(&own, path, &input);
-    bool there = field && input.places_count > 0;
+    bool there = field && input.places_count > 0 && is_told(file, field);
     ceduo_arena_free(&own.arena);
     if (!there || to->n == CEDUO_CALIBRATION_MOST || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
         return;

@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""View 8: what was seen beside what is simulated; c fits values to it, Enter takes them as one edit, Esc keeps nothing."""
+import math
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import Place, check_good  # noqa: E402
+from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
+
+# Rocks leave a cliff and fly; all do the same. At x = 20 they have flown 20 / v seconds.
+FLIGHT = """\
+ceduo: scene/1
+title: flight
+rock: {shape: sphere, diameter_m: 0.5}
+release: {height_m: 1, vx_m_s: 10}
+slope:
+  vertices_m: [[0, 100], [1, 0], [60, 0]]
+  segments: [{rn: 0.3, rt: 0.9, roughness_rad: 0, friction: 0.5}]
+controls: [{x_m: 20, name: gate}]
+forest: []
+"""
+SEEN = """\
+observed:
+  - {name: gate speed, speed: {x_m: 20, n: 5, mean: 22.0, sd: 0.5}}
+  - {name: too slow, speed: {x_m: 20, n: 5, mean: 20, sd: 0.5}, use: check}
+  - {name: all pass, passed: {x_m: 20, count: 10, of: 10}}
+  - {name: few pass and nobody knows why, passed: {x_m: 20, count: 6, of: 10}, use: check}
+doubt: [{path: release.vx_m_s, lo: 5, hi: 15}]
+simulation: {rocks: 100}
+"""
+# A slope on which rocks stop; two grounds of the library.
+GROUNDS = """\
+ceduo: scene/1
+title: grounds
+rock: {shape: block, axes_m: [0.9, 0.7, 0.6], density_kg_m3: 2600}
+release: {height_m: 2, vx_m_s: 0.5}
+slope:
+  vertices_m: [[0, 62], [25, 33], [60, 9], [85, 3], [200, 1]]
+  materials:
+    - {from_m: 0, to_m: 60, material: cliff}
+    - {from_m: 60, to_m: 200, material: %s}
+controls: [{x_m: 85, name: meadow}]
+forest: []
+observed:
+  - stops: {x_m: [80, 95, 100, 104, 110, 118], of: 6}
+simulation: {rocks: 60}
+"""
+G = 9.81
+
+
+def test_nothing_seen():
+    """A scene without observations says so and how to add them, computes nothing, and c fits nothing"""
+    with Place() as place:
+        for size in ("80 24", "200 50"):
+            view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
+            says(view, "This scene does not say what was seen on its slope.", "observed:", "c fits the ground to it.")
+            view.lacks("not computed yet", "fallin")
+            key.whole().has("write it under 'observed'").lacks("What is fitted")
+        example = re.search(r"observed:\n(  - .*\n)+", view.body + "\n").group()
+        place.write("seen.yaml", FLIGHT.replace("[60, 0]", "[100, 0]") + "\n".join(line.rstrip() for line in example.split("\n")))
+        check_good(place.path, "seen.yaml")
+
+
+def says(screen, *parts):
+    """Each part is in the view's own text, however that is wrapped."""
+    flat = " ".join(screen.whole().body.split())
+    for part in parts:
+        expect(part in flat, f"{part!r} is missing in the", screen)
+
+
+def speed_at_gate(v):
+    return math.hypot(v, G * 20 / v)
+
+
+def test_rows():
+    """Means and counts beside the closed form: 95 % of the error of what was seen around the flight's speed, all pass"""
+    with Place() as place:
+        place.write("flight.yaml", FLIGHT + SEEN)
+        screens = place.play("key 8\nwait idle\ndump\nresize 200 50\ndump", "flight.yaml")
+    half = 1.96 * 0.5 / math.sqrt(5)
+    lo, hi = (speed_at_gate(10) + side * half for side in (-1, 1))
+    for screen in screens:
+        screen.whole()
+        for name, seen, word in (("gate speed", "22.0", "inside"), ("too slow", "20.0", "OUTSIDE")):
+            row = re.search(rf"^{name}.* {seen} m/s +([\d.]+)–([\d.]+) {word}$", screen.body, re.M)
+            expect(row, f"the row {name} with {word} in", screen)
+            for found, wanted in zip(row.groups(), (lo, hi)):
+                expect(abs(float(found) - wanted) < 0.09, f"{found}, {wanted:.2f} wanted", screen)
+        expect(re.search(r"^all pass +10 +10–10 inside$", screen.body, re.M), screen)
+        expect(re.search(r"^(few pass and nobody knows why \(check\))?\s+6 +10–10 OUTSIDE$", screen.body, re.M), screen)
+        says(screen, "few pass and nobody knows why (check)", "does not give what was seen: too slow (p <.001); few pass and nobody",
+                   "only a fit says what of it is determined.", "Simulated: 2000 rocks.")
+
+
+def test_fit_taken():
+    """c fits what 'doubt' names; the speed that gives 22 m/s at the gate; Enter takes it as one edit, u takes it back"""
+    with Place() as place:
+        place.write("flight.yaml", FLIGHT + SEEN)
+        popup, fitted, large, taken, saved, undone = place.play(
+            "key 8\nwait idle\nkey c\ndump\nkey Enter\nwait idle\ndump\nresize 200 50\ndump\nkey Enter\nwait idle\ndump\n"
+            "key s\nwait idle\ndump\nkey u\nwait idle\ndump", "flight.yaml")
+        text = place.text("flight.yaml")
+    expect_in("speed along, m/s", popup.popup)
+    expect_in("5:15", popup.popup)
+    slope = 1.96 * 0.5 / math.sqrt(5) / 1.30  # of the speed at the gate along v at 10 m/s: (v - (20 g)² / v³) / 22
+    for screen in (fitted, large):
+        best, lo, hi = map(float, re.search(r"speed along, m/s ([\d.]+) \(([\d.]+)–([\d.]+)\)", screen.body).groups())
+        expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
+        says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
+    says(large, "The model can give all that it was fitted to.", "a hundred metres beside it may be another.")
+    expect_in("u takes them back", taken.note)
+    expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
+    value = re.search(r"vx_m_s: *([\d.]+)", text)
+    expect(value and abs(speed_at_gate(float(value.group(1))) - 22) < 0.05, "the value in the file", text)
+    expect_in("kind: calibrated", text)
+    expect_in("undone: fitted values", undone.note)
+    expect("Fitted." not in undone.body, undone)
+
+
+def test_fit_left():
+    """Esc while it goes on, Esc once it is done, and an edit meanwhile keep nothing of a fit"""
+    with Place() as place:
+        place.write("flight.yaml", FLIGHT + SEEN)
+        stopped, done, left, edited = place.play(
+            "key 8\nwait idle\nkey c Enter Esc\nwait idle\ndump\nkey c Enter\nwait idle\ndump\nkey Esc\nwait idle\ndump\n"
+            "key c Enter\nkey 3\nfind rock.diameter_m\nset 0.6\nkey 8\nwait idle\ndump", "flight.yaml")
+        expect_equal(place.text("flight.yaml"), FLIGHT + SEEN)
+    done.has("Fitted.")
+    for screen in (stopped, left):
+        expect("*" not in screen.title and "Fitted." not in screen.body, screen)
+    expect_in("the scene is left as it was", left.note)
+    edited.lacks("Fitted.", "under way").has("Simulated: 2000 rocks.")
+
+
+def test_bounds():
+    """Bounds that are none, wrong way round or out of range are told, and nothing is fitted; all empty likewise"""
+    with Place() as place:
+        place.write("flight.yaml", FLIGHT + SEEN)
+        for typed, said in (("ten", "bounds are two numbers"), ("5", "bounds are two numbers"), ("9:5", "the smaller first"),
+                            ("5:5000", "5000"), ("", "nothing is to be fitted")):
+            wrong, = place.play(f"key 8\nwait idle\nkey c Ctrl-U\n{'type ' + typed if typed else ''}\nkey Enter\nwait idle\ndump",
+                                "flight.yaml")
+            expect_in(said, wrong.popup)
+        comma, = place.play("key 8\nwait idle\nkey c Ctrl-U\ntype 9,5:10,5\nkey Enter\nwait idle\ndump", "flight.yaml")
+        comma.has("Fitted.")
+
+
+def test_grounds():
+    """Without a named range the grounds are offered, each with its own name; the picture of stops; nothing is cut"""
+    with Place() as place:
+        place.write("two.yaml", GROUNDS % "talus")
+        place.write("length.yaml", re.sub(r"  materials:\n.*\n.*\n", "  segments: [{rn: 0.35, rt: 0.85, roughness_m: 0.1}]\n",
+                                          GROUNDS))
+        place.write("arm.yaml", GROUNDS.replace("rocks: 60", "rocks: 60, law: arm") % "talus")
+        place.write("ground.csv", "x,z\n0,62\n25,33\n60,9\n85,3\n200,1\n")
+        place.write("unsaid.yaml", re.sub(r"slope:\n.*\n  materials:\n.*\n.*\n", "slope: {csv: ground.csv}\n", GROUNDS))
+        place.write("check.yaml", (GROUNDS % "talus").replace("of: 6}", "of: 6}\n    use: check"))
+        look, wide, popup = place.play("key 8\nwait idle\ndump\nresize 200 50\ndump\nkey c\ndump", "two.yaml")
+        length, = place.play("key 8\nresize 200 50\nkey c\ndump", "length.yaml")
+        place.write("mu.yaml", (GROUNDS % "talus").replace("slope:", "doubt: [{path: 'slope.materials[talus].mu', lo: 0.4, hi: 0.9}]\nslope:")
+                    .replace("rocks: 60", "rocks: 60, law: arm"))
+        mu, = place.play("key 8\nresize 200 50\nkey c\ndump", "mu.yaml")
+        expect("friction, talus" in mu.popup and "0.4:0.9" not in mu.popup, "one shape does not tell mu; the grounds are offered:", mu)
+        arm, = place.play("key 8\nresize 200 50\nkey c\ndump", "arm.yaml")
+        unsaid, = place.play("key 8\nresize 200 50\nkey c\ndump", "unsaid.yaml")
+        check, = place.play("key 8\nkey c\ndump", "check.yaml")
+    for screen in (look, wide):
+        screen.whole().has("farther:", "1.0┤", "0.0┤")
+        expect(re.search(r"^stops +101 m .*(inside|OUTSIDE)$", screen.body, re.M), screen)
+    popup.has("bounce Rn, cliff", "Usual bounds of the others: bounce Rn, talus")
+    length.has("roughness, m", "0.05:0.15")
+    expect("slide Rt" not in arm.popup and "friction, cliff" in arm.popup, "arm knows no rt:", arm)
+    usual = dict(re.findall(r"(bounce Rn|slide Rt), talus ([\d.:]+)", popup.popup))
+    for name in ("bounce Rn", "slide Rt"):
+        expect(re.search(rf"{name} +{usual[name]}", unsaid.popup), f"{name} of talus, {usual[name]}, where nothing is said", unsaid)
+    check.has("all that was seen is to check a fit").lacks("What is fitted")
+
+
+def test_quarry():
+    """The quarry: its first guess does not give the 50 stops; a fit of two values does, and is taken"""
+    with Place() as place:
+        small, large, fitted, taken = place.play(
+            "key 8\nwait idle\ndump\nresize 200 50\ndump\nkey c Enter Enter Ctrl-U Backspace Enter Ctrl-U Backspace Enter\n"
+            "wait idle\ndump\nkey Enter\nwait idle\ndump", "quarry")
+    for screen in (small, large):
+        says(screen, "farther:", "does not give what was seen: stops")
+        expect(re.search(r"^stops +121 m .* OUTSIDE$", screen.body, re.M), screen)
+    says(fitted, "bounce Rn", "slide Rt", "The model can give all that it was fitted to.")
+    says(taken, "The scene as it is can give all that was seen.")
+    expect(re.search(r"^stops +121 m .* inside$", taken.body, re.M), taken)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
