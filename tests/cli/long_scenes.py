@@ -83,7 +83,7 @@ class Running:
     def work(self, seconds):
         """Lets it work so long, a terminal program from its first screen on; it must not be done."""
         if self.fd is not None:
-            self.read(PATIENCE, b"presets")
+            self.read(PATIENCE, b"quit")
             self.read(seconds)
         else:
             time.sleep(seconds)
