@@ -317,6 +317,7 @@ def test_escape():
 def test_editing_line():
     """The line of a field: cursor, deleting, UTF-8, and the first letter that replaces all."""
     screens = fast("""key 3
+        resize 100 24
         find title
         key Enter
         type Über dem Weg

@@ -158,7 +158,9 @@ def test_grounds():
         place.write("ground.csv", "x,z\n0,62\n25,33\n60,9\n85,3\n200,1\n")
         place.write("unsaid.yaml", re.sub(r"slope:\n.*\n  materials:\n.*\n.*\n", "slope: {csv: ground.csv}\n", GROUNDS))
         place.write("check.yaml", (GROUNDS % "talus").replace("of: 6}", "of: 6}\n    use: check"))
-        look, wide, popup = place.play("key 8\nwait idle\ndump\nresize 200 50\ndump\nkey c\ndump", "two.yaml")
+        look, smallest, wide, popup = place.play(
+            "key 8\nwait idle\ndump\nresize 60 20\ndump\nresize 200 50\ndump\nkey c\ndump", "two.yaml")
+        smallest.whole().has("mean or count")
         length, = place.play("key 8\nresize 200 50\nkey c\ndump", "length.yaml")
         place.write("mu.yaml", (GROUNDS % "talus").replace("slope:", "doubt: [{path: 'slope.materials[talus].mu', lo: 0.4, hi: 0.9}]\nslope:")
                     .replace("rocks: 60", "rocks: 60, law: arm"))
