@@ -176,6 +176,24 @@ static bool add_trees(struct app *app, const struct item *item)
                                                &app->problems);
 }
 
+/* A class of blocks larger than those there are, ten times as rare; where there are none, a power law. */
+static bool add_blocks(struct app *app, const struct item *item)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    char class[160];
+    double largest = 0, per_year = 0;
+    for (size_t i = 0; i < s->blocks_count; i++)
+        if (s->blocks[i].volumes[1] > largest) {
+            largest = s->blocks[i].volumes[1];
+            per_year = s->blocks[i].per_year;
+        }
+    if (item->there && !(largest > 0))
+        return copy_item(app, item);
+    snprintf(class, sizeof class, "{per_year: %.4g, volume_m3: [%.10g, %.10g]}", per_year / 10, largest, 10 * largest);
+    return ceduo_document_insert(&app->document, item->list, item->there ? s->blocks_count : 0,
+                                 item->there ? class : "{per_year: 1, volume_m3: [0.05, 1], exponent: 1}", &app->problems);
+}
+
 /* ---- deleting ---- */
 
 /* The stools go with their last shoots. */
@@ -209,6 +227,8 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
         return ceduo_document_remove_vertex(&app->document, item->index, &app->problems);
     if (strcmp(item->key, "materials") == 0 && list && list->n > 1)
         return delete_ground(app, item, path);
+    if (strcmp(item->list, "blocks") == 0 && list && list->n == 1)
+        return ceduo_document_delete(&app->document, item->list, &app->problems);
     if (strcmp(item->key, "shoots") == 0 && list && list->n == 1)
         return delete_shoots(app, item);
     return ceduo_document_delete(&app->document, path, &app->problems);
@@ -237,7 +257,8 @@ static const struct {
              {"segments", split_segment, split_segment},
              {"vertices_m", split_point, split_point},
              {"shoots", add_shoots, copy_item},
-             {"trees", add_trees, copy_item}};
+             {"trees", add_trees, copy_item},
+             {"blocks", add_blocks, add_blocks}};
 
 static item_function *function_for(const struct item *item, bool add)
 {

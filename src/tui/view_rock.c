@@ -11,6 +11,23 @@ static void add(struct app *app, struct form *form, const char *group, const cha
     ceduo_form_field(form, &app->document, f->object, group, key, NULL);
 }
 
+/* What comes down: a power law, or a list of classes. */
+static void build_blocks(struct app *app, struct form *form)
+{
+    static const char *const columns[] = {"per_year", "volume_m3", "exponent", NULL};
+    const struct document *d = &app->document;
+    const struct node *blocks = ceduo_document_node(d, "blocks");
+    const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "blocks")->object;
+    ceduo_form_heading(form, _("Blocks that come down"));
+    if (blocks && blocks->kind == NODE_MAP)
+        for (size_t i = 0; columns[i]; i++)
+            ceduo_form_field(form, d, object, "blocks", columns[i], NULL);
+    else
+        ceduo_form_table(form, d, object, "blocks", columns, "");
+    add(app, form, "design", "survey");
+    add(app, form, "design", "blocks");
+}
+
 static void build(struct app *app, struct form *form)
 {
     enum ceduo_shape shape = app->document.file.scene.rock.shape;
@@ -44,6 +61,7 @@ static void build(struct app *app, struct form *form)
     add(app, form, "simulation", "seed");
     add(app, form, "simulation", "rocks");
     ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "simulation");
+    build_blocks(app, form);
     ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", NULL);
 }
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
-from play import WOOD, Place, fast  # noqa: E402
+from play import WOOD, Place, check_good, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
 from test_screens import lights  # noqa: E402
 
@@ -460,6 +460,33 @@ def test_cohorts():
     expect_equal(len(trees[3]), 1, "trees after a on the empty list")
     expect_equal(screens[4].row("^stools per ha")[-1], "-", "stools go with their last shoots")
     expect(float(screens[5].row("^stools per ha")[-1]) > 0, "stools come with the first shoots")
+
+
+def test_blocks():
+    """What comes down: a adds a power law, then a class ten times as large and as rare; d takes them out again."""
+    with Place() as place:
+        none, one, two, gone, saved = place.play("""resize 120 60
+            key 3
+            dump
+            find design.survey
+            key Up a
+            dump
+            key a
+            dump
+            key d d
+            dump
+            key u u
+            find design.survey
+            set good
+            key s
+            dump""", "fast.yaml")
+        expect_in("none; a adds one", none.body, "no blocks")
+        found = [re.findall(r"^\d +(\S+) +(\S+ \S+) +(\S+)$", s.body.split("Blocks that come down")[1], re.M) for s in (one, two)]
+        expect_equal(found, [[("1", "0.05 1", "1")], [("1", "0.05 1", "1"), ("0.1", "1 10", "-")]], "blocks")
+        expect_in("none; a adds one", gone.body, "after d d")
+        check_good(place.path, "fast.yaml")
+        for words in ("volume_m3: [0.05, 1]", "volume_m3: [1, 10]", "survey: good"):
+            expect_in(words, place.text("fast.yaml"), saved.note)
 
 
 def test_segments():
