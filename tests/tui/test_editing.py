@@ -477,7 +477,9 @@ def test_blocks():
             dump
             key u u
             find design.survey
-            set good
+            key Enter
+            type good
+            key Enter
             key s
             dump""", "fast.yaml")
         expect_in("none; a adds one", none.body, "no blocks")
