@@ -26,8 +26,8 @@ struct fit {
     struct ceduo_calibration answer;
 };
 
-/* What may be fitted: values whose range the scene names under `doubt`, or where it names none rn, rt, roughness and friction of its
- * grounds with the ranges of the library of grounds. */
+/* What may be fitted: values whose range the scene names under `doubt`, or where it names none rn, rt, roughness and
+ * friction of its grounds with the ranges of the library of grounds. */
 void ceduo_fit_offer(const struct scene_file *file, struct fit_wish *offer);
 
 /* Whether something was seen that a fit may rest on. */

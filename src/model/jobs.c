@@ -13,7 +13,8 @@
 #include "base/clock.h"
 #include "ceduo/key.h"
 
-enum kind { SEEK, FORESEE, FIGURES, OTHERS, LOOK, FIT, YEARS, DOUBT, KINDS, NONE = KINDS }; /* of two steps as coarse the first goes first */
+/* Of two steps as coarse the first goes first. */
+enum kind { SEEK, FORESEE, FIGURES, OTHERS, LOOK, FIT, YEARS, DOUBT, KINDS, NONE = KINDS };
 
 struct job {
     bool wanted;     /* not done */

@@ -166,7 +166,9 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    enum ceduo_status status = found && values && random ? ceduo_observer_create(scene->observations, n, &observer) : CEDUO_NO_MEMORY;
+    enum ceduo_status status = found && values && random ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)
         status = ceduo_observer_look(observer, scene->scene, rocks, cancel, found);
     if (status == CEDUO_OK)

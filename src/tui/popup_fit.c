@@ -15,7 +15,8 @@
 static void put_bounds(struct text *text, const struct fit_wish *w, size_t i)
 {
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo), ceduo_shown_number(w->fields[i], w->hi[i], hi));
+    ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo),
+                      ceduo_shown_number(w->fields[i], w->hi[i], hi));
 }
 
 /* One end in the unit that is shown; false where it is none, which is said. */
@@ -23,7 +24,8 @@ static bool read_end(struct app *app, const struct field *field, const char *typ
 {
     struct text value = {0}, why = {0};
     double plain;
-    bool number = ceduo_typed_number(typed, &plain) == CEDUO_NUMBER_GOOD, good = number && ceduo_typed_in_range(field, typed, &why);
+    bool number = ceduo_typed_number(typed, &plain) == CEDUO_NUMBER_GOOD;
+    bool good = number && ceduo_typed_in_range(field, typed, &why);
     ceduo_typed_value(field, typed, &value);
     good = good && value.bytes && ceduo_number_read(value.bytes, end) == CEDUO_NUMBER_GOOD;
     if (!number)

@@ -259,7 +259,8 @@ static void draw(struct app *app, struct ceduo_area area)
 static void start(struct app *app)
 {
     if (app->document.file.observations_count == 0)
-        ceduo_app_warn(app, "%s", _("nothing was seen here that could be fitted: write it under 'observed' in the scene's file"));
+        ceduo_app_warn(app, "%s",
+                       _("nothing was seen here that could be fitted: write it under 'observed' in the scene's file"));
     else if (!ceduo_fit_has_seen(&app->document.file))
         ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
     else
@@ -271,7 +272,8 @@ static void take(struct app *app)
 {
     const struct fit *f = app->figures.fit;
     if (!f) {
-        ceduo_app_say(app, "%s", app->figures.fitting ? _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
+        ceduo_app_say(app, "%s", app->figures.fitting ?
+                                     _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
         return;
     }
     const struct ceduo_calibration_report r = report_of(f);
