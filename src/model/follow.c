@@ -166,11 +166,23 @@ static bool is_of_stools(const char *path, const char *key, char *stand, size_t 
     return true;
 }
 
+/* Both surveys are judged or none: the other one is taken as poor, which asks for more. */
+static void follow_design(struct changes *c, const char *path)
+{
+    static const char *const both[2] = {"design.survey", "design.blocks"};
+    for (int i = 0; i < 2; i++)
+        if (strcmp(path, both[i]) == 0 && !ceduo_document_node(c->d, "design")) {
+            ceduo_changes_add(c, "%s=poor", both[1 - i]);
+            ceduo_text_put(&c->followed, _("the other survey is taken as poor"));
+        }
+}
+
 bool ceduo_changes_follow(struct changes *c, const char *path, const char *value)
 {
     char stand[192], room[CEDUO_NUMBER_ROOM];
     double now;
     follow_end(c, path, value);
+    follow_design(c, path);
     bool number = ceduo_number_read(value, &now) == CEDUO_NUMBER_GOOD;
     if (number)
         follow_border(c, path, now);
