@@ -295,9 +295,9 @@ static void put_warnings(struct pen *pen)
     const struct ceduo_option *o = ceduo_app_option(app);
     const struct ceduo_option_result *found = ceduo_app_found(app);
     struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed};
-    ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
+    ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_rules(&o->belts[i], &found->stands[i].rules, add_rule, &w);
     struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, pen->area.top + pen->area.height - pen->y};
