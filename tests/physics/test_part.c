@@ -219,9 +219,10 @@ static void put_count(struct saved *s, size_t at, uint64_t value)
         s->bytes[at + i] = (unsigned char)(value >> 8 * i);
 }
 
-/* Behind the head its first block: contacts, ends and stems, then moments of four numbers each, of the stops, and at the
+/* Behind the head its first block: contacts, ends, two counts of them and stems, then moments of four numbers each, of the stops, and at the
  * control of four quantities and of the stems hit before. */
-enum { AT_END = 8, AT_STOPS = 8 * 8 + 8 * (1 + CEDUO_ENDS + 3), AT_CONTROL = AT_STOPS + 4 * 8, AT_HITS = AT_CONTROL + 4 * 4 * 8 };
+enum { AT_END = 8, AT_UPHILL = 8 * 8 + 8 * (1 + CEDUO_ENDS), AT_STOPS = AT_UPHILL + 8 * (2 + 3), AT_CONTROL = AT_STOPS + 4 * 8,
+       AT_HITS = AT_CONTROL + 4 * 4 * 8 };
 
 static void figures_that_are_none_are_refused(void **state)
 {
@@ -243,6 +244,11 @@ static void figures_that_are_none_are_refused(void **state)
         put_double(&first, rows[i].at, rows[i].value);
         assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
         memcpy(first.bytes + rows[i].at, was, 8);
+    }
+    for (size_t i = 0; i < 2; i++) { /* more that leave uphill than leave, more that are stopped early than are stopped */
+        put_count(&first, AT_UPHILL + 8 * i, ROCKS);
+        assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
+        put_count(&first, AT_UPHILL + 8 * i, 0);
     }
     assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_OK);
     const uint64_t ends[] = {0, CEDUO_BLOCK_ROCKS, 6 * CEDUO_BLOCK_ROCKS, ROCKS + 1}; /* before the first rock, or behind the last */
