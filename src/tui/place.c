@@ -9,7 +9,7 @@
 #include "base/language.h"
 #include "edit.h"
 #include "popup.h"
-#include "view/words.h"
+#include "view/plot_parts.h"
 
 #define ZOOM_MOST   7
 #define STEPS       100   /* of the cursor, over what is shown */
@@ -42,17 +42,10 @@ static void put(struct app *app, double x)
     app->place.put = true;
 }
 
-/* 1, 2 or 5 times a power of ten, as near below as may be. */
-static double round_step(double step)
-{
-    double power = pow(10, floor(log10(step)));
-    return (step >= 5 * power ? 5 : step >= 2 * power ? 2 : 1) * power;
-}
-
 void ceduo_place_move(struct app *app, int by)
 {
     double origin = app->document.file.scene.slope.origin_x;
-    double step = round_step(ldexp(length_of(app), -app->place.zoom) / STEPS * 2);
+    double step = ceduo_plot_round(ldexp(length_of(app), -app->place.zoom) / STEPS * 2, false);
     double at = (ceduo_place_x(app) + origin) / step;
     put(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
 }

@@ -69,6 +69,18 @@ static void put_values(struct ceduo_page *page, const struct ceduo_calibration_r
     }
 }
 
+/* A sentence with a name where it has %s; frees the name. */
+static void put_with_name(struct ceduo_page *page, struct text *to, const char *format, struct text *name)
+{
+    for (; *format; format++)
+        if (format[0] == '%' && format[1] == 's')
+            ceduo_text_put(to, ceduo_text_string(name)), format++;
+        else
+            ceduo_text_char(to, *format);
+    page->failed |= name->failed;
+    ceduo_text_free(name);
+}
+
 /* What is said of a value by its name. */
 static void put_named(struct ceduo_page *page, enum ceduo_page_kind kind, const struct ceduo_calibration_report *r, size_t i,
                       const char *format)
@@ -76,13 +88,7 @@ static void put_named(struct ceduo_page *page, enum ceduo_page_kind kind, const 
     struct text name = {0};
     ceduo_calibration_name(&name, r->paths[i], r->fields[i]);
     struct text *t = ceduo_page_add(page, kind);
-    for (; *format; format++)
-        if (format[0] == '%' && format[1] == 's')
-            ceduo_text_put(t, ceduo_text_string(&name)), format++;
-        else
-            ceduo_text_char(t, *format);
-    page->failed |= name.failed;
-    ceduo_text_free(&name);
+    put_with_name(page, t, format, &name);
 }
 
 static void put_limits(struct ceduo_page *page, const struct ceduo_calibration_report *r)
@@ -122,13 +128,7 @@ static void put_one_misfit(struct ceduo_page *page, const struct ceduo_observati
 {
     struct text name = {0}, *t = ceduo_page_add(page, CEDUO_PAGE_WARNING);
     ceduo_text_safe(&name, o->name);
-    for (; *format; format++)
-        if (format[0] == '%' && format[1] == 's')
-            ceduo_text_put(t, ceduo_text_string(&name)), format++;
-        else
-            ceduo_text_char(t, *format);
-    page->failed |= name.failed;
-    ceduo_text_free(&name);
+    put_with_name(page, t, format, &name);
 }
 
 static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_report *r)

@@ -396,8 +396,6 @@ static const char *draw_strip(struct strip *s)
     for (int i = 0; i < s->content->count; i++)
         draw_curve(s, &s->content->curves[i]);
     draw_controls(s);
-    if (s->picture->mark)
-        ceduo_canvas_rule_x(s->canvas, &s->frame, CEDUO_ROLE_TITLE, *s->picture->mark);
     name_curves(s);
     ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, s->picture->no_x_axis ? NULL : _("m"));
     return NULL;
