@@ -22,7 +22,7 @@ struct ceduo_block {
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
 
 /* Simulates `rocks` blocks of each size, or fewer of a size that costs very much, through the forest of `option` to a
- * control; sorted by volume. `own`: what is known already of the scene's own block, taken if as many were simulated; may be
+ * control; sorted by volume. `own`: what is known already of the scene's own block, taken if at least as many were simulated; may be
  * NULL. With the contact model index none is simulated. `cancel` may be NULL. CEDUO_CANCELLED,
  * CEDUO_NO_MEMORY, or what ceduo_run_create() says. */
 enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,

@@ -7,13 +7,18 @@
 /* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005;
  * Dorren et al. 2006), and nobody knows yet which of them holds there; so what follows from both is shown. */
 
+/* What another law would change is seen with few rocks: the first of the scene's, whole blocks of them. */
+#define CEDUO_OTHER_ROCKS ((uint64_t)10 * CEDUO_BLOCK_ROCKS)
+
 /* What another law makes of an option at one control. */
 struct ceduo_other_energy {
     bool known;
     bool stems; /* there are any; otherwise no law changes anything */
     enum ceduo_energy_model model;
-    double reach_probability, exceed_probability; /* of all released; exceed: NaN without an accepted energy */
-    double energy;                                /* J, mean of those that reach it; NaN where none does */
+    uint64_t rocks, reached;                          /* simulated: of a pool at most CEDUO_OTHER_ROCKS */
+    double reach_probability, reach_lo, reach_hi;     /* of all released, as in struct ceduo_arrivals */
+    double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
+    double energy, energy_se;                         /* J, mean of those that reach it; NaN where none does */
     struct ceduo_difference to_first;             /* to the first option under its other law; NaN: not known */
 };
 
@@ -29,8 +34,9 @@ void ceduo_other_release(struct ceduo_option *other);
 bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
 void ceduo_other_scene_release(struct ceduo_scene *other);
 
-/* Reads a control of the run of an option under its other law. `first`: that of the first option. Both may be missing. */
-struct ceduo_other_energy ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
-                                           const struct ceduo_run *first, size_t control);
+/* Reads a control of the run of an option under its other law. `first`: that of the first option. Both may be missing.
+ * CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
+                                   const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other);
 
 #endif

@@ -35,7 +35,7 @@ static void write_report(const struct arguments *a, const struct ceduo_report *r
     ceduo_text_free(&page);
 }
 
-#define BLOCK_ROCKS 2000 /* of each size at the most: a page shows no more digits */
+#define BLOCK_ROCKS 512  /* of each other size at the most: their intervals stand beside them */
 #define YEAR_ROCKS  1024 /* of each year at the most, where options stand side by side and --years is not given */
 #define YEARS_MOST  50   /* of each option then; of a longer rotation some */
 

@@ -19,7 +19,7 @@
 #define DOUBT_ROCKS  500
 #define YEAR_ROCKS   1024
 #define YEARS_MOST   50
-#define BLOCK_ROCKS  2000
+#define BLOCK_ROCKS  512
 #define WAYS         80 /* more are no denser to the eye, and make the page large */
 
 /* ---- the command ---- */

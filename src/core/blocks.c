@@ -103,7 +103,7 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
         b->diameter = rock.mean_diameter;
         b->adc = index.worst_adc;
         b->contacts = index.contacts;
-        if (flies && b->own && own && own->released == rocks && scene->blocks_count == 0)
+        if (flies && b->own && own && own->released >= rocks && scene->blocks_count == 0)
             b->arrivals = *own;
         else if (flies)
             status = fly_block(&other, option, control, rocks, threads, cancel, b);

@@ -59,18 +59,28 @@ static bool has_stems(const struct ceduo_option *option)
     return false;
 }
 
-struct ceduo_other_energy ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
-                                           const struct ceduo_run *first, size_t control)
+enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
+                                   const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other)
 {
-    struct ceduo_other_energy other = {.known = run && ceduo_run_rocks(run) > 0,
-                                       .stems = has_stems(option),
-                                       .model = ceduo_other_law(option)};
-    if (!other.known)
-        return other;
-    struct ceduo_brief brief = ceduo_run_brief(run, control);
-    other.reach_probability = brief.reach_probability;
-    other.exceed_probability = brief.exceed_probability;
-    other.energy = brief.energy;
-    other.to_first = ceduo_run_difference(run, first, control);
-    return other;
+    *other = (struct ceduo_other_energy){.known = run && ceduo_run_rocks(run) > 0,
+                                         .stems = has_stems(option),
+                                         .model = ceduo_other_law(option)};
+    if (!other->known)
+        return CEDUO_OK;
+    struct ceduo_arrivals a;
+    enum ceduo_status status = ceduo_run_arrivals(run, control, &a);
+    if (status != CEDUO_OK)
+        return status;
+    other->rocks = a.released;
+    other->reached = a.reached;
+    other->reach_probability = a.reach_probability;
+    other->reach_lo = a.reach_lo;
+    other->reach_hi = a.reach_hi;
+    other->exceed_probability = a.exceed_probability;
+    other->exceed_lo = a.exceed_lo;
+    other->exceed_hi = a.exceed_hi;
+    other->energy = a.energy.mean;
+    other->energy_se = a.energy.se;
+    other->to_first = ceduo_run_difference(run, first, control);
+    return CEDUO_OK;
 }

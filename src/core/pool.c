@@ -191,6 +191,8 @@ static enum ceduo_status fill_other(struct ceduo_pool *pool, const struct ceduo_
         pool->def.arrivals_only = true;
         pool->def.cells = 0;
         pool->def.exact_bytes /= 4;
+        if (pool->def.rocks_most > CEDUO_OTHER_ROCKS)
+            pool->def.rocks_most = CEDUO_OTHER_ROCKS;
         status = add_run(pool, &other, key, &run);
         pool->def = whole;
         if (status == CEDUO_OK)

@@ -176,12 +176,14 @@ static enum ceduo_status read_others(const struct ceduo_scene *scene, const stru
     struct ceduo_scene other;
     bool good = ceduo_other_scene(scene, &other);
     const struct ceduo_run *first = good ? ceduo_pool_find(pool, &other.options[0]) : NULL;
-    for (size_t i = 0; good && i < scene->options_count; i++)
-        for (size_t c = 0; c < scene->controls_count; c++)
-            options[i].others[c] =
-                ceduo_other_read(&scene->options[i], ceduo_pool_find(pool, &other.options[i]), first, c);
+    enum ceduo_status status = good ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
+        const struct ceduo_run *run = ceduo_pool_find(pool, &other.options[i]);
+        for (size_t c = 0; c < scene->controls_count && status == CEDUO_OK; c++)
+            status = ceduo_other_read(&scene->options[i], run, first, c, &options[i].others[c]);
+    }
     ceduo_other_scene_release(&other);
-    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+    return status;
 }
 
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,

@@ -48,10 +48,11 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 
 /* ---- making and freeing ---- */
 
-/* A part keeps what the whole run would keep. */
+/* A part keeps what the whole run would keep. It has no rocks if it begins where the run ends. */
 static bool begin_part(struct ceduo_run *run)
 {
-    run->rocks = run->first = run->def.first;
+    bool within = run->def.first < run->def.rocks_most;
+    run->rocks = run->first = within ? run->def.first : run->def.rocks_most;
     return ceduo_run_samples_fit(run, run->def.rocks_most) || ceduo_run_samples_bin(run);
 }
 

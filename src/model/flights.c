@@ -168,7 +168,7 @@ enum ceduo_status ceduo_flights_others(struct flights *f, const struct ceduo_sce
         status = ceduo_pool_fly(f->others, &f->other.options[i], rocks, &run);
         first = i == 0 ? run : first;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
-            others[i * controls + c] = ceduo_other_read(&scene->options[i], run, first, c);
+            status = ceduo_other_read(&scene->options[i], run, first, c, &others[i * controls + c]);
     }
     return status;
 }

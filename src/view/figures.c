@@ -533,11 +533,18 @@ static const struct ceduo_figure lights[] = {
 static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_other_energy, model)},
-    {"reach_probability", "", "share of all released that reach the control", AT(other_energy, reach_probability)},
-    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
+    {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, rocks)},
+    {"reach_probability", "", "share of these that reach the control", AT(other_energy, reach_probability)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, reach_lo)},
+    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, reach_hi)},
+    {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
      AT(other_energy, exceed_probability), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, exceed_lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, exceed_hi), .null = UNSAID},
     {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = KILO,
      .null = NO_ROCK},
+    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = KILO,
+     .null = FEW},
     END};
 
 static const struct ceduo_figure control[] = {

@@ -18,18 +18,19 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    struct text mean = {0};
-    ceduo_words_number(&mean, o->energy * KILO, 3);
+    const char *mean = WRITTEN(o->energy * KILO, 3);
+    const char *half = WRITTEN(ceduo_half_width(o->energy_se, o->reached) * KILO, 2);
+    const char *reach = WRITTEN_OF_1000(o->reach_probability, o->reach_lo, o->reach_hi);
     if (isnan(o->exceed_probability))
-        ceduo_text_format(text, _("With the energy law %s: %.0f of 1000 arrive; their mean is %s kJ."), law,
-                          o->reach_probability * 1000, ceduo_text_string(&mean));
+        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach, mean,
+                          half);
     else
         ceduo_text_format(text,
-                          _("With the energy law %s: %.0f of 1000 arrive, %.0f with more than it withstands; the mean of those "
-                            "that arrive is %s kJ."),
-                          law, o->reach_probability * 1000, o->exceed_probability * 1000, ceduo_text_string(&mean));
-    text->failed |= mean.failed;
-    ceduo_text_free(&mean);
+                          _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
+                            "that arrive is %s \xc2\xb1%s kJ."),
+                          law, reach, WRITTEN_OF_1000(o->exceed_probability, o->exceed_lo, o->exceed_hi), mean, half);
+    if (o->rocks < ceduo_result_rocks(r))
+        ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."), (unsigned long long)o->rocks);
 }
 
 static double of_1000(const struct ceduo_result *r, size_t option, bool other)

@@ -28,7 +28,8 @@ ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUM
             "hazard": HAZARD}  # null without blocks
 INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
-OTHER = {"model": TEXT, "reach_probability": NUMBER, "exceed_probability": MAYBE, "energy_kJ_mean": MAYBE}  # null without stems
+OTHER = {"model": TEXT, "rocks": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER, "exceed_probability": MAYBE,
+         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ_mean": MAYBE, "energy_kJ_se": MAYBE}  # null without stems
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
            "other_energy": OTHER,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT}}

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The same rocks under the other energy law of stems: in JSON, on the page, and where the options change their order."""
+import json
 import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
+from pages import digits, of_1000
 from runs import FOUR, PAPER, through
 
 TWO_CUTS = ("--option", "selection coppice, just cut", "--option", "large reserves, just cut")
@@ -21,9 +23,10 @@ def expect_other(run, turned, model):
     for option, under in zip(run["options"], turned["options"]):
         for control, at in zip(option["controls"], under["controls"]):
             wooded = at["wooded"]
-            expect_equal(control["other_energy"], {"model": model, "reach_probability": wooded["reach_probability"],
-                                                   "exceed_probability": wooded["exceed_probability"],
-                                                   "energy_kJ_mean": wooded["energy_kJ"]["mean"]})
+            shares = {f"{what}_{end}": wooded[f"{what}_{end}"] for what in ("reach", "exceed") for end in ("probability", "lo", "hi")}
+            expect_equal(control["other_energy"], {"model": model, "rocks": turned["rocks"], **shares,
+                                                   "energy_kJ_mean": wooded["energy_kJ"]["mean"],
+                                                   "energy_kJ_se": wooded["energy_kJ"]["se"]})
 
 
 def test_both_ways():
@@ -35,6 +38,27 @@ def test_both_ways():
     expect_other(mixed, dorren, "dorren")
     poisson = [result(PAPER, "-n", 500, *through("poisson"), *law(name)) for name in ("brauner", "dorren")]
     expect_other(*poisson, "dorren")
+
+
+def test_few_are_enough():
+    """Beyond 10240 rocks those first ones show the other law, with their own interval; in parts, too"""
+    most, more = 10240, ("-n", 25000)
+    run, turned = result(PAPER, *more), result(PAPER, "-n", most, *law("dorren"))
+    for part in (run, result(PAPER, *more, "-j", 2)):
+        expect_equal(part["rocks"], 25000)
+        turned["rocks"] = most
+        expect_other({"options": part["options"]}, turned, "dorren")
+    page = " ".join(good("--batch", *more, PAPER).out.split())
+    expect_in("Under this law the first 10240 rocks alone were simulated.", page)
+    expect("rocks alone were simulated" not in good("--batch", "-n", most, PAPER).out, "all of them")
+    with Folder() as f:
+        parts = [f.path / f"{i}.jsonl" for i in range(5)]
+        for i, path in enumerate(parts):
+            good("--shard", f"{i + 1}/5", *more, "-o", path, PAPER)
+        merged = json.loads(good("--merge", "-f", "json", *parts).out)
+        for one in (merged, run):
+            del one["work"]
+        expect_equal(merged, run)
 
 
 def test_none():
@@ -59,13 +83,14 @@ def test_none():
 def test_page():
     """Page: a sentence with the shares and the mean under the other law, at each control"""
     for more, words in (((), r"With the energy law dorren: {reach} of 1000 arrive, {exceed} with more than it withstands; the mean of "
-                              r"those that arrive is {mean} kJ\."),
+                              r"those that arrive is {mean} ±{half} kJ\."),
                         (("-s", "controls=[{x_m: 135}]"),
-                         r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} kJ\.")):
+                         r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} ±{half} kJ\.")):
         other = result(PAPER, "-n", 800, *more)["options"][0]["controls"][0]["other_energy"]
         page = " ".join(good("--batch", "-n", 800, PAPER, *more).out.split())
-        wanted = words.format(reach=f"{other['reach_probability'] * 1000:.0f}",
-                              exceed=f"{(other['exceed_probability'] or 0) * 1000:.0f}", mean=f"{other['energy_kJ_mean']:.1f}")
+        exceed = re.escape(of_1000("exceed", other)) if other["exceed_probability"] is not None else ""
+        wanted = words.format(reach=re.escape(of_1000("reach", other)), exceed=exceed, mean=f"{other['energy_kJ_mean']:.1f}",
+                              half=digits(1.963 * other["energy_kJ_se"], 2))  # 1.963: Student's t of some 690 rocks
         expect(re.search(wanted, page), wanted, page)
     none = good("--batch", "-n", 5, PAPER, "-s", "forest[0].stand.trees[0].dbh_m=2", "-s", "forest[0].stand.trees[0].volume_m3=9").out
     expect_in("With the energy law dorren no rock arrives.", " ".join(none.split()))
