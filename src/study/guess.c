@@ -31,23 +31,18 @@ static void fill_terms(const struct guess *g, const double *u, double *terms)
             *terms++ = (u[i] - 0.5) * (u[k] - 0.5);
 }
 
-/* How far below the best a place still counts. */
-static double reach_of(const struct guess *g, const double *values, size_t n, double *best)
+/* How far below the best a place still counts; NaN where too few are known. `down`: room for n. */
+static double reach_of(const struct guess *g, const double *values, size_t n, double *down, double *best)
 {
-    double *down = malloc(n * sizeof *down);
     size_t k = KNOWN_BY * g->terms < n ? KNOWN_BY * g->terms : n - 1, m = 0;
-    for (size_t i = 0; down && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         if (isfinite(values[i]))
             down[m++] = -values[i];
-    if (!down || m <= k) {
-        free(down);
+    if (m <= k)
         return NAN;
-    }
     gsl_sort(down, 1, m);
     *best = -down[0];
-    double reach = (down[k] - down[0]) / 2;
-    free(down);
-    return reach < SHARP ? SHARP : reach;
+    return fmax(SHARP, (down[k] - down[0]) / 2);
 }
 
 static bool solve(struct guess *g, gsl_matrix *x, gsl_vector *w, gsl_vector *y)
@@ -73,7 +68,11 @@ static bool solve(struct guess *g, gsl_matrix *x, gsl_vector *w, gsl_vector *y)
 
 bool ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n)
 {
-    double best = 0, reach = n > 2 * g->terms ? reach_of(g, values, n, &best) : NAN;
+    double best = 0, reach, *down = malloc((n + 1) * sizeof *down);
+    if (!down)
+        return false;
+    reach = n > 2 * g->terms ? reach_of(g, values, n, down, &best) : NAN;
+    free(down);
     if (isnan(reach))
         return true;
     gsl_matrix *x = gsl_matrix_alloc(n, g->terms);

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Without memory: runs of blocks of all sizes, what was seen beside simulated rocks, fits, and surveys. */
+#include "unit/failing.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+
+#include "ceduo/calibrate.h"
+#include "ceduo/ceduo.h"
+#include "ceduo/survey.h"
+#include "study/chains.h"
+#include "study/guess.h"
+
+#define ROCKS 6
+
+/* 200 m that fall 80 m, trees on the first half; a rock of 1 m. */
+static struct {
+    struct ceduo_scene scene;
+    double x[2], z[2], volumes[2];
+    struct ceduo_segment segment;
+    struct ceduo_control control;
+    struct ceduo_stems tree;
+    struct ceduo_belt belt;
+    struct ceduo_option options[2];
+    struct ceduo_block_class blocks;
+} ground;
+
+static void make_ground(void)
+{
+    struct ceduo_scene *s = &ground.scene;
+    memset(&ground, 0, sizeof ground);
+    *s = ceduo_scene_default();
+    ground.x[1] = 200;
+    ground.z[1] = -80;
+    ground.segment = (struct ceduo_segment){.rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN,
+                                            .roughness_rad = 0.2, .friction = 0.5, .mu = 0.5};
+    s->slope = (struct ceduo_slope){.vertices = 2, .x = ground.x, .z = ground.z, .segments = &ground.segment, .segments_given = 1};
+    s->rock.shape = CEDUO_SPHERE;
+    s->rock.diameter = ceduo_number(1);
+    s->rock.density = ceduo_number(2600);
+    s->release.vx = ceduo_number(5);
+    ground.control = (struct ceduo_control){.x = 20, .x_given = 20, .accepted = 1e5, .measured_speed = NAN};
+    s->controls = &ground.control;
+    s->controls_count = 1;
+    ground.tree = (struct ceduo_stems){.per_ha = 400, .dbh = 0.2, .height = 15, .volume = 0.2, .age = NAN};
+    ground.belt = (struct ceduo_belt){.from = 1, .to = 100, .to_given = 100, .cut_year = NAN};
+    ground.belt.stand = (struct ceduo_stand){.species = -1, .trees_count = 1, .trees = &ground.tree, .u = 1000, .fracture_ratio = NAN};
+    ground.options[0] = (struct ceduo_option){.name = (char *)(uintptr_t) "wood", .belts_count = 1, .belts = &ground.belt};
+    ground.options[1] = (struct ceduo_option){.name = (char *)(uintptr_t) "bare"};
+    s->options = ground.options;
+    s->options_count = 2;
+    s->simulation.rocks = ROCKS;
+}
+
+static bool is_done(enum ceduo_status status)
+{
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
+}
+
+/* ---- blocks of all sizes ---- */
+
+static bool ask_of_blocks(void)
+{
+    make_ground();
+    ground.volumes[0] = 0.1;
+    ground.volumes[1] = 1;
+    ground.blocks = (struct ceduo_block_class){.per_year = 0.5, .exponent = 1.1, .volumes_count = 2, .volumes = ground.volumes};
+    ground.scene.blocks = &ground.blocks;
+    ground.scene.blocks_count = 1;
+    ground.scene.rocks_per_year = 0.5;
+    struct ceduo_question q = ceduo_question_default(&ground.scene);
+    struct ceduo_answer answer;
+    q.rocks = ROCKS;
+    q.run.threads = 1;
+    q.run.other_energy = true;
+    enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
+    if (status == CEDUO_OK) {
+        const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0);
+        assert_true(a->reach_probability > 0);
+        add(&a->hazard.reach, sizeof a->hazard.reach);
+        add(&a->hazard.accepted, sizeof a->hazard.accepted);
+        add(&a->reach_probability, sizeof a->reach_probability);
+    }
+    ceduo_answer_release(&answer);
+    return is_done(status);
+}
+
+/* ---- what was seen ---- */
+
+static double stops[3] = {60, 80, 120}, scars[3] = {0.4, 0.5, 0.6};
+
+static struct ceduo_observation something(enum ceduo_observed_kind kind)
+{
+    return (struct ceduo_observation){.kind = kind, .x = 20, .from = 10, .to = 40, .n = 3, .mean = 5, .sd = 1, .share_seen = NAN};
+}
+
+static void see(struct ceduo_observation seen[4])
+{
+    seen[0] = something(CEDUO_OBSERVED_STOPS);
+    seen[0].from = NAN;
+    seen[0].values = stops;
+    seen[1] = something(CEDUO_OBSERVED_PASSED);
+    seen[1].count = 2;
+    seen[1].of = 3;
+    seen[2] = something(CEDUO_OBSERVED_SCARS);
+    seen[2].values = scars;
+    seen[2].of = 10;
+    seen[3] = something(CEDUO_OBSERVED_ENERGY);
+    seen[3].mean = 1e5;
+    seen[3].sd = 1e4;
+    seen[1].option = seen[3].option = 1;
+}
+
+static bool look(void)
+{
+    struct ceduo_observation seen[4];
+    struct ceduo_observer *observer;
+    struct ceduo_counterpart to[4];
+    make_ground();
+    see(seen);
+    enum ceduo_status status = ceduo_observer_create(seen, 4, &observer);
+    if (!is_done(status)) {
+        assert_null(observer);
+        return false;
+    }
+    status = ceduo_observer_look(observer, &ground.scene, ROCKS, NULL, to);
+    for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
+        add(&to[i].log_likelihood, sizeof to[i].log_likelihood);
+    for (size_t i = 1; i < 3 && status == CEDUO_OK; i++) {
+        double *values;
+        size_t n;
+        status = ceduo_observer_values(observer, &ground.scene, i, ROCKS, &values, &n);
+        add(values, status == CEDUO_OK ? n * sizeof *values : 0);
+        free(values);
+    }
+    ceduo_observer_free(observer);
+    return is_done(status);
+}
+
+static bool look_without_a_fit(void)
+{
+    struct ceduo_observation seen[4];
+    struct ceduo_predicted to[4];
+    make_ground();
+    see(seen);
+    const struct ceduo_calibration_scene scene = {.scene = &ground.scene, .observations_count = 4, .observations = seen};
+    enum ceduo_status status = ceduo_calibration_as_it_is(&scene, ROCKS, NULL, to);
+    for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
+        add(&to[i].p_value, sizeof to[i].p_value);
+    return is_done(status);
+}
+
+static void cancel(void *context, const struct ceduo_calibration_state *state)
+{
+    (void)state;
+    atomic_store((atomic_bool *)context, true);
+}
+
+/* A fit of one value that is ended as soon as something is known: what is known is the answer. */
+static bool fit(void)
+{
+    static const char *const place = "release.vx_m_s";
+    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
+    struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
+    atomic_bool cancelled = false;
+    make_ground();
+    seen.x = 1;
+    seen.option = 1;
+    const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen};
+    const struct ceduo_calibration_def def = {.scenes_count = 1,
+                                              .scenes = &scene,
+                                              .parameters_count = 1,
+                                              .rocks = 1,
+                                              .seed = 1,
+                                              .threads = 1,
+                                              .cancel = &cancelled,
+                                              .progress = cancel,
+                                              .context = &cancelled};
+    struct ceduo_calibration a;
+    enum ceduo_status status = ceduo_calibrate(&def, &a);
+    if (status == CEDUO_OK) {
+        assert_false(a.complete);
+        add(&a.parameters[0].best, sizeof a.parameters[0].best);
+        add(&a.predicted[0].at_best.deviance, sizeof a.predicted[0].at_best.deviance);
+        ceduo_calibration_free(&a);
+    }
+    return is_done(status);
+}
+
+/* ---- chains ---- */
+
+static enum ceduo_status normal(void *context, size_t chain, const double *x, double *log_density)
+{
+    (void)context, (void)chain;
+    *log_density = -x[0] * x[0] / 2;
+    return CEDUO_OK;
+}
+
+static double guess_at(void *context, const double *x)
+{
+    return ceduo_guess_at(context, x);
+}
+
+static bool learn(void *context, const double *x, const double *log_densities, size_t n)
+{
+    return ceduo_guess_learn(context, x, log_densities, n);
+}
+
+static bool draw(void)
+{
+    static const double starts[2] = {-1, 1}, scale = 1;
+    struct guess guess = ceduo_guess_begin(1);
+    const struct chains_def def = {.dimensions = 1, .chains = 2, .starts = starts, .scales = &scale, .seed = 1, .threads = 2,
+                                   .steps_most = 201, .rhat_most = 1.01, .effective_least = 1e9, .density = normal,
+                                   .guess = guess_at, .learn = learn, .context = &guess};
+    struct chains chains;
+    enum ceduo_status status = ceduo_chains_run(&def, &chains);
+    if (status == CEDUO_OK)
+        add(ceduo_chains_draw(&chains, 0), sizeof(double));
+    ceduo_chains_release(&chains);
+    ceduo_guess_release(&guess);
+    return is_done(status);
+}
+
+/* ---- surveys ---- */
+
+static bool survey(void)
+{
+    struct ceduo_survey_stem stems[8];
+    const double area = 100;
+    for (size_t i = 0; i < 8; i++)
+        stems[i] = (struct ceduo_survey_stem){.kind = i < 7 ? CEDUO_SURVEY_SHOOT : CEDUO_SURVEY_TREE, .dbh = 0.05 + 0.01 * (double)i,
+                                              .height = i == 6 ? NAN : 5 + sqrt((double)i), .spacing = 0.3, .energy = NAN};
+    const struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 8, .stems = stems};
+    struct ceduo_survey_answer answer;
+    enum ceduo_status status = ceduo_survey_ask(&s, &answer);
+    if (status == CEDUO_OK) {
+        assert_int_equal(answer.shoots.from, CEDUO_HEIGHTS_CURVE);
+        for (size_t i = 0; i < answer.classes_count; i++)
+            add(&answer.classes[i].height, sizeof answer.classes[i].height);
+    } else {
+        assert_null(answer.classes);
+    }
+    ceduo_survey_free(&answer);
+    return is_done(status);
+}
+
+static void blocks_come_down(void **state)
+{
+    (void)state;
+    without_memory(ask_of_blocks);
+}
+
+static void what_was_seen(void **state)
+{
+    (void)state;
+    without_memory(look);
+    without_memory(look_without_a_fit);
+}
+
+static void fits(void **state)
+{
+    (void)state;
+    without_memory(fit);
+    without_memory(draw);
+}
+
+static void surveys(void **state)
+{
+    (void)state;
+    without_memory(survey);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(blocks_come_down),
+        cmocka_unit_test(what_was_seen),
+        cmocka_unit_test(fits),
+        cmocka_unit_test(surveys),
+    };
+    gsl_set_error_handler_off();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
