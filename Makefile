@@ -194,6 +194,7 @@ REPLAYS := $(FUZZERS:%=replay_%)
 CHANGES_scene := 8000
 CHANGES_csv := 60000
 CHANGES_set := 3000
+CHANGES_table := 1000
 CHANGES_keys := 2000
 CHANGES_part := 6000
 SEEDS_scene := profiles/scenes/*.yaml
