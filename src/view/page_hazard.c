@@ -51,15 +51,19 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
         ceduo_words_years(&with, ceduo_hazard_feared(wooded));
     const char *where = ceduo_text_string(&place), *wood = ceduo_text_string(&with), *years = ceduo_text_string(&without);
     const char *kJ = ceduo_number_shortest(ceduo_words_accepted(c), room);
-    if (isnan(c->accepted) && wooded)
-        ceduo_text_format(text, _("A rock reaches %s every %s years without forest, every %s years %s."), where, years, wood,
-                          name_of(r, option + 1));
+    bool several = r->scene->options_count > 1;
+    if (isnan(c->accepted) && wooded && several)
+        ceduo_text_format(text, _("A rock reaches %s every %s years without forest, every %s years with '%s'."), where, years,
+                          wood, r->scene->options[option].name);
+    else if (isnan(c->accepted) && wooded)
+        ceduo_text_format(text, _("A rock reaches %s every %s years without forest, every %s years through the wood."), where,
+                          years, wood);
     else if (isnan(c->accepted))
         ceduo_text_format(text, _("A rock reaches %s every %s years without forest."), where, years);
-    else if (wooded && r->scene->options_count > 1)
+    else if (wooded && several)
         ceduo_text_format(text,
                           _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years with '%s'."),
-                          kJ, where, years, wood, name_of(r, option + 1));
+                          kJ, where, years, wood, r->scene->options[option].name);
     else if (wooded)
         ceduo_text_format(
             text,
@@ -158,6 +162,8 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 
 /* ---- at each control ---- */
 
+#define FEW 2 /* options, of which each has sentences of its own; more are a table */
+
 /* What the wood leaves of each intensity. */
 static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
@@ -177,39 +183,87 @@ static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size
                       r->scene->options[option].name, rooms[0], rooms[1], rooms[2]);
 }
 
-void ceduo_page_hazard_at(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+/* The option with which what is feared is rarest. */
+static size_t rarest(const struct ceduo_result *r, size_t control)
 {
+    size_t best = 0;
+    for (size_t i = 1; i < r->scene->options_count; i++) {
+        const struct ceduo_hazard *h = hazard_of(r, i + 1, control), *least = hazard_of(r, best + 1, control);
+        if (h && (!least || ceduo_hazard_feared(h).rate < ceduo_hazard_feared(least).rate))
+            best = i;
+    }
+    return best;
+}
+
+/* The same of all options, side by side. */
+static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+{
+    static const struct ceduo_page_column columns[] = {{"", 26, 4, CEDUO_WHOLE},
+                                                       {N_("years between"), -22, 0, CEDUO_WHOLE},
+                                                       {N_("% weak"), -9, 0, CEDUO_WHOLE},
+                                                       {N_("% medium"), -9, 0, CEDUO_WHOLE},
+                                                       {N_("% strong"), -9, 0, CEDUO_WHOLE}};
+    const struct ceduo_control *c = &r->scene->controls[control];
+    struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
+    char room[CEDUO_NUMBER_ROOM];
+    if (isnan(c->accepted))
+        ceduo_text_put(caption, _("Years from one rock to the next, and how much of the weak, medium and strong ones is left:"));
+    else
+        ceduo_text_format(caption,
+                          _("Years from one rock with more than %s kJ to the next, and how much of the weak, medium and strong "
+                            "ones is left:"),
+                          ceduo_number_shortest(ceduo_words_accepted(c), room));
+    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    for (size_t i = 0; i <= r->scene->options_count; i++) {
+        const struct ceduo_hazard *h = hazard_of(r, i, control);
+        if (!h)
+            continue;
+        ceduo_text_put(ceduo_page_text(page), name_of(r, i));
+        ceduo_words_years(ceduo_page_text(page), ceduo_hazard_feared(h));
+        for (size_t k = 0; k < CEDUO_INTENSITIES; k++)
+            ceduo_text_put(ceduo_page_text(page), i == 0 ? "100" : WRITTEN(h->intensity[k].left * 100, 2));
+    }
+}
+
+static void add_words(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
+{
+    if (r->scene->options_count > FEW && ceduo_result_wooded(r, 0, control)) {
+        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, control), control);
+        add_rates(page, r, control);
+        return;
+    }
     for (size_t i = 0; i < r->scene->options_count; i++) {
         if (i == 0 || hazard_of(r, i + 1, control))
             ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, i, control);
         say_left(page, r, i, control);
     }
-    if (page->width < CEDUO_PAGE_WIDTH)
-        return;
-    add_returns(page, r, control);
-    add_square(page, r, control);
 }
 
-void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t c, bool first)
 {
     const struct ceduo_result *r = report->result;
-    if (r->scene->blocks_count == 0 || r->bare.rocks == 0)
+    const struct ceduo_control *control = &r->scene->controls[c];
+    if (!ceduo_report_has_hazard(report))
         return;
-    for (size_t c = 0; c < r->scene->controls_count; c++) {
-        const struct ceduo_control *control = &r->scene->controls[c];
-        struct text *head = ceduo_page_add(page, CEDUO_PAGE_SECTION);
-        char room[CEDUO_NUMBER_ROOM];
-        const char *x = ceduo_number_shortest(control->x_given, room);
-        if (control->name)
-            ceduo_text_format(head, _("How often, at %s m, %s"), x, control->name);
-        else
-            ceduo_text_format(head, _("How often, at %s m"), x);
-        if (c == 0)
-            ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                              _("%s blocks come down a year. Rare large ones were simulated as often as small ones and "
-                                "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
-                              WRITTEN(r->bare.arrivals[c].hazard.per_year, 3), (unsigned long long)r->bare.rocks,
-                              r->bare.arrivals[c].hazard.effective);
-        ceduo_page_hazard_at(page, r, c);
-    }
+    struct text *head = ceduo_page_add(page, CEDUO_PAGE_SECTION);
+    char place[CEDUO_NUMBER_ROOM];
+    const char *x = ceduo_number_shortest(control->x_given, place);
+    if (control->name)
+        ceduo_text_format(head, _("How often, at %s m, %s"), x, control->name);
+    else
+        ceduo_text_format(head, _("How often, at %s m"), x);
+    if (first)
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
+                            "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
+                          r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
+                          r->bare.arrivals[c].hazard.effective);
+    add_words(page, r, c);
+    add_returns(page, r, c);
+    add_square(page, r, c);
+}
+
+bool ceduo_report_has_hazard(const struct ceduo_report *report)
+{
+    return report->result->scene->blocks_count > 0 && report->result->bare.rocks > 0;
 }

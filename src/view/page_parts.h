@@ -9,8 +9,12 @@
  * what it would show as a table. */
 #define CEDUO_PAGE_WIDTH 80
 
-/* What is to be said of the stands of n options: warnings, and what the rules of a region ask. */
+/* What is to be warned of in the stands of n options; the same, and what the rules of a region ask of them. */
+void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *result, size_t first, size_t n);
 void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *result, size_t first, size_t n);
+
+/* What the rules ask of the stands of all options, as a table with their sources; nothing where no coppice has rules. */
+void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *result);
 
 /* Rock, slope and rocks, a line each. */
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
@@ -35,9 +39,9 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
 
 /* The energy law of the scene against the other one; nothing where that is not known. */
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result);
-/* How often, and with how much: a section for each control, nothing where the scene has no blocks; one control, no heading. */
-void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report);
-void ceduo_page_hazard_at(struct ceduo_page *page, const struct ceduo_result *result, size_t control);
+/* How often, and with how much, at a control; nothing where the scene has no blocks. The first also says how that is known. */
+bool ceduo_report_has_hazard(const struct ceduo_report *report);
+void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t control, bool first);
 
 /* Percentiles of the rocks that arrive at a control, with their intervals. */
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control);

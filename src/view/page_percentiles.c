@@ -49,46 +49,56 @@ static void add_run(struct ceduo_page *page, bool wood, const struct ceduo_arriv
 
 /* ---- design values ---- */
 
-/* The factors of UNI 11211-4 as Peila and Ronco 2009 have them: 1.02 where it was done well, otherwise 1.10. */
+/* The factors of speed and energy of UNI 11211-4, 1.02 where it was done well, otherwise 1.10. */
 #define FACTOR(good) ((good) ? 1.02 : 1.10)
 
-static void say_design(struct ceduo_page *page, const struct ceduo_report *report, const char *where,
-                       const struct ceduo_arrivals *a)
-{
-    const struct ceduo_design_values *d = &report->result->scene->design;
-    bool calibrated = ceduo_notes_calibrated(report->file->notes, "slope");
-    double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
-    double model = FACTOR(calibrated), way = survey * model;
-    if (isnan(a->speed.p95))
-        return;
-    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                      calibrated ? _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height %s m. These are the 95th "
-                                     "percentiles times %.2f for the survey of the ground and %.2f for the model, fitted to what "
-                                     "was seen; the energy times their square and %.2f for the survey of the blocks.")
-                                 : _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height %s m. These are the 95th "
-                                     "percentiles times %.2f for the survey of the ground and %.2f for the model, not fitted "
-                                     "here; the energy times their square and %.2f for the survey of the blocks."),
-                      where, WRITTEN(a->speed.p95 * way, 3), WRITTEN(a->energy.p95 * KILO * way * way * blocks, 3),
-                      WRITTEN(a->height.p95 * way, 3), survey, model, blocks);
-}
-
+/* No factor of the height was found in a text that could be opened: it is printed without one, and that is said. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control)
 {
     const struct ceduo_result *r = report->result;
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
-    if (r->scene->design.survey < 0 || r->scene->design.blocks < 0)
+    const struct ceduo_design_values *d = &r->scene->design;
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
+    bool calibrated = ceduo_notes_calibrated(report->file->notes, "slope");
+    double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
+    double model = FACTOR(calibrated);
+    if (d->survey < 0 || d->blocks < 0 || isnan(bare->speed.p95))
         return;
-    if (wooded)
-        say_design(page, report, _("as long as the wood stands as in this option"), wooded);
-    say_design(page, report, _("without forest"), &r->bare.arrivals[control]);
+    double way = survey * model, energy = KILO * way * way * blocks;
+    if (wooded && !isnan(wooded->speed.p95))
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("Design values of UNI 11211-4, as long as the wood stands as in this option: speed %s m/s, energy %s "
+                            "kJ, height %s m."),
+                          WRITTEN(wooded->speed.p95 * way, 3), WRITTEN(wooded->energy.p95 * energy, 3),
+                          WRITTEN(wooded->height.p95, DIGITS(wooded->height.p95)));
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                      _("Design values of UNI 11211-4, without forest: speed %s m/s, energy %s kJ, height %s m."),
+                      WRITTEN(bare->speed.p95 * way, 3), WRITTEN(bare->energy.p95 * energy, 3), WRITTEN(bare->height.p95, DIGITS(bare->height.p95)));
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+                      calibrated ? _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
+                                     "fitted to what was seen. Energy: 95th percentile times the square of both and %.2f for "
+                                     "the survey of the blocks. Height: 95th percentile, without a factor.")
+                                 : _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
+                                     "not fitted here. Energy: 95th percentile times the square of both and %.2f for the "
+                                     "survey of the blocks. Height: 95th percentile, without a factor."),
+                      survey, model, blocks);
+}
+
+/* Weights of small and large blocks: those that stems stop are small ones. */
+static void say_sorted(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_arrivals *wooded,
+                       const struct ceduo_arrivals *bare)
+{
+    if (r->scene->blocks_count > 0 && wooded && wooded->energy.p50 > bare->energy.p50)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+                       _("Through the wood fewer rocks arrive, but larger ones: stems stop the small ones first."));
 }
 
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
                    _("Percentiles of the rocks that arrive, of so many released (95 % interval):"));
     if (wooded)
         add_run(page, true, wooded);
-    add_run(page, false, &r->bare.arrivals[control]);
+    add_run(page, false, bare);
+    say_sorted(page, r, wooded, bare);
 }

@@ -7,7 +7,9 @@
 #include "base/language.h"
 #include "ceduo/version.h"
 #include "io/emit.h"
+#include "page_html.h"
 #include "page_parts.h"
+#include "plot_parts.h"
 #include "svg.h"
 
 /* ---- pictures ---- */
@@ -28,6 +30,39 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
     title = ceduo_page_picture(page, svg, columns == HALF, &told);
     ceduo_plot_title(title, plot, picture);
     ceduo_text_put(told, description);
+}
+
+/* ---- what has no room ---- */
+
+/* What a page of more than four sheets leaves out, one after the other, until it has no more. */
+enum left_out { NOTHING, BARS, ENERGY_DRAWN, YEARS_DRAWN, OTHER_PLACES, OTHER_LAW, HAZARD_DRAWN, ALL };
+
+static const char *const left_out[] = {
+    [BARS] = N_("The options as bars; 'ceduo --plot compare' draws them."),
+    [ENERGY_DRAWN] = N_("The energy along the slope; 'ceduo --plot energy' draws it."),
+    [YEARS_DRAWN] = N_("The pictures of the years; 'ceduo --plot rotation' and 'ceduo --plot tradeoff' draw them."),
+    [OTHER_PLACES] = N_("Percentiles and rates at the controls before the last; 'ceduo --batch' prints them."),
+    [OTHER_LAW] = N_("The other energy law, option by option; 'ceduo --batch' prints it."),
+    [HAZARD_DRAWN] = N_("The curves of how often; 'ceduo --plot hazard' draws them.")};
+
+/* Whether the scene has it at all. */
+static bool has(const struct ceduo_chapter *c, enum left_out what)
+{
+    const struct ceduo_scene *scene = c->report->result->scene;
+    bool several = scene->options_count > 1;
+    return what == OTHER_PLACES   ? scene->controls_count > 1 && several
+           : what == BARS         ? several
+           : what == HAZARD_DRAWN ? ceduo_report_has_hazard(c->report)
+                                  : scene->controls_count > 0;
+}
+
+static void say_left_out(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+{
+    if (least > NOTHING)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), _("Left out, to keep to four sheets"));
+    for (int i = BARS; i <= (int)least; i++)
+        if (has(c, (enum left_out)i))
+            ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(left_out[i]));
 }
 
 static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t option)
@@ -54,7 +89,7 @@ static struct text *section(struct ceduo_page *page, const char *title)
 #define SLOPE_ROWS  19
 #define ENERGY_ROWS 11
 
-static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
 {
     struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
     section(page, _("The slope and the rocks"));
@@ -63,23 +98,39 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
         page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
         _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
           "upright lines."));
-    if (c->outlook && c->report->result->scene->controls_count > 0)
+    if (c->outlook && c->report->result->scene->controls_count > 0 && least < ENERGY_DRAWN)
         add_picture(
             page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
             _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
               "through the forest and without it."));
-    const struct ceduo_result *r = c->report->result;
-    if (r->scene->options_count > 1 && r->scene->controls_count > 0 && r->bare.rocks > 0)
-        ceduo_page_percentiles(page, r, picture.option,
-                               r->last_control); /* of one option they stand with all its figures */
 }
 
-static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
+/* Of one option they stand with all its figures; of several those of the one that is drawn. */
+static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+{
+    const struct ceduo_result *r = c->report->result;
+    size_t option = ceduo_chapter_option(c);
+    if (r->scene->options_count < 2 || r->bare.rocks == 0)
+        return;
+    for (size_t k = least >= OTHER_PLACES ? r->last_control : 0; k < r->scene->controls_count; k++) {
+        struct text place = {0};
+        ceduo_plot_control_name(&place, &r->scene->controls[k]);
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
+                          r->scene->options[option].name);
+        ceduo_text_free(&place);
+        ceduo_page_percentiles(page, r, option, k);
+        ceduo_page_design(page, c->report, option, k);
+    }
+}
+
+static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     struct ceduo_picture picture = picture_of(c, 0);
     int rows = 4 + (int)(scene->options_count < 16 ? scene->options_count : 16);
     ceduo_page_comparison(page, c->report);
+    if (least >= BARS)
+        return;
     add_picture(
         page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
@@ -110,8 +161,26 @@ static bool has_yields(const struct ceduo_verdict *v)
     return known > 1;
 }
 
+static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, const struct ceduo_picture *picture)
+{
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+                   _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
+    bool both = has_yields(v);
+    if (both)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+                       _("Numbers beside points stand for the options in the order of the tables."));
+    add_picture(
+        page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, picture,
+        _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
+          "arrive with too much energy, and below them which tests each year passes."));
+    if (both)
+        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, picture,
+                    _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
+                      "upwards."));
+}
+
 /* The option that is best over the years. */
-static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
 {
     const struct ceduo_verdict *v = c->report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : ceduo_chapter_option(c);
@@ -123,20 +192,8 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
     if (scene->options_count > 1)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_PLACE), scene->options[option].name);
     ceduo_page_years_words(page, c->report->result, c->years[option]);
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
-                   _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
-    bool both = has_yields(v);
-    if (both)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
-                       _("Numbers beside points stand for the options in the order of the tables."));
-    add_picture(
-        page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
-        _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
-          "arrive with too much energy, and below them which tests each year passes."));
-    if (both)
-        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, &picture,
-                    _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
-                      "upwards."));
+    if (least < YEARS_DRAWN)
+        draw_years(page, v, &picture);
 }
 
 static void add_limits(struct ceduo_page *page, const struct ceduo_scene *scene)
@@ -186,29 +243,67 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     put_scene(ceduo_page_add(page, CEDUO_PAGE_CODE), c->report->file);
 }
 
-void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
+#define HAZARD_ROWS 16
+
+/* How often at each place, and at the last one as curves. */
+static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
-    bool controls = scene->controls_count > 0;
+    struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
+    if (!ceduo_report_has_hazard(c->report))
+        return;
+    size_t first = least >= OTHER_PLACES ? picture.control : 0;
+    for (size_t k = first; k < scene->controls_count; k++)
+        ceduo_page_hazard(page, c->report, k, k == first);
+    if (least >= HAZARD_DRAWN)
+        return;
+    add_picture(page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
+                _("Falling curves, one without forest and one for each option: how many years pass from one rock with more than "
+                  "an energy to the next. Rules mark 30 and 300 kJ, 30, 100 and 300 years."));
+}
+
+static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+{
+    const struct ceduo_scene *scene = c->report->result->scene;
+    bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), scene->title);
     if (controls)
         ceduo_page_answer(page, c);
-    add_slope(page, c);
-    if (scene->options_count > 1 && controls) {
-        add_compared(page, c);
-    } else if (scene->options_count == 1) {
+    add_slope(page, c, least);
+    add_percentiles(page, c, least);
+    if (several && controls) {
+        add_compared(page, c, least);
+    } else if (!several) {
         section(page, _("Through the forest, and without it"));
         ceduo_page_option_blocks(page, c->report, 0);
     }
-    if (controls) {
+    if (controls && least < OTHER_LAW)
         ceduo_page_laws(page, c->report->result);
+    if (controls) {
         add_doubt(page, c);
-        add_years(page, c);
-        ceduo_page_hazard(page, c->report);
+        add_years(page, c, least);
+        add_hazard(page, c, least);
     }
+    if (several)
+        ceduo_page_rules(page, c->report->result);
     ceduo_page_notes(page, c->report);
-    if (scene->options_count > 1)
-        ceduo_page_stands(page, c->report->result, 0, scene->options_count);
+    if (several)
+        ceduo_page_stand_warnings(page, c->report->result, 0, scene->options_count);
     add_limits(page, scene);
+    say_left_out(page, c, least);
     add_origin(page, c);
+}
+
+#define SHEETS_MOST 3.95 /* of four */
+
+void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
+{
+    enum left_out least = NOTHING;
+    build(page, c, least);
+    while (ceduo_page_sheets(page) > SHEETS_MOST && ++least < ALL) {
+        if (!has(c, least))
+            continue;
+        ceduo_page_free(page);
+        build(page, c, least);
+    }
 }

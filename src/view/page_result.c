@@ -34,8 +34,8 @@ static void add_blocks(struct ceduo_page *page, const struct ceduo_scene *s)
 {
     for (size_t i = 0; i < s->blocks_count; i++) {
         const struct ceduo_block_class *b = &s->blocks[i];
-        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%s a year of %s to %s m3, exponent %s"), WRITTEN(b->per_year, 3),
-                          WRITTEN(b->volumes[0], 3), WRITTEN(b->volumes[1], 3), WRITTEN(b->exponent, 3));
+        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"), b->per_year,
+                          b->volumes[0], b->volumes[1], b->exponent);
     }
 }
 
@@ -242,13 +242,26 @@ static void say_rule_once(void *context, bool met, const char *sentence)
         ceduo_text_put(ceduo_page_add(w->page, CEDUO_PAGE_SENTENCE), sentence);
 }
 
+static void warn_of_stands(const struct ceduo_result *r, const struct ceduo_option *o, const struct ceduo_option_result *found,
+                           struct stand_warnings *w)
+{
+    for (size_t k = 0; k < o->belts_count; k++)
+        ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], warn_once, w);
+}
+
+void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
+{
+    struct stand_warnings w = {page, page->last};
+    for (size_t i = first; i < first + n; i++)
+        warn_of_stands(r, &r->scene->options[i], &r->options[i], &w);
+}
+
 void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
 {
     struct stand_warnings w = {page, page->last};
     for (size_t i = first; i < first + n; i++) {
         const struct ceduo_option *o = &r->scene->options[i];
-        for (size_t k = 0; k < o->belts_count; k++)
-            ceduo_words_stand_warnings(r->scene, &o->belts[k], &r->options[i].stands[k], warn_once, &w);
+        warn_of_stands(r, o, &r->options[i], &w);
         for (size_t k = 0; k < o->belts_count; k++)
             ceduo_words_rules(&o->belts[k], &r->options[i].stands[k].rules, say_rule_once, &w);
     }
@@ -305,7 +318,8 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
         ceduo_page_option(&page, report, i);
     if (scene->options_count > 1 && scene->controls_count > 0)
         ceduo_page_comparison(&page, report);
-    ceduo_page_hazard(&page, report);
+    for (size_t c = 0; c < scene->controls_count; c++)
+        ceduo_page_hazard(&page, report, c, c == 0);
     ceduo_page_notes(&page, report);
     say_doubt(&page, report->file);
     ceduo_page_print(text, &page, plain);

@@ -117,8 +117,11 @@ static void draw(struct rotation *r)
     double threshold = r->picture->scene->simulation.threshold;
     int strips = a->height - 1 - 2 - LIGHTS, first = strips / 2;
     struct text adc = {0}, share = {0};
-    ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g; at the top: %g or more)"), threshold,
-                      ADC_TOP * threshold);
+    if (a->width >= 60)
+        ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g; at the top: %g or more)"), threshold,
+                          ADC_TOP * threshold);
+    else
+        ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g)"), threshold);
     if (!r->flown)
         ceduo_text_put(&share, _("stems could take, kJ per 100 m (Eq. 4)"));
     else if (isnan(r->control->accepted))

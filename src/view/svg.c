@@ -368,6 +368,11 @@ static void open_picture(struct ceduo_html *html, const struct ceduo_svg *svg, c
         ceduo_html_empty(html, "rect", "width", across, "height", down, "fill", "#fff", NULL);
 }
 
+double ceduo_svg_aspect(const struct ceduo_svg *svg)
+{
+    return 2.0 * svg->cells->height / svg->cells->width;
+}
+
 void ceduo_svg_put(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words)
 {
     end_stroke(svg);

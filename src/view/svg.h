@@ -23,6 +23,9 @@ void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
 /* To draw on. */
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
 
+/* Its height over its width. */
+double ceduo_svg_aspect(const struct ceduo_svg *svg);
+
 /* What is told of a picture beside what is drawn. `id` is unlike that of every other picture of the page; NULL: the
  * picture is a file of its own. */
 struct ceduo_svg_words {

@@ -268,6 +268,29 @@ def test_page():
         expect("How often" not in without and "Blocks   " not in without, without)
 
 
+def test_many():
+    """More than two options are a table, in figures of JSON, below the sentence of the one that keeps off most"""
+    def shown(value):
+        return f"{value:.{max(0, 1 - math.floor(math.log10(value)))}f}"
+
+    options = [{"name": name, "forest": [{**WOOD, "to_m": to}]} for name, to in (("half", 70), ("whole", 140), ("third", 50))]
+    with Folder() as f:
+        path = f.write("s.yaml", slope_site(forest=None, options=options, controls=[{"x_m": 140, "accepted_kJ": 50}]))
+        page = " ".join(good("--batch", path).out.split())
+        result = good("--batch", "-f", "json", path).json()[0]
+        found = [hazard_of(result, "wooded", 0, i) for i in range(3)]
+        best = min(range(3), key=lambda i: -found[i]["accepted_years"])
+        expect_equal(best, 1)
+        expect_equal(page.count("A rock with more than 50 kJ reaches"), 1, page)
+        expect_in("years with 'whole'. Years from one rock with more than 50 kJ to the next", page)
+        for option, h in zip(options, found):
+            row = re.search(rf"{option['name']} ([0-9.]+) \(([0-9.]+)–([0-9.]+)\) ([0-9.]+) ([0-9.]+) ([0-9.]+) ", page)
+            expect(row, option, page)
+            wanted = [h["accepted_years"], h["accepted_years_lo"], h["accepted_years_hi"]]
+            wanted += [100 * m["rate_left"] for m in h["matrix"]]
+            expect_equal(list(row.groups()), [shown(v) for v in wanted])
+
+
 def test_design():
     """Design values are the 95th percentiles times factors that are named; the model's is 1.02 only for a fitted ground"""
     slope = {"vertices_m": [[0, 100], [150, 0], [200, 0]], "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]}
@@ -283,10 +306,11 @@ def test_design():
             for side, where in (("bare", "without forest"), ("wooded", "as long as the wood stands as in this option")):
                 expect_in(f"Design values of UNI 11211-4, {where}: speed {control[side]['speed_m_s']['p95'] * way:.1f} m/s, energy "
                           f"{control[side]['energy_kJ']['p95'] * way ** 2 * factor[blocks]:.0f} kJ, height "
-                          f"{control[side]['height_m']['p95'] * way:.2f} m. These are the 95th percentiles times "
-                          f"{factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
-                          f"{'fitted to what was seen' if ground is fitted else 'not fitted here'}; the energy times their square "
-                          f"and {factor[blocks]:.2f} for the survey of the blocks.", page)
+                          f"{control[side]['height_m']['p95']:.2f} m.", page)
+            expect_in(f"Speed: 95th percentile times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
+                      f"{'fitted to what was seen' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
+                      f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile, without a "
+                      "factor.", page)
         expect("UNI 11211" not in good("--batch", f.write("t.yaml", slope_site())).out, "design values unasked")
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)

@@ -146,6 +146,37 @@ def test_odd_titles():
     expect_in(html.escape("]]> --> &lt; \\x07<svg onload=x>", quote=True), text)
 
 
+EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
+              "design={survey: good, blocks: poor}", "-s",
+              "controls=[{x_m: 100, name: path, accepted_kJ: 30}, {x_m: 135, name: road, accepted_kJ: 50}]")
+LEFT_OUT = "Left out, to keep to four sheets"
+
+
+def test_office():
+    """Of several options the page has percentiles and design values of the one that is drawn, at each control, the rules of
+    the region with their sources, and the curves of how often"""
+    _, page = report("--option", "selection coppice", "--option", "large reserves", *EVERYTHING, "four-systems",
+                     few=("-n", 200, "-s", "doubt=none"))
+    for place in ("path (100 m)", "road (135 m)"):
+        expect(re.search(f"At {re.escape(place)}, with '(selection coppice|large reserves)'", page.text["h3"]), page.text["h3"])
+    expect_equal(page.text["p"].count("Design values of UNI 11211-4"), 4, page.text["p"])
+    expect_in("What the rules of Toscana ask", page.text["h2"])
+    expect_in("check the text in force", page.text["p"])
+    expect_in("art. 22, D.P.G.R. 48/R (2003)", page.text["p"])
+    expect_in("How often, and with how much, at road (135 m)", page.text["figcaption"])
+
+
+def test_left_out():
+    """A page that would fill more than four sheets leaves out, and names, what it says elsewhere or a picture shows again"""
+    _, page = report(*EVERYTHING, "four-systems", few=("-n", 200, "--sensitivity=2"))
+    expect_in(LEFT_OUT, page.text["h2"])
+    expect_in("The options as bars; 'ceduo --plot compare' draws them.", page.text["li"])
+    expect_in("controls before the last; 'ceduo --batch' prints them.", page.text["li"])
+    expect("Options side by side" not in page.text["figcaption"], page.text["figcaption"])
+    expect("path (100 m)" not in page.text["h3"], page.text["h3"])
+    expect_in("At road (135 m), with ", page.text["h3"])
+
+
 def test_chapters():
     """Several scenes give chapters in their order; a bad one is told and left out"""
     text, page = report("paper-site", "terrace", "staggered")

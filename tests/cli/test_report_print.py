@@ -18,6 +18,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import FULL, PROFILES, SANITIZED, SLOWER, Folder, Skip, expect, expect_equal, good, run_all  # noqa: E402
 
 SCENES = ("four-systems", "rotation", "paper-site", "blocks-above-the-road", "vaujany")
+# eight options with all that a scene can ask for
+EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
+              "design={survey: good, blocks: poor}", "-s",
+              "controls=[{x_m: 100, name: path, accepted_kJ: 30}, {x_m: 135, name: road, accepted_kJ: 50}]", "-s",
+              "observed=[{name: marks, passed: {x_m: 100, count: 8, of: 10}}]")
 QUICK = ("-n", 2000, "--sensitivity=8")
 
 # Looks at every element that has text of its own: its boxes, its colours, and whether it stays within its place.
@@ -85,9 +90,9 @@ def chromium(folder, *arguments):
     return subprocess.run(command, env=env, capture_output=True, text=True, timeout=300 * SLOWER, check=True).stdout
 
 
-def report(folder, scene, language):
+def report(folder, scene, language, *more):
     path = folder / f"{scene}-{language}.html"
-    good("--report", path, "--language", language, *QUICK, scene, timeout=600)
+    good("--report", path, "--language", language, *QUICK, *more, scene, timeout=600)
     return path
 
 
@@ -125,9 +130,9 @@ def check_paper(folder, path):
         expect(not over, f"{path.name}, page {number}: over one another", over[:5])
 
 
-def check_report(scene, language):
+def check_report(scene, language, *more):
     with Folder() as f:
-        path = report(f.path, scene, language)
+        path = report(f.path, scene, language, *more)
         text = path.read_text(encoding="utf-8")
         expect(len(text.encode()) <= 400_000, f"{len(text)} bytes")
         found = look(f.path, path)
@@ -148,6 +153,8 @@ def test_reports():
         if (PROFILES / "scenes" / f"{scene}.yaml").exists():
             for language in ("en", "it"):
                 check_report(scene, language)
+    for language in ("en", "it"):
+        check_report("four-systems", language, *EVERYTHING)
 
 
 if __name__ == "__main__":
