@@ -271,7 +271,7 @@ static void put_advice(struct ceduo_page *page, const struct ceduo_doubt_report 
     }
 }
 
-void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, bool all)
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, enum ceduo_doubt_extent extent)
 {
     put_section(page, r);
     put_options(page, r);
@@ -282,8 +282,9 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     put_advice(page, r);
     put_lights(page, r);
-    put_orders(page, r);
-    if (all)
+    if (extent >= CEDUO_DOUBT_ORDER)
+        put_orders(page, r);
+    if (extent == CEDUO_DOUBT_ALL)
         put_together(page, r);
     put_answer(page, r);
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
@@ -301,7 +302,7 @@ void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, boo
         return;
     }
     ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), r->file->scene.title);
-    ceduo_doubt_blocks(&page, r, true);
+    ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }

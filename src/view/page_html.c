@@ -48,8 +48,8 @@ static const char style[] =
     "svg{display:block;width:100%;height:auto}\n"
     "pre{font:6.5pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
     "3mm;background:#f5f5f2;"
-    "break-inside:avoid;columns:2;column-gap:5mm}\n"
-    "pre.line{columns:1}\n"
+    "columns:2;column-gap:5mm}\n"
+    "pre.line{columns:1;break-inside:avoid}\n"
     "section+section{break-before:page}\n"
     "@media screen{body{padding:0 6mm 10mm}}\n";
 

@@ -35,7 +35,7 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
 /* ---- what has no room ---- */
 
 /* What a page of more than four sheets leaves out, one after the other, until it has no more. */
-enum left_out { NOTHING, BARS, ENERGY_DRAWN, YEARS_DRAWN, OTHER_PLACES, OTHER_LAW, HAZARD_DRAWN, ALL };
+enum left_out { NOTHING, BARS, ENERGY_DRAWN, YEARS_DRAWN, OTHER_PLACES, OTHER_LAW, PAIRS, HAZARD_DRAWN, ALL };
 
 static const char *const left_out[] = {
     [BARS] = N_("The options as bars; 'ceduo --plot compare' draws them."),
@@ -43,6 +43,7 @@ static const char *const left_out[] = {
     [YEARS_DRAWN] = N_("The pictures of the years; 'ceduo --plot rotation' and 'ceduo --plot tradeoff' draw them."),
     [OTHER_PLACES] = N_("Percentiles and rates at the controls before the last; 'ceduo --batch' prints them."),
     [OTHER_LAW] = N_("The other energy law, option by option; 'ceduo --batch' prints it."),
+    [PAIRS] = N_("How sure the order of the options is, pair by pair; 'ceduo --sensitivity' prints it."),
     [HAZARD_DRAWN] = N_("The curves of how often; 'ceduo --plot hazard' draws them.")};
 
 /* Whether the scene has it at all. */
@@ -51,7 +52,7 @@ static bool has(const struct ceduo_chapter *c, enum left_out what)
     const struct ceduo_scene *scene = c->report->result->scene;
     bool several = scene->options_count > 1;
     return what == OTHER_PLACES   ? scene->controls_count > 1 && several
-           : what == BARS         ? several
+           : what == BARS || what == PAIRS ? several
            : what == HAZARD_DRAWN ? ceduo_report_has_hazard(c->report)
                                   : scene->controls_count > 0;
 }
@@ -137,10 +138,10 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c,
           "energy, and their mean energy."));
 }
 
-static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c)
+static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
 {
     if (c->doubt && c->doubt->answer)
-        ceduo_doubt_blocks(page, c->doubt, false);
+        ceduo_doubt_blocks(page, c->doubt, least >= PAIRS ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
 }
 
 #define YEARS_ROWS 17
@@ -280,7 +281,7 @@ static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum l
     if (controls && least < OTHER_LAW)
         ceduo_page_laws(page, c->report->result);
     if (controls) {
-        add_doubt(page, c);
+        add_doubt(page, c, least);
         add_years(page, c, least);
         add_hazard(page, c, least);
     }
