@@ -432,7 +432,7 @@ deb: dist
 	rm -rf $(DEB) && mkdir -p $(DEB)
 	tar -xzf $(DIST).tar.gz -C $(DEB)
 	cp -R $(DEB)/$(DIST)/src/packaging $(DEB)/$(DIST)/debian
-	epoch=$${SOURCE_DATE_EPOCH:-$$(date +%s -r NEWS.md)}; \
+	epoch=$${SOURCE_DATE_EPOCH:-$$(date -u +%s -d "$$(sed -n '/^## $(VERSION) (/ { s/.*(//; s/)//p; q }' NEWS.md)")}; \
 	sed -i "s/@VERSION@/$(VERSION)/; s/@DATE@/$$(date -R -u -d @$$epoch)/" $(DEB)/$(DIST)/debian/changelog; \
 	find $(DEB)/$(DIST) -exec touch -h -d @$$epoch {} +
 	cd $(DEB)/$(DIST) && DEB_BUILD_OPTIONS="noautodbgsym parallel=$(CORES)" dpkg-buildpackage -b -us -uc

@@ -2,6 +2,6 @@
 #ifndef CEDUO_VERSION_H
 #define CEDUO_VERSION_H
 
-#define CEDUO_VERSION "0.2.0"
+#define CEDUO_VERSION "0.3.0"
 
 #endif

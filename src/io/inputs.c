@@ -144,13 +144,6 @@ static void walk(struct finder *f, const struct object *object, const struct nod
 
 /* ---- grounds of the library ---- */
 
-static double number_of(const struct node *map, const char *key)
-{
-    double value;
-    const char *text = ceduo_node_text(map, key);
-    return text && ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
-}
-
 size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene,
                           const char *material, const char *key, const char **places)
 {
@@ -160,7 +153,7 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
     size_t n = 0;
     for (size_t j = 0, row = 0; rows && rows->kind == NODE_LIST && rows->n > 0 && j + 1 < s->vertices; j++) {
         double middle = s->origin_x + (s->x[j] + s->x[j + 1]) / 2;
-        while (row + 1 < rows->n && middle >= number_of(rows->items[row + 1], "from_m"))
+        while (row + 1 < rows->n && middle >= ceduo_node_number(rows->items[row + 1], "from_m"))
             row++;
         const char *name = ceduo_node_text(rows->items[row], "material");
         if (name && strcmp(name, material) == 0)

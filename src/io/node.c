@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "node.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "base/text.h"
 
 const struct node *ceduo_node_get(const struct node *node, const char *key)
 {
@@ -17,6 +20,13 @@ const char *ceduo_node_text(const struct node *node, const char *key)
 {
     const struct node *entry = ceduo_node_get(node, key);
     return entry && entry->kind == NODE_SCALAR ? entry->text : NULL;
+}
+
+double ceduo_node_number(const struct node *node, const char *key)
+{
+    double value;
+    const char *text = ceduo_node_text(node, key);
+    return text && ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
 }
 
 /* A copy with room for n items, of which none is set. */

@@ -42,6 +42,9 @@ const struct node *ceduo_node_get(const struct node *node, const char *key);
 /* The text of a scalar entry; NULL where there is none. */
 const char *ceduo_node_text(const struct node *node, const char *key);
 
+/* The number of such an entry; NaN where there is none. */
+double ceduo_node_number(const struct node *node, const char *key);
+
 /* A mapping with the entry put in place of one with its key, or added. NULL without memory. */
 const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key,
                                    const struct node *value);

@@ -1,60 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The one table of keys: what the files say, and the members of the scene that hold it. A new key is a member with its
  * comment in a public header and one row here. */
-#include <math.h>
-
-#include "base/language.h"
-#include "schema.h"
-
-#define FAR 1e9 /* m: survey coordinates and more */
-
-/* ---- shorthand for rows ---- */
-
-/* Where a value goes: a member; a member and what belongs to it. */
-#define AT(type, member) offsetof(struct type, member), sizeof((struct type *)0)->member, 0
-#define PAIR(type, member, other) offsetof(struct type, member), sizeof((struct type *)0)->member, offsetof(struct type, other)
-#define LIST(type, items, count) PAIR(type, items, count)
-#define PLACE(type, given, relative) PAIR(type, given, relative)
-#define POINTS(type, x, count) offsetof(struct type, x), 2 * sizeof((struct type *)0)->x, offsetof(struct type, count)
-#define SAME 0, 0, 0 /* a group whose members are of the structure around it */
-#define NOWHERE 0, 0, 0
-/* Of the draft, but within the slope. */
-#define IN_SLOPE(member) (offsetof(struct scene_draft, member) - offsetof(struct scene_draft, scene.slope))
-#define OF_SLOPE(items, count) IN_SLOPE(items), sizeof((struct scene_draft *)0)->items, IN_SLOPE(count)
-_Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x) + sizeof(double *), "points are x, z");
-
-/* Rows by their kind; each expands in one step, for `at` is three members. */
-#define NUM(kind, key, says, at, unit, scale, lo, hi, flags, value, meaning) \
-    {key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL, says}
-#define NUMBER(key, says, at, unit, lo, hi, flags, value, meaning) \
-    {key, FIELD_NUMBER, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says}
-#define SPREAD(key, says, at, unit, lo, hi, flags, value, meaning) \
-    {key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says}
-#define OTHER(kind, key, says, at, flags, value, meaning, choices, object) \
-    {key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, object, says}
-#define WORD(key, says, at, flags, value, meaning, choices) \
-    {key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says}
-#define GROUP(key, says, at, flags, meaning, object) \
-    {key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says}
-#define ITEMS(key, says, at, flags, meaning, object) \
-    {key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says}
-#define TEXT(key, says, at, flags, meaning) \
-    {key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL, says}
-#define TAG(value)                                                                          \
-    {"ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value,             \
-     N_("what kind of file this is"), NULL, NULL, NAMED(N_("kind of file"), NULL)}
-
-/* What people call it: a label, and a short one for the head of a column (NULL: the same); what is usual, in the file's
- * unit; another unit that people use. */
-#define SHOWN(label, brief, unit, per, least, most) {label, brief, unit, per, least, most}
-#define USUAL(label, brief, least, most) SHOWN(label, brief, NULL, 1, least, most)
-#define NAMED(label, brief) USUAL(label, brief, -INFINITY, INFINITY)
-#define CENTIMETRES(label, brief, least, most) SHOWN(label, brief, N_("cm"), 100, least, most)
-#define OBJECT(type, fields, folder) {fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder}
-#define STRING(macro) TEXT_OF(macro)
-#define TEXT_OF(text) #text
-
-enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, UNFLOWN = FIELD_UNFLOWN };
+#include "fields.h"
 
 /* ---- rock ---- */
 
@@ -79,7 +26,7 @@ static const struct field rock_fields[] = {
         AT(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE, "2600",
            N_("density of the rock; the default is limestone's, an assumption")),
 };
-static const struct object rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL);
+const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL);
 
 /* ---- blocks ---- */
 
@@ -115,7 +62,7 @@ static const struct field release_fields[] = {
         AT(ceduo_release, spin), "rad/s", -10000, 10000, 0, "0",
            N_("spin, positive rolling forward; not used by the law lumped")),
 };
-static const struct object release_object = OBJECT(ceduo_release, release_fields, NULL);
+const struct object ceduo_release_object = OBJECT(ceduo_release, release_fields, NULL);
 
 /* ---- slope ---- */
 
@@ -514,123 +461,7 @@ static const struct field minimum_fields[] = {
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
 
-/* ---- what was seen ---- */
-
-#define PLACE_SEEN(key, name, member, flags, meaning) \
-    NUMBER(key, NAMED(name, NULL), AT(seen_values, member), "m", -FAR, FAR, (flags) | UNFLOWN, NULL, meaning)
-#define VALUES_SEEN(key, name, meaning) \
-    NUM(FIELD_NUMBERS, key, NAMED(name, NULL), LIST(seen_values, values, values_count), "", 1, -FAR, FAR, UNFLOWN, NULL, meaning)
-#define COUNT_SEEN(key, name, member, lo, flags, meaning) \
-    NUM(FIELD_COUNT, key, NAMED(name, NULL), AT(seen_values, member), "", 1, lo, 1e9, (flags) | UNFLOWN, NULL, meaning)
-#define OF_SEEN COUNT_SEEN("of", N_("rocks released"), of, 1, 0, N_("rocks released; without it only those seen are compared"))
-#define CSV_SEEN                                                                                                          \
-    OTHER(FIELD_FILE, "csv", NAMED(N_("table"), NULL), AT(seen_values, csv), UNFLOWN, NULL,                                \
-          N_("a table that holds the values, instead of a list"), NULL, NULL),                                             \
-        TEXT("column", NAMED(N_("column"), NULL), AT(seen_values, column), UNFLOWN,                                        \
-             N_("its column; without it the one that is named as usual, or the only one")),                                \
-        TEXT("only", NAMED(N_("only"), NULL), AT(seen_values, only), UNFLOWN,                                              \
-             N_("only those of its rows that have this in another column, such as block=1"))
-#define MEAN_SEEN                                                                                                          \
-    NUMBER("mean", NAMED(N_("mean"), NULL), AT(seen_values, mean), "", -1e9, 1e9, UNFLOWN, NULL,                           \
-           N_("instead of values: their mean")),                                                                           \
-        NUMBER("sd", NAMED(N_("standard deviation"), NULL), AT(seen_values, sd), "", 0, 1e9, UNFLOWN, NULL,                \
-               N_("their standard deviation")),                                                                            \
-        COUNT_SEEN("n", N_("number"), n, 1, 0, N_("how many rocks they are of"))
-
-static const struct field stops_fields[] = {
-    VALUES_SEEN("x_m", N_("stops"), N_("where rocks came to rest or were stopped; in the slope's coordinates")),
-    CSV_SEEN,
-    OF_SEEN,
-    PLACE_SEEN("seen_from_m", N_("looked for from, m"), seen_from, 0,
-               N_("stops before it were not looked for; without it all were")),
-};
-static const struct object stops_object = OBJECT(seen_values, stops_fields, NULL);
-
-static const struct field passed_fields[] = {
-    PLACE_SEEN("x_m", N_("counted at, m"), x, REQUIRED, N_("where they were counted")),
-    COUNT_SEEN("count", N_("passed"), count, 0, REQUIRED, N_("rocks that passed")),
-    COUNT_SEEN("of", N_("rocks released"), of, 1, REQUIRED, N_("rocks released")),
-};
-static const struct object passed_object = OBJECT(seen_values, passed_fields, NULL);
-
-static const struct field crossing_fields[] = {
-    PLACE_SEEN("x_m", N_("seen at, m"), x, REQUIRED, N_("where they were seen")),
-    VALUES_SEEN("values", N_("values"), N_("values of rocks that passed: m/s, m above the ground, kJ")),
-    CSV_SEEN,
-    MEAN_SEEN,
-};
-static const struct object crossing_object = OBJECT(seen_values, crossing_fields, NULL);
-
-static const struct field sample_fields[] = {
-    VALUES_SEEN("values", N_("values"), N_("values, one for each rock: m/s, m above the ground, kJ")),
-    CSV_SEEN,
-    MEAN_SEEN,
-};
-static const struct object sample_object = OBJECT(seen_values, sample_fields, NULL);
-
-static const struct field largest_fields[] = {
-    GROUP("speed_m_s", NAMED(N_("largest speed"), NULL),
-        AT(seen, largest_speed), 0, N_("largest speed of each rock on its way"), &sample_object),
-    GROUP("height_m", NAMED(N_("largest height"), NULL),
-        AT(seen, largest_height), 0, N_("largest height of each rock above the ground"), &sample_object),
-};
-static const struct object largest_object = OBJECT(seen, largest_fields, NULL);
-
-static const struct field way_fields[] = {
-    NUMBER("from_m", NAMED(N_("from, m"), N_("from m")),
-        AT(seen, way_from), "m", -FAR, FAR, REQUIRED | UNFLOWN, NULL, N_("where the stretch begins")),
-    NUMBER("to_m", NAMED(N_("to, m"), N_("to m")),
-        AT(seen, way_to), "m", -FAR, FAR, REQUIRED | UNFLOWN, NULL, N_("where it ends")),
-    GROUP("speed_m_s", NAMED(N_("mean speed"), NULL),
-        AT(seen, way_speed), 0, N_("mean speed of each rock along it, metre by metre"), &sample_object),
-    GROUP("height_m", NAMED(N_("mean height"), NULL),
-        AT(seen, way_height), 0, N_("mean height of each rock above the ground"), &sample_object),
-    GROUP("energy_kJ", NAMED(N_("mean energy"), NULL),
-        AT(seen, way_energy), 0, N_("mean energy of each rock"), &sample_object),
-};
-static const struct object way_object = OBJECT(seen, way_fields, NULL);
-
-static const struct field scars_fields[] = {
-    PLACE_SEEN("from_m", N_("from, m"), from, REQUIRED, N_("where the stretch begins")),
-    PLACE_SEEN("to_m", N_("to, m"), to, REQUIRED, N_("where it ends")),
-    VALUES_SEEN("height_m", N_("heights"), N_("heights of the middles of scars above the ground")),
-    CSV_SEEN,
-    OF_SEEN,
-    NUMBER("share_seen", NAMED(N_("share seen"), NULL),
-        AT(seen_values, share_seen), "", 0, 1, ABOVE | UNFLOWN, NULL,
-           N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
-};
-static const struct object scars_object = OBJECT(seen_values, scars_fields, NULL);
-
-static const struct field seen_fields[] = {
-    TEXT("name", NAMED(N_("name"), NULL),
-        AT(seen, name), UNFLOWN, N_("a name of its own; without it one is made")),
-    WORD("use", NAMED(N_("use"), NULL),
-        AT(seen, use), UNFLOWN, "fit", N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
-    TEXT("option", NAMED(N_("option"), NULL),
-        AT(seen, option), UNFLOWN, N_("the option that stood there; without it the first")),
-    GROUP("rock", NAMED(N_("rock"), NULL),
-        AT(seen, rock), 0, N_("the rock, where it is another than the scene's"), &rock_object),
-    GROUP("release", NAMED(N_("release"), NULL),
-        AT(seen, release), 0, N_("how it started, where that differs from the scene's"), &release_object),
-    GROUP("stops", NAMED(N_("stops"), NULL),
-        AT(seen, stops), 0, N_("where rocks stopped"), &stops_object),
-    GROUP("passed", NAMED(N_("passed"), NULL),
-        AT(seen, passed), 0, N_("how many passed a place"), &passed_object),
-    GROUP("speed", NAMED(N_("speed"), NULL),
-        AT(seen, speed), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
-    GROUP("height", NAMED(N_("height"), NULL),
-        AT(seen, height), 0, N_("height of their underside above the ground there, m"), &crossing_object),
-    GROUP("energy", NAMED(N_("energy"), NULL),
-        AT(seen, energy), 0, N_("their energy there, kJ"), &crossing_object),
-    GROUP("largest", NAMED(N_("largest"), NULL),
-        SAME, 0, N_("the largest of each rock on its way"), &largest_object),
-    GROUP("on_the_way", NAMED(N_("on the way"), NULL),
-        SAME, 0, N_("means of each rock along a stretch"), &way_object),
-    GROUP("scars", NAMED(N_("scars"), NULL),
-        AT(seen, scars), 0, N_("scars on stems along a stretch"), &scars_object),
-};
-static const struct object seen_object = OBJECT(seen, seen_fields, NULL);
+/* ---- years ---- */
 
 static const struct field window_fields[] = {
     NUMBER("first", NAMED(N_("first year shown"), NULL),
@@ -646,13 +477,13 @@ static const struct field scene_fields[] = {
     TEXT("title", NAMED(N_("title"), NULL),
         AT(scene_draft, scene.title), UNFLOWN, N_("title of the scene")),
     GROUP("rock", NAMED(N_("rock"), NULL),
-        AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &rock_object),
+        AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &ceduo_rock_object),
     ITEMS("blocks", NAMED(N_("blocks that come down"), NULL),
         LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
           N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),
           &block_object),
     GROUP("release", NAMED(N_("release"), NULL),
-        AT(scene_draft, scene.release), 0, N_("how the rock starts"), &release_object),
+        AT(scene_draft, scene.release), 0, N_("how the rock starts"), &ceduo_release_object),
     GROUP("slope", NAMED(N_("slope"), NULL),
         AT(scene_draft, scene.slope), REQUIRED | FIELD_FOLLOWS,
           N_("the slope: a file, or what such a file holds"), &slope_object),
@@ -679,7 +510,7 @@ static const struct field scene_fields[] = {
         &doubt_object),
     ITEMS("observed", NAMED(N_("seen"), NULL),
         LIST(scene_draft, seen, seen_count), FIELD_DRAFT | UNFLOWN,
-        N_("what was seen of real rocks, for --calibrate; each row is of one kind"), &seen_object),
+        N_("what was seen of real rocks, for --calibrate; each row is of one kind"), &ceduo_seen_object),
     GROUP("design", NAMED(N_("design values"), NULL),
         AT(scene_draft, scene.design), 0, N_("prints the design values of UNI 11211-4"), &design_object),
     GROUP("minimum", NAMED(N_("minimum"), NULL),

@@ -43,10 +43,10 @@ static bool read_scalar(const struct node *node, double *value)
 /* The number at `list[index].key`; NaN where there is none. */
 static double number_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
-    char path[FORM_PATH + 64];
-    double value;
-    snprintf(path, sizeof path, "%s[%zu].%s", item->list, index, key);
-    return read_scalar(ceduo_document_node(&app->document, path), &value) ? value : NAN;
+    char path[FORM_PATH + 32];
+    snprintf(path, sizeof path, "%s[%zu]", item->list, index);
+    const struct node *node = ceduo_document_node(&app->document, path);
+    return node ? ceduo_node_number(node, key) : NAN;
 }
 
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */

@@ -179,11 +179,8 @@ static size_t material_at(const struct app *app, double x)
 {
     const struct node *list = ceduo_document_node(&app->document, "slope.materials");
     for (size_t i = 0; list && i < list->n; i++) {
-        double from = NAN, to = NAN;
-        const struct node *a = ceduo_node_get(list->items[i], "from_m"), *b = ceduo_node_get(list->items[i], "to_m");
-        if (a && b && a->kind == NODE_SCALAR && b->kind == NODE_SCALAR)
-            from = strtod(a->text, NULL), to = strtod(b->text, NULL);
-        if (x >= from && x <= to)
+        const struct node *item = list->items[i];
+        if (x >= ceduo_node_number(item, "from_m") && x <= ceduo_node_number(item, "to_m"))
             return i;
     }
     return SIZE_MAX;

@@ -5,7 +5,7 @@
 #include "report.h"
 
 /* The figures of a result: one table for each kind of object. JSON nests the tables as they name each other, CSV joins
- * their keys with dots, the manual lists them. To add a figure, add a member to its struct and a row to figures.c. */
+ * their keys with dots, the manual lists them. To add a figure, add a member to its struct and a row to figures_result.c. */
 
 enum ceduo_value_kind { CEDUO_NULL, CEDUO_VALUE_NUMBER, CEDUO_VALUE_COUNT, CEDUO_VALUE_FLAG, CEDUO_VALUE_TEXT };
 

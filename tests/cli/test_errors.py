@@ -522,8 +522,8 @@ CASES = {
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
     # Parts of a run
     "'mine.yaml' has 8 shards; these are missing: 3, 5-7": Elsewhere("tests/cli/test_shard.py", "def test_missing"),
-    "a part by version 0.1.0, and this is 0.2.0; ...": Elsewhere("tests/cli/test_shard.py", "def test_version"),
-    "a part in a format that this version (0.2.0) does not know": Elsewhere("tests/cli/test_shard.py", "def test_version"),
+    "a part by version 0.1.0, and this is 0.3.0; ...": Elsewhere("tests/cli/test_shard.py", "def test_version"),
+    "a part in a format that this version (0.3.0) does not know": Elsewhere("tests/cli/test_shard.py", "def test_version"),
     "the part is incomplete; compute this shard again": Elsewhere("tests/cli/test_shard.py", "def test_cut"),
     "the part was changed after it was written; compute this shard again": Elsewhere("tests/cli/test_shard.py", "def test_edited"),
     "contains no part": Elsewhere("tests/cli/test_shard.py", "def test_no_parts"),

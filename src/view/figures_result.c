@@ -1,0 +1,615 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The figures of a result, of its years and of a search: each is named once. */
+#include "figures_parts.h"
+
+#include "ceduo/version.h"
+#include "scene/words.h"
+
+/* ---- values ---- */
+
+READ(light_at, enum ceduo_light, WORD(ceduo_words_light(m)))
+READ(energy_model_at, enum ceduo_energy_model, WORD(ceduo_energy_words.names[m]))
+#define LIGHT_AT(member) .value = light_at, .offset = offsetof(struct ceduo_index, member)
+
+/* ---- objects of a place ---- */
+
+/* The option as it is filed, or in a year. */
+static const struct ceduo_option *forest_of(const struct ceduo_place *p)
+{
+    return p->year ? &p->year->option : &p->report->result->scene->options[p->option];
+}
+
+static const struct ceduo_index *indices_of(const struct ceduo_place *p)
+{
+    return p->year ? p->year->controls : p->report->result->options[p->option].controls;
+}
+
+static const struct ceduo_flown *wood_of(const struct ceduo_place *p)
+{
+    return p->year && p->year->wooded.rocks > 0 ? &p->year->wooded : &p->report->result->options[p->option].wooded;
+}
+
+static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p)
+{
+    if (!p->year)
+        return ceduo_result_wooded(p->report->result, p->option, p->control);
+    return p->year->wooded.rocks > 0 ? &p->year->wooded.arrivals[p->control] : NULL;
+}
+
+/* Of today alone; NULL where no stem stands. */
+static const struct ceduo_other_energy *other_law(const struct ceduo_place *p)
+{
+    const struct ceduo_other_energy *other = &p->report->result->options[p->option].others[p->control];
+    return !p->year && other->known && other->stems ? other : NULL;
+}
+
+/* NULL where growth or cuts are not known. */
+static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
+{
+    const struct ceduo_verdict *v = p->report->verdict;
+    const struct ceduo_yield *yield = v ? &v->choices[p->option].yield : NULL;
+    return yield && !isnan(yield->cut_per_year) ? yield : NULL;
+}
+
+/* For `from`: p is the place, r its result. */
+#define OBJECT(name, object)                                \
+    static const void *name(const void *place)              \
+    {                                                       \
+        const struct ceduo_place *p = place;                \
+        const struct ceduo_result *r = p->report->result;   \
+        (void)r;                                            \
+        return object;                                      \
+    }
+OBJECT(report_of, p->report)
+OBJECT(scene_of, r->scene)
+OBJECT(rock_of, &r->rock)
+OBJECT(year_of, p->year)
+OBJECT(option_of, &r->scene->options[p->option])
+OBJECT(first_option_of, &r->scene->options[0])
+OBJECT(belt_of, &forest_of(p)->belts[p->belt])
+OBJECT(stand_of, &(p->year ? p->year->stands : r->options[p->option].stands)[p->belt])
+static const void *rules_of(const void *place)
+{
+    const struct ceduo_stand_result *s = stand_of(place);
+    return s && s->rules.of ? &s->rules : NULL;
+}
+OBJECT(control_of, &r->scene->controls[p->control])
+OBJECT(index_of, &indices_of(p)[p->control])
+OBJECT(last_index_of, &indices_of(p)[r->last_control])
+OBJECT(bare_of, &r->bare.arrivals[p->control])
+OBJECT(wooded_of, through_the_wood(p))
+OBJECT(other_of, other_law(p))
+OBJECT(flown_of, wood_of(p))
+OBJECT(stops_of, wood_of(p)->ends.stop_x.n > 0 ? p : NULL)
+OBJECT(difference_of, p->option > 0 && !p->year ? &r->options[p->option].differences[p->control] : NULL)
+OBJECT(yield_of, yield_at(p))
+OBJECT(place_of_yield, yield_at(p) ? p : NULL)
+OBJECT(felling_of, &yield_at(p)->fellings[p->felling])
+OBJECT(felled_belt_of, &r->scene->options[p->option].belts[yield_at(p)->fellings[p->felling].belt])
+OBJECT(rotation_of, p->report->years ? p : NULL)
+
+static const void *search_of(const void *find)
+{
+    return ((const struct ceduo_find_report *)find)->search;
+}
+
+static const void *found_yield_of(const void *find)
+{
+    const struct ceduo_yield *yield = ((const struct ceduo_find_report *)find)->yield;
+    return yield && !isnan(yield->cut_per_year) ? yield : NULL;
+}
+
+static const void *found_of(const void *find)
+{
+    return ((const struct ceduo_find_report *)find)->found;
+}
+
+/* ---- lists ---- */
+
+static bool enter_option(struct ceduo_place *p, size_t i)
+{
+    p->option = i;
+    bool inside = i < p->report->result->scene->options_count;
+    if (inside && p->report->years)
+        p->sum = ceduo_years_sum(p->report->years[i], p->report->result->last_control);
+    return inside;
+}
+
+static bool enter_belt(struct ceduo_place *p, size_t i)
+{
+    p->belt = i;
+    return i < forest_of(p)->belts_count;
+}
+
+static bool enter_control(struct ceduo_place *p, size_t i)
+{
+    p->control = i;
+    return i < p->report->result->scene->controls_count;
+}
+
+static bool enter_year(struct ceduo_place *p, size_t i)
+{
+    const struct ceduo_years *years = p->report->years ? p->report->years[p->option] : NULL;
+    p->year = years && i < years->count ? &years->years[i] : NULL;
+    return p->year != NULL;
+}
+
+/* Up to the end of the first whole rotation, whichever years are asked for. */
+static bool enter_felling(struct ceduo_place *p, size_t i)
+{
+    const struct ceduo_yield *yield = yield_at(p);
+    struct ceduo_window rotation = ceduo_window_of(&p->report->result->scene->options[p->option]);
+    p->felling = i;
+    return yield && i < yield->fellings_count && yield->fellings[i].year <= rotation.last + 1;
+}
+
+static bool enter_difference(struct ceduo_place *p, size_t i)
+{
+    size_t controls = p->report->result->scene->controls_count;
+    p->option = controls > 0 ? 1 + i / controls : SIZE_MAX;
+    p->control = controls > 0 ? i % controls : 0;
+    return p->option < p->report->result->scene->options_count;
+}
+
+/* ---- sentences ---- */
+
+static void say_of_run(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    ceduo_words_run_warnings(p->report->result, &p->report->remarks, say, context);
+}
+
+static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    ceduo_words_stand_warnings(p->report->result->scene, belt_of(p), stand_of(p), say, context);
+}
+
+static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, void *context)
+{
+    struct ceduo_place p = *place;
+    say_of_run(&p, say, context);
+    for (size_t i = 0; enter_belt(&p, i); i++)
+        say_of_stand(&p, say, context);
+}
+
+/* ---- what is more than a member ---- */
+
+VALUE(format_of, place, WORD("ceduo-result-1"))
+VALUE(version_of, place, WORD(CEDUO_VERSION))
+VALUE(path_of, report, WORD(o->file->path))
+VALUE(rocks_of, report, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
+VALUE(law_of, scene, WORD(ceduo_law_words.names[o->simulation.law]))
+VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
+VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
+VALUE(rule_of, stand_result, WORD(o->bare ? NULL : ceduo_rule_words.names[o->rule]))
+VALUE(region_of, compliance, WORD(o->of->name))
+#define OF_ITEM(which, value) (o->which ? (value) : NOTHING)
+VALUE(least_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->least)))
+VALUE(most_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->most)))
+VALUE(standards_met, compliance, OF_ITEM(standards_item, IS(o->standards_met)))
+VALUE(standards_article, compliance, OF_ITEM(standards_item, WORD(o->standards_item->article)))
+VALUE(standards_year, compliance, OF_ITEM(standards_item, COUNT(o->standards_item->year)))
+VALUE(least_turn, compliance, OF_ITEM(turn_item, NUMBER(o->turn_item->least)))
+VALUE(most_turn, compliance, OF_ITEM(turn_item, NUMBER(o->turn_item->most)))
+VALUE(turn_met, compliance, OF_ITEM(turn_item && !isnan(o->turn), IS(o->turn_met)))
+VALUE(turn_article, compliance, OF_ITEM(turn_item, WORD(o->turn_item->article)))
+VALUE(turn_year, compliance, OF_ITEM(turn_item, COUNT(o->turn_item->year)))
+VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
+VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
+VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
+VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
+VALUE(share_at, flown, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
+VALUE(missed_at, arrivals, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
+VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
+VALUE(too_much_of, place, isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
+VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
+VALUE(find_format, find_report, WORD("ceduo-find-1"))
+VALUE(find_path, find_report, WORD(o->file->path))
+VALUE(find_option, find_report, WORD(o->file->scene.options[o->search->option].name))
+VALUE(goal_of, search, WORD(ceduo_goals[o->goal].word))
+VALUE(over_of, search, WORD(o->rotation ? "rotation" : "today"))
+VALUE(side_of, found, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(nearest_of, found, NUMBER(o->found ? NAN : o->nearest))
+VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
+
+/* ---- the tables ---- */
+
+#define NO_END   "too few rocks arrive to bound it"
+#define NO_STEMS "the stand has no stems"
+#define SHARES   "a contact takes a share of the rock's energy (inertia)"
+
+static const struct ceduo_figure distribution[] = {
+    {"mean", "", "mean", AT(distribution, mean), .null = NO_ROCK},
+    {"se", "", "standard error of the mean", AT(distribution, se), .null = FEW},
+    {"sd", "", "standard deviation", AT(distribution, sd), .null = FEW},
+    {"p50", "", "median", AT(distribution, p50), .null = NO_ROCK},
+    {"p50_lo", "", "lower end of its 95 % interval", AT(distribution, p50_lo), .null = NO_END},
+    {"p50_hi", "", "upper end of its 95 % interval", AT(distribution, p50_hi), .null = NO_END},
+    {"p95", "", "95th percentile", AT(distribution, p95), .null = NO_ROCK},
+    {"p95_lo", "", "lower end of its 95 % interval", AT(distribution, p95_lo), .null = NO_END},
+    {"p95_hi", "", "upper end of its 95 % interval", AT(distribution, p95_hi), .null = NO_END},
+    {"p99", "", "99th percentile", AT(distribution, p99), .null = NO_ROCK},
+    {"p99_lo", "", "lower end of its 95 % interval", AT(distribution, p99_lo), .null = NO_END},
+    {"p99_hi", "", "upper end of its 95 % interval", AT(distribution, p99_hi), .null = NO_END},
+    {"max", "", "largest value", AT(distribution, max), .null = NO_ROCK},
+    END};
+
+static const struct ceduo_figure paired[] = {
+    {"mean", "", "mean", AT(paired, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
+    {"se", "", "its standard error", AT(paired, se), .null = "it is not known"},
+    END};
+
+/* Two of the means of arrivals are members side by side, as in a struct ceduo_paired. */
+#define IS_PAIRED(member) \
+    _Static_assert(offsetof(struct ceduo_arrivals, member##_se) - offsetof(struct ceduo_arrivals, member) == \
+                   offsetof(struct ceduo_paired, se), "side by side")
+IS_PAIRED(energy_per_released);
+IS_PAIRED(contacts);
+
+static const struct ceduo_figure missed[] = {
+    {"stopped_by_stems", "", "share of the released that stems stop before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_STOPPED_BY_STEMS])},
+    {"came_to_rest", "", "share that comes to rest before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_AT_REST])},
+    {"left_slope", "", "share that leaves the profile before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_LEFT_SLOPE])},
+    {"unfinished", "", "share that was still moving before it", .value = missed_at,
+     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_UNFINISHED])},
+    END};
+
+static const struct ceduo_figure arrivals[] = {
+    {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
+    {"reach_probability", "", "share of all released that reach it; an unfinished rock counts as not reached",
+     AT(arrivals, reach_probability)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(arrivals, reach_lo)},
+    {"reach_hi", "", "upper end of its 95 % interval, where an unfinished rock counts as reached", AT(arrivals, reach_hi)},
+    {"exceed_probability", "", "share of all released that reach it with more than accepted_kJ",
+     AT(arrivals, exceed_probability), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = UNSAID},
+    {"speed_m_s", "m/s", "speed of the rocks that reach it", IN(arrivals, speed, distribution)},
+    {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = KILO},
+    {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = KILO},
+    {"height_m", "m", "height of their underside above the ground", IN(arrivals, height, distribution)},
+    {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
+     IN(arrivals, energy_per_released, paired), .scale = KILO},
+    {"missed", "", "how the released end that do not reach it; with reach_probability these make 1", .of = missed},
+    {"hazard", "", "how often, and with how much", .from = ceduo_hazard_of, .of = ceduo_hazard_figures,
+     .null = "the scene has no blocks"},
+    END};
+
+static const struct ceduo_figure wooded[] = {
+    {.of = arrivals},
+    {"contacts", "", "stems hit before this control by the rocks that reach it (with contact_model: poisson, contacts)",
+     IN(arrivals, contacts, paired)},
+    END};
+
+static const struct ceduo_figure adc[] = {
+    {"rule", "", "form that was used: gsteiger-stools, gsteiger-stems, interception or crofton", .value = rule_of,
+     .null = NO_STEMS},
+    {"adc_m", "m", "what it gives", AT(stand_result, adc_m), .null = NO_STEMS},
+    {"gsteiger_stools_m", "m", "ADC by gsteiger-stools", AT(stand_result, adc.gsteiger_stools), .null = NO_STEMS},
+    {"gsteiger_stems_m", "m", "ADC by gsteiger-stems", AT(stand_result, adc.gsteiger_stems), .null = NO_STEMS},
+    {"interception_m", "m", "ADC by interception", AT(stand_result, adc.interception), .null = NO_STEMS},
+    {"crofton_m", "m", "ADC by crofton", AT(stand_result, adc.crofton), .null = NO_STEMS},
+    END};
+
+static const struct ceduo_figure stand_result[] = {
+    {"length_m", "m", "horizontal length of the belt", AT(stand_result, length)},
+    {"stems_per_ha", "1/ha", "stems: shoots and trees", AT(stand_result, stems_per_ha)},
+    {"stools_per_ha", "1/ha", "stools", AT(stand_result, stools_per_ha)},
+    {"trees_per_ha", "1/ha", "single trees", AT(stand_result, trees_per_ha)},
+    {"basal_area_m2_ha", "m2/ha", "basal area", AT(stand_result, basal_area)},
+    {"adc", "", "Average Distance between Contacts", .of = adc},
+    {"passes_threshold", "", "whether adc.adc_m is below the threshold", AT(stand_result, passes_threshold)},
+    {"free_run_probability", "", "chance of running as far as the threshold inside the stand without a contact",
+     AT(stand_result, free_run_probability)},
+    {"contacts", "", "contacts over the whole belt: length over ADC", AT(stand_result, contacts)},
+    {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
+     AT(stand_result, energy_per_contact), .null = NO_STEMS ", or " SHARES},
+    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO,
+     .null = SHARES},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO, .null = SHARES},
+    {"grouped_per_ha", "1/ha", "single trees that stand in groups", AT(stand_result, grouped_per_ha)},
+    {"stumps_per_ha", "1/ha", "stumps", AT(stand_result, stumps_per_ha)},
+    {"logs_per_ha", "1/ha", "lying logs", AT(stand_result, logs_per_ha)},
+    END};
+
+#define SILENT "the rules say nothing of its species"
+#define NEVER_CUT "the stand says nothing of its cutting"
+static const struct ceduo_figure rules[] = {
+    {"region", "", "whose rules", .value = region_of},
+    {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand", AT(compliance, standards)},
+    {"standards_least", "1/ha", "standards asked for at least", .value = least_standards, .null = SILENT},
+    {"standards_most", "1/ha", "at most", .value = most_standards, .null = "there is no such limit"},
+    {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
+    {"standards_article", "", "article and act", .value = standards_article, .null = SILENT},
+    {"standards_year", "", "year of that act", .value = standards_year, .null = SILENT},
+    {"turn_y", "y", "age of the oldest shoots at a cut", AT(compliance, turn), .null = NEVER_CUT},
+    {"turn_least", "y", "age asked for at least", .value = least_turn, .null = SILENT},
+    {"turn_most", "y", "at most", .value = most_turn, .null = "there is no such limit"},
+    {"turn_met", "", "whether that is kept", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
+    {"turn_article", "", "article and act", .value = turn_article, .null = SILENT},
+    {"turn_year", "", "year of that act", .value = turn_year, .null = SILENT},
+    END};
+
+static const struct ceduo_figure stand_columns[] = {
+    {"name", "", "name of the stand", .from = belt_of, AT(belt, name)},
+    {"from_m", "m", "where the belt begins", .from = belt_of, AT(belt, from_given)},
+    {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
+    {.from = stand_of, .of = stand_result},
+    {"warnings", "", "sentences about this stand", .say = say_of_stand},
+    END};
+
+static const struct ceduo_figure stand[] = {
+    {.of = stand_columns},
+    {"rules", "", "what the rules of the region ask of a coppice, and whether it is kept", .from = rules_of, .of = rules,
+     .optional = true},
+    END};
+
+static const struct ceduo_figure summary[] = {
+    {"length_m", "m", "wooded length", AT(index, length)},
+    {"longest_gap_m", "m", "longest stretch without stems", AT(index, longest_gap)},
+    {"adc_m", "m", "length_m over contacts", .value = mean_adc, .null = "there are no contacts"},
+    {"contacts", "", "contacts in all belts", AT(index, contacts)},
+    {"meet_nothing_probability", "", "chance of meeting no stem in any belt", AT(index, meet_nothing_probability)},
+    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = KILO, .null = SHARES},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = KILO,
+     .null = "there is no forest, or " SHARES},
+    {"passes_threshold", "", "whether lights.contact of the last control is pass", .value = passes_contact},
+    END};
+
+static const struct ceduo_figure by_index[] = {
+    {"dissipated_kJ", "kJ", "energy that the stems between the release and this control could take", AT(index, dissipated),
+     .scale = KILO, .null = SHARES},
+    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual), .scale = KILO,
+     .null = "no rock arrives without forest"},
+    {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
+    {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s; only where the control gives that",
+     AT(index, measured), .scale = KILO, .optional = true},
+    END};
+
+static const struct ceduo_figure lights[] = {
+    {"contact", "", "whether the stand makes contact often enough", LIGHT_AT(contact)},
+    {"free_run", "", "whether long runs without contact are rare enough", LIGHT_AT(free_run)},
+    {"energy", "", "whether few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
+     "contact_model: index", LIGHT_AT(energy)},
+    {"contact_8cm", "", "contact, counting only stems from 8 cm on (from contact_dbh_m if that is more)",
+     LIGHT_AT(thick.contact)},
+    {"free_run_8cm", "", "free_run, counting likewise", LIGHT_AT(thick.free_run)},
+    END};
+
+static const struct ceduo_figure other_energy[] = {
+    {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
+     .offset = offsetof(struct ceduo_other_energy, model)},
+    {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, rocks)},
+    {"reach_probability", "", "share of these that reach the control", AT(other_energy, reach_probability)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, reach_lo)},
+    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, reach_hi)},
+    {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
+     AT(other_energy, exceed_probability), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, exceed_lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, exceed_hi), .null = UNSAID},
+    {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = KILO,
+     .null = NO_ROCK},
+    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = KILO,
+     .null = FEW},
+    END};
+
+static const struct ceduo_figure control[] = {
+    {"x_m", "m", "as in the scene", .from = control_of, AT(control, x_given)},
+    {"name", "", "as in the scene", .from = control_of, AT(control, name), .null = "the control has none"},
+    {"accepted_kJ", "kJ", "as in the scene", .from = control_of, .value = accepted_of, .null = "the control has none"},
+    {"bare", "", "what arrives without forest", .from = bare_of, .of = arrivals},
+    {"index", "", "the index of the paper", .from = index_of, .of = by_index},
+    {"wooded", "", "what arrives through the forest of this option", .from = wooded_of, .of = wooded,
+     .null = "contact_model is index"},
+    {"other_energy", "", "the same rocks under the other energy law of stems", .from = other_of, .of = other_energy,
+     .null = "the option has no stems, contact_model is index, and in a year of --years"},
+    {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
+     .from = index_of, .of = lights},
+    END};
+
+static const struct ceduo_figure ends[] = {
+    {"stopped_by_stems", "", "share of the released that stems stop", .value = share_at,
+     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_STOPPED_BY_STEMS])},
+    {"came_to_rest", "", "share that comes to rest by itself", .value = share_at,
+     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_AT_REST])},
+    {"left_slope", "", "share that leaves the profile", .value = share_at,
+     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_LEFT_SLOPE])},
+    {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
+     AT(flown, ends.count[CEDUO_UNFINISHED])},
+    END};
+
+static const struct ceduo_figure stops[] = {
+    {"p50", "m", "median", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_p50)},
+    {"p95", "m", "95th percentile", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_p95)},
+    {"max", "m", "farthest", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_max)},
+    END};
+
+#define SUMMARY  {"summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary}
+#define STANDS   {"stands", "", "an object for each belt, in order", .of = stand, .enter = enter_belt}
+#define CONTROLS {"controls", "", "an object for each control, in the scene's order", .of = control, .enter = enter_control}
+#define ENDS \
+    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)", \
+     .from = flown_of, .of = ends}, \
+    {"stop_x_m", "m", "places where rocks were stopped by stems or came to rest", .from = stops_of, .of = stops, \
+     .null = "no rock was stopped or came to rest"}
+#define YEAR \
+    {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)}, \
+    {"cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)}
+
+static const struct ceduo_figure felling[] = {
+    {"year", "", "year, counted from the stands as filed", .from = felling_of, AT(felling, year)},
+    {"from_m", "m", "where the belt begins", .from = felled_belt_of, AT(belt, from_given)},
+    {"to_m", "m", "where it ends", .from = felled_belt_of, AT(belt, to_given)},
+    {"stems_per_ha", "1/ha", "stems felled", .from = felling_of, AT(felling, stems_per_ha)},
+    {"volume_m3_ha", "m3/ha", "their volume", .from = felling_of, AT(felling, volume)},
+    END};
+
+#define YIELD \
+    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation", .from = yield_of, \
+     AT(yield, cut_per_year), .null = "a stand says nothing of growth or cutting"}, \
+    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", .from = yield_of, \
+     AT(yield, standing), .null = "a stand says nothing of growth or cutting"}, \
+    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", .from = yield_of, \
+     AT(yield, died_per_year), .null = "a stand says nothing of growth or cutting"}
+static const struct ceduo_figure yield[] = {
+    YIELD, {"cuts", "", "an object for each cut, up to the one that ends the first whole rotation", .of = felling, .enter = enter_felling}, END};
+static const struct ceduo_figure yield_columns[] = {YIELD, END};
+
+static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};
+
+static const struct ceduo_figure rotation[] = {
+    {"years", "", "how many years were computed", AT(place, sum.years)},
+    {"felled_m", "m", "metres of belts felled in them, each time they are", .value = felled_of},
+    {"unprotected_contact", "", "years in which lights.contact fails", AT(place, sum.unprotected_contact)},
+    {"unprotected_free_run", "", "years in which lights.free_run fails", AT(place, sum.unprotected_free_run)},
+    {"unprotected_energy", "", "years in which lights.energy fails", .value = too_much_of,
+     .null = "the control has no accepted_kJ, or contact_model is index"},
+    {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
+    {"exceed_probability", "", "plain mean over the years", IN(place, sum.exceed, paired)},
+    {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired),
+     .scale = KILO},
+    {"worst_year", "", "year with the largest share that exceeds (or arrives, or with the largest ADC)",
+     AT(place, sum.worst_year)},
+    {"passes_per_year", "1/y", "rocks to be expected to pass", AT(place, sum.passes_per_year),
+     .null = "the scene has no rocks_per_year"},
+    {"exceeds_per_year", "1/y", "those of them with more than accepted_kJ", AT(place, sum.exceeds_per_year),
+     .null = "the scene has no rocks_per_year, or the control no accepted_kJ"},
+    END};
+
+static const struct ceduo_figure option[] = {
+    {"name", "", "name of the option", .from = option_of, AT(option, name)},
+    STANDS,
+    SUMMARY,
+    CONTROLS,
+    ENDS,
+    {"years", "", "with --years: an object for each year", .of = year, .enter = enter_year, .optional = true},
+    {"rotation", "", "with --years: the years together, at the last control", .from = rotation_of, .of = rotation,
+     .optional = true},
+    {"yield", "", "stem wood that the option yields", .from = place_of_yield, .of = yield,
+     .null = "a stand says nothing of growth or cutting"},
+    END};
+
+static const struct ceduo_figure differences[] = {
+    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, paired)},
+    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, paired)},
+    {"energy_per_released_kJ", "kJ", "difference of the energies over all released",
+     IN(difference, energy_per_released, paired), .scale = KILO},
+    END};
+
+static const struct ceduo_figure difference[] = {
+    {"option", "", "option that is compared", .from = option_of, AT(option, name)},
+    {"against", "", "the first option", .from = first_option_of, AT(option, name)},
+    {"x_m", "m", "control", .from = control_of, AT(control, x_given)},
+    {.from = difference_of, .of = differences},
+    END};
+
+static const struct ceduo_figure rock[] = {
+    {"mass_kg", "kg", "mass", AT(rock, mass)},
+    {"mean_diameter_m", "m", "mean of its dimensions: the diameter that meets the stems", AT(rock, mean_diameter)},
+    {"moment_kg_m2", "kg m2", "moment of inertia", AT(rock, moment)},
+    END};
+
+static const struct ceduo_figure scene[] = {
+    {"scene", "", "path of the file, as it was found; standard input for -", .from = report_of, .value = path_of},
+    {"title", "", "title of the scene, or the name of its file", .from = scene_of, AT(scene, title)},
+    {"seed", "", "seed of the random numbers", .from = scene_of, AT(scene, simulation.seed)},
+    {"rocks", "", "rocks flown", .from = report_of, .value = rocks_of},
+    {"law", "", "law of the impacts: lumped, crsp or arm", .from = scene_of, .value = law_of},
+    {"rock", "", "the rock; with spreads, that of the means", .from = rock_of, .of = rock},
+    {"threshold_m", "m", "ADC below which a stand protects", .from = scene_of, AT(scene, simulation.threshold)},
+    END};
+
+static const struct ceduo_figure work[] = {
+    {"rocks_flown", "", "rocks of all runs: one without forest, and one for each forest that differs, under "
+     "each energy law", AT(report, work.rocks)},
+    {"contacts", "", "contacts with the ground, of all rocks", AT(report, work.contacts)},
+    {"stems_drawn", "", "stems made up along their ways, hit or not", AT(report, work.stems.drawn)},
+    {"runs", "", "runs computed", AT(report, work.runs)},
+    {"runs_reused", "", "how often one was needed that was already there", AT(report, work.reused)},
+    {"seconds", "s", "time on the clock; this is the one value that changes from run to run", AT(report, seconds)},
+    END};
+
+const struct ceduo_figure ceduo_result_figures[] = {
+    {"format", "", "always ceduo-result-1", .value = format_of},
+    {"version", "", "version of the program", .value = version_of},
+    {.of = scene},
+    {"warnings", "", "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground "
+     "assumed, percentiles from a histogram", .say = say_of_run},
+    {"options", "", "an object for each option, in the scene's order; a scene with forest has one, named current",
+     .of = option, .enter = enter_option},
+    {"differences", "", "an object for each option but the first, and each control; [] with one option",
+     .of = difference, .enter = enter_difference},
+    {"work", "", "what it took", .from = report_of, .of = work},
+    END};
+
+/* ---- a search ---- */
+
+#define NONE "no value reaches the goal"
+#define ONE  "a value reaches it"
+#define SOUGHT \
+    {"scene", "", "path of the file", .value = find_path}, \
+    {"path", "", "path of the parameter", .from = search_of, AT(search, path)}, \
+    {"option", "", "name of the option", .value = find_option}, \
+    {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of}, \
+    {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)}, \
+    {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)}, \
+    {"hi", "", "upper end of the range", .from = search_of, AT(search, hi)}
+#define FOUND   {"found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)}
+#define REACHED {"value", "", "the value", .from = found_of, AT(found, value), .null = NONE}
+#define SIDE \
+    {"side", "", "smallest or largest: which of the values that reach it this is", .from = found_of, .value = side_of, \
+     .null = NONE}
+#define GOALS \
+    {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE}, \
+    {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE}, \
+    {"goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE}
+#define COST \
+    {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)}, \
+    {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)}, \
+    {"rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)}
+
+#define OVER {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting", \
+              .from = search_of, .value = over_of}
+static const struct ceduo_figure found_yield[] = {
+    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation", AT(yield, cut_per_year)},
+    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", AT(yield, standing)},
+    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", AT(yield, died_per_year)},
+    END};
+#define FOUND_YIELD {"yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = found_yield, \
+                     .null = "a stand says nothing of growth or cutting"}
+
+const struct ceduo_figure ceduo_find_figures[] = {
+    {"format", "", "always ceduo-find-1", .value = find_format},
+    {"version", "", "version of the program", .value = version_of},
+    SOUGHT, FOUND, REACHED, SIDE, GOALS, COST, OVER, FOUND_YIELD, END};
+const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND, SIDE, COST, OVER, FOUND_YIELD, END};
+
+/* ---- rows of CSV ---- */
+
+#define OPTION {"option", "", "", .from = option_of, AT(option, name)}
+#define REST \
+    SUMMARY, {.of = control}, ENDS, {"difference", "", "", .from = difference_of, .of = differences}, \
+    {"yield", "", "", .of = yield_columns}, {"warnings", "", "", .say = say_of_all}
+
+const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
+const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};
+const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand_columns}, END};
+
+/* ---- the manual ---- */
+
+const struct ceduo_figure_list ceduo_figure_lists[] = {
+    {"A result", ceduo_result_figures},
+    {"An object of options", option},
+    {"The object summary", summary},
+    {"An object of stands", stand},
+    {"An object of controls", control},
+    {"The objects bare and wooded of a control", arrivals},
+    {"Each of their distributions, over the rocks that reach the control", distribution},
+    {"Each other mean", paired},
+    {"The object hazard", ceduo_hazard_figures},
+    {"Each rate of it", ceduo_rate_figures},
+    {"An object of years", year},
+    {"An object of differences", difference},
+    {NULL, NULL}};
