@@ -60,6 +60,16 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     return good ? EXIT_DONE : EXIT_RUN;
 }
 
+/* What the scene does not bear of the command line. */
+static enum exit_status check(const struct arguments *a, const struct scene_file *file)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    if (file->scene.blocks_count > 0 && a->rocks > CEDUO_SIZED_ROCKS_MOST)
+        return ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"),
+                           ceduo_number_shortest(CEDUO_SIZED_ROCKS_MOST, room));
+    return EXIT_DONE;
+}
+
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct shelf *shelf,
                                   struct scene_file *file)
 {
@@ -76,6 +86,8 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
             status = EXIT_OUTPUT;
     if (!shelf)
         file->arena.shelf = NULL;
+    if (status == EXIT_DONE)
+        status = check(a, file);
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;
 }
 

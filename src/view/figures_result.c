@@ -337,11 +337,12 @@ static const struct ceduo_figure stand_columns[] = {
     {"from_m", "m", "where the belt begins", .from = belt_of, AT(belt, from_given)},
     {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
     {.from = stand_of, .of = stand_result},
-    {"warnings", "", "sentences about this stand", .say = say_of_stand},
     END};
+#define STAND_WARNINGS {"warnings", "", "sentences about this stand", .say = say_of_stand}
 
 static const struct ceduo_figure stand[] = {
     {.of = stand_columns},
+    STAND_WARNINGS,
     {"rules", "", "what the rules of the region ask of a coppice, and whether it is kept", .from = rules_of, .of = rules,
      .optional = true},
     END};
@@ -595,7 +596,8 @@ const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND,
 
 const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
 const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};
-const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand_columns}, END};
+const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand_columns},
+    {"rules", "", "", .from = rules_of, .of = rules}, STAND_WARNINGS, END};
 
 /* ---- the manual ---- */
 

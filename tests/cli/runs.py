@@ -204,7 +204,9 @@ CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "acce
                   "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", {k: PAIR for k in DIFFERENCES}) +
                  [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])
-STAND_CELLS = SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"]
+RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
+         "turn_y", "turn_least", "turn_most", "turn_met", "turn_article", "turn_year")
+STAND_CELLS = (SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + [f"rules.{n}" for n in RULES] + ["warnings"])
 
 
 def read_csv(text):

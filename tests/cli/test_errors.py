@@ -476,6 +476,8 @@ CASES = {
     "--plot: 'x' is unknown; one of profile, energy, ...": Words("--plot", "x", "@"),
     "--charset: 'x' is unknown; one of braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is not a whole number": Words("--batch", "-n", "1.5", "@"),
+    "--rocks: with blocks each rock is kept: at most 1048576 rocks": Words(
+        "--batch", "-n", "1048577", "-s", "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "@"),
     "--rocks: 0 is outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
     "--tolerance: 1 must lie above 0 and below 1": lambda row: (
         Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 must", "0 must"))),

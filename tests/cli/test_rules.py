@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the rules of a region ask of a coppice: shipped regions, one's own file, and what is refused."""
+import csv
+import io
+
 from harness import DONE, INPUT, ROOT, Folder, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, stand
 
 ROW = {"article": "art. 1, Act 2", "year": 1999}
@@ -105,6 +108,22 @@ def test_page():
         expect_in("Umbria asks for 80 standards a hectare at least (art. 33, R.R. 7, 2002); 60 are kept: NOT met.", page)
         expect_in("Umbria asks for a turn of 15 to 40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
         expect_equal(page.count("check the text in force"), 1, page)
+
+
+def test_csv():
+    """CSV has the same in a row for each stand, empty where nothing is asked for, and Italian changes none of it"""
+    with Folder() as f:
+        for rules, wanted in (("umbria", {"region": "Umbria", "standards_per_ha": "60", "standards_least": "80", "standards_most": "",
+                                          "standards_met": "false", "standards_article": "art. 33, R.R. 7", "standards_year": "2002",
+                                          "turn_y": "25", "turn_least": "15", "turn_most": "40", "turn_met": "true",
+                                          "turn_article": "art. 26, R.R. 7", "turn_year": "2002"}), (None, None)):
+            path = f.write("s.yaml", site(coppice(), rules))
+            out = good("--batch", "-n", 5, "-f", "csv", "--rows", "stands", path).out
+            row = next(csv.DictReader(io.StringIO(out)))
+            found = {k.split(".", 1)[1]: v for k, v in row.items() if k.startswith("rules.")}
+            expect_equal(found, wanted or dict.fromkeys(found, ""))
+            expect_equal(len(found), 13)
+            expect_equal(good("--batch", "-n", 5, "-f", "csv", "--rows", "stands", "--language", "it", path).out, out)
 
 
 def test_no_coppice():
