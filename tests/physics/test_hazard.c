@@ -265,6 +265,42 @@ static void a_curve_ends_where_its_energies_do(void **state)
     expect_near(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.rate, 1, 0);
 }
 
+/* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
+ * equals it: one of a thousand blocks and ten a year, 1/100. */
+static void at_a_limit(void **state)
+{
+    (void)state;
+    const struct released all = {.n = N, .w = N, .ww = N, .most = 1, .per_year = 10};
+    struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
+    struct ceduo_hazard h;
+    assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
+    expect_near(h.accepted.rate, 0, 0);
+    expect_near(h.intensity[0].within.rate, 0, 0);
+    expect_near(h.intensity[1].within.rate, 0.01, 1e-15);
+    expect_near(h.intensity[2].within.rate, 0.01, 1e-15);
+    for (size_t i = 0; i < h.energies; i++)
+        expect_near(h.exceed[i].rate.rate, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
+    assert_int_equal(h.returns[2].years, 100);
+    expect_near(h.returns[2].energy, 3e5, 0);
+    assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h));
+    expect_near(h.accepted.rate, 0.01, 1e-15);
+}
+
+/* No rock arrives, of two hundred: nothing is known but what may be. */
+static void nobody_arrives(void **state)
+{
+    (void)state;
+    const struct released all = {.n = 200, .w = 200, .ww = 200, .most = 1, .per_year = 1};
+    struct ceduo_hazard h;
+    assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
+    expect_near(h.reach.rate, 0, 0);
+    expect_near(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
+    assert_int_equal(h.energies, 1);
+    for (size_t i = 0; i < CEDUO_RETURNS; i++)
+        assert_true(isnan(h.returns[i].energy) && isnan(h.returns[i].lo) && isnan(h.returns[i].hi));
+    assert_true(isnan(h.left));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -277,6 +313,8 @@ int main(void)
         cmocka_unit_test(energies_and_classes_are_what_they_are_called),
         cmocka_unit_test(few_rocks_bound_what_they_can),
         cmocka_unit_test(a_curve_ends_where_its_energies_do),
+        cmocka_unit_test(at_a_limit),
+        cmocka_unit_test(nobody_arrives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
