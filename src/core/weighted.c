@@ -35,7 +35,7 @@ static double effective(const struct released *all, const struct weighted_sum *o
     double mean = all->w / all->n, v = variance(all, ones) / (mean * mean);
     if (!(p > 0))
         return all->w / last;
-    return v > 0 && p < 1 ? p * (1 - p) * all->n / v : all->w * all->w / all->ww;
+    return p < 1 && v > 0 ? p * (1 - p) * all->n / v : all->w * all->w / all->ww;
 }
 
 struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last)

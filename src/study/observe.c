@@ -104,7 +104,7 @@ static void make_classes(struct plan *p)
     k = k < 2 ? 2 : k;
     for (size_t c = 1; c < k; c++) {
         size_t rank = (c * n + k / 2) / k;
-        double bound = rank == 0 || rank == n ? seen->values[n - 1] : (seen->values[rank - 1] + seen->values[rank]) / 2;
+        double bound = rank == n ? seen->values[n - 1] : (seen->values[rank - 1] + seen->values[rank]) / 2;
         if (p->bounds_count == 0 || bound > p->bounds[p->bounds_count - 1])
             p->bounds[p->bounds_count++] = bound;
     }
@@ -184,7 +184,7 @@ static enum ceduo_status fly(const struct setting *s, const struct ceduo_scene *
     f->scene.release = s->release ? *s->release : scene->release;
     f->scene.controls_count = s->controls_count;
     f->scene.controls = s->controls;
-    const struct ceduo_option *option = s->option < scene->options_count ? &f->scene.options[s->option] : NULL;
+    const struct ceduo_option *option = &f->scene.options[s->option];
     bool bare = scene->simulation.contact_model == CEDUO_INDEX;
     enum ceduo_status status = ceduo_scene_check(&f->scene, NULL);
     if (status == CEDUO_OK && s->follows) {

@@ -89,7 +89,7 @@ static void every_few_rocks_have_all_sizes(void **state)
 static void typical_rocks_are_as_frequent_as_blocks(void **state)
 {
     (void)state;
-    struct ceduo_block_class class = {1, 0.8, 2, second};
+    struct ceduo_block_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
     struct ceduo_scene scene = scene_of(&class, 1);
     struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
@@ -101,6 +101,16 @@ static void typical_rocks_are_as_frequent_as_blocks(void **state)
         }
     double p = above(&class, 2);
     expect_near(larger / n, p, 4 * sqrt(p * (1 - p) / n));
+    ceduo_sizes_release(&sizes);
+    scene = scene_of(both, 2); /* of two classes, the second of which is rarer in each range */
+    assert_true(ceduo_sizes_init(&sizes, &scene));
+    n = larger = 0;
+    for (uint64_t r = 0; r < ROCKS; r++)
+        if (ceduo_size_is_typical(&sizes, scene.simulation.seed, r)) {
+            n++;
+            larger += ceduo_size_of(&sizes, r).volume > 0.5;
+        }
+    expect_near(larger / n, 0.5 / 3.5, 4 * sqrt(0.5 / 3.5 * 3 / 3.5 / n));
     ceduo_sizes_release(&sizes);
 }
 
@@ -205,10 +215,38 @@ static void what_weights_explain_is_no_error(void **state)
     expect_near(nobody.rate, 0, 0);
     expect_near(nobody.lo, 0, 0);
     expect_near(nobody.hi, 3.8414588 / (N / 0.1 + 3.8414588), 1e-6); /* Wilson of 0 among as many light rocks */
+    struct weighted_sum heavy = {0};
+    for (size_t i = 0; i < N; i += 2)
+        weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
+    struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, 1.5);
+    double lo, hi, alike = all.w * all.w / all.ww;
+    assert_int_equal(alike, 800);
+    ceduo_wilson(600, 800, &lo, &hi);
+    expect_near(known.rate, 0.75, 1e-12);
+    expect_near(known.lo, lo, 1e-9);
+    expect_near(known.hi, hi, 1e-9);
     all.missing = all.w / 10;
     expect_near(ceduo_weighted_share(&all, &none, 1).hi, 0.12, 0.01);
     all.n = 1;
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
+}
+
+static void quantiles_by_hand(void **state)
+{
+    (void)state;
+    const struct weighted values[] = {{1, 1}, {2, 2}, {3, 1}};
+    expect_near(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
+    expect_near(ceduo_weighted_quantile(values, 3, 0.26), 2, 0);
+    expect_near(ceduo_weighted_quantile(values, 3, 0.75), 2, 0);
+    expect_near(ceduo_weighted_quantile(values, 3, 0.76), 3, 0);
+    expect_near(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
+    assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
+    const struct released all = {.n = 3, .w = 4, .ww = 6, .most = 2, .per_year = 1};
+    struct weighted one = {5, 1};
+    struct ceduo_distribution d = ceduo_weighted_distribution(&all, &one, 1);
+    expect_near(d.mean, 5, 0);
+    expect_near(d.p99, 5, 0);
+    assert_true(isnan(d.sd) && isnan(d.se));
 }
 
 /* ---- hazard ---- */
@@ -310,6 +348,7 @@ int main(void)
         cmocka_unit_test(a_rock_is_scaled_as_a_whole),
         cmocka_unit_test(weights_that_are_alike_change_nothing),
         cmocka_unit_test(what_weights_explain_is_no_error),
+        cmocka_unit_test(quantiles_by_hand),
         cmocka_unit_test(energies_and_classes_are_what_they_are_called),
         cmocka_unit_test(few_rocks_bound_what_they_can),
         cmocka_unit_test(a_curve_ends_where_its_energies_do),

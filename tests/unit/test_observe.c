@@ -137,6 +137,15 @@ static void a_list_has_classes_of_its_own(void **state)
     o.n = 10;
     o.values = alike;
     EXPECT(look(&g, o).seen[0], ==, 10); /* nothing is split that is alike */
+    double mostly[20];
+    for (int i = 0; i < 20; i++)
+        mostly[i] = i < 18 ? 30 : 31;
+    o.n = 20;
+    o.values = mostly;
+    struct ceduo_counterpart c = look(&g, o); /* of four classes those with a bound of their own */
+    EXPECT(c.classes, ==, 2);
+    EXPECT(c.seen[0], ==, 18);
+    EXPECT(c.seen[1], ==, 2);
 }
 
 /* ---- means ---- */
@@ -231,6 +240,41 @@ static void means_along_a_flight(void **state)
     expect_mean(&g, o, sum, 1e-9);
 }
 
+/* The same to the other side: from 100 m back over the last 10 of them. */
+static void a_flight_back(void **state)
+{
+    (void)state;
+    struct ground g;
+    make_ground(&g, 0, HIGH, -FAST, 0);
+    g.scene.release.x = ceduo_number(100);
+    struct ceduo_observation o = something(CEDUO_OBSERVED_WAY_HEIGHT), largest = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
+    o.from = 90;
+    o.to = 100;
+    expect_mean(&g, o, HIGH - GRAVITY / 6, 1e-9);
+    o.kind = CEDUO_OBSERVED_WAY_ENERGY;
+    expect_mean(&g, o, mass() / 2 * (FAST * FAST + GRAVITY * GRAVITY / 3), 1e-5);
+    expect_mean(&g, largest, HIGH, 1e-9);
+}
+
+/* Over an edge at 10 m, beyond which it falls 1 in 2: highest above the ground where the flight is parallel to the slope. */
+static void a_flight_over_an_edge(void **state)
+{
+    (void)state;
+    struct ground g;
+    static double x[3] = {0, 10, 200}, z[3] = {0, 0, -95};
+    struct ceduo_segment two[2];
+    double v = 2 * FAST, edge = 10 / v, top = v / 2 / GRAVITY;
+    make_ground(&g, 0, 5, v, 0);
+    two[0] = two[1] = g.segment;
+    g.scene.slope = (struct ceduo_slope){.vertices = 3, .x = x, .z = z, .segments = two, .segments_given = 2};
+    expect_mean(&g, something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5 - GRAVITY / 2 * top * top + (v * top - 10) / 2, 1e-9);
+    struct ceduo_observation o = something(CEDUO_OBSERVED_WAY_HEIGHT);
+    o.from = 0;
+    o.to = v * top;
+    double sum = 5 * top - GRAVITY / 6 * top * top * top + v / 4 * (top - edge) * (top - edge);
+    expect_mean(&g, o, sum / top, 1e-9);
+}
+
 /* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) for each metre of ground. */
 static void means_along_a_roll(void **state)
 {
@@ -256,15 +300,21 @@ static void means_along_a_roll(void **state)
 
 /* ---- rocks are those of a run ---- */
 
-/* A rough slope, so that rocks differ: what is recorded of each rock is what its run keeps. */
+static void make_rough(struct ground *g)
+{
+    make_ground(g, 80, 1, 2, 0);
+    g->scene.simulation.law = CEDUO_LAW_CRSP;
+    g->segment.roughness_rad = 0.3;
+    g->segment.rn = ceduo_number(0.4);
+    g->segment.friction = 0.6;
+}
+
+/* A rough slope, so that rocks differ, and a law by which they spin: what is recorded of each rock is what its run keeps. */
 static void recorded_rocks_are_those_of_a_run(void **state)
 {
     (void)state;
     struct ground g;
-    make_ground(&g, 80, 1, 2, 0);
-    g.segment.roughness_rad = 0.3;
-    g.segment.rn = ceduo_number(0.4);
-    g.segment.friction = 0.6;
+    make_rough(&g);
     struct ceduo_observation two[2] = {something(CEDUO_OBSERVED_STOPS), something(CEDUO_OBSERVED_LARGEST_SPEED)};
     double one = 50;
     two[0].n = 1;
@@ -284,6 +334,116 @@ static void recorded_rocks_are_those_of_a_run(void **state)
     free(run);
     ceduo_observer_free(both);
     ceduo_observer_free(alone);
+}
+
+/* Speed, height and energy at a place, of rocks that are followed and of those of a run. */
+static void recorded_crossings_are_those_of_a_run(void **state)
+{
+    (void)state;
+    struct ground g;
+    make_rough(&g);
+    for (int k = 0; k < 3; k++) {
+        struct ceduo_observation two[2] = {something((enum ceduo_observed_kind)(CEDUO_OBSERVED_SPEED + k)),
+                                           something(CEDUO_OBSERVED_LARGEST_SPEED)};
+        two[0].x = 60;
+        two[0].n = two[1].n = 2;
+        two[0].mean = two[0].sd = two[1].mean = two[1].sd = 1;
+        struct ceduo_observer *both, *alone;
+        double *recorded, *run;
+        size_t n, m, reached = 0;
+        EXPECT(ceduo_observer_create(two, 2, &both), ==, CEDUO_OK);
+        EXPECT(ceduo_observer_create(two, 1, &alone), ==, CEDUO_OK);
+        EXPECT(ceduo_observer_values(both, &g.scene, 0, ROCKS, &recorded, &n), ==, CEDUO_OK);
+        EXPECT(ceduo_observer_values(alone, &g.scene, 0, ROCKS, &run, &m), ==, CEDUO_OK);
+        for (size_t i = 0; i < ROCKS; i++) {
+            assert_int_equal(isnan(recorded[i]), isnan(run[i]));
+            reached += isnan(run[i]) ? 0 : 1;
+            if (!isnan(run[i]))
+                EXPECT_NEAR(recorded[i], run[i], 1e-12 * fabs(run[i]));
+        }
+        EXPECT(reached, >, 10);
+        EXPECT(reached, <, ROCKS);
+        free(recorded);
+        free(run);
+        ceduo_observer_free(both);
+        ceduo_observer_free(alone);
+    }
+}
+
+/* Places of one rock share its run; a rock and a release of its own, or another option, do not. By the index nothing is in the way. */
+static void what_is_of_its_own(void **state)
+{
+    (void)state;
+    struct ground g;
+    make_ground(&g, 0, HIGH, FAST, 0);
+    struct ceduo_rock_def small = g.scene.rock;
+    struct ceduo_release slow = g.scene.release;
+    struct ceduo_observation o[6];
+    struct ceduo_counterpart c[6];
+    struct ceduo_option options[2] = {g.option, g.option};
+    struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 100, .volume = 10, .age = NAN};
+    struct ceduo_belt belt = {.from = 1, .to = 100, .to_given = 100, .cut_year = NAN};
+    small.diameter = ceduo_number(0.5);
+    slow.vx = ceduo_number(FAST / 2);
+    belt.stand = (struct ceduo_stand){.species = -1, .trees_count = 1, .trees = &tree, .u = 1e7, .fracture_ratio = NAN};
+    options[1].belts = &belt;
+    options[1].belts_count = 1;
+    g.scene.options = options;
+    g.scene.options_count = 2;
+    for (int i = 0; i < 6; i++) {
+        o[i] = something(i == 3 ? CEDUO_OBSERVED_SPEED : CEDUO_OBSERVED_ENERGY);
+        o[i].x = i == 4 ? 5 : 10;
+        o[i].mean = o[i].sd = 1;
+        o[i].n = 2;
+    }
+    o[1].rock = &small;
+    o[2].release = &slow;
+    o[5].option = 1;
+    double seconds[6] = {1, 1, 2, 1, 0.5, 1};
+    for (int way = 0; way < 2; way++) {
+        struct ceduo_observer *observer;
+        if (way == 1)
+            g.scene.simulation.contact_model = CEDUO_INDEX;
+        EXPECT(ceduo_observer_create(o, 6, &observer), ==, CEDUO_OK);
+        EXPECT(ceduo_observer_look(observer, &g.scene, ROCKS, NULL, c), ==, CEDUO_OK);
+        for (int i = 0; i < 6; i++) {
+            double v = i == 2 ? FAST / 2 : FAST, speed2 = v * v + GRAVITY * GRAVITY * seconds[i] * seconds[i];
+            if (i == 5 && way == 0)
+                EXPECT(c[i].rocks, ==, 0); /* stopped by stems */
+            else
+                EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);
+        }
+        ceduo_observer_free(observer);
+    }
+    g.scene.simulation.contact_model = CEDUO_INDEX;
+    struct ceduo_observation largest = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
+    largest.option = 1;
+    expect_mean(&g, largest, HIGH, 1e-9);
+}
+
+/* Where the scene makes no sense, or nobody waits any longer, nothing is compared. */
+static void what_cannot_be_looked_at(void **state)
+{
+    (void)state;
+    struct ground g;
+    make_ground(&g, 0, HIGH, FAST, 0);
+    struct ceduo_observation o[2] = {something(CEDUO_OBSERVED_SPEED), something(CEDUO_OBSERVED_LARGEST_SPEED)};
+    o[0].x = 10;
+    struct ceduo_observer *observer;
+    struct ceduo_counterpart c[2];
+    const atomic_bool cancelled = true;
+    for (size_t i = 0; i < 2; i++) {
+        double *values;
+        size_t n;
+        EXPECT(ceduo_observer_create(&o[i], 1, &observer), ==, CEDUO_OK);
+        EXPECT(ceduo_observer_look(observer, &g.scene, ROCKS, &cancelled, c), ==, CEDUO_CANCELLED);
+        g.scene.slope.vertices = 1;
+        EXPECT(ceduo_observer_values(observer, &g.scene, 0, ROCKS, &values, &n), !=, CEDUO_OK);
+        assert_null(values);
+        g.scene.slope.vertices = 2;
+        ceduo_observer_free(observer);
+    }
+    ceduo_observer_free(NULL);
 }
 
 /* ---- scars ---- */
@@ -327,6 +487,36 @@ static void scars_are_counted_and_measured(void **state)
     EXPECT_NEAR(c.scars, expected, 1e-9);
     EXPECT_NEAR(c.deviance - heights_alone.deviance, (3 - expected) * (3 - expected) / spread, 1e-9);
     ceduo_record_release(&record);
+    atomic_bool cancelled = true;
+    def.cancel = &cancelled;
+    EXPECT(ceduo_record(&def, &record), ==, CEDUO_CANCELLED);
+    assert_null(record.rocks);
+    def.cancel = NULL;
+    g.scene.release.height = ceduo_number(100); /* over the trees: met, not hit */
+    belt.to = belt.to_given = 5;
+    EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
+    EXPECT(record.blows_count, ==, 0);
+    ceduo_record_release(&record);
+}
+
+/* Stems as strong as rock: where they stop a rock is where it lies. */
+static void rocks_lie_where_stems_stop_them(void **state)
+{
+    (void)state;
+    struct ground g;
+    struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};
+    struct ceduo_belt belt = {.from = 1, .to = 100, .to_given = 100, .cut_year = NAN};
+    make_ground(&g, 80, 0, 5, -2);
+    belt.stand = (struct ceduo_stand){.species = -1, .trees_count = 1, .trees = &tree, .u = 1e7, .fracture_ratio = NAN};
+    g.option.belts = &belt;
+    g.option.belts_count = 1;
+    struct ceduo_record record;
+    const struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = 5, .blows = true};
+    EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
+    EXPECT(record.blows_count, ==, 5);
+    for (size_t i = 0; i < 5; i++)
+        EXPECT_NEAR(record.rocks[i].stop_x, record.blows[i].x, 1e-9);
+    ceduo_record_release(&record);
 }
 
 int main(void)
@@ -342,6 +532,12 @@ int main(void)
         cmocka_unit_test(means_along_a_roll),
         cmocka_unit_test(recorded_rocks_are_those_of_a_run),
         cmocka_unit_test(scars_are_counted_and_measured),
+        cmocka_unit_test(a_flight_back),
+        cmocka_unit_test(a_flight_over_an_edge),
+        cmocka_unit_test(recorded_crossings_are_those_of_a_run),
+        cmocka_unit_test(what_is_of_its_own),
+        cmocka_unit_test(what_cannot_be_looked_at),
+        cmocka_unit_test(rocks_lie_where_stems_stop_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
