@@ -28,11 +28,16 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
                                  file->scene.simulation.law};
     struct deriver d = {.arena = &file->arena, .root = file->root, .problems = problems, .last = &last};
     size_t before = problems->count;
+    bool failed = file->arena.failed;
     file->notes = NULL;
     file->ground_assumed = false;
     file->scene = (struct ceduo_scene){0};
     file->slope_node = NULL;
-    if (!ceduo_derive(&d))
+    file->arena.failed = false;
+    bool derived = ceduo_derive(&d);
+    problems->memory |= file->arena.failed; /* a name without room is taken for one that is not known */
+    file->arena.failed |= failed;
+    if (!derived)
         return false;
     file->notes = d.notes;
     file->ground_assumed = d.ground_assumed;

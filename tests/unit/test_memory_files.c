@@ -8,8 +8,10 @@
 #include "folder.h"
 #include "io/emit.h"
 #include "io/file.h"
+#include "io/inputs.h"
 #include "io/part_file.h"
 #include "io/scene_file.h"
+#include "io/survey_file.h"
 #include "model/document.h"
 
 static const char scene[] = "# my comment\n"
@@ -33,6 +35,19 @@ static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\ns
 
 static const char by_csv[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
 
+static const char seen[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\nrelease: {height_m: 1}\n"
+                           "observed:\n"
+                           "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
+                           "  - {passed: {x_m: 30, count: 1, of: 2}, on_the_way: {from_m: 5, to_m: 9, height_m: {mean: 1, sd: 1, n: 4}}}\n"
+                           "doubt: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
+
+static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
+                            "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: 2, to_m: 9, height_m: [1]}}\n";
+
+static const char survey[] = "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
+                             "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
+
+static char seen_path[256], kinds_path[256], survey_path[256];
 static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256], elsewhere_path[256];
 
 static int set_up(void **state)
@@ -47,6 +62,9 @@ static int set_up(void **state)
     in_folder(scene_path, "scene.yaml");
     in_folder(faulty_path, "faulty.yaml");
     in_folder(csv_path, "csv.yaml");
+    in_folder(seen_path, "seen.yaml");
+    in_folder(kinds_path, "kinds.yaml");
+    in_folder(survey_path, "survey.csv");
     in_folder(link_path, "link");
     in_folder(linked_path, "linked");
     in_folder(elsewhere_path, "elsewhere/scene.yaml");
@@ -56,6 +74,11 @@ static int set_up(void **state)
     put("stand.yaml", stand);
     put("faulty.yaml", faulty);
     put("csv.yaml", by_csv);
+    put("seen.yaml", seen);
+    put("kinds.yaml", kinds);
+    put("survey.csv", survey);
+    put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
+    put("draws.csv", "rock.density_kg_m3\n2600\n2550\n");
     put("ceduo/scenes/mill.yaml", by_csv);
     put("profile.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
     return 0;
@@ -203,19 +226,62 @@ static bool read_text(void)
     return good;
 }
 
-static bool read_csv(void)
+/* A scene, what was seen there, and what is not known of it. */
+static bool read_file(const char *path)
 {
+    ceduo_text_lost();
     struct scene_file file;
+    struct scene_inputs inputs;
     struct problems problems = {0};
-    bool good = ceduo_scene_read(&file, csv_path, NULL, 0, &problems);
+    bool good = ceduo_scene_read(&file, path, NULL, 0, &problems);
     assert_true(good || problems.memory);
+    good = good && ceduo_inputs_of(&file, &inputs);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
         add(&key, sizeof key);
+        for (size_t i = 0; i < inputs.n; i++)
+            add(inputs.items[i].path, strlen(inputs.items[i].path));
+    }
+    for (size_t i = 0; good && i < file.observations_count; i++) {
+        const struct ceduo_observation *o = &file.observations[i];
+        add(o->name, strlen(o->name));
+        add(o->values ? o->values : &o->mean, sizeof(double));
     }
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
-    return good;
+    return good && !ceduo_text_lost();
+}
+
+static bool read_csv(void)
+{
+    return read_file(csv_path);
+}
+
+static bool read_seen(void)
+{
+    return read_file(seen_path);
+}
+
+static bool read_kinds(void)
+{
+    return read_file(kinds_path);
+}
+
+static bool read_survey(void)
+{
+    ceduo_text_lost();
+    struct arena arena = {0};
+    struct problems problems = {0};
+    struct survey_file file;
+    struct text yaml = {0};
+    bool good = ceduo_survey_read(&file, &arena, survey_path, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    assert_true(good || problems.memory);
+    if (good)
+        add_text(&yaml);
+    ceduo_text_free(&yaml);
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+    return good && !ceduo_text_lost();
 }
 
 /* What is wrong, whole or with a word that not all is said. */
@@ -426,6 +492,9 @@ static void scenes_are_read(void **state)
     without_memory(read_scene);
     without_memory(read_text);
     without_memory(read_csv);
+    without_memory(read_seen);
+    without_memory(read_kinds);
+    without_memory(read_survey);
     without_memory(read_faulty);
     without_memory(read_missing);
     without_memory(read_spoilt);
