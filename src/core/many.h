@@ -43,6 +43,31 @@ MANY_INLINE void many_of_integers(const many_bits *p, many_reals *result)
     *result = (many_reals)(*p | 0x4330000000000000) - 0x1p52;
 }
 
+/* Of *first and *second those whose lane of *which is all ones go to a and b, in their order, without gaps; behind
+ * them there is room for MANY. Returns how many. */
+#if defined MANY_AVX512
+MANY_INLINE unsigned many_keep(const many_bits *which, const many_reals *first, const many_reals *second, double *a,
+                               double *b)
+{
+    __mmask8 kept = _mm512_movepi64_mask((__m512i)*which);
+    _mm512_storeu_pd(a, _mm512_maskz_compress_pd(kept, (__m512d)*first));
+    _mm512_storeu_pd(b, _mm512_maskz_compress_pd(kept, (__m512d)*second));
+    return (unsigned)__builtin_popcount(kept);
+}
+#else
+MANY_INLINE unsigned many_keep(const many_bits *which, const many_reals *first, const many_reals *second, double *a,
+                               double *b)
+{
+    unsigned n = 0;
+    for (int i = 0; i < MANY; i++) {
+        a[n] = (*first)[i];
+        b[n] = (*second)[i];
+        n += (*which)[i] & 1;
+    }
+    return n;
+}
+#endif
+
 /* Threefry 2x64 of (*p, *q), keyed by seed and rock, as random.h has it for one. */
 MANY_INLINE void many_threefry(uint64_t seed, uint64_t rock, many_bits *p, many_bits *q)
 {

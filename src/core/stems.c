@@ -12,6 +12,7 @@
 
 #include "base/elementary.h"
 #include "random.h"
+#define MANY 2
 #include "stems_fill.h"
 
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */

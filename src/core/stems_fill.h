@@ -166,6 +166,7 @@ static inline struct stool next_stool(struct stems *s, int side)
     unsigned k = p->next++;
     const struct wood_stools *stools = s->wood->along[side][p->belt[k]].stools;
     unsigned more = p->mark[k] < stools->more, n = stools->n + more;
+    const double *ring = stools->ring[more];
     s->drawn += n;
     s->effort += 1 + n;
     return (struct stool){.at = p->at[k],
@@ -173,7 +174,8 @@ static inline struct stool next_stool(struct stems *s, int side)
                           .sine = p->sine[k] * stools->radius[more],
                           .cosine = p->cosine[k] * stools->radius[more],
                           .stools = stools,
-                          .ring = stools->ring[more],
+                          .ring = ring,
+                          .sines = ring + stools->ring_room,
                           .n = n,
                           .place = k,
                           .cohorts = p->cohorts,
@@ -183,7 +185,7 @@ static inline struct stool next_stool(struct stems *s, int side)
 /* Where shoot i of a stool stands. */
 static inline void place_shoot(const struct stool *t, unsigned i, double *along, double *y)
 {
-    double c = t->ring[2 * i], s = t->ring[2 * i + 1];
+    double c = t->ring[i], s = t->sines[i];
     *along = t->at + (c * t->cosine - s * t->sine);
     *y = t->centre + (c * t->sine + s * t->cosine);
 }
@@ -201,9 +203,9 @@ static inline bool is_plain_stool(const struct stems *s, int side)
 /* Shoots to be put in order: the last bits of `along` tell them apart. */
 struct shoots {
     _Alignas(64) double along[SHOOTS_AT_ONCE + MANY];
-    double y[SHOOTS_AT_ONCE];
-    const struct wood_kind *kind[SHOOTS_AT_ONCE];
-    uint64_t stool[SHOOTS_AT_ONCE];
+    double y[SHOOTS_AT_ONCE + MANY];
+    uint64_t kind[SHOOTS_AT_ONCE + MANY]; /* of the forest's */
+    uint64_t stool[SHOOTS_AT_ONCE + MANY];
     bool met[SHOOTS_AT_ONCE];
     unsigned n;
 };
@@ -218,25 +220,39 @@ static inline const struct wood_kind *cohort_at(const struct wood_stools *stools
     return &stools->kinds[found];
 }
 
-/* The shoots of a stool that the rock can hit; as likely as not for each, so that no branch depends on it,
- * nor on whether it has one shoot more. */
-static inline void add_shoots(const struct stems *s, const struct stool *t, struct shoots *to)
+/* The shoots of a stool of one kind that the rock can hit. */
+static inline void add_alike(const struct stems *s, const struct stool *t, struct shoots *to)
 {
     const struct wood_kind *kind = t->stools->kinds;
-    bool cohorts = t->stools->cohorts > 1;
+    double most = (s->b + kind->dbh) / 2;
+    many_bits kinds = (many_bits){0} + (uint64_t)(kind - s->wood->kinds), events = (many_bits){0} + t->event, shoot;
+    unsigned n = to->n;
+    for (unsigned i = 0; i < t->n; i += MANY) {
+        many_reals c, q;
+        memcpy(&c, &t->ring[i], sizeof c);
+        memcpy(&q, &t->sines[i], sizeof q);
+        many_reals along = t->at + (c * t->cosine - q * t->sine), y = t->centre + (c * t->sine + q * t->cosine);
+        many_reals off = (many_reals)((many_bits)y & INT64_MAX);
+        many_from(i, 1, &shoot);
+        many_bits can = (many_bits)(off <= most) & (many_bits)(shoot < t->n);
+        memcpy(&to->kind[n], &kinds, sizeof kinds);
+        memcpy(&to->stool[n], &events, sizeof events);
+        n += many_keep(&can, &along, &y, &to->along[n], &to->y[n]);
+    }
+    to->n = n;
+}
+
+/* The same of several cohorts; it is as likely as not for each, so that no branch depends on it, nor on whether it has
+ * one shoot more. */
+static inline void add_cohorts(const struct stems *s, const struct stool *t, struct shoots *to)
+{
     unsigned n = to->n, most_shoots = t->stools->n + 1;
     for (unsigned i = 0; i < most_shoots; i++) {
-        double along, y;
-        place_shoot(t, i, &along, &y);
-        if (cohorts)
-            kind = cohort_at(t->stools, t->cohorts[i / 4][i / 2 % 2][t->place] >> i % 2 * 32);
-        double most = (s->b + kind->dbh) / 2;
-        to->along[n] = along;
-        to->y[n] = y;
-        to->kind[n] = kind;
+        place_shoot(t, i, &to->along[n], &to->y[n]);
+        const struct wood_kind *kind = cohort_at(t->stools, t->cohorts[i / 4][i / 2 % 2][t->place] >> i % 2 * 32);
+        to->kind[n] = (uint64_t)(kind - s->wood->kinds);
         to->stool[n] = t->event;
-        to->met[n] = false;
-        n += (fabs(y) <= most) & (i < t->n);
+        n += (fabs(to->y[n]) <= (s->b + kind->dbh) / 2) & (i < t->n);
     }
     to->n = n;
 }
@@ -258,36 +274,48 @@ static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
     }
 }
 
+/* Those that wait already are put in order once more. */
+static inline void add_waiting(const struct stems *s, const struct stems_side *side, struct shoots *to)
+{
+    for (size_t i = side->first; i < side->end; i++) {
+        const struct stem *stem = &side->waiting[i];
+        to->along[to->n] = stem->along;
+        to->y[to->n] = stem->y;
+        to->kind[to->n] = (uint64_t)(stem->kind - s->wood->kinds);
+        to->stool[to->n] = stem->stool;
+        to->met[to->n++] = stem->met;
+    }
+}
+
 static void make_stools(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
     struct points *p = &side->streams[STREAM_STOOLS];
     struct shoots t; /* 2.5 kB: only what is used is set */
     t.n = 0;
+    memset(t.met, 0, sizeof t.met);
     _Alignas(64) uint64_t rank[SHOOTS_AT_ONCE];
-    for (size_t i = side->first; i < side->end; i++, t.n++) {
-        const struct stem *stem = &side->waiting[i];
-        t.along[t.n] = stem->along;
-        t.y[t.n] = stem->y;
-        t.kind[t.n] = stem->kind;
-        t.stool[t.n] = stem->stool;
-        t.met[t.n] = stem->met;
-    }
+    add_waiting(s, side, &t);
     do {
         struct stool stool = next_stool(s, i_side);
-        add_shoots(s, &stool, &t);
+        if (stool.stools->cohorts > 1)
+            add_cohorts(s, &stool, &t);
+        else
+            add_alike(s, &stool, &t);
     } while (t.n < STOP_SHOOTS && p->next < p->count && is_plain_stool(s, i_side));
     rank_shoots(&t, rank);
-    for (unsigned i = 0; i < t.n; i++)
+    for (unsigned i = 0; i < t.n; i++) {
+        const struct wood_kind *kind = &s->wood->kinds[t.kind[i]];
         side->waiting[rank[i]] = (struct stem){.along = t.along[i],
                                                .y = t.y[i],
-                                               .dbh = t.kind[i]->dbh,
-                                               .height = t.kind[i]->height,
-                                               .energy = t.kind[i]->energy,
-                                               .kind = t.kind[i],
+                                               .dbh = kind->dbh,
+                                               .height = kind->height,
+                                               .energy = kind->energy,
+                                               .kind = kind,
                                                .stool = t.stool[i],
                                                .shoot = true,
                                                .met = t.met[i]};
+    }
     side->first = 0;
     side->end = t.n;
 }

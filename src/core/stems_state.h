@@ -63,7 +63,7 @@ struct stems_side {
 struct stool {
     double at, centre, sine, cosine;
     const struct wood_stools *stools;
-    const double *ring;
+    const double *ring, *sines; /* of its ring */
     unsigned n, place;
     uint64_t (*cohorts)[2][POINTS];
     uint64_t event;

@@ -15,6 +15,7 @@
 
 #define WIDE_AVX512
 #define MANY 8
+#define MANY_AVX512
 #include "stems_fill.h"
 #include "wide_walk.h"
 

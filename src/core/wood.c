@@ -111,12 +111,12 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
 
 /* ---- stools ---- */
 
-/* Places of n shoots on a ring of radius 1, as cosine and sine; and room to read one more. */
-static double *ring_of(unsigned n)
+/* Places of n shoots on a ring of radius 1. */
+static double *ring_of(unsigned n, size_t room)
 {
-    double *ring = calloc(2 * ((size_t)n + 1), sizeof *ring);
+    double *ring = calloc(2 * room, sizeof *ring);
     for (unsigned i = 0; ring && i < n; i++)
-        ceduo_direction(i, n, &ring[2 * i], &ring[2 * i + 1]);
+        ceduo_direction(i, n, &ring[i], &ring[room + i]);
     return ring;
 }
 
@@ -128,8 +128,9 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
     s->more = per_stool - floor(per_stool);
     s->cohorts = stand->shoots_count;
     s->kinds = kinds;
+    s->ring_room = ((size_t)s->n / WOOD_RING_STEP + 1) * WOOD_RING_STEP;
     for (unsigned i = 0; i < (s->more > 0 ? 2 : 1); i++) {
-        double *ring = w->rings[2 * belt + i] = ring_of(s->n + i);
+        double *ring = w->rings[2 * belt + i] = ring_of(s->n + i, s->ring_room);
         if (!ring)
             return false;
         s->ring[i] = ring;

@@ -29,12 +29,15 @@ struct wood_stratum {
     double radius;                /* m: of the disc in which they stand */
 };
 
+#define WOOD_RING_STEP 8 /* shoots of a ring may be read so many at a time */
+
 /* The stools of a belt: a ring of n shoots, or with chance `more` of one shoot more. */
 struct wood_stools {
     unsigned n;
     double more;
     double radius[2];      /* m: of the ring of n, of n + 1 */
-    const double *ring[2]; /* cosine and sine of each shoot's place on it */
+    const double *ring[2]; /* cosines of the shoots' places on it, then, at ring_room, their sines */
+    size_t ring_room;      /* a multiple of WOOD_RING_STEP, beyond n + 1 */
     double turn[2];        /* by how much a ring is turned at random, 2 pi/n; 0 for one shoot */
     double reach;          /* m: the larger radius */
     double most;           /* m: no shoot is thicker */
