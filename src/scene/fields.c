@@ -267,7 +267,7 @@ static const struct field energy_fields[] = {
     WORD("model", NAMED(N_("energy law"), NULL),
         AT(ceduo_stand, energy), 0, "brauner", N_("energy law: what a contact with a stem takes from the rock"),
            &ceduo_energy_words),
-    NUMBER("u_J_m3", USUAL(N_("U, J/m3"), NULL, 20000, 500000),
+    NUMBER("u_J_m3", USUAL(N_("stem strength U, J/m3"), N_("U, J/m3"), 20000, 500000),
         AT(ceduo_stand, u), "J/m3", 0, 1e7, ABOVE, NULL,
            N_("brauner: work of breaking; without it that of the species, or of beech if unknown")),
     NUMBER("fracture_ratio", NAMED(N_("fracture ratio"), NULL),

@@ -130,6 +130,20 @@ struct ceduo_report ceduo_app_report(const struct app *app)
                                  .seconds = app->figures.seconds};
 }
 
+bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
+{
+    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    struct doubted *own = (struct doubted *)(uintptr_t)d; /* its scene is only read */
+    if (d)
+        *report = (struct ceduo_doubt_report){.file = &own->file,
+                                              .inputs = &own->inputs,
+                                              .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                              .points = own->points,
+                                              .rocks = own->rocks,
+                                              .finer = app->figures.result};
+    return d != NULL;
+}
+
 void ceduo_app_refresh(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;

@@ -62,6 +62,16 @@ static void share(char *to, size_t size, double p, double lo, double hi, bool wi
         snprintf(to, size, "%.0f", p * 1000);
 }
 
+/* The share that the options are compared by: with the same error as in the other views. */
+static void compared_share(char *to, size_t size, const struct ceduo_arrivals *a, bool wide)
+{
+    double half = wide ? 0 : ceduo_share_at(a).half;
+    if (wide)
+        share(to, size, a->exceed_probability, a->exceed_lo, a->exceed_hi, true);
+    else
+        share(to, size, a->exceed_probability, a->exceed_probability - half, a->exceed_probability + half, false);
+}
+
 static void figure(char *to, size_t size, double value)
 {
     snprintf(to, size, isnan(value) ? "-" : "%.3g", value);
@@ -130,15 +140,22 @@ static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, con
     put_missed(pen, _("unfinished"), CEDUO_UNFINISHED, wood, bare, false);
 }
 
+/* How sure the figures shown are: not those of a year to come; false where nothing is known. */
+static bool doubt_of(const struct app *app, struct ceduo_doubt_report *report)
+{
+    return app->view != VIEW_ROTATION && ceduo_app_doubt(app, report) && report->answer;
+}
+
 /* The range of what may be true of the figure in the line above, once it is known: in the unit of that line. */
 static bool put_doubt(struct pen *pen, bool energy)
 {
     struct app *app = pen->app;
-    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    struct ceduo_doubt_report report;
     char range[64], name[64];
-    if (!d || d->inputs.n == 0 || (d->answer.main == CEDUO_DOUBT_ENERGY) != energy || app->view == VIEW_ROTATION)
+    if (!doubt_of(app, &report) || (report.answer->main == CEDUO_DOUBT_ENERGY) != energy)
         return false;
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&d->answer, app->option, d->answer.main, false);
+    const struct ceduo_doubt_figure *f =
+        ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
     if (energy)
         snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * KILO, f->p95 * KILO);
     else
@@ -166,7 +183,7 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
     put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
     if (!isnan(c->accepted)) {
-        share(a, sizeof a, wood->exceed_probability, wood->exceed_lo, wood->exceed_hi, pen->area.width >= 34);
+        compared_share(a, sizeof a, wood, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
         snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * KILO);
         put_pair_in(pen, limit, a, b);
@@ -186,6 +203,16 @@ static void put_light(struct pen *pen, const char *name, const char *what, enum 
 {
     line(pen, ceduo_plot_light_role(light), "%s %-*s%s %s", ceduo_plot_light_mark(light), ceduo_utf8_field(name, 9), name,
          ceduo_words_verdict(light), what);
+}
+
+/* Below a light that changes within what may be true: by what. */
+static void put_causes(struct pen *pen, enum ceduo_doubt_kind light)
+{
+    struct ceduo_doubt_report report;
+    struct text causes = {0};
+    if (doubt_of(pen->app, &report) && ceduo_doubt_causes(&causes, &report, pen->app->option, light))
+        line(pen, CEDUO_ROLE_WARN, _("  depends on %s"), ceduo_text_string(&causes));
+    ceduo_text_free(&causes);
 }
 
 static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold,
@@ -246,7 +273,9 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
     } else {
         put_contact(pen, _("Contact"), index->worst_adc, index->contact, threshold, index->length > 0);
     }
+    put_causes(pen, CEDUO_DOUBT_CONTACT);
     put_free_run(pen, _("Free run"), index->worst_free_run, index->free_run);
+    put_causes(pen, CEDUO_DOUBT_FREE_RUN);
     put_thick(pen, index, threshold);
     what[0] = '\0';
     if (index->energy != CEDUO_UNKNOWN && wood)
@@ -256,6 +285,7 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
                       : "%.1f %%",
                  wood->exceed_probability * 100);
     put_light(pen, _("Energy"), what, index->energy);
+    put_causes(pen, CEDUO_DOUBT_EXCEED);
 }
 
 static void put_index(struct pen *pen, const struct ceduo_index *index)
@@ -288,6 +318,23 @@ static void add_rule(void *context, bool met, const char *sentence)
         ceduo_text_format(text, "%s%s\n", met ? "" : "! ", sentence);
 }
 
+/* Sentences that have no room whole are only counted: view 4 has them. */
+static void keep_whole(struct app *app, struct text *sentences, struct ceduo_area area)
+{
+    size_t left = 0;
+    while (sentences->length > 0 &&
+           ceduo_app_text_lines(app, sentences->bytes, area.width) + (left > 0) > area.height) {
+        char *end = sentences->bytes + sentences->length - 1;
+        while (end > sentences->bytes && end[-1] != '\n')
+            end--;
+        *end = '\0';
+        sentences->length = (size_t)(end - sentences->bytes);
+        left++;
+    }
+    if (left > 0)
+        ceduo_text_format(sentences, ngettext("! %zu remark more: view 4", "! %zu remarks more: view 4", left), left);
+}
+
 static void put_warnings(struct pen *pen)
 {
     struct app *app = pen->app;
@@ -301,6 +348,7 @@ static void put_warnings(struct pen *pen)
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_rules(&o->belts[i], &found->stands[i].rules, add_rule, &w);
     struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, pen->area.top + pen->area.height - pen->y};
+    keep_whole(app, &w, rest);
     ceduo_app_put(app, rest, CEDUO_ROLE_WARN, &w);
 }
 

@@ -11,7 +11,8 @@
 #include "base/utf8.h"
 #include "view/typed.h"
 
-#define LABEL       18 /* columns of a line's label */
+#define LABEL_LEAST 18 /* columns of the labels of lines */
+#define VALUE_LEAST 25 /* columns that the labels leave to values */
 #define COLUMN_MOST 22 /* of a table's column */
 
 void ceduo_form_clear(struct form *form)
@@ -307,10 +308,24 @@ bool ceduo_form_search(struct form *form, const char *word)
 
 /* ---- drawing ---- */
 
-/* Columns of cell k of a row in a rectangle `width` wide. */
-static void cell_place(const struct form_row *row, int width, size_t k, int *from, int *span)
+/* Columns of the labels in a rectangle `width` wide: all of one width, so that no label is cut where there is room. */
+static int label_columns(const struct form *form, int width)
 {
-    int label = row->list[0] ? 4 : LABEL;
+    int columns = LABEL_LEAST;
+    for (size_t i = 0; i < form->n; i++) {
+        const struct form_row *row = &form->rows[i];
+        int own = (int)ceduo_utf8_width(row->label) + 1;
+        if (row->kind == FORM_FIELDS && !row->list[0] && own > columns)
+            columns = own;
+    }
+    int most = width - VALUE_LEAST > LABEL_LEAST ? width - VALUE_LEAST : LABEL_LEAST;
+    return columns < most ? columns : most;
+}
+
+/* Columns of cell k of a row in a rectangle `width` wide, whose labels take `label`. */
+static void cell_place(const struct form_row *row, int width, int label, size_t k, int *from, int *span)
+{
+    label = row->list[0] ? 4 : label;
     int room = width - label;
     int each = row->n > 0 ? room / (int)row->n : room;
     each = row->list[0] && each > COLUMN_MOST ? COLUMN_MOST : each;
@@ -318,27 +333,30 @@ static void cell_place(const struct form_row *row, int width, size_t k, int *fro
     *span = each - 1;
 }
 
-static void draw_cell(const struct form_row *row, struct ceduo_cells *cells, int left, int y, int width, size_t k,
-                      bool cursor, const char *edit)
+static void draw_cell(const struct form_cell *cell, struct ceduo_cells *cells, int x, int y, int span, bool cursor,
+                      const char *edit)
 {
-    const struct form_cell *cell = &row->cells[k];
-    int from, span;
     char shown[80];
-    cell_place(row, width, k, &from, &span);
-    snprintf(shown, sizeof shown, "%s%s", cell->text[0] ? cell->text : "-", cell->assumed ? "*" : "");
+    struct text words = {0};
+    if (cell->given && cell->field && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
+        ceduo_shown_path(cell->text, &words);
+    else
+        ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
+    snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
+    ceduo_text_free(&words);
     char *more = cell->field && cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
     if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
         *more = '\0';
     if (cursor)
         for (int i = 0; i < span; i++)
-            ceduo_cells_label(cells, left + from + i, y, CEDUO_ROLE_CURSOR, " ");
+            ceduo_cells_label(cells, x + i, y, CEDUO_ROLE_CURSOR, " ");
     if (cursor && edit) {
-        int n = ceduo_cells_put_end(cells, left + from, y, span - 1, CEDUO_ROLE_CURSOR, edit);
-        ceduo_cells_label(cells, left + from + n, y, CEDUO_ROLE_CURSOR, "_");
+        int n = ceduo_cells_put_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, edit);
+        ceduo_cells_label(cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
         return;
     }
     enum ceduo_role role = cursor ? CEDUO_ROLE_CURSOR : cell->given ? CEDUO_ROLE_TEXT : CEDUO_ROLE_DIM;
-    ceduo_canvas_put(&cells->canvas, left + from, y, span, role, shown);
+    ceduo_canvas_put(&cells->canvas, x, y, span, role, shown);
 }
 
 /* The label of a column, or its short one where that has no room. */
@@ -359,20 +377,19 @@ static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cell
         return;
     }
     bool here = i == form->row && focused;
+    int label = label_columns(form, width);
     if (row->kind == FORM_FIELDS) {
-        int span = row->n == 0 ? width : row->list[0] ? 3 : LABEL - 1;
+        int span = row->n == 0 ? width : row->list[0] ? 3 : label - 1;
         ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                          row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
-        if (row->kind == FORM_COLUMNS_ROW) {
-            int from, span;
-            cell_place(row, width, k, &from, &span);
-            ceduo_canvas_put(&cells->canvas, left + from, y, span, CEDUO_ROLE_TITLE,
-                             head_of(&row->cells[k], span));
-        } else {
-            draw_cell(row, cells, left, y, width, k, here && k == form->column, edit);
-        }
+        int from, span;
+        cell_place(row, width, label, k, &from, &span);
+        if (row->kind == FORM_COLUMNS_ROW)
+            ceduo_canvas_put(&cells->canvas, left + from, y, span, CEDUO_ROLE_TITLE, head_of(&row->cells[k], span));
+        else
+            draw_cell(&row->cells[k], cells, left + from, y, span, here && k == form->column, edit);
     }
 }
 
@@ -403,7 +420,7 @@ bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int 
     *column = 0;
     for (size_t k = 0; k < form->rows[i].n; k++) {
         int from, span;
-        cell_place(&form->rows[i], area.width, k, &from, &span);
+        cell_place(&form->rows[i], area.width, label_columns(form, area.width), k, &from, &span);
         if (x - area.left >= from)
             *column = k;
     }

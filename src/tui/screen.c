@@ -2,6 +2,7 @@
 #include "screen.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "base/language.h"
 #include "base/utf8.h"
@@ -33,6 +34,22 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
     return (enum view_number)v;
 }
 
+/* The scene's title: beside the views, or below them where `room` columns are too few for all of it. */
+static void put_scene_title(struct app *app, int room)
+{
+    struct text title = {0};
+    ceduo_text_safe(&title, app->document.file.scene.title);
+    bool below = title.bytes && ceduo_cells_label_width(app->charset, title.bytes) + 2 >= room;
+    struct text shown = {0};
+    ceduo_text_format(&shown, "%s%s", ceduo_document_unsaved(&app->document) ? "* " : "", ceduo_text_string(&title));
+    int columns = ceduo_cells_label_width(app->charset, ceduo_text_string(&shown));
+    if (title.bytes)
+        ceduo_canvas_put(&app->cells->canvas, below ? 1 : app->width - columns, below, app->width - 1, CEDUO_ROLE_TITLE,
+                         ceduo_text_string(&shown));
+    ceduo_text_free(&title);
+    ceduo_text_free(&shown);
+}
+
 static void draw_title(struct app *app)
 {
     int x = 0;
@@ -40,16 +57,24 @@ static void draw_title(struct app *app)
         ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                         app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
                         ceduo_translate_in(ceduo_views[v]->title));
-    struct text title = {0};
-    ceduo_text_format(&title, "%s", ceduo_document_unsaved(&app->document) ? "* " : "");
-    ceduo_text_safe(&title, app->document.file.scene.title);
-    int room = app->width - x - 1;
-    if (title.bytes && room > 4) {
-        int columns = ceduo_cells_label_width(app->charset, title.bytes);
-        ceduo_canvas_put(&app->cells->canvas, columns < room ? app->width - columns : x + 1, 0, room, CEDUO_ROLE_TITLE,
-                       title.bytes);
+    put_scene_title(app, app->width - x - 1);
+}
+
+/* A text that fills no more than so many lines: what is too long ends in a sign of more. */
+static void shorten(struct app *app, struct text *text, int lines)
+{
+    while (!text->failed && text->length > 0 && ceduo_app_text_lines(app, text->bytes, app->width) > lines) {
+        char *blank = strrchr(text->bytes, ' ');
+        if (!blank)
+            return;
+        *blank = '\0';
+        text->length = (size_t)(blank - text->bytes);
+        blank = strrchr(text->bytes, ' '); /* the sign takes the place of a word */
+        if (blank) {
+            text->length = (size_t)(blank - text->bytes);
+            ceduo_text_put(text, " \xe2\x80\xa6");
+        }
     }
-    ceduo_text_free(&title);
 }
 
 static void draw_explanation(struct app *app)
@@ -64,10 +89,9 @@ static void draw_explanation(struct app *app)
         ceduo_form_explain(&app->document, cell, &text);
     }
     ceduo_text_safe(&safe, ceduo_text_string(&text));
-    bool two_lines = safe.bytes && (int)ceduo_utf8_width(safe.bytes) > app->width &&
-                     (app->message[0] || ceduo_app_text_lines(app, safe.bytes, app->width) <= 2);
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
-    if (two_lines)
+    shorten(app, &safe, lines.height);
+    if (safe.bytes && (int)ceduo_utf8_width(safe.bytes) > app->width)
         ceduo_app_text(app, lines, role, safe.bytes, NULL);
     else if (safe.bytes)
         ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, safe.bytes);

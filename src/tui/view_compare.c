@@ -8,6 +8,7 @@
 #include "io/emit.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/plot_parts.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -85,22 +86,12 @@ static struct layout lay_out(const struct app *app, struct ceduo_area area)
     return l;
 }
 
-/* A name that is too long loses its middle: names often differ at their ends. */
 static void draw_name(struct app *app, int left, int y, int width, size_t i)
 {
     enum ceduo_role role = i == app->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT;
-    struct text safe = {0};
-    ceduo_text_safe(&safe, app->figures.result->scene->options[i].name);
-    const char *name = ceduo_text_string(&safe);
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
         ceduo_cells_label(app->cells, left + x, y, role, " ");
-    ceduo_canvas_put(&app->cells->canvas, left, y, width, role, name);
-    int end = width * 2 / 5;
-    if (ceduo_cells_label_width(app->charset, name) > width && end > 2) {
-        ceduo_canvas_put(&app->cells->canvas, left, y, width - end, role, name);
-        ceduo_cells_put_end(app->cells, left + width - end, y, end, role, name);
-    }
-    ceduo_text_free(&safe);
+    ceduo_plot_put_ends(&app->cells->canvas, left, y, width, role, app->figures.result->scene->options[i].name);
 }
 
 static void put_share(struct text *text, struct ceduo_portion share)
@@ -245,7 +236,7 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
         ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO,
                           control->x_given);
     else if (r->wooded)
-        ceduo_text_format(&text, _("Of 1000 rocks, that arrive at %.6g m"), control->x_given);
+        ceduo_text_format(&text, _("Of 1000 rocks, those that arrive at %.6g m"), control->x_given);
     else
         ceduo_text_format(&text, _("At %.6g m"), control->x_given);
     size_t before = text.length;

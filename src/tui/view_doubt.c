@@ -24,16 +24,6 @@ static void build(struct app *app, struct form *form)
         ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
 }
 
-static struct ceduo_doubt_report report_of(const struct doubted *d)
-{
-    struct doubted *own = (struct doubted *)(uintptr_t)d; /* its scene is only read */
-    return (struct ceduo_doubt_report){.file = &own->file,
-                                       .inputs = &own->inputs,
-                                       .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                       .points = own->points,
-                                       .rocks = own->rocks};
-}
-
 /* ---- what it says ---- */
 
 static void say_state(const struct app *app, const struct doubted *d, struct text *words)
@@ -98,10 +88,8 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_doubt_report r;
     int said = 0;
-    if (d) {
-        r = report_of(d);
+    if (ceduo_app_doubt(app, &r))
         picture.doubt = &r;
-    }
     if (d && r.answer) {
         say_all(app, d, &r, &words);
         said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
@@ -140,7 +128,8 @@ static void add(struct app *app)
         return;
     }
     ceduo_doubt_order_of(&d->answer, app->option, order);
-    const struct ceduo_doubt_report r = report_of(d);
+    struct ceduo_doubt_report r;
+    ceduo_app_doubt(app, &r);
     for (size_t i = 0; i < d->answer.groups; i++) {
         const struct ceduo_input *input = &d->inputs.items[d->answer.input[order[i]]];
         bool several = d->answer.together > 0 && order[i] + 1 == d->answer.groups;

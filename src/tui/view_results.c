@@ -1,7 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
+#include <string.h>
+
 #include "app.h"
 #include "base/language.h"
+#include "view/words.h"
+
+static void add_warning(void *context, const char *sentence)
+{
+    ceduo_text_format(context, "! %s\n", sentence);
+}
+
+/* All of it in words: of this option, and of the run as a whole. */
+static void draw_page(struct app *app, struct ceduo_area page)
+{
+    page.width -= 2; /* the mark of more below stands beside the text */
+    struct text text = {0};
+    struct ceduo_report report = ceduo_app_report(app);
+    ceduo_report_option(&text, &report, app->option, page.width);
+    ceduo_words_run_warnings(report.result, &report.remarks, add_warning, &text);
+    const char *words = ceduo_text_string(&text);
+    words += strspn(words, "\n"); /* the picture above ends in a line that is empty */
+    if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, words, &ceduo_app_state(app)->scroll))
+        ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
+    ceduo_text_free(&text);
+}
 
 static void draw(struct app *app, struct ceduo_area area)
 {
@@ -30,13 +53,7 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_plot_draw(picture.scene->blocks_count > 0 ? CEDUO_PLOT_HAZARD : CEDUO_PLOT_HISTOGRAM, &app->cells->canvas,
                         &histogram, &picture);
     }
-    page.width -= 2; /* the mark of more below stands beside the text */
-    struct text text = {0};
-    struct ceduo_report report = ceduo_app_report(app);
-    ceduo_report_option(&text, &report, app->option, page.width);
-    if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, ceduo_text_string(&text), &ceduo_app_state(app)->scroll))
-        ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
-    ceduo_text_free(&text);
+    draw_page(app, page);
 }
 
 const struct view ceduo_view_results = {

@@ -17,14 +17,14 @@ static void build(struct app *app, struct form *form)
                   {"growth.shoots_young", N_("shoots that come up")},
                   {"growth.shoots_old", N_("shoots in the end")},
                   {"growth.sdi_most", N_("density index")},
-                  {"growth.shoots.dbh_most_m", N_("shoots: dbh at most, m")},
-                  {"growth.shoots.dbh_rate_1_y", N_("k, 1/y")},
-                  {"growth.shoots.height_most_m", N_("height at most, m")},
-                  {"growth.shoots.height_rate_1_y", N_("m, 1/y")},
-                  {"growth.trees.dbh_most_m", N_("trees: dbh at most, m")},
-                  {"growth.trees.dbh_rate_1_y", N_("k, 1/y")},
-                  {"growth.trees.height_most_m", N_("height at most, m")},
-                  {"growth.trees.height_rate_1_y", N_("m, 1/y")}};
+                  {"growth.shoots.dbh_most_m", N_("shoots: diam. max, cm")},
+                  {"growth.shoots.dbh_rate_1_y", N_("shoots: diam. rate, 1/y")},
+                  {"growth.shoots.height_most_m", N_("shoots: height max, m")},
+                  {"growth.shoots.height_rate_1_y", N_("shoots: height rate, 1/y")},
+                  {"growth.trees.dbh_most_m", N_("trees: diam. max, cm")},
+                  {"growth.trees.dbh_rate_1_y", N_("trees: diam. rate, 1/y")},
+                  {"growth.trees.height_most_m", N_("trees: height max, m")},
+                  {"growth.trees.height_rate_1_y", N_("trees: height rate, 1/y")}};
     static const char *const groups[] = {"cutting", "growth", "growth.shoots", "growth.trees"};
     const struct document *d = &app->document;
     const struct object *scene = ceduo_schema_scene();
@@ -135,10 +135,11 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     bool says = !isnan(s.exceed.mean);
     struct ceduo_paired mean = says ? s.exceed : s.reach;
     ceduo_words_window(text, ceduo_app_option(app), w);
+    const char *before = text->length > 0 ? " " : "";
     if (w->kind == CEDUO_WINDOW_ALIKE)
-        ceduo_text_then(text, " ", _("Each:"));
+        ceduo_text_then(text, before, _("Each:"));
     else
-        ceduo_text_format(text, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
+        ceduo_text_then(text, before, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
                           w->first, w->last);
     if (s.flown > 0)
         ceduo_text_then(text, " ", _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u)."), mean.mean * 1000,

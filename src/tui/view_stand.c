@@ -18,7 +18,7 @@ static void put_groups(struct form *form, const struct document *d, const char *
         for (size_t k = 0; k < 2; k++) {
             char item[2 * FORM_PATH], label[64];
             snprintf(item, sizeof item, "%.180s[%zu]", list, i);
-            snprintf(label, sizeof label, k == 0 ? _("%zu: radius, m") : _("%zu: in a group"), i + 1);
+            snprintf(label, sizeof label, k == 0 ? _("trees %zu: a group, m") : _("trees %zu: in a group"), i + 1);
             ceduo_form_field(form, d, trees, item, keys[k], label);
         }
 }

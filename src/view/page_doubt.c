@@ -147,13 +147,19 @@ static void put_causes(struct text *text, const struct ceduo_doubt_report *r, co
     }
 }
 
-void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
+bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
 {
     size_t groups[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, groups);
+    if (n > 0)
+        put_causes(text, r, groups, n);
+    return n > 0;
+}
+
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
+{
     struct text causes = {0};
-    if (n == 0)
+    if (!ceduo_doubt_causes(&causes, r, option, light))
         return;
-    put_causes(&causes, r, groups, n);
     ceduo_text_format(text,
                       light == CEDUO_DOUBT_CONTACT    ? _("Whether the test of contact passes depends on %s.")
                       : light == CEDUO_DOUBT_FREE_RUN ? _("Whether the test of free run passes depends on %s.")
@@ -201,10 +207,25 @@ static void put_together(struct ceduo_page *page, const struct ceduo_doubt_repor
     ceduo_text_free(&paths);
 }
 
-void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
+struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, size_t option)
 {
+    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_result *finer = r->finer;
+    const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
+    if (!a || a->released <= r->rocks)
+        return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi};
+    if (r->answer->main == CEDUO_DOUBT_EXCEED)
+        return (struct ceduo_doubt_now){a->exceed_probability, floor(a->exceed_lo * 1000) / 1000,
+                                        ceil(a->exceed_hi * 1000) / 1000}; /* outwards, as in the other views */
+    double mean = a->energy_per_released, half = ceduo_half_width(a->energy_per_released_se, a->released);
+    return (struct ceduo_doubt_now){mean, mean - half, mean + half};
+}
+
+void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
+{
+    const struct ceduo_doubt_figure *f = main_of(r, option);
     double scale = scale_of(r);
-    put_value(text, f->value, scale);
+    put_value(text, ceduo_doubt_now_of(r, option).value, scale);
     ceduo_text_put(text, " (");
     put_range(text, f->p5, f->p95, scale);
     ceduo_text_char(text, ')');
@@ -216,8 +237,9 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     const struct ceduo_doubt_figure *f = main_of(r, option);
     double scale = scale_of(r);
     struct text value = {0}, rocks = {0}, doubt = {0};
-    put_value(&value, f->value, scale);
-    put_range(&rocks, f->sampling_lo, f->sampling_hi, scale);
+    struct ceduo_doubt_now now = ceduo_doubt_now_of(r, option);
+    put_value(&value, now.value, scale);
+    put_range(&rocks, now.lo, now.hi, scale);
     put_range(&doubt, f->p5, f->p95, scale);
     ceduo_text_format(text, r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
                                                                   : _("%s kJ per released rock (rocks %s; doubt %s)"),

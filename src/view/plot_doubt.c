@@ -11,13 +11,15 @@
 #define WIDTH_LEAST  40
 #define HEIGHT_LEAST 4
 #define NAME_MOST    34
-#define VALUES       24 /* columns of "1000  1000–1000" and the like */
+#define VALUES       24 /* columns of "1000  1000–1000" and the like … */
+#define VALUES_LEAST 19 /* … and where there are few */
+#define FEW          60
 
 struct sure {
     struct ceduo_canvas *canvas;
     const struct ceduo_doubt_report *report;
     size_t option;
-    int left, width, name, bars; /* columns: bars begin after the name */
+    int left, width, name, bars, values; /* columns: bars begin after the name, values end on the right */
     int y, end;
     double scale, most; /* of the figures shown; where the axis ends */
 };
@@ -34,24 +36,25 @@ static int column_of(const struct sure *s, double value)
 }
 
 /* The ends of a line are always there, and what the rocks leave open at least one cell. */
-static void draw_range(const struct sure *s, const struct ceduo_doubt_figure *f)
+static void draw_range(const struct sure *s, size_t option)
 {
+    const struct ceduo_doubt_figure *f = main_of(s, option);
+    struct ceduo_doubt_now now = ceduo_doubt_now_of(s->report, option);
     int from = column_of(s, f->p5), to = column_of(s, f->p95);
     for (int x = from; x <= to; x++)
         ceduo_canvas_label(s->canvas, x, s->y, CEDUO_ROLE_MEAN, x == from ? "\xe2\x94\x9c" : x == to ? "\xe2\x94\xa4" : "\xe2\x94\x80");
-    for (int x = column_of(s, f->sampling_lo); x <= column_of(s, f->sampling_hi); x++)
+    for (int x = column_of(s, now.lo); x <= column_of(s, now.hi); x++)
         ceduo_canvas_bar(s->canvas, x, s->y, 1, 1, CEDUO_ROLE_TITLE);
 }
 
 static void draw_option(struct sure *s, size_t i)
 {
-    const struct ceduo_doubt_figure *f = main_of(s, i);
     struct text values = {0};
-    ceduo_plot_say(s->canvas, s->left, s->y, s->name, i == s->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, "%s",
-                   s->report->file->scene.options[i].name);
-    draw_range(s, f);
-    ceduo_doubt_range(&values, s->report, f);
-    ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_TEXT, &values);
+    ceduo_plot_put_ends(s->canvas, s->left, s->y, s->name, i == s->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT,
+                        s->report->file->scene.options[i].name);
+    draw_range(s, i);
+    ceduo_doubt_range(&values, s->report, i);
+    ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_TEXT, &values);
     s->y++;
 }
 
@@ -67,7 +70,7 @@ static void put_caption(const struct sure *s, const struct ceduo_control *contro
         ceduo_text_format(&words[0], _("kJ per released rock, 0 to %.4g"), s->most);
         ceduo_text_put(&words[1], _("kJ per rock"));
     }
-    ceduo_plot_put_fitting(s->canvas, s->left, s->y, s->width - VALUES - 1, CEDUO_ROLE_AXIS, 2, words);
+    ceduo_plot_put_fitting(s->canvas, s->left, s->y, s->width - s->values - 1, CEDUO_ROLE_AXIS, 2, words);
 }
 
 static void draw_options(struct sure *s)
@@ -77,7 +80,8 @@ static void draw_options(struct sure *s)
     room = room > 0 ? room : 1;
     if (n > room && s->option >= room)
         first = s->option - room + 1;
-    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_AXIS, "%s", _("now (doubt, 90 %)"));
+    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_AXIS, "%s",
+                         _("now (doubt, 90 %)"));
     put_caption(s, &scene->controls[ceduo_scene_last_control(scene)]);
     s->y++;
     for (size_t i = first; i < n && i < first + room; i++)
@@ -96,7 +100,7 @@ static void draw_input(struct sure *s, size_t g)
     ceduo_text_format(&left, "%.0f %%", share * 100);
     if (!isnan(f->left[g]))
         ceduo_text_then(&left, "  ", _("leaves %.3g"), f->left[g] * s->scale);
-    ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_TEXT, &left);
+    ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_TEXT, &left);
     s->y++;
 }
 
@@ -105,9 +109,9 @@ static void draw_inputs(struct sure *s)
     const struct ceduo_doubt_figure *f = main_of(s, s->option);
     if (s->y + 1 >= s->end)
         return;
-    ceduo_plot_say(s->canvas, s->left, s->y, s->width - VALUES - 1, CEDUO_ROLE_AXIS, _("%s depends on"),
+    ceduo_plot_say(s->canvas, s->left, s->y, s->width - s->values - 1, CEDUO_ROLE_AXIS, _("%s depends on"),
                    s->report->file->scene.options[s->option].name);
-    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, VALUES, CEDUO_ROLE_AXIS, _("of %.3g wide"),
+    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_AXIS, _("of %.3g wide"),
                          (f->p95 - f->p5) * s->scale);
     s->y++;
     size_t order[CEDUO_SENSITIVITY_GROUPS];
@@ -127,19 +131,21 @@ const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_are
         return _("nothing is marked as assumed or named by 'doubt'");
     if (area->width < WIDTH_LEAST || area->height < HEIGHT_LEAST)
         return _("too narrow");
-    int name = (area->width - VALUES) / 2 < NAME_MOST ? (area->width - VALUES) / 2 : NAME_MOST;
+    int values = area->width < FEW ? VALUES_LEAST : VALUES, rest = area->width - values;
+    int name = rest * 3 / 5 < NAME_MOST ? rest * 3 / 5 : NAME_MOST;
     struct sure s = {.canvas = canvas,
                      .report = r,
                      .option = picture->option,
                      .left = area->left,
                      .width = area->width,
                      .name = name,
-                     .bars = area->width - VALUES - name - 2,
+                     .values = values,
+                     .bars = rest - name - 2,
                      .y = area->top,
                      .end = area->top + area->height,
                      .scale = r->answer->main == CEDUO_DOUBT_ENERGY ? KILO : 1000};
     for (size_t i = 0; i < r->file->scene.options_count; i++)
-        s.most = fmax(s.most, fmax(main_of(&s, i)->p95, main_of(&s, i)->sampling_hi) * s.scale);
+        s.most = fmax(s.most, fmax(main_of(&s, i)->p95, ceduo_doubt_now_of(r, i).hi) * s.scale);
     s.most = s.most > 0 ? s.scale > 1 ? 1000 : ceduo_plot_round(s.most, true) : 1;
     draw_options(&s);
     draw_inputs(&s);

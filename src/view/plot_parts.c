@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 
 /* ---- text ---- */
 
@@ -31,6 +32,21 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     ceduo_text_vformat(&text, format, args);
     va_end(args);
     return ceduo_plot_put_fitting(canvas, column, row, most, role, 1, &text);
+}
+
+void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *name)
+{
+    struct text safe = {0};
+    ceduo_text_safe(&safe, name);
+    const char *string = ceduo_text_string(&safe), *end = string;
+    int tail = most * 2 / 5;
+    bool whole = tail < 3 || ceduo_canvas_label_width(canvas, string) <= most;
+    ceduo_canvas_put(canvas, column, row, whole ? most : most - tail, role, string);
+    while (!whole && ceduo_canvas_label_width(canvas, end) > tail)
+        end += ceduo_utf8_step(end);
+    if (!whole)
+        ceduo_canvas_label_right(canvas, column + most - 1, row, role, end);
+    ceduo_text_free(&safe);
 }
 
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,

@@ -18,6 +18,9 @@ CEDUO_PLOT_LIST(X)
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                    ...) __attribute__((format(printf, 6, 7)));
 
+/* A name that is too long for `most` columns loses its middle: names often differ at their ends. */
+void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *name);
+
 /* The same, its last cell in column `column`. Frees the text. */
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
                           struct text *text);

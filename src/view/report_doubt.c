@@ -3,6 +3,7 @@
 #include "report_doubt.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -37,6 +38,21 @@ static const char *stand_name(const struct ceduo_doubt_report *r, const struct c
     return first ? first->name : NULL;
 }
 
+/* "trees 2: diameter, cm": a value of stems with whose it is, for several may have one. */
+static void put_stems(struct text *text, const struct ceduo_doubt_report *r, const char *place, const char *label)
+{
+    const struct ceduo_belt *belt = ceduo_input_belt(&r->file->scene, place);
+    const char *shoots = strstr(place, ".shoots["), *trees = strstr(place, ".trees[");
+    size_t count = !belt ? 0 : shoots ? belt->stand.shoots_count : belt->stand.trees_count;
+    const char *bracket = shoots ? shoots + 8 : trees ? trees + 7 : NULL;
+    if (!bracket)
+        ceduo_text_put(text, label);
+    else if (count < 2)
+        ceduo_text_format(text, shoots ? _("shoots: %s") : _("trees: %s"), label);
+    else
+        ceduo_text_format(text, shoots ? _("shoots %lu: %s") : _("trees %lu: %s"), strtoul(bracket, NULL, 10) + 1, label);
+}
+
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t group)
 {
     const struct ceduo_input *input = input_of(r, group);
@@ -54,7 +70,7 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
         ceduo_text_safe(text, input->path);
         return;
     }
-    ceduo_text_put(text, _(v.field->shown.label));
+    put_stems(text, r, place, _(v.field->shown.label));
     bool law = input->kind == CEDUO_INPUT_WORDS;
     if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0)
         ceduo_text_format(text, ", %.*s", (int)strcspn(input->path + sizeof GROUND - 1, "]"), input->path + sizeof GROUND - 1);

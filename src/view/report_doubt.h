@@ -3,6 +3,7 @@
 #define CEDUO_REPORT_DOUBT_H
 
 #include "ceduo/doubt.h"
+#include "ceduo/result.h"
 #include "io/inputs.h"
 
 /* What doubt does to a scene. */
@@ -12,7 +13,14 @@ struct ceduo_doubt_report {
     const struct ceduo_doubt_answer *answer; /* NULL: nothing is in doubt, nothing was computed */
     size_t points;
     uint64_t rocks;
+    const struct ceduo_result *finer; /* figures of the scene as it is from more rocks; NULL: those of the answer */
 };
+
+/* The main figure of an option in the scene as it is, with the error of the rocks. */
+struct ceduo_doubt_now {
+    double value, lo, hi;
+};
+struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *report, size_t option);
 
 /* What people call an input: "diameter, ADS 1"; "energy law". */
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
@@ -35,14 +43,17 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
-/* "469 (92–740)": a figure with its doubt. */
-void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure);
+/* "469 (92–740)": the main figure of an option with its doubt. */
+void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
 /* What to measure first (`nth` 0), second … for an option, and what that would leave; false where there is no more. */
 bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t nth);
 
 /* In how much of what may be true an order of two options holds. */
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);
+
+/* "energy law and friction": what a light depends on above all; false where it does not change within what may be true. */
+bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *report, size_t option, enum ceduo_doubt_kind light);
 
 /* "Whether the test of energy passes depends on …"; nothing where the light does not change within what may be true. */
 void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option,

@@ -108,7 +108,8 @@ class Screen:
 
     @property
     def title(self):
-        return self.lines[0]
+        """The names of the views, and the scene's title beside or below them."""
+        return "\n".join(self.lines[:2])
 
     @property
     def note(self):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """View 7: how sure the answer is, and what it depends on; the doubt in the column on the right; ranges edited there."""
 import json
+import math
 import re
 import sys
 from pathlib import Path
@@ -33,15 +34,22 @@ def test_view():
         place.write("unsure.yaml", NO_LAW + DOUBT)
         small, large, slope = place.play("key 7\nwait idle\ndump\nresize 200 50\ndump\nkey 1\ndump", "unsure.yaml")
         run = json.loads(ceduo("--sensitivity=64", "-n", 1000, "-f", "json", place.path / "unsure.yaml").out)
+        finer = json.loads(ceduo("--batch", "-n", 102400, "-f", "json", place.path / "unsure.yaml").out)
     figure, = (f for f in run["figures"] if f["figure"] == "exceed_probability" and f["against"] is None)
     band = [round(figure[k] * 1000) for k in ("doubt_p5", "doubt_p95")]
-    answer = f"{figure['value'] * 1000:.0f} of 1000 (rocks "
+    wooded = finer["options"][0]["controls"][-1]["wooded"]
+    found = wooded["exceed_probability"] * 1000  # as all other views have it, not that of the few rocks of each scene
+    ends = math.floor(wooded["exceed_lo"] * 1000), math.ceil(wooded["exceed_hi"] * 1000)
     for screen in (small, large):
-        screen.whole().has(answer, f"doubt {band[0]}–{band[1]})", "Measure first: U, J/m3, upper")
-        expect(re.search(r"^U, J/m3\S* .*\d+ % +leaves", screen.body, re.M), "the input with its share in", screen)
+        screen.whole().has(f"{found:.0f} of 1000 (rocks {ends[0]}–{ends[1]}; doubt {band[0]}–{band[1]})",
+                           "Measure first: stem strength U, J/m3, upper")
+        expect(re.search(r"^stem strength.* \d+ % +leaves", screen.body, re.M), "the input with its share in", screen)
+        expect(re.search(rf"^current .* {found:.0f} \({band[0]}–{band[1]}\)", screen.body, re.M), "the option's line in", screen)
+        expect("forest[" not in screen.body, "a path of the file in", screen)
         expect_in("Enter edit", screen.bar)
     for screen in (small, large, slope):
         expect(re.search(rf"^ +doubt +{band[0]}-{band[1]}$", screen.now, re.M), "the doubt in the column:", screen.now)
+        expect(re.search("^✘ Energy .*\n +depends on stem stren", screen.now, re.M), "what turns the light:", screen.now)
 
 
 def test_scripts_look_first():

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One thing has one number and one name on every screen, and no sentence is cut."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import CUTS, WOOD, Place  # noqa: E402
+from harness import PROFILES, expect, expect_equal, expect_in, run_all  # noqa: E402
+
+PAPER = PROFILES / "scenes" / "paper-site.yaml"
+LONG = "A title that says what the scene is about, for whom, and in which year"
+
+
+def test_title():
+    """The scene's title is whole at 80 columns, below the views if it must be; a mark tells unsaved work"""
+    with Place() as place:
+        place.write("long.yaml", WOOD.replace("title: wood", f"title: {LONG}"))
+        small, edited, wide = place.play("dump\nkey 3\nfind rock.diameter_m\nset 0.9\ndump\nresize 200 50\ndump", "long.yaml")
+    expect_equal(small.lines[1].strip(), LONG)
+    expect_equal(edited.lines[1].strip(), f"* {LONG}")
+    expect_in(f"* {LONG}", wide.lines[0])
+    expect_equal(wide.lines[1].strip(), "")
+
+
+def test_explanation():
+    """What explains a field ends in a sign of more where two lines cannot hold it, never in the middle of a word"""
+    source = "{kind: literature, text: " + "a remark of many words " * 12 + "}"
+    with Place() as place:
+        place.write("noted.yaml", WOOD.replace("upper\n", f"upper\n      source: {source}\n"))
+        screen, = place.play("key 2\nfind forest[0].stand.stools.per_ha\ndump", "noted.yaml")
+    expect(re.search(r"(a|remark|of|many|words) …$", screen.note), screen.note)
+    expect(screen.lines[-3].strip(), "two lines:", screen.note)
+
+
+def test_remarks():
+    """A warning that has no room in the column is counted there, and stands whole in view 4"""
+    with Place() as place:
+        found, page = place.play("wait idle\ndump\nkey 4\nresize 200 50\ndump", PAPER)
+    left = re.search(r"^! (\d+) remarks? more: view 4$", found.now, re.M)
+    expect(left, "a number of remarks in", found.now)
+    one_line = re.sub(r"\s+", " ", page.body)
+    whole = re.sub(r"\s+", " ", page.now).split("! ")[1:]
+    expect(len(whole) >= int(left.group(1)), whole, "where there is room; counted:", left.group(0))
+    for sentence in whole:
+        expect_in(sentence[:60].strip(), one_line)
+
+
+def test_one_error():
+    """The share of an option has one error in view 5 and in the column"""
+    with Place() as place:
+        place.write("cuts.yaml", CUTS)
+        screen, = place.play("key 5\nwait idle\ndump", "cuts.yaml")
+    share = r"(\d+±\d+)"
+    here, there = re.search(rf"^thick.*?\n? +{share}", screen.body, re.M), re.search(rf">250 kJ +{share}", screen.now)
+    expect(here and there, screen)
+    expect_equal(here.group(1), there.group(1))
+
+
+def test_growth_in_centimetres():
+    """View 6 names the unit in which a diameter is shown there"""
+    growth = ("growth: {shoots: {dbh_most_m: 0.25, dbh_rate_1_y: 0.03, height_most_m: 18, height_rate_1_y: 0.05}, "
+              "trees: {dbh_most_m: 0.6, dbh_rate_1_y: 0.02, height_most_m: 25, height_rate_1_y: 0.04}}")
+    with Place() as place:
+        place.write("grows.yaml", WOOD.replace("name: upper\n", f"name: upper\n      {growth}\n"))
+        shoots, trees = place.play("key 6\nfind forest[0].stand.growth.shoots.dbh_most_m\ndump\n"
+                                   "find forest[0].stand.growth.trees.dbh_most_m\ndump", "grows.yaml")
+    expect(re.search(r"^shoots: diam. max, cm +25\b", shoots.body, re.M), shoots)
+    expect(re.search(r"^trees: diam. max, cm +60\b", trees.body, re.M), trees)
+
+
+def test_sentences_apart():
+    """View 6 begins each sentence after a blank"""
+    with Place() as place:
+        screen, = place.play("key 6\nwait idle\nresize 120 40\ndump", PAPER)
+    expect(not re.search(r"[a-z]\.[A-Z]", screen.body), screen)
+
+
+if __name__ == "__main__":
+    run_all(__name__)
