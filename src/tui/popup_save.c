@@ -155,10 +155,12 @@ static void chose_disk(struct app *app, struct popup *p, const char *value)
 
 static void ask_which(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("The file has changed on disk since it was read"), chose_disk);
+    bool gone = access(app->document.path, F_OK) != 0;
+    struct popup *p = ceduo_popup_list(app, gone ? _("The file is no longer there")
+                                                 : _("The file has changed on disk since it was read"), chose_disk);
     ceduo_popup_item(p, _("never mind: do not save now"), "");
     ceduo_popup_item(p, _("save under another name"), "as");
-    ceduo_popup_item(p, _("write over what is there"), "write");
+    ceduo_popup_item(p, gone ? _("write it again") : _("write over what is there"), "write");
 }
 
 void ceduo_popup_save(struct app *app)

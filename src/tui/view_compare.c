@@ -366,6 +366,9 @@ static void draw(struct app *app, struct ceduo_area area)
     int pane = ceduo_app_state(app)->pane;
     bool beside = area.width >= BESIDE_LEAST && app->figures.verdict.n > 1;
     if (pane != PANE_TABLE) {
+        if (!app->message[0])
+            ceduo_app_say(app, "%s", pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
+                                                          : _("Tab: back to the table; up, down: another option"));
         draw_picture(app, pane == PANE_COMPARE ? CEDUO_PLOT_COMPARE : CEDUO_PLOT_TRADEOFF, area);
         return;
     }
@@ -471,5 +474,5 @@ static bool act(struct app *app, enum action action)
 
 const struct view ceduo_view_compare = {
     .title = NP_("view", "compare"), .panes = PANES, .years = true, .result = true, .build = build, .draw = draw, .act = act,
-    .bar = {{ACTION_ADD, N_("add")}, {ACTION_DUPLICATE, N_("copy")}, {ACTION_DELETE, N_("delete")},
-            {ACTION_EDIT, N_("name")}, {ACTION_NEXT_PANE, N_("pictures")}}};
+    .bar = {{ACTION_ADD, N_("add")}, {ACTION_NEXT_PANE, N_("picture")}, {ACTION_DUPLICATE, N_("copy")},
+            {ACTION_DELETE, N_("delete")}, {ACTION_EDIT, N_("name")}}};

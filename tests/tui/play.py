@@ -109,7 +109,7 @@ class Screen:
     @property
     def title(self):
         """The names of the views, and the scene's title beside or below them."""
-        return "\n".join(self.lines[:2])
+        return "\n".join(self.lines[:2]).rstrip()
 
     @property
     def note(self):

@@ -78,7 +78,7 @@ def test_new_typed():
         screens[0].has("New scene", "profile (CSV file or points)", "face from the top", "ground",
                        "rock: diameter, m", "counted at x, m", "the place withstands, kJ", "stand on the way", "Esc one back")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0,9", "95", "30", "simple-coppice")
-        screens[2].has("* Above t", "At 95 m", ">30 kJ", "Wood simple coppice")
+        screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
         screens[3].has("Save as")
         screens[4].has("saved mill.yaml")
         check_good(place.path, "mill.yaml")
