@@ -5,6 +5,7 @@
 #   make deps       install missing packages        make check-all  sanitizers, valgrind, Slurm: slow
 #   make run        compute the paper's site        make bench      measure speed against a plain C loop
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
+#   make bench ONLY=times|errors|NAME...            those that a busy machine spoils, the others, or these; make tables writes them
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make deb        build packages for Debian, in build/deb
 #   make man        write the tables of the program into the manual
@@ -330,7 +331,8 @@ $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/benc
 
 do-bench: all $(BENCH)
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_BENCH)" deps
-	@CC="$(CC)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py
+	@CC="$(CC)" ONLY="$(ONLY)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py tests/bench/bench_valley.py
+	@$(MAKE) --no-print-directory tables
 
 # ---- the manual ----
 
@@ -353,6 +355,11 @@ ERROR_PICTURE := $(BUILD)/man/error_picture
 $(ERROR_PICTURE): $(BUILD)/man/error_picture.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+# What the benches found last, in the pages that show it.
+tables: $(ERROR_PICTURE)
+	@tests/bench/tables.py man/ceduo-accuracy.7 man/ceduo-validation.7 README.md
+	$(ERROR_PICTURE) tests/bench/results/bench_error.csv man/pictures/error.svg
 
 pictures: $(PROGRAM) $(ERROR_PICTURE)
 	set -e; for keys in man/pictures/*.keys; do LC_ALL=C.UTF-8 $(PROGRAM) --language en --charset braille --script $$keys; done
@@ -442,5 +449,5 @@ deb: dist
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man pictures po install uninstall dist deb clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man tables pictures po install uninstall dist deb clean
 .DELETE_ON_ERROR:

@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Many small scenes in one call: a valley of profiles that share one slope, by the index, 100 rocks each, a bad one among them.
 

@@ -4,7 +4,7 @@
  * end, how often it was no longer clear, and how often another option was clearly best. The last must never happen:
  * exit 1.
  *
- * bench_verdict [SEEDS [THREADS]]     1000 seeds, all cores */
+ * bench_verdict [SEEDS [THREADS]]     100 seeds, all cores */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include "io/scene_file.h"
 #include "study/verdict.h"
 
-#define SEEDS     1000
+#define SEEDS     100
 #define STEPS     2
 #define YEAR_STEP 5 /* of a rotation some years: the rule for what is clear is the same */
 #define NOBODY    SIZE_MAX

@@ -1,10 +1,25 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Runs benches and keeps what they find, with the machine that they ran on, in tests/bench/results.
+# Runs benches and keeps what they find in tests/bench/results, and in made.csv there when, of which commit and on what machine.
 #
 #   results.sh BENCH...         each prints CSV; exit 1 where one of them failed: its table is shown and not kept
 #
-# A plot of the error against run time follows where bench_error has been run. CC names the compiler.
+# ONLY in the environment: names of benches, with or without bench_; errors: those whose tables do not depend on how much else
+# the machine does; times: the others, for a quiet machine. CC names the compiler.
+errors=" bench_calibration bench_coverage bench_rounding bench_tschamut bench_verdict "
+
+is_wanted() { # name
+    [ -n "$ONLY" ] || return 0
+    for only in $ONLY; do
+        case $only/$errors in
+        "$1"/* | "${1#bench_}"/* | errors/*" $1 "*) return 0 ;;
+        times/*" $1 "*) ;;
+        times/*) return 0 ;;
+        esac
+    done
+    return 1
+}
+
 for bench; do # paths are from where it was started
     case $bench in
     /*) ;;
@@ -17,28 +32,33 @@ cd "$(dirname "$0")" || exit 1
 mkdir -p results || exit 1
 
 # What tells one machine's figures from another's, and nothing of whose machine it is.
-commit=$(git rev-parse HEAD 2>/dev/null)
+commit=$(git rev-parse --short=12 HEAD 2>/dev/null)
 [ -z "$(git status --porcelain -uno -- . ':!results' ../../src ../../include ../../Makefile 2>/dev/null)" ] ||
-    commit="$commit, changed"
-{
-    echo "processor: $(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)"
-    echo "cores: $(nproc)"
-    echo "compiler: $(${CC:-gcc} --version | head -n 1)"
-    echo "kernel: $(uname -s) $(uname -r | sed 's/-.*//') $(uname -m)"
-    echo "date: $(date -u +%Y-%m-%d)"
-    echo "commit: ${commit:-unknown}"
-} >results/machine.txt
+    commit="$commit changed"
+machine=$(printf '%s,' "$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1 | tr -d ',')" "$(nproc)" \
+    "$(${CC:-gcc} --version | head -n 1 | tr -d ',')" "$(uname -s) $(uname -r | sed 's/-.*//') $(uname -m)")
+
+note() { # name: made now
+    {
+        echo "bench,date,commit,processor,cores,compiler,kernel"
+        { [ ! -f results/made.csv ] || sed 1d results/made.csv | grep -v "^$1,"
+          echo "$1,$(date -u +%Y-%m-%d),${commit:-unknown},${machine%,}"; } | LC_ALL=C sort
+    } >results/made.new
+    mv results/made.new results/made.csv
+}
 
 failed=
 for bench; do
     name=$(basename "$bench")
     name=${name%.*}
+    is_wanted "$name" || continue
     echo "== $name"
     (cd ../.. && "$bench") >"results/$name.new" # scenes are named from there
     status=$?
     cat "results/$name.new"
     if [ $status = 0 ]; then
         mv "results/$name.new" "results/$name.csv"
+        note "$name"
     else
         rm "results/$name.new"
         failed="$failed $name (exit $status)"

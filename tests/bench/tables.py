@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what the benches found into the tables of a manual page, between its marks .\\" begin NAME and .\\" end NAME.
+"""Writes what the benches found into pages, between their marks .\\" begin NAME and .\\" end NAME, in README as comments.
 
-    tables.py PAGE [RESULTS]        default tests/bench/results"""
+    tables.py [--check] PAGE...         of tests/bench/results; --check writes nothing, and fails where something is stale"""
 import csv
 import math
 import re
@@ -34,6 +34,11 @@ def table(head, rows):
 class Results:
     def __init__(self, folder):
         self.folder = Path(folder)
+        self.made = self.rows("made")
+
+    def machine_of(self, bench):
+        made = next(r for r in self.made if r["bench"] == bench)
+        return made["processor"], made["cores"], made["compiler"], made["kernel"]
 
     def rows(self, name, **only):
         with open(self.folder / f"{name}.csv", encoding="utf-8") as f:
@@ -42,8 +47,12 @@ class Results:
     # ---- one function a table ----
 
     def machine(self):
-        lines = (self.folder / "machine.txt").read_text(encoding="utf-8").splitlines()
-        return "\n".join([".Bl -item -compact", *[f".It\n{line}" for line in lines], ".El"])
+        machines = dict.fromkeys(self.machine_of(r["bench"]) for r in self.made)
+        number = {m: str(i + 1) for i, m in enumerate(machines)}
+        said = ["; ".join(cell for cell in (m[0], f"{m[1]} cores" if m[1] else "", *m[2:]) if cell) for m in machines]
+        return "\n".join([".Bl -enum -compact", *[f".It\n{line}" for line in said], ".El",
+                          table(["bench", "machine", "date", "commit"],
+                                [[r["bench"], number[self.machine_of(r["bench"])], r["date"], r["commit"]] for r in self.made])])
 
     def walk(self):
         out = []
@@ -118,6 +127,62 @@ class Results:
         rows = self.rows("bench_valley")
         return table(["scenes", "seconds", "scenes/s", "peak MiB"], [list(r.values()) for r in rows])
 
+    def laws(self):
+        return table(["place", "kernel", "law", "contacts a rock", "ns a contact", "a rock, lumped = 1", "a contact"],
+                     [[r["place"], r["kernel"], r["law"], r["contacts_a_rock"], digits(r["ns_a_contact"]), r["rock_to_lumped"],
+                       r["contact_to_lumped"]] for r in self.rows("bench_laws")])
+
+    def doubt(self):
+        return table(["scene", "inputs", "points", "rocks", "evaluations", "seconds", "processor s"],
+                     [[Path(r["scene"]).stem, r["inputs"], r["points"], r["rocks"], r["evaluations"], digits(r["seconds_median"]),
+                       digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
+
+    def keys(self):
+        return table(["scene", "keys in", "keys", "median, ms", "p99, ms", "most, ms"],
+                     [[Path(r["scene"]).stem, r["what"], r["keys"], r["median_ms"], r["p99_ms"], r["most_ms"]]
+                      for r in self.rows("bench_keys")])
+
+    def verdict(self):
+        return table(["scene", "when", "seeds", "clear at 1024", "at 10240", "no longer", "reversed"],
+                     [list(r.values()) for r in self.rows("bench_verdict")])
+
+    def calibration(self):
+        return table(["what", "sites", "rocks seen", "value"],
+                     [[r["what"], r["sites"], r["seen"], digits(r["value"])] for r in self.rows("bench_calibration")])
+
+    # ---- README ----
+
+    def speed(self):
+        walk, error = self.rows("bench_walk", law="lumped"), self.rows("bench_error", what="paper-bare", rocks="10000")
+        rate = {(r["what"], r["rocks"]): float(r["contacts_per_s"]) for r in [*walk, *self.rows("numpy_loop", law="lumped")]}
+        plain, best = rate["plain-loop", "100000"], rate["ceduo-1-thread", "100000"]
+        avx2, stems = rate["ceduo-1-thread-avx2", "100000"], self.rows("bench_stems", what="stems")[0]
+        mean = next(r for r in error if r["quantity"] == "mean_energy_kJ")
+        coverage, live = self.rows("bench_coverage"), {r["what"]: float(r["median_ms"]) for r in self.rows("bench_live")}
+        held = [float(r["held_percent"]) for r in coverage]
+        truth = next(float(r["true_value"]) for r in coverage if r["figure"] == "bare mean energy") / 1e3
+        processor, cores, compiler, _ = self.machine_of("bench_walk")
+        lines = [f"""These figures are from `make bench` on {cores} cores of a shared {processor}, {compiler}, `-O2`. ceduo-accuracy(7)
+has all tables and the commands that produce them.
+
+| what | figure |
+|---|---|
+| ground contacts per second, paper's site, lumped, one core | {best / 1e6:.1f} million: {best / plain:.1f} times a plain C loop, \
+{best / rate["numpy", "20000"]:.0f} times numpy (two cores: {rate["ceduo-2-threads", "100000"] / plain:.0f} times the loop) |
+| error of the mean energy after {digits(float(mean["seconds"]) * 1e3, 1)} ms (10 000 rocks, without forest) | \
+{digits(mean["rms_error"], 1)} kJ of {truth:.0f}; ten times the time leaves a third of it |
+| true value within the printed 95 % interval, {coverage[0]["repeats"]} repeats, {len(held)} figures | \
+{min(held)} to {max(held)} % |
+""".replace("\\\n", ""),
+                 f"""Without AVX-512 it is {avx2 / 1e6:.1f} million ({avx2 / plain:.1f} times the loop). Among stems, one core computes
+{float(stems["contacts_and_met_per_s"]) / 1e6:.1f} million contacts and encounters per second, {float(stems["ratio_to_bare"]):.2f} of \
+its rate without them, because each stool and stem is
+drawn and tested. After an edit of a stand, its index takes {digits(live["edit of a stand to its index"], 1)} ms and the first 1000 rocks through it \
+{digits(live["edit of a stand to 1000 rocks through it"], 2)} ms.""".replace("\\\n", "")]
+        return "\n".join(lines)
+
+    # ---- ceduo-validation(7) ----
+
     def fits(self, what):
         return self.rows("bench_tschamut", what=what)
 
@@ -142,15 +207,32 @@ class Results:
                       for r in self.fits("share")])
 
 
+# How a page marks where a table begins and ends.
+MARKS = (r'\.\\" begin (\w+)\n.*?\.\\" end \1\n', '.\\" begin {0}\n{1}\n.\\" end {0}\n'), \
+    (r"<!-- begin (\w+) -->\n.*?<!-- end \1 -->\n", "<!-- begin {0} -->\n{1}\n<!-- end {0} -->\n")
+
+
 def main():
-    page = Path(sys.argv[1])
-    results = Results(sys.argv[2] if len(sys.argv) > 2 else Path(__file__).parent / "results")
-    text = page.read_text(encoding="utf-8")
+    pages = [Path(p) for p in sys.argv[1:] if p != "--check"]
+    results = Results(Path(__file__).parent / "results")
+    stale = False
 
-    def fill(found):
-        return f'.\\" begin {found[1]}\n{getattr(results, found[1])()}\n.\\" end {found[1]}\n'
+    def fill(name):
+        try:
+            return getattr(results, name)()
+        except FileNotFoundError as e:
+            return f"(not measured yet: make bench ONLY={Path(e.filename).stem})"
 
-    page.write_text(re.sub(r'\.\\" begin (\w+)\n.*?\.\\" end \1\n', fill, text, flags=re.S), encoding="utf-8")
+    for page in pages:
+        text = filled = page.read_text(encoding="utf-8")
+        for pattern, form in MARKS:
+            filled = re.sub(pattern, lambda found: form.format(found[1], fill(found[1])), filled, flags=re.S)
+        if filled != text and "--check" in sys.argv:
+            stale = True
+            print(f"{page} is not what tests/bench/results has: make tables")
+        elif filled != text:
+            page.write_text(filled, encoding="utf-8")
+    sys.exit(stale)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,9 @@ done
 cp man/it/ceduo.1 "$dir/page"
 LC_ALL=C.UTF-8 "${BUILD:-build/release}/tests/tables" keys "$dir/page" it && cmp -s man/it/ceduo.1 "$dir/page"
 say $? "the keys of it/ceduo.1 are those of the program (make man)"
+tests/bench/tables.py --check man/ceduo-accuracy.7 man/ceduo-validation.7 README.md >"$dir/stale"
+say $? "what the benches found stands in the pages (make tables)"
+sed 's/^/# /' "$dir/stale"
 # What is typed is the same in every language: each block of commands of the Italian pages stands in the English ones.
 for page in ceduo.1 ceduo-workflows.7; do
     python3 - "man/it/$page" "man/$page" <<'PYTHON'
