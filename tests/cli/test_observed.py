@@ -124,6 +124,44 @@ def test_tables():
     accepted({"speed": {"x_m": 50, "values": "v.csv", "column": "v"}}, ("v.csv", "t,v\n1,4\n2,5\n"))
 
 
+def test_misplaced():
+    """Kinds, rows and tables that are of another form than they can be"""
+    table = ("stops.csv", TABLE)
+    mean = {"mean": 10, "sd": 2, "n": 5}
+    refused("observed", [5])
+    refused("observed", 5)
+    refused("observed[0].stops", [{"stops": 5}])
+    refused("observed[0].stops", {"stops": [5]})
+    refused("observed[0].stops.x_m", [{"stops": {"x_m": 5}}])
+    refused("cannot find '5' beside this file", [{"stops": {"x_m": "5"}}])
+    refused("observed[0].speed.values", [{"speed": {"x_m": 50, "values": {"a": 1}}}])
+    refused("observed[0].stops.csv", [{"stops": {"csv": ["stops.csv"]}}], table)
+    refused("observed[0].stops.x_m: expected a list", [{"stops": {"csv": "stops.csv", "x_m": "stops.csv"}}], table)
+    refused("observed[0].use", [{"stops": {"x_m": [40], "use": "check"}, "use": "fitted"}])
+    refused("observed[0].stops.use: unknown key", [{"stops": {"x_m": [40], "use": "check"}, "use": "fit"}])
+    refused("observed[0].release", [{**STOPS, "release": 5}])
+    refused("release: expected", [STOPS, {**STOPS, "release": {"vx_m_s": 3}}], release=5)
+    accepted([{**STOPS, "release": {"vx_m_s": 3}}])
+    refused("observed[0].stops.x_m[1]", [{"stops": {"x_m": [40, "far"]}}])
+    refused("observed[0].stops.of", [{"stops": {"x_m": [40], "of": "many"}}])
+    refused("'=a' is not COLUMN=WORD", {"stops": {"csv": "stops.csv", "only": "=a"}}, table)
+    refused("names something of a table", {"stops": {"x_m": [40], "only": "block=1"}})
+    refused("observed[0].stops.onli: unknown key", [{"stops": {"column": "a", "onli": "b"}}])
+    accepted({"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50\n60,b\n"))
+    refused("observed[0].speed.x_m: 150 lies beyond the slope", [{"speed": {"x_m": 150, **mean}}])
+    refused("observed[0].scars.from_m: -5 lies before the slope", {"scars": {"from_m": -5, "to_m": 20, "height_m": [1]}})
+    refused("-1 is below 0", {"scars": {"from_m": 5, "to_m": 20, "height_m": [-1]}})
+    refused("-1 is below 0", {"largest": {"speed_m_s": {"values": [-1]}}})
+    refused("a mean needs sd and n too", {"largest": {"speed_m_s": {"mean": 3}}})
+    refused("observed[0].speed.mean", [{"speed": {"x_m": 50, "mean": "fast", "sd": 1, "n": 3}}])
+    refused("observed[0].scars", [{"scars": {"from_m": 5, "height_m": [1]}}])
+    accepted([{"scars": {"from_m": 5, "to_m": 20, "height_m": [1, 1, 1], "of": 2}}])
+    unnamed = [{"forest": []}, {"name": "cut", "forest": []}]
+    refused("options[0]: 'name' is missing", [{**STOPS, "option": "cut"}, STOPS], options=unnamed, forest=None)
+    refused("the scene has no option 'bare'", [{**STOPS, "option": "bare"}], options=unnamed, forest=None)
+    refused("items; at most", [STOPS] * 1001)
+
+
 def test_others_do_not_mind():
     """A scene with observations is computed as without; --option may leave out what they are of"""
     with Folder() as f:

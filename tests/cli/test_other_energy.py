@@ -75,6 +75,10 @@ def test_none():
         page = good("--batch", "-n", 200, path).out
         expect_in("With the energy law dorren", page)
         expect_equal(page.count("With the energy law"), 2, "an option without stems has no other law")
+        gap = {"from_m": 5, "to_m": 10, "stand": stand(stools=None, shoots=None, trees=None, system="bare")}
+        path = f.write("g.yaml", wooded_scene(forest=[gap, belt(10, 95, energy={"model": "dorren"})]))
+        other = result(path, "-n", 20)["options"][0]["controls"][0]["other_energy"]
+        expect_equal(other["model"], "brauner", "a gap has no law")
     years = result(FOUR, "-n", 50, "--years", "0:1", "--option", "large reserves")["options"][0]
     expect(years["controls"][0]["other_energy"] is not None, "of today")
     expect_equal([y["controls"][0]["other_energy"] for y in years["years"]], [None, None])

@@ -203,9 +203,80 @@ static void a_guess_learns_a_quadratic(void **state)
     ceduo_guess_release(&g);
 }
 
+/* A density that ends the chains: `left` more are given. */
+struct ending {
+    int left;
+    enum ceduo_status status;
+};
+
+static enum ceduo_status ends(void *context, size_t chain, const double *x, double *log_density)
+{
+    struct ending *e = context;
+    (void)chain;
+    *log_density = log_normal(x);
+    return e->left-- > 0 ? CEDUO_OK : e->status;
+}
+
+static bool stop(void *context, size_t steps, double rhat, double effective_size)
+{
+    (void)context, (void)rhat, (void)effective_size;
+    return steps < 2 * CEDUO_CHAINS_ROUND;
+}
+
+/* What was drawn before stays. */
+static void chains_are_ended(void **state)
+{
+    (void)state;
+    struct chains c;
+    struct chains_def def = two_dimensions();
+    const int left[] = {0, 3, 4, 150, 4 + 4 * CEDUO_CHAINS_ROUND};
+    const size_t steps[] = {1, 1, 1, 1, 1 + CEDUO_CHAINS_ROUND};
+    def.density = ends;
+    for (int i = 0; i < 5; i++) {
+        struct ending e = {left[i], CEDUO_CANCELLED};
+        def.context = &e;
+        EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_CANCELLED);
+        EXPECT(c.steps, ==, steps[i]);
+        assert_false(c.settled);
+        ceduo_chains_release(&c);
+    }
+    def = two_dimensions();
+    def.round = stop;
+    EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
+    EXPECT(c.steps, ==, 1 + 2 * CEDUO_CHAINS_ROUND);
+    assert_false(c.settled);
+    ceduo_chains_release(&c);
+}
+
+static enum ceduo_status one_place(void *context, size_t chain, const double *x, double *log_density)
+{
+    (void)context, (void)chain;
+    *log_density = x[0] == 0 && x[1] == 0 ? 0 : -INFINITY;
+    return CEDUO_OK;
+}
+
+/* Chains that never move say nothing of how well they agree. */
+static void chains_that_stand_still(void **state)
+{
+    (void)state;
+    static const double nowhere[8];
+    struct chains c;
+    struct chains_def def = two_dimensions();
+    def.density = one_place;
+    def.starts = nowhere;
+    def.steps_most = 5 * CEDUO_CHAINS_ROUND;
+    EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
+    assert_true(isnan(c.rhat));
+    assert_false(c.settled);
+    EXPECT(ceduo_chains_draw(&c, 0)[0], ==, 0);
+    ceduo_chains_release(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(chains_are_ended),
+        cmocka_unit_test(chains_that_stand_still),
         cmocka_unit_test(a_normal_law_is_drawn_from),        cmocka_unit_test(a_wrong_guess_changes_nothing),
         cmocka_unit_test(threads_change_no_bit),             cmocka_unit_test(chains_apart_do_not_agree),
         cmocka_unit_test(draws_that_hang_together_count_less), cmocka_unit_test(a_guess_learns_a_quadratic),
