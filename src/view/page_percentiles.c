@@ -6,8 +6,8 @@
 #include "page_parts.h"
 #include "words.h"
 
-/* Heights below a metre have no third digit. */
-#define DIGITS(value) ((value) < 1 ? 2 : 3)
+/* Heights below a metre have no third digit, those below a decimetre no second. */
+#define DIGITS(value) ((value) < 0.1 ? 1 : (value) < 1 ? 2 : 3)
 
 static void add_percentile(struct ceduo_page *page, double value, double lo, double hi)
 {

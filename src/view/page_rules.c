@@ -27,7 +27,7 @@ static void put_rule(struct ceduo_page *page, double is, item *asked, bool met)
     if (isnan(is))
         ceduo_text_char(cell, '-');
     else
-        ceduo_text_format(cell, "%g", is);
+        ceduo_text_format(cell, "%.4g", is);
     put_asked(page, asked);
     ceduo_text_put(ceduo_page_text(page), !asked || isnan(is) ? "-" : met ? _("yes") : _("NO"));
 }
@@ -94,7 +94,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
     if (sources.length > 0)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL), _("Sources: %s."), ceduo_text_string(&sources));
     if (rules->note)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name, rules->note);
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name, ceduo_words_note(rules));
     else
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force."), rules->name);
     page->failed |= sources.failed;

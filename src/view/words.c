@@ -114,9 +114,9 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     size_t n = r->warnings & CEDUO_WARN_FORM_FACTOR ? form_factor_stems(s, &first) : 0;
     if (n > 0)
         say_format(say, context,
-                   ngettext("%s: the volume of %zu kind of stem (%g cm, %g m high) lies outside its species' equation; "
+                   ngettext("%s: the volume of %zu kind of stem (%.3g cm, %.3g m high) lies outside its species' equation; "
                             "form factor 0.5 is assumed.",
-                            "%s: the volume of %zu kinds of stem (the first %g cm, %g m high) lies outside their "
+                            "%s: the volume of %zu kinds of stem (the first %.3g cm, %.3g m high) lies outside their "
                             "species' equation; form factor 0.5 is assumed.",
                             n),
                    belt->name, n, first->dbh * 100, first->height);

@@ -21,6 +21,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 typedef void ceduo_words_rule(void *context, bool met, const char *sentence);
 void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_compliance *rules, ceduo_words_rule *say,
                        void *context);
+const char *ceduo_words_note(const struct ceduo_regulation *rules); /* of a region; NULL: none */
 
 /* What is to be said of a run as a whole. `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {

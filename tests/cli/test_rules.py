@@ -110,6 +110,17 @@ def test_page():
         expect_equal(page.count("check the text in force"), 1, page)
 
 
+def test_notes_in_italian():
+    """What is noted of a shipped region is Italian on an Italian page; a note of one's own stands as it is written"""
+    with Folder() as f:
+        for region in sorted((ROOT / "profiles/rules").glob("*.yaml")):
+            note = next(line for line in region.read_text().splitlines() if line.startswith("note: ")).split('"')[1]
+            pages = [" ".join(good("--batch", "-n", 5, "--language", language, f.write("s.yaml", site(coppice(), region.stem))).out.split())
+                     for language in ("en", "it")]
+            expect_equal([note in page for page in pages], [True, False], region.stem)
+            expect_in("controllare il testo in vigore; ", pages[1])
+
+
 def test_csv():
     """CSV has the same in a row for each stand, empty where nothing is asked for, and Italian changes none of it"""
     with Folder() as f:

@@ -18,6 +18,7 @@ import harness
 from harness import CEDUO, ROOT, Folder, expect, expect_equal, expect_in, expect_near
 
 PAGE = ROOT / "man" / "ceduo-workflows.7"
+PAGINA = ROOT / "man" / "it" / "ceduo-workflows.7"
 README = ROOT / "README.md"
 RUN = re.compile(r'^\.\\" run (\S+)\n\.Bd -literal[^\n]*\n(.*?)^\.Ed$', re.M | re.S)
 KEYS_MOST = 25
@@ -32,8 +33,8 @@ def plain(text):
     return text
 
 
-def blocks(way):
-    return [plain(body) for name, body in RUN.findall(PAGE.read_text()) if name == way]
+def blocks(way, page=PAGE):
+    return [plain(body) for name, body in RUN.findall(page.read_text(encoding="utf-8")) if name == way]
 
 
 # What stands for Slurm: the tasks of an array one after the other. Where tests/slurm.sh runs these tests it is a real one.
@@ -64,9 +65,9 @@ class Machine(Folder):
             self.write("bin/sbatch", SBATCH).chmod(0o755)
         return self
 
-    def run(self, text, cwd):
+    def run(self, text, cwd, **more):
         env = harness.environment(PATH=f"{self.path / 'bin'}{os.pathsep}{os.environ['PATH']}", HOME=str(self.path),
-                                  XDG_STATE_HOME=str(self.path), SBATCH_WAIT="1")
+                                  XDG_STATE_HOME=str(self.path), SBATCH_WAIT="1", **more)
         return subprocess.run(["sh", "-e"], input=text, text=True, encoding="utf-8", capture_output=True, cwd=cwd, env=env,
                               timeout=600, check=False)
 
@@ -74,11 +75,11 @@ class Machine(Folder):
 class Walk:
     """The blocks of one way, run one after the other; what they print, and the files they leave."""
 
-    def __init__(self, way, may_say=lambda err: False):
+    def __init__(self, way, may_say=lambda err: False, page=PAGE, **more):
         self.outputs, self.files = [], {}
         with Folder() as work, Machine() as machine:
-            for number, block in enumerate(blocks(way), 1):
-                done = machine.run(block, work.path)
+            for number, block in enumerate(blocks(way, page), 1):
+                done = machine.run(block, work.path, **more)
                 expect(done.returncode == 0 and (done.stderr == "" or may_say(done.stderr)), f"block {number} of {way}:", block,
                        f"status {done.returncode}", done.stderr, done.stdout)
                 self.outputs.append(done.stdout)
@@ -348,6 +349,55 @@ def test_survey():
         expect_in(f'lang="{language}"', html[:200])
         expect_in("Coppice above the road", html)
         expect_in("six-plots", html)
+
+
+def test_survey_in_italian():
+    """The whole way in Italian, from two CSV files to the page: no sentence of it stays English, and the figures are the same"""
+    walk = Walk("rilievo", page=PAGINA, LANGUAGE="it")
+    english = walked("survey")
+    expect_equal(len(walk.outputs), len(english.outputs), "steps")
+    head = walk.read("popolamento.yaml")
+    expect_equal(head[head.index("ceduo: stand/1"):], english.read("stand.yaml")[english.read("stand.yaml").index("ceduo: stand/1"):])
+    numbers = [re.findall(r"\d+(?:\.\d+)?", text) for text in (walk.outputs[3], english.outputs[3])]
+    expect_equal(*numbers)
+    page = " ".join(walk.outputs[3].split())
+    for words in ("A confronto, fino a 120 m", "nel bosco", "Toscana chiede almeno 60 matricine per ettaro", "rispettato"):
+        expect_in(words, page)
+    expect(re.search(r"com'\u00e8 ora: Se la prova dell'energia passi dipende da .*rugosit\u00e0", " ".join(walk.outputs[4].split())),
+           walk.outputs[4])
+    html = walk.read("pagina.html")
+    expect_in('lang="it"', html[:200])
+    for english_word in (" the ", " of ", "without", "rocks", "forest "):
+        expect(english_word not in re.sub(r"<style>.*?</style>|<pre.*?</pre>", "", html.split("Ipotizzato, non misurato")[0], flags=re.S),
+               english_word)
+
+
+KEYS = """resize 110 60
+key 2
+key p
+type da un rilievo
+key Enter
+type six-plots.csv
+key Enter
+wait idle
+dump -
+key s
+wait idle
+"""
+
+
+def test_survey_on_the_italian_screen():
+    """What the page says at its end: 2, p and 'da un rilievo' take the survey for the belt that is shown"""
+    texts = blocks("rilievo", PAGINA)[:3]
+    with Folder() as work, Machine() as machine:
+        work.write("keys", KEYS)
+        edit = "sed -i '/^options:/,/^rules:/d' strada.yaml\necho 'forest: [{from_m: 15, to_m: 115, stand: simple-coppice}]' >> strada.yaml"
+        done = machine.run("\n".join([*texts, edit, "ceduo --script keys strada.yaml", "ceduo --batch -n 100 strada.yaml"]),
+                           work.path, LANGUAGE="it")
+        expect(done.returncode == 0 and done.stderr == "", done.stdout, done.stderr)
+        expect_in("il popolamento del rilievo", done.stdout)
+        expect(re.search(r"ceppaie per ha +597", done.stdout), done.stdout)
+        expect(re.search(r"15\u2013115 +six-plots +13\.9 s\u00ec", done.stdout), "saved", done.stdout)
 
 
 def test_reserves():
