@@ -366,6 +366,20 @@ def test_plot():
         expect("2 coppice" not in alone and "0 without forest" in alone, alone)
 
 
+def test_few_arrive():
+    """Where no rock or one arrives there is no mean or no error; -e goes on until all rocks are flown"""
+    far = slope_site(controls=[{"x_m": 199.5, "accepted_kJ": 1}], simulation={"rocks": 40},
+                     slope={"vertices_m": [[0, 100], [150, 0], [200, 30]],
+                            "segments": [{"rn": 0.1, "rt": 0.3, "roughness_rad": 0.25, "friction": 1}]})
+    for more in ((), ("-e", "0.05")):
+        for side in ("bare", "wooded"):
+            a = run(far, *more)["options"][0]["controls"][0][side]
+            expect_equal((a["reach_probability"], a["energy_kJ"]["mean"], a["energy_kJ"]["se"]), (0, None, None))
+            expect(a["hazard"]["accepted_years_lo"] > 0 and a["hazard"]["accepted_per_year"] == 0, a["hazard"])
+    one = run(falls(POWER), "-n", 1)["options"][0]["controls"][0]["bare"]
+    expect_equal((one["reach_probability"], one["energy_kJ"]["se"]), (1, None))
+
+
 def test_tolerance_and_doubt():
     """-e works with weights; doubt of the sizes moves the answer"""
     result = run(slope_site(), "-e", "0.05")
@@ -396,6 +410,10 @@ def test_refused():
               "blocks[1].volume_m3: the class overlaps one before it, from 0.01 to 10 m3; let them touch at most"),
              ([{**POWER, "volume_m3": [3, 1]}], "blocks[0].volume_m3: 3 m3 is not below 1 m3"),
              ([{"per_year": 1}], "'volume_m3' is missing"),
+             ([POWER] * 1001, "items; at most 1000 can be computed"),
+             (["many", 5], "blocks[0]: expected a mapping"),
+             ({**POWER, "volume_m3": ["small", 2]}, "blocks.volume_m3[0]"),
+             ({**POWER, "exponent": "steep"}, "blocks.exponent"),
              ("many", "blocks: expected a list, not a single value")]
     with Folder() as f:
         for blocks, wanted in cases:
@@ -405,6 +423,10 @@ def test_refused():
         for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already say this; keep one of the two"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
                                  "rock: blocks say how large the rocks are; give the size without a spread"),
+                                ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: blocks say how large"),
+                                ({"rock": {"mass_kg": {"mean": 900, "spread": 10}}}, "rock: blocks say how large"),
+                                ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}, "height_m": 2}}, "does not belong to the shape"),
+                                ({"simulation": {"rocks": "all"}}, "simulation.rocks"),
                                 ({"simulation": {"rocks": 2000000}},
                                  "simulation.rocks: with blocks each rock is kept: at most 1048576 rocks")):
             r = ceduo("--check", f.write("s.yaml", falls(POWER, **changes)))

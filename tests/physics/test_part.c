@@ -263,6 +263,37 @@ static void figures_that_are_none_are_refused(void **state)
     free(second.bytes);
 }
 
+/* With blocks of all sizes the weights of the ends come behind the stops, and at the control, behind what it has without, those of the
+ * rocks that did not come there, and three sums of those that did. */
+enum { AT_ENDED = AT_STOPS + 4 * 8, AT_MISSED = AT_ENDED + 8 * CEDUO_ENDS + 5 * 4 * 8 + 8 + 8 * CEDUO_ENDS,
+       AT_SUMS = AT_MISSED + 8 * CEDUO_ENDS };
+
+static void weights_that_are_none_are_refused(void **state)
+{
+    (void)state;
+    static double volumes[] = {0.05, 1};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    struct ceduo_run_def def = def_of(CEDUO_EXACT_BYTES, true);
+    struct saved first = part_of(def, 1, 2, 1);
+    struct ceduo_run *run = run_of(def, 0);
+    const size_t places[] = {AT_ENDED, AT_ENDED + 8 * (CEDUO_ENDS - 1), AT_MISSED, AT_SUMS - 8, AT_SUMS, AT_SUMS + 8, AT_SUMS + 16};
+    const double none[] = {-1, NAN, INFINITY};
+    for (size_t i = 0; i < LENGTH(places); i++)
+        for (size_t k = 0; k < LENGTH(none); k++) {
+            unsigned char was[8];
+            memcpy(was, first.bytes + places[i], 8);
+            put_double(&first, places[i], none[k]);
+            assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
+            memcpy(first.bytes + places[i], was, 8);
+        }
+    assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_OK);
+    ceduo_run_free(run);
+    free(first.bytes);
+}
+
 /* Where samples are not kept the energies of the first rocks come last: no more of them than rocks that arrived. */
 static void more_energies_than_arrivals_are_refused(void **state)
 {
@@ -384,6 +415,7 @@ int main(void)
         cmocka_unit_test(steps_of_a_part_change_nothing),
         cmocka_unit_test(wrong_parts_are_refused),
         cmocka_unit_test(figures_that_are_none_are_refused),
+        cmocka_unit_test(weights_that_are_none_are_refused),
         cmocka_unit_test(more_energies_than_arrivals_are_refused),
         cmocka_unit_test(hostile_bytes_do_no_harm),
         cmocka_unit_test(nothing_is_read_otherwise_than_written),

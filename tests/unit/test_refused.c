@@ -93,6 +93,28 @@ static void scenes_are_refused(void **state)
     assert_int_equal(ceduo_species_find("no-such-tree"), -1);
 }
 
+static void blocks_are_refused(void **state)
+{
+    (void)state;
+    double volumes[2] = {0.1, 2};
+    struct ceduo_block_class b[2] = {{1, 1, 2, volumes}, {1, 1, 2, volumes}};
+    const struct {
+        double *number, value;
+    } rows[] = {{&volumes[0], 0}, {&volumes[0], NAN}, {&volumes[0], 2}, {&b[1].per_year, 0}, {&b[1].per_year, NAN}, {&b[1].exponent, -1}};
+    paper_site_init(&site);
+    site.scene.blocks = b;
+    site.scene.blocks_count = 2;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        double was = *rows[i].number;
+        assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
+        *rows[i].number = rows[i].value;
+        assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
+        *rows[i].number = was;
+    }
+    b[1].volumes_count = 1;
+    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
+}
+
 /* Of a rock that is none nothing is known, and none is flown. */
 static void no_rock_no_figures(void **state)
 {
@@ -350,6 +372,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(slopes_are_refused),
         cmocka_unit_test(scenes_are_refused),
+        cmocka_unit_test(blocks_are_refused),
         cmocka_unit_test(no_rock_no_figures),
         cmocka_unit_test(rocks_are_refused),
         cmocka_unit_test(alike_neighbours_are_one),

@@ -101,10 +101,38 @@ static void a_flight_as_it_is(void **state)
     EXPECT(ceduo_calibration_as_it_is(&asked, 100, NULL, p), !=, CEDUO_OK);
 }
 
+/* Two shapes, both to be fitted, under the law that knows a shape. */
+static void two_shapes_tell_mu(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = ceduo_scene_default();
+    scene.simulation.law = CEDUO_LAW_ARM;
+    scene.rock.shape = CEDUO_BLOCK;
+    for (int i = 0; i < 3; i++)
+        scene.rock.axes[i] = ceduo_number(0.5);
+    struct ceduo_rock_def plate = scene.rock, larger = scene.rock;
+    plate.axes[1] = ceduo_number(0.1);
+    for (int i = 0; i < 3; i++)
+        larger.axes[i] = ceduo_number(0.8);
+    struct ceduo_observation o[3] = {{.kind = CEDUO_OBSERVED_STOPS}, {.kind = CEDUO_OBSERVED_STOPS}, {.kind = CEDUO_OBSERVED_STOPS}};
+    const struct ceduo_calibration_scene scenes[2] = {{.scene = &scene, .observations_count = 3, .observations = o},
+                                                      {.scene = &scene, .observations_count = 1, .observations = o}};
+    o[1].rock = &larger;
+    assert_false(ceduo_calibration_tells_mu(scenes, 2)); /* of one shape */
+    o[2].rock = &plate;
+    assert_true(ceduo_calibration_tells_mu(scenes, 2));
+    o[2].use = CEDUO_OBSERVED_CHECK;
+    assert_false(ceduo_calibration_tells_mu(scenes, 2)); /* the other is not fitted */
+    o[2].use = CEDUO_OBSERVED_FIT;
+    scene.simulation.law = CEDUO_LAW_LUMPED;
+    assert_false(ceduo_calibration_tells_mu(scenes, 2));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_of_ten),
+        cmocka_unit_test(two_shapes_tell_mu),
         cmocka_unit_test(those_that_go_on_lie_farther),
         cmocka_unit_test(one_place_has_no_picture),
         cmocka_unit_test(a_flight_as_it_is),
