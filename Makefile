@@ -259,7 +259,7 @@ do-coverage:
 	@+$(MAKE) --no-print-directory VARIANT=cov all
 	@find build/cov -name '*.gcda' -delete
 	@rm -rf $(TAPS:$(T)/%=build/cov/tests/%)
-	@+TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(TAPS:$(T)/%=build/cov/tests/%) do-replay
+	@+SCENES=500 TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(TAPS:$(T)/%=build/cov/tests/%) do-replay
 	@-tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
 	@tests/coverage.py build/cov
 

@@ -3,7 +3,7 @@
 """Random scenes, made from the table of parameters and at its edges too, through the whole program: page, CSV and JSON hold
 the same figures, and the figures hold together.
 
-SCENES=10000 runs so many (500 without it), FIRST=500 begins with that one. SCENE=123 runs that one alone and prints its files; a
+SCENES=10000 runs so many (250 without it, with FULL 500), FIRST=500 begins with that one. SCENE=123 runs that one alone and prints its files; a
 scene that fails is kept where the failure says.
 """
 import csv
@@ -29,7 +29,7 @@ from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Failure, Folder
                      expect_equal, good, no_constant)
 import random_scenes  # noqa: E402
 
-SCENES = int(os.environ.get("SCENES") or 500)
+SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))
 FIRST = int(os.environ.get("FIRST") or 0)
 CHUNK = 25         # scenes of one call of the program
 SECONDS = 5        # of processor time for a scene; beyond that it hangs
