@@ -49,6 +49,15 @@ double ceduo_exp(double x)
     return e * power_of_two(half) * power_of_two((int)k - half);
 }
 
+/* As with log1p: the quotient forgives what rounding does to e^x. */
+double ceduo_expm1(double x)
+{
+    double e = ceduo_exp(x);
+    if (e == 1)
+        return x;
+    return e == 0 || isinf(e) ? e - 1 : (e - 1) * (x / ceduo_log(e));
+}
+
 double ceduo_pow(double x, double y)
 {
     return ceduo_exp(y * ceduo_log(x));

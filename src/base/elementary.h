@@ -5,11 +5,13 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Functions of one number that a rock's trajectory depends on. The C library's differ between machines in the last bit,
- * as some have fused multiply-adds; these give the same bits everywhere, within an ulp, atan within two. */
+/* Functions of one number that a rock's trajectory depends on, or the stand of a year through which it flies. The C
+ * library's differ between machines in the last bit, as some have fused multiply-adds; these give the same bits
+ * everywhere, within an ulp, atan within two, log1p and expm1 within three. */
 double ceduo_log(double x);
 double ceduo_log1p(double x); /* log(1 + x), x > -1 */
 double ceduo_exp(double x);
+double ceduo_expm1(double x); /* e^x - 1 */
 double ceduo_atan(double x);
 double ceduo_cbrt(double x);
 

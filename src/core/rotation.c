@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/elementary.h"
+
 #define SHOOTS_FALL 5.0  /* years in which the surplus of shoots falls to 1/e; assumed */
 #define GROWS_MOST  1e9 /* times as wide or as high: beyond that an age is as good as 0 */
 #define AGE_GRAIN   1e-6 /* years: an age that comes from a curve is no better known */
@@ -22,7 +24,7 @@ static bool known(const struct ceduo_curve *c)
 /* Share of its end that a curve has reached. */
 static double reached(double rate, double age)
 {
-    return -expm1(-rate * age);
+    return -ceduo_expm1(-rate * age);
 }
 
 /* Infinite where the stem grows no more; NaN where nothing tells it. */
@@ -33,13 +35,13 @@ static double age_of(const struct ceduo_stems *stems, const struct ceduo_curve *
     if (!known(curve))
         return NAN;
     double share = stems->dbh / curve->dbh_most;
-    return share < 1 ? -log1p(-share) / curve->dbh_rate : INFINITY;
+    return share < 1 ? -ceduo_log1p(-share) / curve->dbh_rate : INFINITY;
 }
 
 static double shoots_on_stool(const struct ceduo_growth *growth, double age)
 {
     double surplus = fmax(0, growth->shoots_young - growth->shoots_old);
-    return growth->shoots_old + surplus * exp(-age / SHOOTS_FALL);
+    return growth->shoots_old + surplus * ceduo_exp(-age / SHOOTS_FALL);
 }
 
 /* ---- density ---- */
@@ -49,7 +51,7 @@ static double sdi(double per_ha, double basal_area)
     if (!(per_ha > 0))
         return 0;
     double dq_cm = 100 * sqrt(basal_area / per_ha * 4 / M_PI);
-    return per_ha * pow(dq_cm / 25.4, 1.605);
+    return per_ha * ceduo_pow(dq_cm / 25.4, 1.605);
 }
 
 double ceduo_stand_sdi(const struct ceduo_stand *stand)

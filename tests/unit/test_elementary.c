@@ -98,6 +98,10 @@ static void powers(void **context)
     for (size_t i = 0; i < PLACES; i++) {
         double x = place(i, -708, 709.7), base = place(i, 0.1, 200), y = place(i, -5, 5);
         expect_near("exp", x, ceduo_exp(x), expl(x), 1);
+        double change = place(i, -700, 709.7), small = exp2(place(i, -80, -0.01));
+        expect_near("expm1", change, ceduo_expm1(change), expm1l(change), 3);
+        expect_near("expm1", small, ceduo_expm1(small), expm1l(small), 3);
+        expect_near("expm1", -small, ceduo_expm1(-small), expm1l(-small), 3);
         assert_true(fabsl(ceduo_pow(base, y) / powl(base, y) - 1) <= 0x1p-52L * (1 + fabsl(y * logl(base))));
     }
     EXPECT(ceduo_exp(0), ==, 1);
@@ -105,6 +109,11 @@ static void powers(void **context)
     EXPECT(ceduo_exp(-1e9), ==, 0);
     EXPECT(ceduo_exp(1e9), ==, INFINITY);
     assert_true(isnan(ceduo_exp(NAN)));
+    EXPECT(ceduo_expm1(0), ==, 0);
+    EXPECT(ceduo_expm1(-INFINITY), ==, -1);
+    EXPECT(ceduo_expm1(-1e9), ==, -1);
+    EXPECT(ceduo_expm1(1e9), ==, INFINITY);
+    assert_true(isnan(ceduo_expm1(NAN)));
 }
 
 static void angles(void **context)
