@@ -181,12 +181,13 @@ static bool none_arrives(const struct ceduo_arrivals *a)
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
-    say_energy_of_all(page, wooded, bare);
+    const struct ceduo_arrivals *through = r->scene->options[option].belts_count > 0 ? wooded : NULL; /* said once */
+    say_energy_of_all(page, through, bare);
     if (page->width >= CEDUO_PAGE_WIDTH) {
         add_arrivals_table(page, &r->scene->controls[control], wooded, bare);
     } else {
-        if (wooded)
-            say_arrivals(page, _("Through the wood"), wooded);
+        if (through)
+            say_arrivals(page, _("Through the wood"), through);
         say_arrivals(page, _("Without forest"), bare);
     }
     if (wooded)

@@ -14,6 +14,21 @@ from pages import expect_width
 from runs import FOUR, PAPER, without_seconds
 
 
+MEAN = re.compile(r"(\S+?) ?(?:\+-|\u00b1) ?(\S+)")
+
+
+def expect_same_means(*pages):
+    """A mean has as many digits as its column has room for, and "+-" takes a column more than its sign: each pair of numbers
+    on one page is that on the other, but for its last digit."""
+    pairs = [[number for pair in MEAN.findall(page) for number in pair] for page in pages]
+    expect_equal(*(len(p) for p in pairs), "numbers beside an error")
+    for one, other in zip(*pairs):
+        numbers = [re.fullmatch(r"[(>]?([+-]?\d+(?:\.(\d+))?)[,.;:)]*", n) for n in (one, other)]
+        expect(all(numbers), "no number with a dot:", one, other)
+        unit = sum(0.5 * 10 ** -len(n.group(2) or "") for n in numbers)
+        expect(abs(float(numbers[0].group(1)) - float(numbers[1].group(1))) <= unit * 1.0001, one, other)
+
+
 def test_plain_ascii():
     """LC_ALL=C: all output and every message is pure ASCII, with the same numbers"""
     def ascii_only(done):
@@ -25,8 +40,8 @@ def test_plain_ascii():
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         text = ascii_only(good("--batch", "-n", 100, path, env=plain)).out
         wide = good("--batch", "-n", 100, path).out
-        # A mean has as many digits as its column has room for, and "+-" takes a column more than its sign.
-        texts = [re.sub(r"\S+ ?(\+-|\u00b1)\S+", "", page) for page in (text, wide)]
+        expect_same_means(text, wide)
+        texts = [MEAN.sub("", page) for page in (text, wide)]
         expect_equal(*(re.findall(r"\d+\.\d+", page) for page in texts), "numbers")
         expect_width(text)
     ascii_only(good("--batch", "-n", 5, PAPER, "-s", "title=Überraschung — 𝄞", env=plain))

@@ -70,6 +70,15 @@ def test_growth_in_centimetres():
     expect(re.search(r"^trees: diam. max, cm +60\b", trees.body, re.M), trees)
 
 
+def test_no_forest():
+    """Where no forest stands, view 4 has each figure once"""
+    with Place() as place:
+        place.write("open.yaml", WOOD[:WOOD.index("forest:")] + "simulation: {rocks: 1000}\n")
+        screen, = place.play("key 4\nwait idle\nresize 80 40\ndump", "open.yaml")
+    expect_in("Without forest:", screen.body)
+    expect("hrough the wood" not in screen.body, screen)
+
+
 def test_sentences_apart():
     """View 6 begins each sentence after a blank"""
     with Place() as place:
