@@ -10,7 +10,8 @@
 
 /* Sums along a stretch; they become means at the end. */
 struct along {
-    double length, speed, height, speed2, spin2; /* integrals over x */
+    double length, speed, height, speed2; /* integrals over x */
+    double spin2, roll2; /* of the spin in flight; of the speed in a roll, which goes with the spin */
 };
 
 struct recorder {
@@ -131,7 +132,7 @@ static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct a
     double sum = sqrt(a2) + sqrt(b2);
     a->speed += sum > 0 ? (hi - lo) * 2 / 3 * (a2 + sqrt(a2 * b2) + b2) / sum : 0;
     a->speed2 += (hi - lo) * (a2 + b2) / 2;
-    a->spin2 += start > 0 ? (hi - lo) * (a2 + b2) / 2 * square(p->spin) / start : 0;
+    a->roll2 += (hi - lo) * (a2 + b2) / 2;
 }
 
 static void add_piece(const struct ceduo_scene *scene, const struct ceduo_piece *p, const struct ceduo_stretch *stretch,
@@ -147,11 +148,13 @@ static void add_piece(const struct ceduo_scene *scene, const struct ceduo_piece 
         add_flight(scene, p, lo, hi, a);
 }
 
-static struct ceduo_stretch_means means_of(const struct along *a, const struct ceduo_rock *rock)
+/* By the lumped law rocks do not spin. */
+static struct ceduo_stretch_means means_of(const struct along *a, const struct ceduo_rock *rock, enum ceduo_law law)
 {
     if (!(a->length > 0))
         return (struct ceduo_stretch_means){0, NAN, NAN, NAN};
-    double energy = (rock->mass * a->speed2 + rock->moment * a->spin2) / 2;
+    double spin2 = law == CEDUO_LAW_LUMPED ? 0 : a->spin2 + a->roll2 / square(rock->radius);
+    double energy = (rock->mass * a->speed2 + rock->moment * spin2) / 2;
     return (struct ceduo_stretch_means){a->length, a->speed / a->length, a->height / a->length, energy / a->length};
 }
 
@@ -211,7 +214,7 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *
     r->rock->moment = way.rock.moment;
     r->rock->stop_x = way.end == CEDUO_AT_REST || way.end == CEDUO_STOPPED_BY_STEMS ? way.x : NAN;
     for (size_t i = 0; i < def->stretches_count; i++)
-        r->record->means[rock * def->stretches_count + i] = means_of(&r->along[i], &way.rock);
+        r->record->means[rock * def->stretches_count + i] = means_of(&r->along[i], &way.rock, def->scene->simulation.law);
     for (size_t i = first; i < r->record->blows_count; i++)
         r->record->blows[i].height += way.rock.radius;
     return CEDUO_OK;

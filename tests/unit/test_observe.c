@@ -273,6 +273,11 @@ static void a_flight_over_an_edge(void **state)
     o.to = v * top;
     double sum = 5 * top - GRAVITY / 6 * top * top * top + v / 4 * (top - edge) * (top - edge);
     expect_mean(&g, o, sum / top, 1e-9);
+    o.to = 10; /* up to the edge */
+    expect_mean(&g, o, 5 - GRAVITY / 6 * edge * edge, 1e-9);
+    g.scene.release.x = ceduo_number(10); /* and back from there */
+    g.scene.release.vx = ceduo_number(-2);
+    expect_mean(&g, something(CEDUO_OBSERVED_LARGEST_HEIGHT), 5, 1e-9);
 }
 
 /* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) for each metre of ground. */
@@ -296,6 +301,36 @@ static void means_along_a_roll(void **state)
     o.n = 3;
     o.mean = o.sd = 1;
     EXPECT(look(&g, o).rocks, ==, 0);
+}
+
+/* From rest: what it has lost in height and not to friction, m g (sin - mu cos)/cos for each metre, is in its speed and its spin. */
+static void a_roll_from_rest(void **state)
+{
+    (void)state;
+    struct ground g;
+    double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = GRAVITY * (sine - 0.25 * cosine) / cosine;
+    static const enum ceduo_law laws[] = {CEDUO_LAW_LUMPED, CEDUO_LAW_CRSP};
+    for (size_t i = 0; i < 2; i++) {
+        make_ground(&g, 100, 0, 0, 0);
+        g.scene.simulation.law = laws[i];
+        struct ceduo_observation o = something(CEDUO_OBSERVED_WAY_ENERGY);
+        o.from = 0;
+        o.to = 50;
+        expect_mean(&g, o, mass() * gain * 25, 1e-4);
+        double k = laws[i] == CEDUO_LAW_LUMPED ? 0 : 0.4; /* of a sphere */
+        o.kind = CEDUO_OBSERVED_WAY_SPEED;
+        expect_mean(&g, o, 2. / 3 * sqrt(2 * gain / (1 + k) * 50), 1e-6);
+    }
+}
+
+/* A fall straight down. */
+static void a_fall(void **state)
+{
+    (void)state;
+    struct ground g;
+    make_ground(&g, 0, HIGH, 0, 0);
+    expect_mean(&g, something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
+    expect_mean(&g, something(CEDUO_OBSERVED_LARGEST_SPEED), sqrt(2 * GRAVITY * HIGH), 1e-9);
 }
 
 /* ---- rocks are those of a run ---- */
@@ -533,6 +568,8 @@ int main(void)
         cmocka_unit_test(recorded_rocks_are_those_of_a_run),
         cmocka_unit_test(scars_are_counted_and_measured),
         cmocka_unit_test(a_flight_back),
+        cmocka_unit_test(a_roll_from_rest),
+        cmocka_unit_test(a_fall),
         cmocka_unit_test(a_flight_over_an_edge),
         cmocka_unit_test(recorded_crossings_are_those_of_a_run),
         cmocka_unit_test(what_is_of_its_own),
