@@ -113,7 +113,6 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
         to->theta = g->segments[j - 1].theta;
     else
         to->theta = isnan(from->roughness_m) ? from->roughness_rad : ceduo_atan(from->roughness_m / radius);
-    to->steep = fabs(to->m) > 1;
     g->along[j + 1] = g->along[j] + length;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;
@@ -142,7 +141,7 @@ static bool build_levels(struct ground *g, double margin)
 {
     for (int level = 1; level < GROUND_LEVELS && g->n >> (GROUND_BITS * level) >= 2; level++) {
         size_t blocks = g->n >> (GROUND_BITS * level);
-        struct ground_block *to = malloc((blocks + 1) * sizeof *to);
+        struct ground_block *to = calloc(blocks + 1 + GROUND_GROUP, sizeof *to);
         if (!to)
             return false;
         g->levels[level] = to;
@@ -157,6 +156,18 @@ static bool build_levels(struct ground *g, double margin)
             to[i].rise += margin;
         }
     }
+    return true;
+}
+
+static bool allocate_segments(struct ground *g)
+{
+    size_t bytes = (g->n + 2) * sizeof *g->segments;
+    struct ground_segment *room = aligned_alloc(sizeof *room, bytes);
+    if (!room)
+        return false;
+    memset(room, 0, sizeof *room);
+    memset(room + g->n + 1, 0, sizeof *room);
+    g->segments = room + 1;
     return true;
 }
 
@@ -175,8 +186,7 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
     double size = size_of(slope);
     keep_vertices(ground, slope, size);
     ground->along = malloc((ground->n + 1) * sizeof(double));
-    ground->segments = malloc(ground->n * sizeof *ground->segments);
-    if (!ground->along || !ground->segments)
+    if (!ground->along || !allocate_segments(ground))
         goto fail;
     ground->along[0] = 0;
     for (size_t j = 0; j < ground->n; j++) {
@@ -200,7 +210,8 @@ void ceduo_ground_release(struct ground *ground)
     free(ground->x);
     free(ground->z);
     free(ground->along);
-    free(ground->segments);
+    if (ground->segments)
+        free(ground->segments - 1);
     free(ground->given);
     for (int l = 0; l < GROUND_LEVELS; l++)
         free(ground->levels[l]);

@@ -11,20 +11,21 @@
 #define HOT static inline __attribute__((always_inline))
 #define SELDOM static __attribute__((noinline))
 
-/* A slope made ready for many rocks: what the walk needs at each segment, side by side. */
+/* A slope made ready for many rocks: what the walk needs at each segment, in one line of the cache, and in pairs as the
+ * wide walk looks them up. */
 struct ground_segment {
-    double m;          /* dz/dx */
-    double c, s;       /* unit tangent along +x; the normal upward is (-s, c) */
-    double friction, mu; /* of a rolling rock; Coulomb's */
-    double rn, rt;     /* means */
-    double theta;      /* largest facet angle, for the radius of the mean rock */
-    bool steep;        /* |m| > 1: z tells where a point lies better than x */
+    double m;            /* dz/dx */
+    double theta;        /* largest facet angle, for the radius of the mean rock */
+    double c, s;         /* unit tangent along +x; the normal upward is (-s, c) */
+    double rn, rt;       /* means */
+    double mu, friction; /* Coulomb's; of a rolling rock */
 };
 
 #ifndef GROUND_BITS
 #define GROUND_BITS 3 /* 2^3 segments are a block, 2^3 blocks one of the next level; only speed depends on it */
 #endif
 #define GROUND_LEVELS 16
+#define GROUND_GROUP  (GROUND_BITS > 3 ? 1 << GROUND_BITS : 8) /* so many are read at once, be they there or not */
 
 /* Some neighbouring segments: their first vertex, the slope of the chord to the first of the next block, and how high
  * the ground rises above that chord, with a margin for rounding. A parabola that is as high above the chord at two places
@@ -37,7 +38,7 @@ struct ground_block {
 struct ground {
     size_t n; /* segments */
     double *x, *z, *along; /* n + 1; along: metres of ground from the first vertex */
-    struct ground_segment *segments;
+    struct ground_segment *segments; /* n; with an empty one before and one behind */
     const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
     enum ceduo_facets facets;
     bool rn_varies, rt_varies, theta_varies; /* from rock to rock */
@@ -54,6 +55,12 @@ void ceduo_ground_release(struct ground *ground);
 /* The segment that x lies on, the right-hand one at a vertex. */
 size_t ceduo_ground_segment(const struct ground *ground, double x);
 
+/* Whether z tells better than x where a point lies. */
+HOT bool ground_is_steep(const struct ground_segment *s)
+{
+    return s->m > 1 || s->m < -1;
+}
+
 /* Height of the ground at x on segment j. */
 HOT double ground_height(const struct ground *g, size_t j, double x)
 {
@@ -65,7 +72,7 @@ HOT double ground_height(const struct ground *g, size_t j, double x)
 /* Metres of ground between two points of one segment. */
 HOT double ground_length(const struct ground_segment *s, double x0, double z0, double x1, double z1)
 {
-    double d = s->steep ? (z1 - z0) / s->s : (x1 - x0) / s->c;
+    double d = ground_is_steep(s) ? (z1 - z0) / s->s : (x1 - x0) / s->c;
     return d < 0 ? -d : d;
 }
 

@@ -260,6 +260,67 @@ LANE void part_pair(const double (*pairs)[2], const uint64_t *i, part_reals *fir
 EACH(reals, choose, (const double *table, ints p), OF_TABLE, PART_CHOOSE)
 #endif
 
+/* ---- one part alone: a row of neighbours ---- */
+
+#ifdef WIDE_AVX512
+#define PART_NONE_BUT(p) ((unsigned)(uint8_t)~(p)) /* bits of those that are not */
+
+/* PART pairs, or fours, from an address on, by columns. */
+LANE void part_of_pairs(const double (*from)[2], part_reals *first, part_reals *second)
+{
+    part_reals p = _mm512_loadu_pd(from[0]), q = _mm512_loadu_pd(from[4]);
+    *first = _mm512_permutex2var_pd(p, _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), q);
+    *second = _mm512_permutex2var_pd(p, _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), q);
+}
+
+LANE void part_of_fours(const double *from, part_reals *a, part_reals *b, part_reals *c, part_reals *d)
+{
+    part_ints even = _mm512_setr_epi64(0, 4, 8, 12, 1, 5, 9, 13), odd = _mm512_setr_epi64(2, 6, 10, 14, 3, 7, 11, 15);
+    part_reals p = _mm512_loadu_pd(from), q = _mm512_loadu_pd(from + 8);
+    part_reals r = _mm512_loadu_pd(from + 16), s = _mm512_loadu_pd(from + 24);
+    part_reals ab = _mm512_permutex2var_pd(p, even, q), cd = _mm512_permutex2var_pd(p, odd, q);
+    part_reals ab2 = _mm512_permutex2var_pd(r, even, s), cd2 = _mm512_permutex2var_pd(r, odd, s);
+    *a = _mm512_shuffle_f64x2(ab, ab2, 0x44);
+    *b = _mm512_shuffle_f64x2(ab, ab2, 0xee);
+    *c = _mm512_shuffle_f64x2(cd, cd2, 0x44);
+    *d = _mm512_shuffle_f64x2(cd, cd2, 0xee);
+}
+
+/* Without its first number, and with another at its end. */
+LANE part_reals part_shifted(part_reals p, double last)
+{
+    return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(PART_ALL(last)), _mm512_castpd_si512(p), 1));
+}
+#else
+#define PART_NONE_BUT(p) (~PART_BITS(p) & 15)
+
+LANE void part_of_pairs(const double (*from)[2], part_reals *first, part_reals *second)
+{
+    part_reals p = _mm256_loadu_pd(from[0]), q = _mm256_loadu_pd(from[2]);
+    *first = _mm256_permute4x64_pd(_mm256_unpacklo_pd(p, q), 0xd8);
+    *second = _mm256_permute4x64_pd(_mm256_unpackhi_pd(p, q), 0xd8);
+}
+
+LANE void part_of_fours(const double *from, part_reals *a, part_reals *b, part_reals *c, part_reals *d)
+{
+    part_reals p = _mm256_loadu_pd(from), q = _mm256_loadu_pd(from + 4);
+    part_reals r = _mm256_loadu_pd(from + 8), s = _mm256_loadu_pd(from + 12);
+    part_reals ac = _mm256_unpacklo_pd(p, q), bd = _mm256_unpackhi_pd(p, q);
+    part_reals ac2 = _mm256_unpacklo_pd(r, s), bd2 = _mm256_unpackhi_pd(r, s);
+    *a = _mm256_permute2f128_pd(ac, ac2, 0x20);
+    *b = _mm256_permute2f128_pd(bd, bd2, 0x20);
+    *c = _mm256_permute2f128_pd(ac, ac2, 0x31);
+    *d = _mm256_permute2f128_pd(bd, bd2, 0x31);
+}
+
+LANE part_reals part_shifted(part_reals p, double last)
+{
+    return _mm256_blend_pd(_mm256_permute4x64_pd(p, 0x39), PART_ALL(last), 8);
+}
+#endif
+
+/* ---- tables ---- */
+
 /* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
 LANE void look_up(const struct wide_table *table, ints i, bool small, reals *first, reals *second)
 {
@@ -272,8 +333,8 @@ LANE void look_up(const struct wide_table *table, ints i, bool small, reals *fir
 #endif
     (void)small;
     _Alignas(64) uint64_t at[LANES];
-    store_ints(at, i);
-    const double(*pairs)[2] = (const double(*)[2])table->pairs;
+    store_ints(at, shift_left(i, table->shift));
+    const double(*pairs)[2] = table->pairs;
     part_pair(pairs, at, &first->a, &second->a);
     part_pair(pairs, at + PART, &first->b, &second->b);
     part_pair(pairs, at + 2 * PART, &first->c, &second->c);

@@ -56,7 +56,7 @@ static inline void roll_point(const struct walker *w, int dir, double ds, bool t
     if (to_end) {
         *x = g->x[dir > 0 ? j + 1 : j];
         *z = g->z[dir > 0 ? j + 1 : j];
-    } else if (s->steep) {
+    } else if (ground_is_steep(s)) {
         *z = clamp(w->at.z + dir * s->s * ds, g->z[j], g->z[j + 1]);
         *x = clamp(g->x[j] + (*z - g->z[j]) / s->m, g->x[j], g->x[j + 1]);
     } else {

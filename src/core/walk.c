@@ -286,11 +286,17 @@ bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end)
     return ceduo_walk_come_down(w, c, end);
 }
 
-bool ceduo_walk_go_off(struct walker *w, struct course *c, enum ceduo_end *end)
+bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing)
 {
-    c->l = next_landing(w->g, &c->at);
+    if (!knows_landing)
+        c->l = next_landing(w->g, &c->at);
     c->flies = !is_roll(w, &c->at, c->v.off, &c->l);
-    return c->flies || roll_further(w, c->v.along, c, end);
+    return !c->flies;
+}
+
+bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end)
+{
+    return roll_further(w, c->v.along, c, end);
 }
 
 void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle)

@@ -31,8 +31,11 @@ bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t
 /* To the next contact. */
 bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end);
 
-/* From behind a contact, which leaves the rock with velocity v, into flight or to the next contact. */
-bool ceduo_walk_go_off(struct walker *w, struct course *c, enum ceduo_end *end);
+/* Whether a rock rolls behind a contact, which leaves it with velocity v; else it flies to l, which may be known. */
+bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing);
+
+/* If so: into flight or to the next contact. */
+bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end);
 
 /* From between two contacts to the end. */
 enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law);

@@ -4,30 +4,34 @@
 #include <math.h>
 #include <stdlib.h>
 
-static void fill(struct wide_table *t, size_t i, double first, double second)
+#define SEGMENT_SHIFT 2
+_Static_assert(sizeof(struct ground_segment) == (size_t)16 << SEGMENT_SHIFT, "a segment is pairs of numbers");
+
+static void set_place(struct wide_ground *wide, size_t i, double x, double z)
 {
-    t->pairs[i][0] = first;
-    t->pairs[i][1] = second;
-    if (i < TABLE_SMALL) {
-        t->first[i] = first;
-        t->second[i] = second;
-    }
+    wide->room[i][0] = x;
+    wide->room[i][1] = z;
 }
 
-static void fill_all(struct wide_ground *wide, const struct ground *g)
+/* The places, and some behind the last wall that are read but not used. */
+static void set_places(struct wide_ground *wide, const struct ground *g)
 {
     size_t n = g->n;
-    fill(&wide->place, 0, g->x[0] - 1, INFINITY);
+    set_place(wide, 0, g->x[0] - 1, INFINITY);
     for (size_t i = 0; i <= n; i++)
-        fill(&wide->place, i + 1, g->x[i], g->z[i]);
-    fill(&wide->place, n + 2, g->x[n] + 1, INFINITY);
-    for (size_t j = 0; j < n; j++) {
-        const struct ground_segment *s = &g->segments[j];
-        fill(&wide->slope, j + 1, s->m, s->theta);
-        fill(&wide->tilt, j + 1, s->c, s->s);
-        fill(&wide->share, j + 1, s->rn, s->rt);
-        fill(&wide->brake, j + 1, s->friction * s->c, 0);
-        fill(&wide->grip, j + 1, s->mu, s->friction);
+        set_place(wide, i + 1, g->x[i], g->z[i]);
+    for (size_t i = n + 2; i < n + 3 + GROUND_GROUP; i++)
+        set_place(wide, i, g->x[n] + 1, INFINITY);
+}
+
+/* A table of `entries` pairs that begin at `first`, `1 << shift` pairs from one to the next. */
+static void set_table(struct wide_table *t, const void *first, int shift, size_t entries)
+{
+    t->pairs = (const double(*)[2])first;
+    t->shift = shift;
+    for (size_t i = 0; i < entries && i < TABLE_SMALL; i++) {
+        t->first[i] = t->pairs[i << shift][0];
+        t->second[i] = t->pairs[i << shift][1];
     }
 }
 
@@ -37,17 +41,20 @@ struct wide_ground *ceduo_wide_ground_create(const struct ground *g)
     if (!wide)
         return NULL;
     *wide = (struct wide_ground){0};
-    struct wide_table *tables[] = {&wide->place, &wide->slope, &wide->tilt, &wide->share, &wide->brake, &wide->grip};
-    size_t count = sizeof tables / sizeof tables[0], entries = g->n + 3;
+    size_t entries = g->n + 3;
     wide->small = entries <= TABLE_SMALL;
-    wide->room = calloc(count * entries, sizeof *wide->room);
+    wide->room = aligned_alloc(64, ((entries + GROUND_GROUP) * sizeof *wide->room + 63) / 64 * 64);
     if (!wide->room) {
         free(wide);
         return NULL;
     }
-    for (size_t i = 0; i < count; i++)
-        tables[i]->pairs = wide->room + i * entries;
-    fill_all(wide, g);
+    set_places(wide, g);
+    const struct ground_segment *before = g->segments - 1;
+    set_table(&wide->place, wide->room, 0, entries);
+    set_table(&wide->slope, &before->m, SEGMENT_SHIFT, g->n + 2);
+    set_table(&wide->tilt, &before->c, SEGMENT_SHIFT, g->n + 2);
+    set_table(&wide->share, &before->rn, SEGMENT_SHIFT, g->n + 2);
+    set_table(&wide->grip, &before->mu, SEGMENT_SHIFT, g->n + 2);
     return wide;
 }
 

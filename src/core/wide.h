@@ -9,11 +9,12 @@
  * happens seldom (marks, rolling over vertices and past stems, far landings on long slopes) is done lane by lane by
  * the scalar walk. */
 
-/* Two numbers for each vertex or segment i, at [i + 1]: look_up() of lanes.h. */
+/* Two numbers for each vertex or segment i, at [i + 1 << shift]: look_up() of lanes.h. */
 #define TABLE_SMALL 16
 struct wide_table {
     _Alignas(64) double first[TABLE_SMALL], second[TABLE_SMALL]; /* of a small table, once more */
-    double (*pairs)[2];
+    const double (*pairs)[2];
+    int shift;
 };
 
 /* The ground in tables. Before and behind stand walls without top, so that a flight over the profile's end is one that
@@ -23,10 +24,9 @@ struct wide_ground {
     struct wide_table slope; /* m, largest facet angle */
     struct wide_table tilt;  /* c, s */
     struct wide_table share; /* rn, rt */
-    struct wide_table brake; /* friction c */
     struct wide_table grip;  /* mu, friction */
     bool small;              /* all fit TABLE_SMALL */
-    double (*room)[2];       /* of all pairs */
+    double (*room)[2];       /* of the places; all else is read where the ground has it */
 };
 
 /* NULL without memory. */

@@ -4,7 +4,7 @@
 #ifndef CEDUO_WIDE_LANDING_H
 #define CEDUO_WIDE_LANDING_H
 
-#include "wide_contact.h"
+#include "wide_far.h"
 
 /* ---- landing ---- */
 
@@ -58,6 +58,9 @@ LANE struct landings find_segments(struct form form, const struct wide *k, const
     s.p = add_ints(r->segment, pick_ints(forth, none, one));
     s.p = add_ints(s.p, pick_ints(clear, s.step, none));
     if (k->far) {
+        flags on = both(s.going, forth);
+        s.going = but(s.going, forth);
+        s.p = search_far_lanes(k, r, inv, bits_of(on), s.p);
         while (l.far |= leave_far(&s), bits_of(s.going))
             search_on(form, k, r, &s);
     } else { /* mostly not more than three: no wrong guess of a branch */
@@ -188,9 +191,9 @@ LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, real
     flags ends, stays;
     is_within(r, steep, pick(forth, r->x1, r->x0), pick(forth, r->z1, r->z0), radius, &ends, &stays);
     reals s = mul(dir, r->s), c = mul(dir, r->c), up = mul(pick(forth, all(-1), all(1)), r->s);
-    reals brake, none;
-    look_up(&k->ground->brake, r->segment, form.small, &brake, &none);
-    reals rate = mul(all(2 * k->g->gravity), sub(up, brake));
+    reals mu, friction;
+    look_up(&k->ground->grip, r->segment, form.small, &mu, &friction);
+    reals rate = mul(all(2 * k->g->gravity), sub(up, mul(friction, r->c)));
     if (form.law != CEDUO_LAW_LUMPED)
         rate = over(rate, share);
     reals u2 = add(mul(u, u), mul(rate, radius)), x, z;

@@ -146,16 +146,13 @@ static void load_course(struct wide *k, size_t i, const struct course *c)
     k->along[i] = c->v.along;
     uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
     k->to[i] = j;
-    if (k->far) { /* what is read of them next */
-        __builtin_prefetch(&ground->tilt.pairs[j]);
-        __builtin_prefetch(&ground->share.pairs[j]);
-    }
     k->x0[i] = ground->place.pairs[j][0];
     k->z0[i] = ground->place.pairs[j][1];
     k->x1[i] = ground->place.pairs[j + 1][0];
     k->z1[i] = ground->place.pairs[j + 1][1];
-    k->m[i] = ground->slope.pairs[j][0];
-    k->theta[i] = ground->slope.pairs[j][1];
+    const double *slope = ground->slope.pairs[j << ground->slope.shift];
+    k->m[i] = slope[0];
+    k->theta[i] = slope[1];
 }
 
 /* The walker brought up to date, and the lane's course. */
@@ -281,7 +278,7 @@ static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
-static __attribute__((noinline)) void go_off_alone(struct wide *k, size_t i, double off)
+static __attribute__((noinline)) void go_off_alone(struct wide *k, size_t i, double off, bool knows_landing)
 {
     struct walker *w = &k->job->walkers[i];
     struct course c = course_of(k, i);
@@ -289,7 +286,10 @@ static __attribute__((noinline)) void go_off_alone(struct wide *k, size_t i, dou
     uint64_t contacts = w->contacts;
     enum ceduo_end end;
     c.v.off = off;
-    if (!ceduo_walk_go_off(w, &c, &end)) {
+    bool rolls = ceduo_walk_rolls(w, &c, knows_landing);
+    if (!rolls && knows_landing) /* as the lane has it */
+        return;
+    if (rolls && !ceduo_walk_roll(w, &c, &end)) {
         k->job->ended(k->job->context, i, end);
         refill(k, i);
         return;

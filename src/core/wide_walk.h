@@ -44,7 +44,8 @@ LANE void store_lanes(struct form form, struct wide *k, struct rocks *r, struct 
     store(k->theta, l->theta);
 }
 
-LANE void go_off_one_by_one(struct wide *k, unsigned lanes, const struct velocities *v)
+/* Of `lanes`, `far` do not know where they land. */
+LANE void go_off_one_by_one(struct wide *k, unsigned lanes, unsigned far, const struct velocities *v)
 {
     _Alignas(64) double along[LANES], off[LANES];
     store(along, v->along);
@@ -52,7 +53,7 @@ LANE void go_off_one_by_one(struct wide *k, unsigned lanes, const struct velocit
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
         k->along[i] = along[i];
-        go_off_alone(k, i, off[i]);
+        go_off_alone(k, i, off[i], !(far >> i & 1));
     }
 }
 
@@ -100,7 +101,7 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     for (; still_aloft; still_aloft &= still_aloft - 1)
         come_down_alone(k, (size_t)__builtin_ctz(still_aloft));
     if (alone)
-        go_off_one_by_one(k, alone, &v);
+        go_off_one_by_one(k, alone, l.far, &v);
 }
 
 /* Few are left: one after the other to its end. */
