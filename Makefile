@@ -325,7 +325,7 @@ do-stress: $(T)/physics/test_stress
 
 BENCH := $(patsubst tests/%.c,$(T)/%,$(wildcard tests/bench/bench_*.c))
 $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/bench_%,$(wildcard tests/bench/*.c)) \
-		tests/physics/paper_site.c tests/physics/line_scene.c) $(PARTS) $(LIBRARY)
+		tests/physics/paper_site.c tests/physics/line_scene.c tests/physics/quarry_site.c) $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 

@@ -64,6 +64,8 @@ struct ceduo_predicted {
     double p_value;  /* share of samples from the fit that lie as far from it as what was seen, or further */
     double seen, lo, hi; /* the mean that was seen, or the count; 95 % of what the fit predicts of it */
     bool inside;
+    double one_lo, one_hi; /* 95 % of the values of single rocks; NaN: not known */
+    size_t one_inside;     /* of the values that were seen */
 };
 
 struct ceduo_calibration {

@@ -58,11 +58,14 @@ struct ceduo_observation {
 #define CEDUO_CLASSES_MOST 11
 
 /* What simulated rocks say of one observation. */
+#define CEDUO_SOME_VALUES 40
 struct ceduo_counterpart {
     uint64_t rocks;    /* simulated rocks that it is of */
     size_t classes;    /* 0: compared by their means */
     double seen[CEDUO_CLASSES_MOST], count[CEDUO_CLASSES_MOST]; /* in each class: seen, simulated */
     double mean, sd;   /* of the simulated values */
+    size_t some_count; /* the first of them: rocks are alike, so that they stand for all */
+    double some[CEDUO_SOME_VALUES];
     double seen_mean;
     double variance;   /* of the difference of the means: the error of both sides */
     double scars, scars_variance; /* expected, of the rocks released; NaN: not asked for */

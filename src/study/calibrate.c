@@ -23,7 +23,8 @@
 #define SIMPLEX     0.5  /* size of the first one, in y */
 #define SMALL       0.02 /* of the last */
 #define FIRST_STEP  0.3  /* of a chain */
-#define STEPS_LEAST 500
+#define FLATTER     0.7  /* times the guess: its tails are to reach farther than those of the density, or chains get stuck there */
+#define STEPS_LEAST 250
 #define STEPS_MOST  8000
 #define NEAR_BOUND  0.02 /* of the bounds: a best value there lies at a bound, */
 #define HALF_THERE  0.05 /* or where half of the draws do */
@@ -279,7 +280,7 @@ static double guess_at(void *context, const double *y)
         u[i] = unit(y[i]);
         prior += log(u[i]) + log1p(-u[i]);
     }
-    return isfinite(prior) ? ceduo_guess_at(&f->guess, u) + prior : -INFINITY;
+    return isfinite(prior) ? FLATTER * ceduo_guess_at(&f->guess, u) + prior : -INFINITY;
 }
 
 /* Room for the points, and n more. */

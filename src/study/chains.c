@@ -14,8 +14,8 @@
 #include <string.h>
 
 #define WANTED 0.28 /* share of accepted steps */
-#define INNER  20   /* steps that the guess decides, for one that the density decides */
-#define PLAIN  4    /* every such step goes without the guess, so that nobody is lost where it is wrong */
+#define INNER  100  /* steps that the guess decides, for one that the density decides */
+#define PLAIN  8    /* every such step goes without the guess, so that nobody is lost where it is wrong */
 #define RIDGE  1e-6 /* of the variances, so that the covariance has a root */
 
 struct walk {

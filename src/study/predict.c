@@ -11,7 +11,8 @@
 
 #include "fitting.h"
 
-#define SAMPLES     20 /* for each draw */
+#define SAMPLES     20 /* for each draw; not more than CEDUO_SOME_VALUES */
+#define SINGLE_LEAST 400  /* values that tell 95 % of them */
 #define SAMPLES_ONE 2000 /* of a scene as it is */
 #define OTHER_ROCKS 0x5eed /* in the seed */
 
@@ -106,6 +107,27 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
     to->inside = to->seen >= to->lo && to->seen <= to->hi;
 }
 
+/* The range of single values, of all draws alike: what is not known of the ground and how rocks differ, together. `values`:
+ * room for those of all draws. */
+static void read_single(const struct drawn *d, const struct ceduo_observation *o, double *values, struct ceduo_predicted *to)
+{
+    size_t n = 0;
+    to->one_lo = to->one_hi = NAN;
+    to->one_inside = 0;
+    for (size_t i = 0; i < d->draws && o->kind != CEDUO_OBSERVED_PASSED; i++) {
+        const struct ceduo_counterpart *c = &d->first[i * d->stride];
+        for (size_t k = 0; k < c->some_count; k++)
+            values[n++] = c->some[k];
+    }
+    if (n < SINGLE_LEAST)
+        return;
+    gsl_sort(values, 1, n);
+    to->one_lo = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.025);
+    to->one_hi = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.975);
+    for (size_t i = 0; i < o->n && o->values; i++)
+        to->one_inside += o->values[i] >= to->one_lo && o->values[i] <= to->one_hi;
+}
+
 static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *values, struct ceduo_calibration *a)
 {
     size_t which = 0;
@@ -116,7 +138,9 @@ static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *v
             to->scene = s;
             to->observation = i;
             to->at_best = f->drawn[draws * f->all_count + which];
-            read_one(&(struct drawn){f->drawn + which, f->all_count, draws, SAMPLES}, o, random, values, to);
+            struct drawn drawn = {f->drawn + which, f->all_count, draws, SAMPLES};
+            read_one(&drawn, o, random, values, to);
+            read_single(&drawn, o, values, to);
             bool misfit = to->p_value < CEDUO_MISFIT;
             a->misfit |= misfit && o->use == CEDUO_OBSERVED_FIT;
             a->refuted |= misfit && o->use == CEDUO_OBSERVED_CHECK;
@@ -127,7 +151,7 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
 {
     size_t d = a->parameters_count, most = CEDUO_CALIBRATION_DRAWS;
     size_t draws = a->draws_count < most ? a->draws_count : most;
-    double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * SAMPLES + 1, sizeof *values);
+    double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * CEDUO_SOME_VALUES + 1, sizeof *values);
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);
     a->predicted = calloc(f->all_count + 1, sizeof *a->predicted);
@@ -174,7 +198,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     if (status == CEDUO_OK)
         gsl_rng_set(random, (unsigned long)scene->scene->simulation.seed + 1);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        to[i] = (struct ceduo_predicted){.observation = i, .at_best = found[i]};
+        to[i] = (struct ceduo_predicted){.observation = i, .at_best = found[i], .one_lo = NAN, .one_hi = NAN};
         read_one(&(struct drawn){&found[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], random, values, &to[i]);
     }
     ceduo_observer_free(observer);

@@ -131,6 +131,23 @@ static void put_one_misfit(struct ceduo_page *page, const struct ceduo_observati
     put_with_name(page, t, format, &name);
 }
 
+/* How many of the values that were kept back lie where single rocks are predicted. */
+static void put_single(struct ceduo_page *page, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
+{
+    const struct ceduo_observation *o = ceduo_seen_of(r, p);
+    double origin = r->files[p->scene].scene.slope.origin_x;
+    struct text name = {0}, range = {0};
+    if (!o->values || isnan(p->one_lo))
+        return;
+    ceduo_text_safe(&name, o->name);
+    put_range(&range, ceduo_seen_shown(o->kind, p->one_lo, origin), ceduo_seen_shown(o->kind, p->one_hi, origin));
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_ITEM), _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
+                      ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
+    page->failed |= name.failed || range.failed;
+    ceduo_text_free(&name);
+    ceduo_text_free(&range);
+}
+
 static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
@@ -141,6 +158,8 @@ static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_
             put_one_misfit(page, o, _("This model cannot give what was seen here: %s."));
         else if (p->p_value < CEDUO_MISFIT)
             put_one_misfit(page, o, _("The fit does not hold for what was to check it: %s."));
+        if (o->use == CEDUO_OBSERVED_CHECK)
+            put_single(page, r, p);
         if (o->kind == CEDUO_OBSERVED_SCARS && o->of > 0 && isnan(o->share_seen))
             put_one_misfit(page, o, _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
                                       "number of blows is taken too low."));

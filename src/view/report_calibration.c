@@ -109,6 +109,10 @@ static void put_observation(struct json *j, const struct ceduo_calibration_repor
     ceduo_json_number(j, "predicted_lo", ceduo_seen_shown(o->kind, p->lo, origin));
     ceduo_json_number(j, "predicted_hi", ceduo_seen_shown(o->kind, p->hi, origin));
     ceduo_json_flag(j, "inside", p->inside);
+    ceduo_json_number(j, "single_lo", ceduo_seen_shown(o->kind, p->one_lo, origin));
+    ceduo_json_number(j, "single_hi", ceduo_seen_shown(o->kind, p->one_hi, origin));
+    if (o->values && !isnan(p->one_lo))
+        ceduo_json_count(j, "single_inside", p->one_inside);
     ceduo_json_close(j, '}');
 }
 

@@ -146,10 +146,6 @@ class Results:
         return table(["scene", "when", "seeds", "clear at 1024", "at 10240", "no longer", "reversed"],
                      [list(r.values()) for r in self.rows("bench_verdict")])
 
-    def calibration(self):
-        return table(["what", "sites", "rocks seen", "value"],
-                     [[r["what"], r["sites"], r["seen"], digits(r["value"])] for r in self.rows("bench_calibration")])
-
     # ---- README ----
 
     def speed(self):
@@ -205,6 +201,47 @@ drawn and tested. After an edit of a stand, its index takes {digits(live["edit o
         return table(["law", "not refuted", "block 2", "plate", "both"],
                      [[r["law"], *(r[k] for k in ("not_refuted", "predict_block2", "predict_plate", "predict_both"))]
                       for r in self.fits("share")])
+
+    # ---- calibration ----
+
+    def fits_of(self, law):
+        return self.rows("bench_calibration", made_by=law)
+
+    def calibration(self):
+        """Shares of the sites with their 95 % intervals, and how far p is from the uniform law."""
+        own, other = self.fits_of("lumped"), self.fits_of("crsp")
+        names = ("rn", "rt", "roughness_rad")
+        held = {n: [float(r[f"{n}_lo"]) <= float(r[n]) <= float(r[f"{n}_hi"]) for r in own] for n in names}
+        rows = [[f"95 % range of {n} holds the truth", len(own), share(held[n])] for n in names]
+        rows.append(["95 % ranges hold the truth", len(own), share([h for n in names for h in held[n]])])
+        for word in ("stops", "speeds", "heights"):
+            p = sorted(float(r[f"p_{word}"]) for r in own)
+            rows.append([f"p of {word}: distance to the uniform law, and p of that", len(p), uniform(p)])
+        rows.append(["called a misfit", len(own), share([r["misfit"] == "1" for r in own])])
+        rows.append(["called a misfit where crsp made what 200 rocks did", len(other), share([r["misfit"] == "1" for r in other])])
+        rows.append(["range over 80 % of the bounds", len(own), share([r[f"{n}_determined"] == "0" for n in names for r in own])])
+        rows.append(["chains settled", len(own), share([r["settled"] == "1" for r in own])])
+        return table(["what", "sites", "share"], rows)
+
+    def fit(self):
+        return table(["site", "runs", "independent draws", "processor s", "s, two threads"],
+                     [[r["site"], r["evaluations"], r["effective_size"], r["processor_s"], r["seconds"]] for r in self.rows("bench_fit")])
+
+
+def share(held):
+    """A share in percent, and its 95 % interval (Wilson 1927)."""
+    n, p, z = len(held), sum(held) / len(held), 1.96
+    middle, half = (p + z * z / (2 * n)) / (1 + z * z / n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n)) / (1 + z * z / n)
+    return f"{100 * p:.1f} % ({100 * max(0, middle - half):.1f}\\(en{100 * min(1, middle + half):.1f})"
+
+
+def uniform(p):
+    """Distance of Kolmogorov and Smirnov, and how often uniform numbers are as far (Stephens 1970)."""
+    n = len(p)
+    most = max(max(x - i / n, (i + 1) / n - x) for i, x in enumerate(p))
+    scaled = most * (math.sqrt(n) + 0.12 + 0.11 / math.sqrt(n))
+    chance = 2 * sum((-1) ** (k - 1) * math.exp(-2 * k * k * scaled * scaled) for k in range(1, 100))
+    return f"{most:.2f} ({min(1, max(0, chance)):.2f})"
 
 
 # How a page marks where a table begins and ends.

@@ -3,6 +3,7 @@
 """--calibrate: what is fitted, what is said of it, and what is refused. Stops come from ceduo itself at known values."""
 import json
 import os
+import re
 import signal
 import subprocess
 import time
@@ -46,6 +47,11 @@ def test_json():
     expect_near(stops["seen"], sum(STOPS) / 30, 1e-9)
     expect(stops["predicted_lo"] < stops["seen"] < stops["predicted_hi"] and stops["inside"])
     expect_equal((passed["what"], passed["use"], passed["n"], passed["seen"], passed["inside"]), ("passed at 60 m", "check", 30, 30, True))
+    held = sum(stops["single_lo"] <= x <= stops["single_hi"] for x in STOPS)
+    expect_equal(stops["single_inside"], held)
+    expect(held >= 24, "of 30 values with a chance of 95 % fewer are so in one of 1700 cases")  # binomial law
+    expect(stops["single_hi"] - stops["single_lo"] > 2 * (stops["predicted_hi"] - stops["predicted_lo"]), "rocks differ more than means")
+    expect("single_inside" not in passed and passed["single_lo"] is None)
     expect_equal((result["misfit"], result["refuted"], result["complete"], result["settled"]), (False, False, True, True))
     expect(result["rhat"] < 1.05 and result["effective_size"] >= 200 and result["evaluations"] > 500)
 
@@ -87,6 +93,18 @@ def test_misfit():
     with Folder() as f:
         path = f.write("s.yaml", quarry(far))
         expect_in("This model cannot give what was seen here: stops.", ceduo("-n", 300, "--calibrate", f"{RT}=0.7:0.98", path).out)
+
+
+def test_held_back():
+    """Of what was kept back to check the fit the page says how many values lie where single rocks are predicted"""
+    both = {"stops": [{"x_m": STOPS[::2], "of": 15}, {"x_m": STOPS[1::2], "of": 15, "use": "check", "name": "other half"}],
+            "speed": {"x_m": 199, "values": [5, 6, 7], "use": "check"}}
+    with Folder() as f:
+        page = ceduo("-n", 300, "--calibrate", f"{RT}=0.7:0.98", f.write("s.yaml", quarry(both))).out
+        found = re.search(r"other half: of 15 values (\d+) lie within the 95 % predicted of single rocks, ([\d.]+)\S([\d.]+)\.", " ".join(page.split()))
+        expect(found and 11 <= int(found[1]) <= 15 and float(found[2]) < 115 and float(found[3]) > 130, page)
+        expect("stops: of" not in page, "of what was fitted it says nothing of the kind")
+        expect("199 m: of" not in page, "no rock gets there")
 
 
 def test_several():

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "quarry_site.h"
+
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "line_scene.h"
+
+#define PLACE  60 /* m, where rocks were seen to pass */
+#define FEWEST 5  /* values of a kind */
+
+static const double bounds[QUARRY_VALUES_MOST][2] = {{0.25, 0.5}, {0.75, 0.95}, {0.05, 0.4}, {0.3, 0.7}};
+const char *const quarry_names[QUARRY_VALUES_MOST] = {"rn", "rt", "roughness_rad", "friction"};
+
+static void make_inputs(struct quarry_site *s)
+{
+    for (size_t i = 0; i < QUARRY_VALUES_MOST; i++) {
+        for (size_t j = 0; j + 1 < QUARRY_VERTICES; j++) {
+            snprintf(s->paths[i][j], sizeof s->paths[i][j], "slope.segments[%zu].%s", j, quarry_names[i]);
+            s->places[i][j] = s->paths[i][j];
+        }
+        s->inputs[i] = (struct ceduo_input){.path = quarry_names[i],
+                                            .kind = CEDUO_INPUT_RANGE,
+                                            .lo = bounds[i][0],
+                                            .hi = bounds[i][1],
+                                            .places_count = QUARRY_VERTICES - 1,
+                                            .places = s->places[i]};
+    }
+}
+
+static void make_site(struct quarry_site *s, enum ceduo_law law, const double *truth, uint64_t seed)
+{
+    static const double x[QUARRY_VERTICES] = {0, 15, 40, 60, 90, 300}, z[QUARRY_VERTICES] = {60, 42, 20, 8, 2, 0};
+    *s = (struct quarry_site){.scene = ceduo_scene_default(), .option = {.name = (char *)(uintptr_t) "bare"}};
+    memcpy(s->x, x, sizeof x);
+    memcpy(s->z, z, sizeof z);
+    for (size_t j = 0; j + 1 < QUARRY_VERTICES; j++)
+        s->segments[j] = (struct ceduo_segment){.rn = ceduo_number(truth[0]),
+                                                .rt = ceduo_number(truth[1]),
+                                                .roughness_m = NAN,
+                                                .roughness_rad = truth[2],
+                                                .friction = truth[3]};
+    s->scene.slope = (struct ceduo_slope){
+        .vertices = QUARRY_VERTICES, .x = s->x, .z = s->z, .segments = s->segments, .segments_given = QUARRY_VERTICES - 1};
+    s->scene.rock.shape = CEDUO_SPHERE;
+    s->scene.rock.diameter = ceduo_number(0.8);
+    s->scene.rock.density = ceduo_number(2600);
+    s->scene.release.height = ceduo_number(2);
+    s->scene.release.vx = ceduo_number(0.5);
+    s->scene.options = &s->option;
+    s->scene.options_count = 1;
+    s->scene.simulation.law = law;
+    s->scene.simulation.seed = seed;
+    make_inputs(s);
+}
+
+/* What is seen of the rocks: where they stop, and speed and height at a place. */
+static bool see(const struct quarry_site *s, const struct quarry_trial *trial, double **values, struct ceduo_observation *seen)
+{
+    static const enum ceduo_observed_kind kinds[] = {CEDUO_OBSERVED_STOPS, CEDUO_OBSERVED_SPEED, CEDUO_OBSERVED_HEIGHT};
+    struct ceduo_observer *observer = NULL;
+    bool good = true;
+    for (size_t k = 0; k < trial->kinds; k++)
+        seen[k] = (struct ceduo_observation){.kind = kinds[k], .name = "", .x = PLACE, .from = NAN, .to = NAN, .share_seen = NAN};
+    if (ceduo_observer_create(seen, trial->kinds, &observer) != CEDUO_OK)
+        return false;
+    for (size_t k = 0; k < trial->kinds && good; k++) {
+        size_t n, m = 0;
+        good = ceduo_observer_values(observer, &s->scene, k, trial->seen, &values[k], &n) == CEDUO_OK;
+        for (size_t i = 0; good && i < n; i++)
+            if (!isnan(values[k][i]))
+                values[k][m++] = values[k][i];
+        gsl_sort(values[k], 1, m);
+        seen[k].values = values[k];
+        seen[k].n = m;
+        seen[k].of = k == 0 ? trial->seen : 0;
+        good = good && m >= FEWEST;
+    }
+    ceduo_observer_free(observer);
+    return good;
+}
+
+static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, const struct quarry_trial *trial,
+                struct ceduo_calibration *answer)
+{
+    struct ceduo_calibration_scene scene = {&s->scene, s->inputs, trial->kinds, seen};
+    struct ceduo_calibration_def def = {.scenes_count = 1,
+                                        .scenes = &scene,
+                                        .parameters_count = trial->values,
+                                        .rocks = trial->rocks,
+                                        .seed = s->scene.simulation.seed,
+                                        .threads = trial->threads > 0 ? trial->threads : 1,
+                                        .steps_most = trial->steps_most};
+    return ceduo_calibrate(&def, answer) == CEDUO_OK;
+}
+
+bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct ceduo_calibration *answer)
+{
+    struct quarry_site made, fitted;
+    struct ceduo_observation seen[QUARRY_KINDS];
+    double *values[QUARRY_KINDS] = {0};
+    struct line_random random = {1000 * trial->number + 77 * trial->made_by};
+    for (size_t i = 0; i < QUARRY_VALUES_MOST; i++)
+        truth[i] = i < trial->values || i < 3 ? line_uniform(&random, bounds[i][0], bounds[i][1]) : 0.5;
+    make_site(&made, trial->made_by, truth, 100000 + trial->number);
+    make_site(&fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
+    bool good = see(&made, trial, values, seen) && fit(&fitted, seen, trial, answer);
+    for (size_t k = 0; k < QUARRY_KINDS; k++)
+        free(values[k]);
+    return good;
+}

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whether a calibration may be trusted: twenty small sites whose ground is known. All bounds follow from the binomial law: of a
+ * calibration that is right one run in ten thousand would leave them, and the sites are always the same. bench_calibration asks
+ * the same of many sites, with as many rocks as people use. */
+#include "expect.h"
+
+#include <gsl/gsl_cdf.h>
+
+#include "quarry_site.h"
+
+#define SITES  20
+#define VALUES 2
+#define SELDOM 1e-4
+
+/* How many of n are to be so at the least where each is with probability p. */
+static unsigned fewest(unsigned n, double p)
+{
+    unsigned k = 0;
+    while (gsl_cdf_binomial_P(k, p, n) < SELDOM)
+        k++;
+    return k;
+}
+
+static void ranges_hold_the_truth(void **state)
+{
+    unsigned held = 0, narrow = 0, likely = 0, fits = 0;
+    (void)state;
+    for (size_t i = 0; i < SITES; i++) {
+        struct ceduo_calibration a;
+        double truth[QUARRY_VALUES_MOST];
+        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = 2, .seen = 30, .rocks = 200, .steps_most = 300};
+        if (!quarry_try(&trial, truth, &a))
+            continue;
+        for (size_t k = 0; k < VALUES; k++) {
+            const struct ceduo_fitted *p = &a.parameters[k];
+            held += truth[k] >= p->p2_5 && truth[k] <= p->p97_5;
+            narrow += p->p97_5 - p->p2_5 < (p->hi - p->lo) / 2;
+        }
+        for (size_t k = 0; k < 2; k++)
+            likely += a.predicted[k].p_value >= CEDUO_MISFIT;
+        fits++;
+        ceduo_calibration_free(&a);
+    }
+    EXPECT(fits, >=, SITES - 2);
+    EXPECT(held, >=, fewest(VALUES * fits, 0.95));
+    EXPECT(likely, >=, fewest(2 * fits, 0.95));
+    EXPECT(narrow, >=, fits); /* 30 rocks do tell Rt; ranges as wide as the bounds would hold everything */
+}
+
+static void what_another_law_made_is_found_out(void **state)
+{
+    unsigned flagged = 0, fits = 0;
+    (void)state;
+    for (size_t i = 0; i < SITES / 2; i++) {
+        struct ceduo_calibration a;
+        double truth[QUARRY_VALUES_MOST];
+        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .made_by = CEDUO_LAW_CRSP,
+                                     .seen = 200, .rocks = 200, .steps_most = 110};
+        if (!quarry_try(&trial, truth, &a))
+            continue;
+        flagged += a.misfit;
+        fits++;
+        ceduo_calibration_free(&a);
+    }
+    EXPECT(fits, >=, SITES / 2 - 2);
+    EXPECT(flagged, >=, fewest(fits, 0.9));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ranges_hold_the_truth),
+        cmocka_unit_test(what_another_law_made_is_found_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
