@@ -128,10 +128,64 @@ static void two_shapes_tell_mu(void **state)
     assert_false(ceduo_calibration_tells_mu(scenes, 2));
 }
 
+/* ---- a fit that is ended ---- */
+
+struct ending {
+    atomic_bool cancelled;
+    enum ceduo_calibration_stage stage;
+};
+
+static void cancel_at(void *context, const struct ceduo_calibration_state *state)
+{
+    struct ending *e = context;
+    if (state->stage >= e->stage)
+        atomic_store(&e->cancelled, true);
+}
+
+/* Whenever it is ended, what is known so far is the answer, or nothing is where all was asked for. Rocks fly 20 m in 2 s with the
+ * speed that is fitted: of hypot(v, 19.62) = 22.021 m/s the best v is 10 m/s. */
+static void a_fit_is_ended(void **state)
+{
+    (void)state;
+    double x[] = {0, 200}, z[] = {0, 0};
+    static const char *const place = "release.vx_m_s";
+    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 5, 15, .places_count = 1, .places = &place};
+    struct ceduo_segment segment = {
+        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
+    struct ceduo_option option = {.name = (char *)(uintptr_t) "bare"};
+    struct ceduo_scene scene = ceduo_scene_default();
+    scene.slope = (struct ceduo_slope){.vertices = 2, .x = x, .z = z, .segments = &segment, .segments_given = 1};
+    scene.rock.shape = CEDUO_SPHERE;
+    scene.rock.diameter = ceduo_number(1);
+    scene.rock.density = ceduo_number(2600);
+    scene.release.height = ceduo_number(100);
+    scene.release.vx = ceduo_number(10);
+    scene.options = &option;
+    scene.options_count = 1;
+    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(10, sqrt(2 * 9.81 * 100)), .sd = 0.1};
+    const struct ceduo_calibration_scene fitted = {&scene, &input, 1, &o};
+    for (int stage = CEDUO_SEARCH; stage <= CEDUO_CHAINS; stage++)
+        for (int whole = 0; whole < 2; whole++) {
+            struct ending e = {false, (enum ceduo_calibration_stage)stage};
+            struct ceduo_calibration a;
+            const struct ceduo_calibration_def def = {.scenes_count = 1, .scenes = &fitted, .parameters_count = 1, .rocks = 2,
+                                                      .seed = 1, .threads = 1, .cancel = &e.cancelled, .whole = whole == 1,
+                                                      .progress = cancel_at, .context = &e};
+            EXPECT(ceduo_calibrate(&def, &a), ==, whole == 1 ? CEDUO_CANCELLED : CEDUO_OK);
+            if (whole == 1)
+                continue;
+            assert_false(a.complete);
+            EXPECT(a.predicted_count, ==, 1);
+            EXPECT_NEAR(a.parameters[0].best, 10, stage == CEDUO_SEARCH ? 5 : 0.05);
+            ceduo_calibration_free(&a);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_of_ten),
+        cmocka_unit_test(a_fit_is_ended),
         cmocka_unit_test(two_shapes_tell_mu),
         cmocka_unit_test(those_that_go_on_lie_farther),
         cmocka_unit_test(one_place_has_no_picture),
