@@ -106,6 +106,7 @@ def test_tables():
     accepted({"stops": {"csv": "stops.csv", "only": "block=b", "of": 1}}, table)
     accepted({"stops": {"csv": "stops.csv", "of": 2}}, ("stops.csv", "where\n40\n41,5\n".replace(",", ".")))
     accepted({"stops": {"csv": "stops.csv", "column": "x"}}, ("stops.csv", "id;x\n1;40,5\n2;41,5\n"))
+    accepted({"stops": {"csv": "stops.csv", "of": 2}}, ("stops.csv", "id;x\n1;40\n;\n \t,\n2;50\n"))
     refused("3 were seen of 2 released", {"stops": {"csv": "stops.csv", "only": "block=a", "of": 2}}, table)
     refused("the table has no column 'length'; it has: id, Distance, block", {"stops": {"csv": "stops.csv", "column": "length"}}, table)
     refused("name the column that holds the values (column); the table has: a, b", {"stops": {"csv": "t.csv"}}, ("t.csv", "a,b\n1,2\n"))
