@@ -248,14 +248,14 @@ Single trees: standards, reserves
 1   750      6.1      6        0.0107   0"""
 GOLDEN_ROCK = """\
 Rock
-shape             cylinder
-diameter, m       0.56
-height, m         0.80
-mass, kg          -
-density, kg/m3    2600
+shape                cylinder
+diameter, m          0.56
+height, m            0.80
+mass, kg             -
+density, kg/m3       2600
 Release
-x, m              0
-height, m         0"""
+x, m                 0
+height, m            0"""
 
 
 def test_golden():
