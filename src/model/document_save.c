@@ -113,8 +113,12 @@ static const struct node *draws_from(struct document *d, const struct node *node
 /* All paths of an unresolved tree, for a scene that lies at `to`. */
 static const struct node *references_from(struct document *d, const struct node *node, const char *to)
 {
-    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"}, {"base", "stands"}, {"csv", "slopes"}};
-    for (size_t i = 0; i < 4 && node->kind == NODE_SCALAR && node->key; i++)
+    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"},  {"base", "stands"},
+                                          {"csv", "slopes"},   {"x_m", "scenes"},    {"values", "scenes"},
+                                          {"height_m", "scenes"}};
+    double number; /* the last three may be a table of what was seen */
+    bool path = node->kind == NODE_SCALAR && node->key && ceduo_number_read(node->text, &number) == CEDUO_NUMBER_NONE;
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0] && path; i++)
         if (strcmp(node->key, keys[i][0]) == 0)
             return reference_from(d, node, keys[i][1], to);
     if (node->kind == NODE_SCALAR && node->key && strcmp(node->key, "draws") == 0)

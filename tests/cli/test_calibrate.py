@@ -162,6 +162,19 @@ def test_written():
                 expect_in("draws", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
 
 
+def test_table_from_elsewhere():
+    """Tables of what was seen are found from a scene written in another folder, however they are named"""
+    for seen in ({"x_m": "stops.csv", "of": 30}, {"csv": "stops.csv", "of": 30}):
+        with Folder() as f:
+            f.write("stops.csv", "x_m\n" + "\n".join(str(x) for x in STOPS) + "\n")
+            path = f.write("s.yaml", quarry({"stops": seen, "passed": {"x_m": 60, "count": 30, "of": 30}}))
+            out = f.path / "other" / "fitted.yaml"
+            out.parent.mkdir()
+            r = ceduo("-n", 50, "--calibrate", f"{RT}=0.8:0.9", "-o", out, path)
+            expect_equal(r.status, DONE, r)
+            expect_equal(ceduo("--batch", "-n", 10, out).status, DONE, out.read_text())
+
+
 def test_draws():
     """A table of draws that does not fit"""
     with Folder() as f:
