@@ -117,7 +117,8 @@ LANE ints search_far_lanes(const struct wide *k, const struct rocks *r, reals in
     store_ints(vertex, p);
     for (size_t i = 0; i < LANES; i++) {
         quests[i] = (struct quest){x[i], z[i], vz[i], inverse[i], vertex[i] - 1, 0};
-        fetch_for(k, &quests[i]);
+        if (lanes >> i & 1)
+            fetch_for(k, &quests[i]);
     }
     search_far(k, lanes, quests);
     for (size_t i = 0; i < LANES; i++)
