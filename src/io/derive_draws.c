@@ -30,16 +30,23 @@ static const char *head_of(struct draws *t, size_t column)
     return ceduo_derive_text(t->d, "%.*s", (int)field.n, field.p);
 }
 
-/* The places that one column sets. */
+static bool complain_no_value(struct draws *t, const char *path)
+{
+    ceduo_node_problem(t->d->problems, t->d->draws, "doubt.draws", _("the table has a column '%s', which is no value of this scene"), path);
+    return false;
+}
+
+/* The places that one column sets; it must name one. */
 static bool take_places(struct draws *t, size_t column)
 {
     char *head = ceduo_arena_string(t->d->arena, head_of(t, column)), *rest = head;
-    for (char *path = head ? strtok_r(head, " ", &rest) : NULL; path; path = strtok_r(NULL, " ", &rest)) {
+    char *path = head ? strtok_r(head, " ", &rest) : NULL;
+    if (head && !path)
+        return complain_no_value(t, head);
+    for (; path; path = strtok_r(NULL, " ", &rest)) {
         struct ceduo_input found;
-        if (!ceduo_derive_find(t->d, path, t->d->ground_assumed, &found) || found.places_count == 0) {
-            ceduo_node_problem(t->d->problems, t->d->draws, "doubt.draws", _("the table has a column '%s', which is no value of this scene"), path);
-            return false;
-        }
+        if (!ceduo_derive_find(t->d, path, t->d->ground_assumed, &found) || found.places_count == 0)
+            return complain_no_value(t, path);
         for (size_t i = 0; i < found.places_count && t->places_count < PLACES_MOST; i++) {
             t->of[t->places_count] = t->values[column];
             t->places[t->places_count++] = found.places[i];

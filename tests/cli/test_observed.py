@@ -163,6 +163,15 @@ def test_misplaced():
     refused("items; at most", [STOPS] * 1001)
 
 
+def test_draws_have_names():
+    """A column of draws without a name, or with one of no value of the scene"""
+    draws = {"doubt": {"draws": "d.csv"}}
+    accepted([], ("d.csv", "rock.density_kg_m3\n2600\n"), **draws)
+    refused("the table has a column '', which is no value of this scene", [], ("d.csv", "rock.density_kg_m3,\n2600,1\n"), **draws)
+    refused("the table has a column '', which is no value of this scene", [], ("d.csv", "\n2600\n"), **draws)
+    refused("the table has a column 'rock.size', which", [], ("d.csv", "rock.density_kg_m3 rock.size\n2600\n"), **draws)
+
+
 def test_others_do_not_mind():
     """A scene with observations is computed as without; --option may leave out what they are of"""
     with Folder() as f:
