@@ -57,6 +57,7 @@ struct ceduo_doubt_def {
     size_t first;   /* base points of a first look that ranks more inputs than can have an index, >= 2; 0: CEDUO_DOUBT_FIRST */
     uint64_t rocks; /* of each evaluation, >= 2 */
     unsigned threads;
+    bool plain;    /* what the scene says as it is, as counted; what the doubt does to it is always found so */
     const atomic_bool *cancel; /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
     void *context;

@@ -31,6 +31,7 @@ struct ceduo_run_def {
     const double *cell_x;            /* rising, on the slope */
     bool arrivals_only;              /* trajectories stop behind the last control or cell: their ends are not known */
     size_t exact_bytes;              /* beyond this percentiles come from a histogram */
+    bool plain;                      /* means and shares as counted; otherwise adjusted by control variates */
     bool other_energy;               /* of a pool: each forest under the other energy law as well, see other.h */
     bool part;                       /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
     uint64_t first;                  /* a multiple of CEDUO_BLOCK_ROCKS */
@@ -71,11 +72,13 @@ struct ceduo_arrivals {
     double missed[CEDUO_ENDS];                        /* shares of the same */
     double reach_probability, reach_lo, reach_hi;     /* hi counts the unfinished as reached */
     double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
+    double reach_se, exceed_se;                       /* standard errors of both */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     double energy_per_released, energy_per_released_se;           /* J */
     double contacts, contacts_se;                                 /* with stems, of those that reached; NaN: bare run */
     struct ceduo_hazard hazard;                                   /* where the scene has blocks */
     bool exact;                                                   /* percentiles from every sample */
+    bool adjusted;                                                /* means and shares are not as counted */
 };
 
 /* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */

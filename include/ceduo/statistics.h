@@ -38,6 +38,8 @@ double ceduo_half_width_of_share(double share, double se, uint64_t n);
 
 /* The 95 % interval of a probability of which `hits` of `n` were seen (Wilson 1927); [0, 1] for n = 0. */
 void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi);
+/* The same of a share that is as sure as one of `n`, which need not be whole. */
+void ceduo_wilson_share(double share, double n, double *lo, double *hi);
 
 /* Order statistics of n sorted or unsorted values: the rank (1…n) of quantile p, the smallest k with k >= pn; and the
  * ranks between which the true quantile lies with 95 % (binomial law); 0 or n + 1 where no value bounds it. */

@@ -152,8 +152,8 @@ static enum exit_status check_arguments(struct arguments *a)
                                    "or --calibrate"));
     if (a->mode == MODE_SENSITIVITY && ((a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_DOUBT) || a->years || a->tolerance > 0 || a->stands))
         return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
-    if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))
-        return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows or --option"));
+    if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0 || a->plain))
+        return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows, --option or --plain"));
     if (wants_scene && a->scenes_count == 0)
         return ceduo_usage(NULL,
                            _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
@@ -166,7 +166,7 @@ static enum exit_status check_arguments(struct arguments *a)
     if (a->mode < MODE_HELP && check_unused(a) != EXIT_DONE)
         return EXIT_USAGE;
     bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets.n > 0 || a->options.n > 0 || a->output ||
-                      a->format != CEDUO_TABLE || a->stands;
+                      a->format != CEDUO_TABLE || a->stands || a->plain;
     if (a->mode == MODE_TERMINAL && batch_only)
         return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
     if (a->mode == MODE_TERMINAL && a->scenes_count > 1)

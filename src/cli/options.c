@@ -72,6 +72,13 @@ static enum exit_status set_quiet(struct arguments *a, const struct option_row *
     return EXIT_DONE;
 }
 
+static enum exit_status set_plain(struct arguments *a, const struct option_row *row, char *value)
+{
+    (void)row, (void)value;
+    a->plain = true;
+    return EXIT_DONE;
+}
+
 static enum exit_status read_count(const char *name, const char *value, double lo, double hi, uint64_t *to)
 {
     switch (ceduo_count_read(value, lo, hi, to)) {
@@ -290,6 +297,8 @@ static const struct option_row rows[] = {
      N_("number of rocks; with --tolerance the maximum")},
     {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, NOT_PART | NOT_CHECK,
      N_("simulate until the 95 % error of each mean energy is below REL of it")},
+    {"plain", 0, NULL, set_plain, 0, MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
+     N_("print means and shares as counted, not adjusted by control variates")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
      N_("what each row of CSV describes (controls)")},
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},

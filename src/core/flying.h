@@ -12,6 +12,7 @@
 #include "law_arm.h"
 #include "law_crsp.h"
 #include "law_lumped.h"
+#include "vary.h"
 #include "walker.h"
 
 #ifndef PAUSE
@@ -317,12 +318,20 @@ HOT void strike_facet(struct walker *w, size_t j, struct velocity v, struct face
     }
 }
 
+/* What the facet that was turned for this contact adds to the variates. */
+HOT void vary_rock(struct walker *w, const struct flight *at, double along, const struct facet *f)
+{
+    double mean = w->g->facets == CEDUO_AGAINST ? largest_facet(w, at->segment) * 0.5 : 0;
+    vary(w->variates, 1, f->angle - mean, along, (at->x - w->marks->from) * w->marks->per_metre);
+}
+
 /* A contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly. */
 HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet, enum ceduo_law law)
 {
     const struct ground_segment *s = &w->g->segments[at->segment];
     double sine, cosine;
     strike_facet(w, at->segment, *v, facet, &sine, &cosine);
+    vary_rock(w, at, v->along, facet);
     struct ground_point point = ground_point(w, at->segment);
     if (law == CEDUO_LAW_ARM)
         turn_section(w, &point.sine, &point.cosine);

@@ -166,6 +166,12 @@ EACH(reals, sub, (reals p, reals q), OF_SIGN, -)
 EACH(reals, mul, (reals p, reals q), OF_SIGN, *)
 EACH(reals, over, (reals p, reals q), OF_SIGN, /)
 EACH(reals, root_of, (reals p), OF_ONE, PART_SQRT)
+
+LANE void add_to(double *to, reals p)
+{
+    store(to, add(load(to), p));
+}
+
 /* p < q ? p : q and p > q ? p : q, to the letter. */
 EACH(reals, least, (reals p, reals q), OF_TWO, PART_LEAST)
 EACH(reals, most, (reals p, reals q), OF_TWO, PART_MOST)

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#define LENGTH_LEAST 1.0 /* m of a way, so that places on it are no huge numbers */
+
 static int by_x(const void *a, const void *b)
 {
     const struct mark *p = a, *q = b;
@@ -22,7 +24,10 @@ static bool make_marks(struct marks *marks, const struct ceduo_scene *scene, siz
         at[i] = (struct mark){x, ceduo_slope_height(&scene->slope, x), i};
     }
     qsort(at, n, sizeof *at, by_x);
-    *marks = (struct marks){n, at};
+    double from = scene->release.x.mean, last = from + LENGTH_LEAST;
+    for (size_t i = 0; i < controls; i++)
+        last = scene->controls[i].x > last ? scene->controls[i].x : last;
+    *marks = (struct marks){n, at, from, 1 / (last - from)};
     return true;
 }
 

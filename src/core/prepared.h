@@ -16,6 +16,7 @@ struct mark {
 struct marks {
     size_t n;
     struct mark *at; /* rising along x */
+    double from, per_metre; /* of the way to the last control: places on it are 0 at the mean release, 1 at that control */
 };
 
 /* A scene made ready to simulate rocks through one forest: what a walker reads. */

@@ -5,6 +5,7 @@
 #include "run_state.h"
 #include "walk.h"
 
+#define VARIED_BYTES  ((size_t)8 * 1024 * 1024) /* for the variates of single rocks */
 #define CHUNK_SECONDS 0.5 /* about so long a chunk takes: somebody waits for a sign of progress */
 
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
@@ -65,9 +66,9 @@ static bool allocate(struct ceduo_run *run)
 {
     const struct ceduo_run_def *def = &run->def;
     bool ok = ceduo_run_block_init(&run->whole, run->controls) && ceduo_run_block_init(&run->tail, run->controls);
-    run->slots = calloc(CHUNK_BLOCKS, sizeof *run->slots);
+    run->slots = calloc(run->slots_count, sizeof *run->slots);
     ok = ok && run->slots;
-    for (size_t i = 0; ok && i < CHUNK_BLOCKS; i++)
+    for (size_t i = 0; ok && i < run->slots_count; i++)
         ok = ceduo_run_block_init(&run->slots[i], run->controls);
     if (def->cells > 0)
         ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
@@ -95,6 +96,9 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
     run->kept = one_energy ? HEIGHT + 1 : QUANTITIES;
     run->columns = run->controls * (size_t)run->kept + 1;
+    uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
+    run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
+    run->varied_most = run->sized || run->controls == 0 ? 0 : VARIED_BYTES / (run->controls * VARIATES * sizeof(float));
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
     if (!allocate(run) || (def->part && !begin_part(run))) {
         ceduo_run_free(run);
@@ -111,7 +115,7 @@ void ceduo_run_free(struct ceduo_run *run)
         return;
     free(run->whole.controls);
     free(run->tail.controls);
-    for (size_t i = 0; run->slots && i < CHUNK_BLOCKS; i++)
+    for (size_t i = 0; run->slots && i < run->slots_count; i++)
         free(run->slots[i].controls);
     free(run->slots);
     for (size_t i = 0; i < run->kept_room; i++)
@@ -120,6 +124,7 @@ void ceduo_run_free(struct ceduo_run *run)
     ceduo_histograms_free(run->bins, run->columns);
     ceduo_run_samples_free(run);
     free(run->pairs);
+    free(run->varied);
     free(run->cells);
     ceduo_prepared_release(&run->ready);
     ceduo_wide_ground_free(run->wide);
@@ -135,7 +140,8 @@ uint64_t ceduo_run_rocks(const struct ceduo_run *run)
 
 size_t ceduo_run_sample_bytes(const struct ceduo_run *run)
 {
-    return (size_t)(run->room * run->columns + run->pairs_room * run->controls) * sizeof(double);
+    return (size_t)(run->room * run->columns + run->pairs_room * run->controls) * sizeof(double) +
+           (size_t)run->varied_room * run->controls * VARIATES * sizeof(float);
 }
 
 uint64_t ceduo_run_contacts(const struct ceduo_run *run)

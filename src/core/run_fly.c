@@ -13,6 +13,7 @@
 /* What a rock brings to a control. */
 struct arrival {
     double values[QUANTITIES], stems_hit; /* stems_hit < 0: it does not arrive */
+    double variates[VARIATES];            /* up to there, or to its end */
 };
 
 /* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
@@ -77,7 +78,8 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
         return;
     }
     struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
-    *a = (struct arrival){{speed, c->height, energy, translation}, (double)c->stems_hit};
+    *a = (struct arrival){.values = {speed, c->height, energy, translation}, .stems_hit = (double)c->stems_hit};
+    memcpy(a->variates, walker->variates, sizeof a->variates);
     keep_sample(w, walker->number, what, a->values);
 }
 
@@ -85,9 +87,14 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
 static void note_missed(struct worker *w, const struct walker *walker, enum ceduo_end end)
 {
     const struct marks *marks = &w->run->ready.marks;
-    for (size_t m = walker->next_mark; m < marks->n; m++)
-        if (marks->at[m].what < w->run->controls)
-            w->block->controls[marks->at[m].what].ended[end]++;
+    for (size_t m = walker->next_mark; m < marks->n; m++) {
+        size_t what = marks->at[m].what;
+        if (what >= w->run->controls)
+            continue;
+        struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
+        w->block->controls[what].ended[end]++;
+        memcpy(a->variates, walker->variates, sizeof a->variates);
+    }
 }
 
 static void clear_samples(struct ceduo_run *run, uint64_t rock)
@@ -190,7 +197,7 @@ static void clear_block(struct worker *w)
 {
     size_t n = w->run->controls * CEDUO_BLOCK_ROCKS;
     for (size_t i = 0; i < n; i++)
-        w->arrivals[i].stems_hit = -1;
+        w->arrivals[i] = (struct arrival){.stems_hit = -1};
     for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
         w->stops[i] = NAN;
     memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
@@ -214,6 +221,36 @@ static void sum_arrivals(struct worker *w, size_t control)
     *to = sums;
 }
 
+/* What a rock brings, with its variates. */
+static void vary_arrival(struct variate_sums *to, const struct arrival *a, bool exceeds)
+{
+    ceduo_variates_add_with(to->xy[VARIED_REACHED], 1, a->variates);
+    if (exceeds)
+        ceduo_variates_add_with(to->xy[VARIED_EXCEEDED], 1, a->variates);
+    ceduo_variates_add_with(to->xy[VARIED_SPEED], a->values[SPEED], a->variates);
+    ceduo_variates_add_with(to->xy[VARIED_HEIGHT], a->values[HEIGHT], a->variates);
+    ceduo_variates_add_with(to->xy[VARIED_ENERGY], a->values[ENERGY], a->variates);
+    ceduo_variates_add_with(to->xy[VARIED_TRANSLATION], a->values[TRANSLATION], a->variates);
+}
+
+static void sum_variates(struct worker *w, size_t control)
+{
+    struct ceduo_run *run = w->run;
+    struct variate_sums *to = &w->block->controls[control].varied;
+    double accepted = run->ready.scene.controls[control].accepted;
+    uint64_t kept = varied_rocks(run, w->to);
+    for (uint64_t i = 0; i < w->to - w->from; i++) {
+        const struct arrival *a = &w->arrivals[control * CEDUO_BLOCK_ROCKS + i];
+        ceduo_variates_add(to, a->variates);
+        if (a->stems_hit < 0)
+            ceduo_variates_add_with(to->xy[VARIED_ENDED + w->ends[i]], 1, a->variates);
+        else
+            vary_arrival(to, a, a->values[ENERGY] > accepted);
+        for (size_t v = 0; w->from + i < run->first + kept && v < VARIATES; v++)
+            varied_of(run, control, w->from + i)[v] = (float)a->variates[v];
+    }
+}
+
 /* How the rocks of a block ended, by their weights. */
 static void weigh_ends(struct worker *w)
 {
@@ -235,8 +272,11 @@ static void sum_block(struct worker *w)
 {
     if (w->run->sized)
         weigh_ends(w);
-    for (size_t c = 0; c < w->run->controls; c++)
+    for (size_t c = 0; c < w->run->controls; c++) {
         sum_arrivals(w, c);
+        if (!w->run->sized)
+            sum_variates(w, c);
+    }
     for (uint64_t i = 0; i < w->to - w->from; i++)
         if (!isnan(w->stops[i]))
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);

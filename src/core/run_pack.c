@@ -30,6 +30,17 @@ static void pack_sum(struct bytes *b, struct weighted_sum *s)
     ceduo_bytes_number(b, &s->tw);
 }
 
+static void pack_varied(struct bytes *b, struct variate_sums *s)
+{
+    for (size_t i = 0; i < VARIATES; i++)
+        ceduo_bytes_number(b, &s->x[i]);
+    for (size_t i = 0; i < VARIATE_PAIRS; i++)
+        ceduo_bytes_number(b, &s->xx[i]);
+    for (size_t k = 0; k < VARIED; k++)
+        for (size_t i = 0; i < VARIATES; i++)
+            ceduo_bytes_number(b, &s->xy[k][i]);
+}
+
 static void pack_block(const struct ceduo_run *run, struct bytes *b, struct block *block)
 {
     ceduo_bytes_count(b, &block->contacts);
@@ -51,8 +62,10 @@ static void pack_block(const struct ceduo_run *run, struct bytes *b, struct bloc
         ceduo_bytes_count(b, &s->exceeded);
         for (int e = 0; e < CEDUO_ENDS; e++)
             ceduo_bytes_count(b, &s->ended[e]);
-        if (!run->sized)
+        if (!run->sized) {
+            pack_varied(b, &s->varied);
             continue;
+        }
         pack_weights(b, s->missed);
         pack_sum(b, &s->hits);
     }
@@ -149,6 +162,24 @@ static uint64_t pairs_of(const struct ceduo_run *run, uint64_t first, uint64_t e
     return to > first ? to - first : 0;
 }
 
+/* The variates of single rocks, two to a word. */
+_Static_assert(VARIATES % 2 == 0 && sizeof(float) == 4, "two to a word");
+static void pack_single_variates(const struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end)
+{
+    uint64_t last = end < run->varied_most ? end : run->varied_most;
+    for (uint64_t r = first; r < last; r++)
+        for (size_t c = 0; c < run->controls; c++)
+            for (float *x = varied_of(run, c, r), *behind = x + VARIATES; x < behind; x += 2) {
+                uint32_t bits[2];
+                memcpy(bits, x, sizeof bits);
+                uint64_t word = bits[0] | (uint64_t)bits[1] << 32;
+                ceduo_bytes_count(b, &word);
+                bits[0] = (uint32_t)word;
+                bits[1] = (uint32_t)(word >> 32);
+                memcpy(x, bits, sizeof bits);
+            }
+}
+
 /* The samples of rocks first…end - 1, or the histograms, in `bins`. `reached[control]`, then the stops: how many there
  * are; where they are read, how many there must be. False: not those, or no memory. */
 static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end, struct histogram *bins,
@@ -174,7 +205,8 @@ static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first,
         if (!ceduo_bytes_column(b, &run->pairs[c * run->pairs_room + first], n, &there) ||
             (b->reads && there > reached[c]))
             return false;
-    return true;
+    pack_single_variates(run, b, first, end);
+    return !b->bad;
 }
 
 /* The blocks of a part: those that are kept, and the one that is not full. */

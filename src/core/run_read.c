@@ -5,6 +5,8 @@
 
 #include "run_state.h"
 
+#define SHARE_LEAST 50 /* rocks */
+
 /* ---- arrivals ---- */
 
 /* The values of a column that are there, in the order of the rocks. */
@@ -59,6 +61,68 @@ static void per_released(const struct ceduo_moments *m, uint64_t released, doubl
     *se = released < 2 ? NAN : sqrt(m2 / (n - 1) / n);
 }
 
+/* ---- adjusted means ---- */
+
+/* The 95 % interval of an adjusted share: Wilson's, of as many rocks as would give its error. Of few that count, or few that
+ * do not, the error is not known well enough: then it is that of the rocks there are. */
+static void adjusted_interval(const struct adjusted *a, double share, double se, double count, double unfinished,
+                              double *lo, double *hi)
+{
+    double unused, n = a->fit.n;
+    bool knows_error = fmin(count, n - count) >= SHARE_LEAST && se > 0;
+    double rocks = knows_error ? share * (1 - share) / (se * se) : n;
+    double from = knows_error ? share : count / n;
+    ceduo_wilson_share(from, rocks, lo, &unused);
+    ceduo_wilson_share(fmin(1, from + unfinished / n), rocks, &unused, hi);
+    *lo = fmin(*lo, share);
+    *hi = fmax(*hi, share);
+}
+
+static void adjust_mean(const struct adjusted *a, enum varied which, const struct ceduo_moments *m,
+                        struct ceduo_distribution *d)
+{
+    struct ceduo_paired mean = ceduo_run_adjusted_mean(a, which, m);
+    d->mean = mean.mean;
+    d->se = mean.se;
+}
+
+static void adjust(const struct ceduo_run *run, const struct sums *s, struct ceduo_arrivals *to)
+{
+    struct adjusted a;
+    to->adjusted = ceduo_run_adjust(run, s, &a);
+    if (!to->adjusted)
+        return;
+    double unfinished = (double)to->unfinished;
+    to->reach_probability = ceduo_run_adjusted_share(&a, VARIED_REACHED);
+    to->reach_se = ceduo_run_adjusted_share_se(&a, VARIED_REACHED);
+    adjusted_interval(&a, to->reach_probability, to->reach_se, (double)to->reached, unfinished, &to->reach_lo,
+                      &to->reach_hi);
+    if (!isnan(to->exceed_probability)) {
+        to->exceed_probability = ceduo_run_adjusted_share(&a, VARIED_EXCEEDED);
+        to->exceed_se = ceduo_run_adjusted_share_se(&a, VARIED_EXCEEDED);
+        adjusted_interval(&a, to->exceed_probability, to->exceed_se, (double)to->exceeded, unfinished, &to->exceed_lo,
+                          &to->exceed_hi);
+        to->exceed_lo = fmin(to->exceed_lo, to->reach_lo); /* none exceeds that does not arrive */
+        to->exceed_hi = fmin(to->exceed_hi, to->reach_hi);
+    }
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        to->missed[e] = ceduo_run_adjusted_share(&a, VARIED_ENDED + e);
+    struct ceduo_paired released = ceduo_run_adjusted_per_released(&a, &s->of[ENERGY]);
+    to->energy_per_released = released.mean;
+    to->energy_per_released_se = released.se;
+    adjust_mean(&a, VARIED_SPEED, &s->of[SPEED], &to->speed);
+    adjust_mean(&a, VARIED_HEIGHT, &s->of[HEIGHT], &to->height);
+    adjust_mean(&a, VARIED_ENERGY, &s->of[ENERGY], &to->energy);
+    adjust_mean(&a, VARIED_TRANSLATION, &s->of[TRANSLATION], &to->translation);
+}
+
+/* ---- what is read ---- */
+
+static double share_se(double share, uint64_t n)
+{
+    return sqrt(share * (1 - share) / (double)n);
+}
+
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
     if (run->sized)
@@ -77,6 +141,8 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
     if (!isnan(run->ready.scene.controls[control].accepted))
         a->exceed_probability = share(a->exceeded, a->unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
+    a->reach_se = share_se(a->reach_probability, run->rocks);
+    a->exceed_se = share_se(a->exceed_probability, run->rocks);
     per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
     a->contacts = !run->ready.wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
     a->contacts_se = run->ready.wood.bare ? NAN : ceduo_moments_se(&s.contacts);
@@ -92,6 +158,7 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
         a->energy = a->translation = energy_from_speed(&a->speed, run->ready.mean.mass, &s.of[ENERGY]);
     }
     free(scratch);
+    adjust(run, &s, a);
     return CEDUO_OK;
 }
 
@@ -104,6 +171,13 @@ struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
     bool accepts = !isnan(run->ready.scene.controls[control].accepted);
     double n = (double)run->rocks, per_rock, se;
     per_released(energy, run->rocks, &per_rock, &se);
+    struct adjusted a;
+    if (ceduo_run_adjust(run, &s, &a))
+        return (struct ceduo_brief){
+            .reach_probability = ceduo_run_adjusted_share(&a, VARIED_REACHED),
+            .exceed_probability = accepts ? ceduo_run_adjusted_share(&a, VARIED_EXCEEDED) : NAN,
+            .energy = ceduo_run_adjusted_mean(&a, VARIED_ENERGY, energy).mean,
+            .energy_per_released = ceduo_run_adjusted_per_released(&a, energy).mean};
     return (struct ceduo_brief){.reach_probability = (double)energy->n / n,
                                 .exceed_probability = accepts ? (double)s.exceeded / n : NAN,
                                 .energy = energy->n > 0 ? energy->mean : NAN,
@@ -120,6 +194,12 @@ void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *rea
     *reached = s.of[ENERGY].n;
     *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
     *se = ceduo_moments_se(&s.of[ENERGY]);
+    struct adjusted a;
+    if (!ceduo_run_adjust(run, &s, &a))
+        return;
+    struct ceduo_paired adjusted = ceduo_run_adjusted_mean(&a, VARIED_ENERGY, &s.of[ENERGY]);
+    *mean = adjusted.mean;
+    *se = adjusted.se;
 }
 
 /* ---- differences ---- */
@@ -161,6 +241,80 @@ static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *ba
     return p;
 }
 
+/* One run of a difference: its adjusted shares and mean, and what its rocks' variates tell of them; nothing where they are
+ * as counted. */
+enum { PAIRED_REACH, PAIRED_EXCEED, PAIRED_ENERGY, PAIRED };
+struct paired_run {
+    double mean[PAIRED], slopes[PAIRED][VARIATES];
+    double used, chance; /* of its fit: variates, and by how much more its errors are */
+};
+
+static struct paired_run read_paired(const struct ceduo_run *run, const struct sums *s, bool *adjusted)
+{
+    const enum varied which[PAIRED] = {VARIED_REACHED, VARIED_EXCEEDED, VARIED_ENERGY};
+    const struct ceduo_moments *energy = &s->of[ENERGY];
+    double n = (double)run->rocks;
+    struct paired_run p = {.mean = {(double)energy->n / n, (double)s->exceeded / n, energy->mean * (double)energy->n / n}};
+    struct adjusted a;
+    if (!ceduo_run_adjust(run, s, &a))
+        return p;
+    *adjusted = true;
+    p.used = a.fit.used;
+    p.chance = n * a.fit.chance_square;
+    for (int k = 0; k < PAIRED; k++)
+        ceduo_varied_slopes(&a.fit, &a.sums[which[k]], p.slopes[k]);
+    p.mean[PAIRED_REACH] = ceduo_run_adjusted_share(&a, VARIED_REACHED);
+    p.mean[PAIRED_EXCEED] = ceduo_run_adjusted_share(&a, VARIED_EXCEEDED);
+    p.mean[PAIRED_ENERGY] = ceduo_varied_mean(&a.fit, &a.sums[VARIED_ENERGY]);
+    return p;
+}
+
+/* What a rock brings beyond what its variates tell. */
+static void beyond_variates(const struct ceduo_run *run, const struct paired_run *p, size_t control, uint64_t rock,
+                            double to[PAIRED])
+{
+    double e = paired_energy(run, control, rock);
+    const float *x = varied_of(run, control, rock);
+    to[PAIRED_REACH] = !isnan(e);
+    to[PAIRED_EXCEED] = e > run->ready.scene.controls[control].accepted;
+    to[PAIRED_ENERGY] = isnan(e) ? 0 : e;
+    for (int k = 0; k < PAIRED; k++)
+        for (size_t v = 0; v < VARIATES; v++)
+            to[k] -= p->slopes[k][v] * (double)x[v];
+}
+
+/* Makes it the difference of adjusted figures, unless both are as counted or no variates are kept. */
+static void adjust_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control,
+                                struct ceduo_difference *d)
+{
+    bool adjusted = false;
+    struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
+    struct paired_run a = read_paired(run, &s, &adjusted), b = read_paired(baseline, &t, &adjusted);
+    uint64_t rocks = paired_rocks(run), others = paired_rocks(baseline);
+    rocks = varied_rocks(run, rocks < others ? rocks : others);
+    if (!adjusted || rocks < 2)
+        return;
+    struct ceduo_moments m[PAIRED] = {{0}};
+    for (uint64_t r = 0; r < rocks; r++) {
+        double one[PAIRED], other[PAIRED];
+        beyond_variates(run, &a, control, r, one);
+        beyond_variates(baseline, &b, control, r, other);
+        for (int k = 0; k < PAIRED; k++)
+            ceduo_moments_add(&m[k], one[k] - other[k]);
+    }
+    double n = (double)run->rocks, used = fmax(a.used, b.used);
+    double more = (n - 1) / (n - 1 - used) * (1 + fmax(a.chance, b.chance));
+    struct ceduo_paired found[PAIRED];
+    bool good = true;
+    for (int k = 0; k < PAIRED; k++) {
+        found[k] = paired(a.mean[k] - b.mean[k], &m[k], run->rocks);
+        found[k].se *= sqrt(more);
+        good &= isfinite(found[k].se);
+    }
+    if (good)
+        *d = (struct ceduo_difference){found[PAIRED_REACH], found[PAIRED_EXCEED], found[PAIRED_ENERGY]};
+}
+
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control)
 {
@@ -182,6 +336,8 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
             .reach_probability = paired(((double)e->n - (double)f->n) / n, &p.reach, run->rocks),
             .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &p.exceed, run->rocks),
             .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &p.energy, run->rocks)};
+    if (alike)
+        adjust_difference(run, baseline, control, &d);
     if (isnan(run->ready.scene.controls[control].accepted))
         d.exceed_probability = unknown;
     return d;

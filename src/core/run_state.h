@@ -6,6 +6,7 @@
 #include "envelope.h"
 #include "histogram.h"
 #include "prepared.h"
+#include "variates.h"
 #include "weighted.h"
 #include "wide.h"
 
@@ -15,6 +16,7 @@
  *     run_fly.c      simulates the rocks of one chunk on several threads
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
+ *     run_adjust.c   means and shares with what chance did taken out
  *     run_read.c     arrivals, differences and ends, read from sums and samples
  *     run_sized.c    the same where rocks have weights, read from samples alone
  *     run_pack.c     parts as bytes, and back */
@@ -31,6 +33,7 @@ struct sums {
     uint64_t exceeded, ended[CEDUO_ENDS]; /* ended: rocks that did not arrive, by how they ended */
     double missed[CEDUO_ENDS];            /* the same by their weights, where rocks have any */
     struct weighted_sum hits;             /* contacts by them */
+    struct variate_sums varied;           /* where rocks have none */
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
@@ -59,7 +62,8 @@ struct ceduo_run {
     size_t chunk;          /* blocks to take on next */
     struct block whole;    /* all whole blocks */
     struct block tail;     /* the block that is not full yet */
-    struct block *slots;   /* CHUNK_BLOCKS in work */
+    struct block *slots;   /* in work, `slots_count` */
+    size_t slots_count;    /* CHUNK_BLOCKS, or as many as the run can have */
     bool sized;            /* rocks have weights; their samples are always kept, and read by run_sized.c */
     double *weights;       /* [room] */
     bool alike;            /* the rocks differ in nothing but their numbers */
@@ -69,6 +73,9 @@ struct ceduo_run {
                             * it did not stop */
     uint64_t pairs_room;   /* where samples are not kept: the first rocks' energies, for differences */
     double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
+    uint64_t varied_most;  /* of so many rocks the variates are kept, for the errors of differences, */
+    uint64_t varied_room;
+    float *varied;         /* [rock][control][VARIATES] */
     struct histogram *bins; /* [control][quantity], then one of the stops */
     struct envelope_cell *cells;
 };
@@ -87,6 +94,19 @@ static inline double *stops_of(const struct ceduo_run *run)
 static inline struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
 {
     return &bins[control * (size_t)run->kept + (size_t)quantity];
+}
+
+/* The variates of a rock, of those that are kept. */
+static inline float *varied_of(const struct ceduo_run *run, size_t control, uint64_t rock)
+{
+    return &run->varied[((size_t)(rock - run->first) * run->controls + control) * VARIATES];
+}
+
+/* How many of the first `rocks` rocks have them kept, without those before a part. */
+static inline uint64_t varied_rocks(const struct ceduo_run *run, uint64_t rocks)
+{
+    uint64_t end = rocks < run->varied_most ? rocks : run->varied_most;
+    return end > run->first ? end - run->first : 0;
 }
 
 /* ---- sums ---- */
@@ -116,6 +136,21 @@ enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t c
 enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
 struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                                    size_t control);
+
+/* ---- adjusted means ---- */
+
+struct adjusted {
+    struct variate_fit fit;
+    struct varied_sum sums[VARIED];
+};
+
+/* False where they are to stay plain: nothing varies, too few rocks. */
+bool ceduo_run_adjust(const struct ceduo_run *run, const struct sums *s, struct adjusted *a);
+double ceduo_run_adjusted_share(const struct adjusted *a, enum varied which);
+double ceduo_run_adjusted_share_se(const struct adjusted *a, enum varied which);
+/* Of those that arrive, and of all released. */
+struct ceduo_paired ceduo_run_adjusted_mean(const struct adjusted *a, enum varied which, const struct ceduo_moments *m);
+struct ceduo_paired ceduo_run_adjusted_per_released(const struct adjusted *a, const struct ceduo_moments *energy);
 
 /* ---- flying ---- */
 

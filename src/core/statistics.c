@@ -47,6 +47,14 @@ void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi)
         *hi = fmin(1, (centre + half) / scale);
 }
 
+void ceduo_wilson_share(double share, double n, double *lo, double *hi)
+{
+    double z2 = CEDUO_Z95 * CEDUO_Z95, centre = share + z2 / (2 * n), scale = 1 + z2 / n;
+    double half = CEDUO_Z95 * sqrt(share * (1 - share) / n + z2 / (4 * n * n));
+    *lo = share > 0 ? fmax(0, (centre - half) / scale) : 0;
+    *hi = share < 1 ? fmin(1, (centre + half) / scale) : 1;
+}
+
 double ceduo_half_width(double se, uint64_t n)
 {
     return n < 2 ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));

@@ -4,6 +4,8 @@
  * the same for many rocks and hands over to this one what is rare. */
 #include "walk.h"
 
+#include <string.h>
+
 #include "rolling.h"
 
 /* ---- release ---- */
@@ -69,6 +71,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
                             .segment = segment,
                             .on_ground = !(height > 0)};
     w->contacts = 0;
+    memset(w->variates, 0, sizeof w->variates);
     w->pause = next_pause(w);
     w->stems_pause = PAUSE;
     w->cancelled = w->gives_up = false;
@@ -102,6 +105,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->spin = first->spin;
     w->at = first->at;
     w->contacts = 0;
+    memset(w->variates, 0, sizeof w->variates);
     w->pause = first->pause;
     w->cancelled = false;
     w->facets_of = w->turns_of = UINT64_MAX;

@@ -9,6 +9,7 @@
 #include "wide_lane.h"
 /* after the lanes */
 #include "arm_blow.h"
+#include "vary.h"
 
 /* ---- random numbers ---- */
 
@@ -122,13 +123,28 @@ LANE void sincos_lanes(reals angle, reals *sine, reals *cosine)
     *cosine = pick(swap, s, c);
 }
 
-/* The facet that each rock strikes, as turn_facet() and strike_facet(). */
-LANE void facet_lanes(const struct wide *k, reals u, reals largest, reals along, reals off, reals *sine, reals *cosine)
+/* As turn_facet(). */
+LANE reals turn_lanes(const struct wide *k, reals u, reals largest)
 {
     reals zero = all(0);
     if (!k->against)
         u = sub(mul(all(2), u), all(1));
-    reals angle = pick(less(zero, largest), mul(largest, u), zero);
+    return pick(less(zero, largest), mul(largest, u), zero);
+}
+
+/* As vary_rock(); those in the air strike nothing. */
+LANE void vary_lanes(struct form form, struct wide *k, reals x, reals along, reals angle, reals largest)
+{
+    reals turn = sub(angle, k->against ? mul(largest, all(0.5)) : all(0));
+    if (in_the_air(form, k))
+        turn = pick(flags_of(in_the_air(form, k)), all(0), turn);
+    vary(k->variates[0], LANES, turn, along, mul(sub(x, all(k->from)), all(k->per_metre)));
+}
+
+/* The facet that each rock strikes, as strike_facet(). */
+LANE void facet_lanes(const struct wide *k, reals angle, reals along, reals off, reals *sine, reals *cosine)
+{
+    reals zero = all(0);
     sincos_lanes(angle, sine, cosine);
     if (k->against)
         *sine = pick(at_least(along, zero), *sine, as_reals(xor_ints(as_ints(*sine), all_ints((uint64_t)INT64_MIN))));
@@ -275,7 +291,9 @@ LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct
     } else {
         look_up(&k->ground->share, r->segment, form.small, &rn, &rt);
     }
-    facet_lanes(k, next_draw(form, k, k->draw), load(k->theta), v->along, v->off, &sine, &cosine);
+    reals largest = load(k->theta), angle = turn_lanes(k, next_draw(form, k, k->draw), largest);
+    vary_lanes(form, k, r->x, v->along, angle, largest);
+    facet_lanes(k, angle, v->along, v->off, &sine, &cosine);
     reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
     struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),
                               .vt = add(mul(v->along, cosine), mul(v->off, sine)),

@@ -46,6 +46,8 @@ struct wide {
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
+    double variates[VARIATES][LANES];
+    double from, per_metre; /* as in struct marks */
 
     /* bit i is lane i */
     unsigned live;  /* has a rock */
@@ -83,6 +85,14 @@ static void load_draws(struct wide *k, size_t i)
     load_draws_of(w, RANDOM_FACET, k->draw, i);
     if (w->has_section)
         load_draws_of(w, RANDOM_TURN, k->turn, i);
+}
+
+/* Those who read the walker find the variates of its rock there. */
+static void show_variates(const struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    for (size_t v = 0; v < VARIATES; v++)
+        w->variates[v] = k->variates[v][i];
 }
 
 static void load_section(struct wide *k, size_t i)
@@ -164,6 +174,7 @@ static struct course course_of(struct wide *k, size_t i)
     size_t to = left ? (k->to[i] == 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
+    show_variates(k, i);
     return (struct course){.at = {.x = k->x[i],
                                   .z = k->z[i],
                                   .vx = k->vx[i],
@@ -213,6 +224,8 @@ static void refill(struct wide *k, size_t i)
             k->mass[i] = w->rock.mass;
             k->moment[i] = w->rock.moment;
             k->number[i] = w->number;
+            for (size_t v = 0; v < VARIATES; v++)
+                k->variates[v][i] = 0;
             if (w->has_section)
                 load_section(k, i);
             k->fresh |= bit;
@@ -249,6 +262,7 @@ static __attribute__((noinline)) void stop_alone(struct wide *k, size_t i, enum 
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
+    show_variates(k, i);
     w->at.x = k->x[i];
     w->at.z = k->z[i];
     k->job->ended(k->job->context, i, end);
@@ -260,6 +274,7 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
+    show_variates(k, i);
     w->at.x = k->to_x[i];
     w->at.z = k->to_z[i];
     k->job->ended(k->job->context, i, CEDUO_LEFT_SLOPE);
@@ -271,6 +286,7 @@ static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = k->spin[i];
+    show_variates(k, i);
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
     k->next_x[i] = w->next_x;

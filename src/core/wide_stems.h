@@ -64,6 +64,7 @@ static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct pa
         struct walker *w = &k->job->walkers[i];
         struct flight at = {.x = x[i], .z = z[i], .vx = vx[i], .vz = vz[i]};
         w->spin = spin[i];
+        show_variates(k, i);
         if (!ceduo_walk_take_stem(w, hit >> i & 1, at, seconds[i]))
             p->ended |= 1u << i;
         k->next_x[i] = w->next_x;

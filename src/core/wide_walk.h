@@ -166,6 +166,8 @@ static void wide_walk(const struct wide_job *job)
     k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
+    k.from = w->marks->from;
+    k.per_metre = w->marks->per_metre;
     if (w->stems)
         walk_among(job->law, small, true, &k);
     else

@@ -257,9 +257,9 @@ static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a
     bool says = !isnan(a->exceed_probability);
     s->flown++;
     s->reach.mean += a->reach_probability;
-    s->reach.se += share_se(a->reach_probability, n);
+    s->reach.se += a->adjusted ? a->reach_se : share_se(a->reach_probability, n);
     s->exceed.mean += a->exceed_probability;
-    s->exceed.se += share_se(a->exceed_probability, n);
+    s->exceed.se += a->adjusted ? a->exceed_se : share_se(a->exceed_probability, n);
     s->energy_per_released.mean += a->energy_per_released;
     s->energy_per_released.se += a->energy_per_released_se;
     double share = says ? a->exceed_probability : a->reach_probability;
@@ -301,6 +301,16 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     return s;
 }
 
+/* The mean of what is compared, as it is shown; `*adjusted` where it is not as counted in a year. */
+static double mean_over_years(const struct ceduo_years *years, bool *adjusted)
+{
+    struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
+    for (size_t i = 0; i < years->count; i++)
+        *adjusted |= years->years[i].wooded.arrivals[years->last_control].adjusted;
+    return isnan(s.exceed.mean) ? s.reach.mean : s.exceed.mean;
+}
+
+/* Of adjusted shares the marks give an error that is not too small, and the shares the mean. */
 struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
 {
     if (years->rocks == 0 || less->rocks == 0 || years->scene.controls_count == 0)
@@ -311,7 +321,10 @@ struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, cons
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
         ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));
-    return (struct ceduo_paired){m.mean, ceduo_moments_se(&m)};
+    bool adjusted = false;
+    double mean = mean_over_years(years, &adjusted) - mean_over_years(less, &adjusted);
+    adjusted &= years->rocks == less->rocks;
+    return (struct ceduo_paired){adjusted ? mean : m.mean, ceduo_moments_se(&m)};
 }
 
 double ceduo_years_felled(const struct ceduo_years *years)

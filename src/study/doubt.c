@@ -223,6 +223,7 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
+    q.run.plain = def->plain;
     enum ceduo_status status = ceduo_ask(&q, NULL, &is);
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
         const struct ceduo_result *r = is.result;

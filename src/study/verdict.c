@@ -16,7 +16,10 @@ struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
     if (!a)
         return (struct ceduo_portion){NAN, NAN};
     double share = ceduo_share_of(a);
-    double half = ceduo_half_width_of_share(share, sqrt(share * (1 - share) / (double)a->released), a->released);
+    double se = isnan(a->exceed_probability) ? a->reach_se : a->exceed_se;
+    if (!a->adjusted)
+        se = sqrt(share * (1 - share) / (double)a->released);
+    double half = ceduo_half_width_of_share(share, se, a->released);
     if (!isnan(a->hazard.per_year)) /* rocks have weights */
         half = (isnan(a->exceed_probability) ? a->reach_hi - a->reach_lo : a->exceed_hi - a->exceed_lo) / 2;
     return (struct ceduo_portion){share, half};

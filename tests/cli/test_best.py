@@ -14,7 +14,7 @@ from runs import FOUR, THICK, THIN, through, treated
 
 def test_table_options():
     """Table of the four systems: each option, then side by side with the differences, what does not separate them said"""
-    text, run = good("--batch", "-n", 500, FOUR).out, result(FOUR, "-n", 500)
+    text, run = good("--batch", "--plain", "-n", 500, FOUR).out, result("--plain", FOUR, "-n", 500)
     names = [o["name"] for o in run["options"]]
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
     for option in run["options"]:

@@ -100,7 +100,7 @@ def test_ends_are_runs():
         path = f.write("s.yaml", what)
         for key, values in (("forest[*].stand.energy.model", ("brauner", "dorren")), ("rock.density_kg_m3", (2400, 2750))):
             for end, value in zip(("at_lo", "at_hi"), values):
-                run = json.loads(ceduo("--batch", "-f", "json", "-n", 200, "-s", f"{key.replace('*', '0')}={value}", path).out)
+                run = json.loads(ceduo("--batch", "--plain", "-f", "json", "-n", 200, "-s", f"{key.replace('*', '0')}={value}", path).out)
                 wooded = run["options"][0]["controls"][0]["wooded"]
                 for name, known in (("reach_probability", wooded["reach_probability"]),
                                     ("exceed_probability", wooded["exceed_probability"]),

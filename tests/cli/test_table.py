@@ -16,7 +16,7 @@ from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through
 
 def test_table_order():
     """Table of the paper's site: statements in their order, wooded first and bare below it, verdicts in words"""
-    text, run = good("--batch", PAPER).out, result(PAPER)
+    text, run = good("--batch", "--plain", PAPER).out, result("--plain", PAPER)
     option = run["options"][0]
     control = option["controls"][0]
     expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "through the wood",
@@ -40,7 +40,7 @@ def test_table_order():
 
 def test_table_order_index():
     """Table of the paper's site by the index: no figure through the wood, the index labelled, the energy light unknown"""
-    text, run = good("--batch", *through("index"), PAPER).out, result(*through("index"), PAPER)
+    text, run = good("--batch", "--plain", *through("index"), PAPER).out, result("--plain", *through("index"), PAPER)
     expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "without forest 992",
                  "896", "113.2", "Contact: passes", "Free run: passes", "Energy: unknown", "index", "ADS 1", "1.95 yes", "ADS 2",
                  "2.61 yes", "gsteiger-stools 3.04 m", "(?i)by the index \\(Eq. 4, interception\\) stems could take 53.8 kJ",

@@ -313,7 +313,7 @@ def test_sum():
     controls = [{"x_m": 60, "accepted_kJ": 5}, {"x_m": 135, "accepted_kJ": 50}, {"x_m": 90}]
     for last in (1, 2):
         controls[2]["x_m"] = 90 if last == 1 else 140
-        found = run(four_systems(controls=controls, rocks=300), "0:27:3")
+        found = run(four_systems(controls=controls, rocks=300), "0:27:3", "--plain")
         for option in found["options"]:
             option["released"] = 300
             expect_sum(option, last)
