@@ -56,6 +56,7 @@ struct ceduo_observation {
 /* A list is compared in classes between its own quantiles: as many as there are times five values, at most ten, at least
  * two. One more is for rocks that have no value: those that did not stop, where it is known how many were released. */
 #define CEDUO_CLASSES_MOST 11
+#define CEDUO_CLASSES_FEW  10 /* simulated rocks for each class, below which a list counts as rarer than it is */
 
 /* What simulated rocks say of one observation. */
 #define CEDUO_SOME_VALUES 40
@@ -71,6 +72,10 @@ struct ceduo_counterpart {
     double scars, scars_variance; /* expected, of the rocks released; NaN: not asked for */
     double log_likelihood, deviance; /* deviance: twice the logarithm that is missing to a model that fits perfectly */
 };
+
+/* Twice the logarithm that a multinomial law with shares as the simulated rocks misses to one with shares as seen. `seen`,
+ * `simulated`: numbers in each class. */
+double ceduo_classes_deviance(const double *seen, const double *simulated, size_t classes);
 
 /* Observations made ready: what differs in nothing but what was seen of it shares its rocks. */
 struct ceduo_observer;

@@ -14,7 +14,6 @@
 #include "ceduo/run.h"
 
 #define IMPOSSIBLE (-1e4) /* log-likelihood of what no simulated rock does at all */
-#define FEW_IN_CLASS 10   /* simulated rocks for each class, below which a list counts as rarer than it is */
 
 /* What is asked of one setting. */
 struct setting {
@@ -289,25 +288,37 @@ static size_t take_values(const struct flown *f, const struct plan *p, double *v
 
 /* ---- comparing ---- */
 
-/* A multinomial sample; of simulated classes half a rock more in each than there are, so that none is impossible. Where few
- * rocks do what was seen, the classes do not get what the missing ones would bring. */
+/* Of simulated classes half a rock more in each than there are, so that none is impossible. Where few rocks do what was seen,
+ * the classes do not get what the missing ones would bring. */
+static double rocks_of_classes(const double *simulated, size_t classes)
+{
+    double rocks = 0;
+    for (size_t i = 0; i < classes; i++)
+        rocks += simulated[i];
+    return fmax(rocks, CEDUO_CLASSES_FEW * (double)classes) + (double)classes / 2;
+}
+
+double ceduo_classes_deviance(const double *seen, const double *simulated, size_t classes)
+{
+    double rocks = rocks_of_classes(simulated, classes), n = 0, deviance = 0;
+    for (size_t i = 0; i < classes; i++)
+        n += seen[i];
+    for (size_t i = 0; i < classes; i++)
+        if (seen[i] > 0)
+            deviance += 2 * seen[i] * log(seen[i] * rocks / (n * (simulated[i] + 0.5)));
+    return deviance;
+}
+
+/* A multinomial sample. */
 static void compare_classes(struct ceduo_counterpart *c)
 {
-    double simulated = 0, seen = 0, rocks, log_p = 0, deviance = 0, ways = 0;
+    double rocks = rocks_of_classes(c->count, c->classes), n = 0;
     for (size_t i = 0; i < c->classes; i++) {
-        simulated += c->count[i];
-        seen += c->seen[i];
+        n += c->seen[i];
+        c->log_likelihood += c->seen[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->seen[i] + 1);
     }
-    rocks = fmax(simulated, FEW_IN_CLASS * (double)c->classes) + (double)c->classes / 2;
-    ways = lgamma(seen + 1);
-    for (size_t i = 0; i < c->classes; i++) {
-        double p = (c->count[i] + 0.5) / rocks;
-        log_p += c->seen[i] * log(p);
-        deviance += c->seen[i] > 0 ? 2 * c->seen[i] * log(c->seen[i] / (seen * p)) : 0;
-        ways -= lgamma(c->seen[i] + 1);
-    }
-    c->log_likelihood += log_p + ways;
-    c->deviance += deviance;
+    c->log_likelihood += lgamma(n + 1);
+    c->deviance += ceduo_classes_deviance(c->seen, c->count, c->classes);
 }
 
 /* A normal law of a difference. */

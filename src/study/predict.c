@@ -26,23 +26,63 @@ static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i
 
 /* ---- samples ---- */
 
-/* Numbers in the classes of a new sample: shares as the simulated rocks leave them open (a Dirichlet law), then as many
- * as were seen. Returns its deviance. */
-static double sample_classes(const struct ceduo_counterpart *c, gsl_rng *random, double *first)
+/* A new count: the share as the simulated rocks leave it open (a beta law), then as many as were released. Returns its deviance. */
+static double sample_count(const struct ceduo_counterpart *c, gsl_rng *random, double *value)
 {
-    double alpha[CEDUO_CLASSES_MOST], share[CEDUO_CLASSES_MOST], n = 0, rocks = 0, deviance = 0;
+    double share = gsl_ran_beta(random, c->count[0] + 0.5, c->count[1] + 0.5), n = c->seen[0] + c->seen[1];
+    double passed = gsl_ran_binomial(random, share, (unsigned)n), seen[2] = {passed, n - passed};
+    *value = passed;
+    return ceduo_classes_deviance(seen, c->count, 2);
+}
+
+/* Shares of the true law between bounds that a sample's own values make, halfway between two of them: gaps of uniform values are
+ * exponential ones over their sum. `n`: values in each class. */
+static void share_by_gaps(const double *n, size_t classes, gsl_rng *random, double *share)
+{
+    double sum = 0, half = 0;
+    for (size_t i = 0; i < classes; i++) {
+        bool inner = i > 0 && i + 1 < classes;
+        double whole = n[i] - (inner ? 1 : 0);
+        share[i] = half + (whole > 0 ? gsl_ran_gamma(random, whole, 1) : 0);
+        half = i + 1 < classes ? gsl_ran_exponential(random, 1) / 2 : 0;
+        share[i] += half;
+        sum += share[i];
+    }
+    for (size_t i = 0; i < classes; i++)
+        share[i] /= sum;
+}
+
+/* The deviance of a new list, as those who saw it compare it: its classes are between its own quantiles, and as many simulated
+ * rocks fall into them. Its values are so many as those seen; where it is known how many were released, the simulated rocks say
+ * how many of them have one. Bounds that follow from the sample make its deviance smaller than that of fixed classes. */
+static double sample_list(const struct ceduo_counterpart *c, bool rest, gsl_rng *random)
+{
+    size_t lists = c->classes - rest;
+    double seen[CEDUO_CLASSES_MOST], share[CEDUO_CLASSES_MOST], simulated[CEDUO_CLASSES_MOST], rocks = 0, n = 0, have = 1;
     unsigned count[CEDUO_CLASSES_MOST];
     for (size_t i = 0; i < c->classes; i++) {
-        alpha[i] = c->count[i] + 0.5;
+        rocks += c->count[i];
         n += c->seen[i];
-        rocks += alpha[i];
+        seen[i] = c->seen[i];
     }
-    gsl_ran_dirichlet(random, c->classes, alpha, share);
-    gsl_ran_multinomial(random, c->classes, (unsigned)n, share, count);
+    if (rest) {
+        double missing = c->count[lists], without = n - c->seen[lists], before = 0, up_to = 0, with;
+        have = gsl_ran_beta(random, rocks - missing + 0.5, missing + 0.5);
+        with = gsl_ran_binomial(random, have, (unsigned)n);
+        for (size_t i = 0; i < lists; i++, before = up_to) {
+            up_to += c->seen[i];
+            seen[i] = round(up_to * with / without) - round(before * with / without);
+        }
+        seen[lists] = n - with;
+        share[lists] = 1 - have;
+    }
+    share_by_gaps(seen, lists, random, share);
+    for (size_t i = 0; i < lists; i++)
+        share[i] *= have;
+    gsl_ran_multinomial(random, c->classes, (unsigned)fmax(rocks, CEDUO_CLASSES_FEW * (double)c->classes), share, count);
     for (size_t i = 0; i < c->classes; i++)
-        deviance += count[i] > 0 ? 2 * count[i] * log(count[i] / (n * alpha[i] / rocks)) : 0;
-    *first = count[0];
-    return deviance;
+        simulated[i] = count[i];
+    return ceduo_classes_deviance(seen, simulated, c->classes);
 }
 
 static double sample_normal(double mean, double variance, gsl_rng *random, double *value)
@@ -56,11 +96,12 @@ static double sample_normal(double mean, double variance, gsl_rng *random, doubl
 static double sample(const struct ceduo_observation *o, const struct ceduo_counterpart *c, gsl_rng *random, double *value)
 {
     double ignored, deviance;
+    bool rest = o->kind == CEDUO_OBSERVED_STOPS && o->of > 0;
     double spread = c->sd * c->sd * (1 / (double)(o->n > 0 ? o->n : 1) + 1 / (double)c->rocks);
     if (o->kind == CEDUO_OBSERVED_PASSED)
-        return sample_classes(c, random, value);
+        return sample_count(c, random, value);
     if (c->classes > 0) {
-        deviance = sample_classes(c, random, &ignored);
+        deviance = sample_list(c, rest, random);
         sample_normal(c->mean, spread, random, value);
     } else {
         deviance = sample_normal(c->mean, c->variance, random, value);

@@ -97,18 +97,46 @@ static bool fit(struct quarry_site *s, const struct ceduo_observation *seen, con
     return ceduo_calibrate(&def, answer) == CEDUO_OK;
 }
 
-bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct ceduo_calibration *answer)
+/* Draws the truth; what is seen on it is in `values` and `seen`. */
+static bool make(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct quarry_site *fitted,
+                 double **values, struct ceduo_observation *seen)
 {
-    struct quarry_site made, fitted;
-    struct ceduo_observation seen[QUARRY_KINDS];
-    double *values[QUARRY_KINDS] = {0};
+    struct quarry_site made;
     struct line_random random = {1000 * trial->number + 77 * trial->made_by};
     for (size_t i = 0; i < QUARRY_VALUES_MOST; i++)
         truth[i] = i < trial->values || i < 3 ? line_uniform(&random, bounds[i][0], bounds[i][1]) : 0.5;
     make_site(&made, trial->made_by, truth, 100000 + trial->number);
-    make_site(&fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
-    bool good = see(&made, trial, values, seen) && fit(&fitted, seen, trial, answer);
+    make_site(fitted, CEDUO_LAW_LUMPED, truth, 1 + trial->number);
+    return see(&made, trial, values, seen);
+}
+
+static void forget(double **values)
+{
     for (size_t k = 0; k < QUARRY_KINDS; k++)
         free(values[k]);
+}
+
+bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct ceduo_calibration *answer)
+{
+    struct quarry_site site;
+    struct ceduo_observation seen[QUARRY_KINDS];
+    double *values[QUARRY_KINDS] = {0};
+    bool good = make(trial, truth, &site, values, seen) && fit(&site, seen, trial, answer);
+    forget(values);
+    return good;
+}
+
+bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS])
+{
+    struct quarry_site site;
+    struct ceduo_observation seen[QUARRY_KINDS];
+    struct ceduo_predicted found[QUARRY_KINDS];
+    double *values[QUARRY_KINDS] = {0}, truth[QUARRY_VALUES_MOST];
+    bool good = make(trial, truth, &site, values, seen);
+    struct ceduo_calibration_scene scene = {&site.scene, site.inputs, trial->kinds, seen};
+    good = good && ceduo_calibration_as_it_is(&scene, trial->rocks, NULL, found) == CEDUO_OK;
+    for (size_t k = 0; good && k < trial->kinds; k++)
+        p[k] = found[k].p_value;
+    forget(values);
     return good;
 }

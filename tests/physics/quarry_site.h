@@ -38,4 +38,7 @@ struct quarry_trial {
  * fitted are known. */
 bool quarry_try(const struct quarry_trial *trial, double truth[QUARRY_VALUES_MOST], struct ceduo_calibration *answer);
 
+/* p of each kind seen, on the true ground without a fit. False as above. */
+bool quarry_look(const struct quarry_trial *trial, double p[QUARRY_KINDS]);
+
 #endif

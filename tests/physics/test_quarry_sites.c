@@ -5,12 +5,15 @@
 #include "expect.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sort.h>
+#include <math.h>
 
 #include "quarry_site.h"
 
 #define SITES  20
 #define VALUES 2
 #define SELDOM 1e-4
+#define TRUE_SITES 400
 
 /* How many of n are to be so at the least where each is with probability p. */
 static unsigned fewest(unsigned n, double p)
@@ -66,10 +69,40 @@ static void what_another_law_made_is_found_out(void **state)
     EXPECT(flagged, >=, fewest(fits, 0.9));
 }
 
+/* Kolmogorov's distance from the uniform law, times the root of their number: above 2.23 in one case of ten thousand. */
+static double far_from_uniform(double *p, size_t n)
+{
+    double most = 0;
+    gsl_sort(p, 1, n);
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, fmax((double)(i + 1) / (double)n - p[i], p[i] - (double)i / (double)n));
+    return most * sqrt((double)n);
+}
+
+/* Of a ground that is true, p of what was seen there is uniform. */
+static void on_the_true_ground_p_is_uniform(void **state)
+{
+    double p[QUARRY_KINDS][TRUE_SITES], one[QUARRY_KINDS];
+    size_t n = 0;
+    (void)state;
+    for (size_t i = 0; i < TRUE_SITES; i++) {
+        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .seen = 50, .rocks = 1000};
+        if (!quarry_look(&trial, one))
+            continue;
+        for (size_t k = 0; k < QUARRY_KINDS; k++)
+            p[k][n] = one[k];
+        n++;
+    }
+    EXPECT(n, >=, TRUE_SITES / 2);
+    for (size_t k = 0; k < QUARRY_KINDS; k++)
+        EXPECT(far_from_uniform(p[k], n), <, 2.23);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ranges_hold_the_truth),
+        cmocka_unit_test(on_the_true_ground_p_is_uniform),
         cmocka_unit_test(what_another_law_made_is_found_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
