@@ -283,36 +283,42 @@ static void beyond_variates(const struct ceduo_run *run, const struct paired_run
             to[k] -= p->slopes[k][v] * (double)x[v];
 }
 
-/* Makes it the difference of adjusted figures, unless both are as counted or no variates are kept. */
+/* Moments of the differences of what rocks bring beyond their variates, of the first rocks. */
+static void pair_beyond(const struct ceduo_run *run, const struct paired_run *a, const struct ceduo_run *baseline,
+                        const struct paired_run *b, size_t control, uint64_t rocks, struct ceduo_moments m[PAIRED])
+{
+    for (uint64_t r = 0; r < rocks; r++) {
+        double one[PAIRED], other[PAIRED];
+        beyond_variates(run, a, control, r, one);
+        beyond_variates(baseline, b, control, r, other);
+        for (int k = 0; k < PAIRED; k++)
+            ceduo_moments_add(&m[k], one[k] - other[k]);
+    }
+}
+
+/* Makes it the difference of adjusted figures, unless both are as counted. Where no variates of single rocks are kept, its error
+ * stays that of the difference as counted, which is larger. */
 static void adjust_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control,
-                                struct ceduo_difference *d)
+                              struct ceduo_difference *d)
 {
     bool adjusted = false;
     struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
     struct paired_run a = read_paired(run, &s, &adjusted), b = read_paired(baseline, &t, &adjusted);
     uint64_t rocks = paired_rocks(run), others = paired_rocks(baseline);
     rocks = varied_rocks(run, rocks < others ? rocks : others);
-    if (!adjusted || rocks < 2)
+    if (!adjusted)
         return;
     struct ceduo_moments m[PAIRED] = {{0}};
-    for (uint64_t r = 0; r < rocks; r++) {
-        double one[PAIRED], other[PAIRED];
-        beyond_variates(run, &a, control, r, one);
-        beyond_variates(baseline, &b, control, r, other);
-        for (int k = 0; k < PAIRED; k++)
-            ceduo_moments_add(&m[k], one[k] - other[k]);
-    }
+    pair_beyond(run, &a, baseline, &b, control, rocks, m);
     double n = (double)run->rocks, used = fmax(a.used, b.used);
     double more = (n - 1) / (n - 1 - used) * (1 + fmax(a.chance, b.chance));
-    struct ceduo_paired found[PAIRED];
-    bool good = true;
+    struct ceduo_paired *to[PAIRED] = {&d->reach_probability, &d->exceed_probability, &d->energy_per_released};
     for (int k = 0; k < PAIRED; k++) {
-        found[k] = paired(a.mean[k] - b.mean[k], &m[k], run->rocks);
-        found[k].se *= sqrt(more);
-        good &= isfinite(found[k].se);
+        struct ceduo_paired found = paired(a.mean[k] - b.mean[k], &m[k], run->rocks);
+        to[k]->mean = found.mean;
+        if (rocks >= 2 && isfinite(found.se * sqrt(more)))
+            to[k]->se = found.se * sqrt(more);
     }
-    if (good)
-        *d = (struct ceduo_difference){found[PAIRED_REACH], found[PAIRED_EXCEED], found[PAIRED_ENERGY]};
 }
 
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,

@@ -203,7 +203,7 @@ def test_laws_turn_the_order():
                            (dorren(1.5), {names[0]: 28.6, names[1]: 20.0}),
                            ({**BRAUNER, "offset": "dorren", "glancing": False}, {names[0]: 62.1, names[1]: 72.8})):
         changes = [w for n in names for w in ("-s", f"options[{n}].forest[0].stand.energy={json.dumps(energy)}")]
-        run = result("four-systems", *only, *changes, "-n", 100000)
+        run = result("four-systems", *only, *changes, "-n", 300000)
         for option in run["options"]:
             found = 100 * option["controls"][-1]["wooded"]["exceed_probability"]
             expect_near(found, wanted[option["name"]], 0.5, f"{option['name']}, {energy}")

@@ -165,7 +165,7 @@ def test_compare_arrive():
         screen = place.play("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml")[0]
         rocks = re.search(r"(\d+) rocks", screen.now, re.M).group(1)
         run = results("-n", rocks, place.path / "cuts.yaml")[0]
-    screen.has("Of 1000 rocks, that arrive at", "energy is not judged").lacks("dangerous")
+    screen.has("Of 1000 rocks, those that arrive at", "energy is not judged").lacks("dangerous")
     for (name, cells), option in zip(compared(screen), run["options"], strict=True):
         share = f"{option['controls'][1]['wooded']['reach_probability'] * 1000:.0f}"
         expect(re.match(share + "(±|$)", cells["today"]), f"{name}: arrive {share}", cells)
