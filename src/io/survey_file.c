@@ -16,6 +16,7 @@
 #define STEMS_MOST 200000
 #define SLOPE_MOST 85 /* degrees */
 #define STUMP_MOST 20 /* m of height, as in a stand */
+#define DBH_MOST   300 /* cm: beyond it a diameter is in mm rather than of such a tree (assumed) */
 
 enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
 
@@ -37,7 +38,7 @@ static const struct {
     double lo, hi;
     const char *unit;
 } ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},   [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, "degrees"},
-                     [DBH] = {0.1, 1000, "cm"}, [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
+                     [DBH] = {0.1, 1e6, "cm"},  [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
                      [ENERGY] = {0, 1e6, "kJ"}};
 
 /* Words of a kind of stem, the first one is that of the manual. */
@@ -246,6 +247,8 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
         return false;
     if (isnan(stem->dbh))
         ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("the diameter is missing"));
+    else if (stem->dbh > DBH_MOST)
+        ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
     else if (stem->kind != CEDUO_SURVEY_STUMP && stem->height <= CEDUO_BREAST_HEIGHT)
         ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems,
                            _("%g m: a stem with a diameter at breast height is higher than %g m"), stem->height,

@@ -505,6 +505,8 @@ CASES = {
     "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
         Words(*words, "--option", "x", "@")(row.replace("mine", "scene")) for words in (
             ("--batch",), ("--check",), ("--find", "rock.diameter_m=1:2", "--goal", "adc"))],
+    # Surveys
+    "750 cm: more than 300 cm; is it in mm?": Elsewhere("tests/cli/test_survey.py", "def test_thick"),
     # Scripts
     "key, type, resize, wait idle, dump, roles or draw is wanted: x": Script("# first\nx\n", 2),
     "no such key: x": Script("key Enter\nkey j x!\n".replace("x!", "xx"), 2),

@@ -241,7 +241,10 @@ BAD = [  # (content, place, words)
     (HEAD + "\n" + ROW.replace(",,tree", ",oak,tree"), ":2:10", "'oak' is an unknown species; leave it empty, or one of: ostrya"),
     (HEAD + "\n" + ROW.replace(",20,", ",,"), ":2:17", "the diameter is missing"),
     (HEAD + "\n" + ROW.replace(",20,", ",0,"), ":2:17", "below 0.1 cm"),
-    (HEAD + "\n" + ROW.replace(",20,", ",2000,"), ":2:17", "beyond 1000 cm"),
+    (HEAD + "\n" + ROW.replace(",20,", ",750,"), ":2:17", "750 cm: more than 300 cm; is it in mm?"),
+    (HEAD + "\n" + ROW.replace(",20,", ",300.5,"), ":2:17", "300.5 cm: more than 300 cm; is it in mm?"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,301,1"), ":2:18", "301 cm: more than 300 cm; is it in mm?"),
+    (HEAD + "\n" + ROW.replace(",20,", ",2e6,"), ":2:17", "beyond 1e+06 cm"),
     (HEAD + "\n" + ROW.replace(",20,", ",nan,"), ":2:17", "'nan' is not a number"),
     (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m: a stem with a diameter at breast height is higher than 1.3 m"),
     (HEAD + "\n" + ROW.replace(",12,", ",-1,"), ":2:20", "below 0 m"),
@@ -276,6 +279,15 @@ def test_bad():
             expect(not (f.path / "none.yaml").exists(), content)
         r = ceduo("--survey", "not-there.csv")
         expect_equal(r.status, INPUT, r)
+
+
+def test_thick():
+    """A stem of 300 cm is taken; a thicker one is asked for its unit, in Italian, too"""
+    with Folder() as f:
+        expect_in("dbh_m: 3,", survey(f, HEAD + "\n" + ROW.replace(",20,", ",300,")).out)
+        r = survey(f, HEAD + "\n" + ROW.replace(",20,", ",750,"), "--language", "it")
+        expect_equal(r.status, INPUT, r)
+        expect_in("plots.csv:2:17: 750 cm: pi\u00f9 di 300 cm; \u00e8 in mm?", r.err)
 
 
 def test_many_wrong():
