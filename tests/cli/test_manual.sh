@@ -31,15 +31,19 @@ say $? "the keys of it/ceduo.1 are those of the program (make man)"
 tests/bench/tables.py --check man/ceduo-accuracy.7 man/ceduo-validation.7 README.md >"$dir/stale"
 say $? "what the benches found stands in the pages (make tables)"
 sed 's/^/# /' "$dir/stale"
-# What is typed is the same in every language: each block of commands of the Italian pages stands in the English ones, but
-# for those that test_workflows.py plays as they are.
+# What is typed is the same in every language: each block of commands of the Italian pages stands in the English ones, and
+# the Italian ways have each block of the English ones, but for those that test_workflows.py plays as they are.
 for page in ceduo.1 ceduo-workflows.7; do
     python3 - "man/it/$page" "man/$page" <<'PYTHON'
 import re, sys
-played = r'^\.\\" run rilievo\n\.Bd -literal.*?^\.Ed$'
+played = r'^\.\\" run (?:rilievo|survey)\n\.Bd -literal.*?^\.Ed$'
 pages = [re.sub(played, "", open(p).read(), flags=re.M | re.S) for p in sys.argv[1:]]
 blocks = [re.findall(r"^\.Bd -literal.*?^\.Ed$", page, re.M | re.S) for page in pages]
-sys.exit([b for b in blocks[0] if b not in blocks[1] and "\u00e8 sotto" not in b] != [])
+odd = [b for b in blocks[0] if b not in blocks[1] and "\u00e8 sotto" not in b]
+if "workflows" in sys.argv[1]:
+    odd += [b for b in blocks[1] if b not in blocks[0]]
+print(*odd, sep="\n", file=sys.stderr)
+sys.exit(odd != [])
 PYTHON
     say $? "the commands of it/$page are those of $page"
 done
