@@ -708,7 +708,7 @@ def test_live_wood():
         t.keys("Home", "Enter")
         t.sees("rocks among stems    index", "? Energy   unknown")
         t.keys("u")
-        t.sees("rocks among stems stems", "undone: ", lacks=("? Energy   unknown",))
+        t.sees("rocks among stems    stems", "undone: ", lacks=("? Energy   unknown",))
         t.keys("s", "q")
 
 
