@@ -116,6 +116,27 @@ static void without_friction_only_the_normal_impulse_acts(void **state)
     }
 }
 
+/* A round rock that slips freely: rolling friction is a moment impulse of at most friction R times the normal impulse, against
+ * the spin, which it never turns round. */
+static void rolling_friction_takes_spin(void **state)
+{
+    (void)state;
+    struct line_random r = {.state = 3};
+    int held = 0;
+    for (int i = 0; i < 10000; i++) {
+        double radius = line_log_uniform(&r, 0.05, 2), vn = line_uniform(&r, 1, 20), e = line_uniform(&r, 0, 1);
+        double spin = line_uniform(&r, -5, 5) * vn / radius, friction = line_uniform(&r, 0, 1);
+        struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 0, friction, {vn, vn, spin}};
+        struct impact out = struck(&c);
+        double most = friction * radius * (1 + e) * vn / (0.4 * radius * radius), left = fmax(fabs(spin) - most, 0);
+        EXPECT_NEAR(out.spin * radius, copysign(left, spin) * radius, 1e-13 * vn);
+        EXPECT_NEAR(out.vt, vn, 1e-14 * vn);
+        held += left == 0;
+    }
+    EXPECT(held, >, 1000);
+    EXPECT(held, <, 9000);
+}
+
 static void without_bounce_a_point_that_sticks_stands_still(void **state)
 {
     (void)state;
@@ -405,6 +426,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_round_rock_that_sticks),
         cmocka_unit_test(without_friction_only_the_normal_impulse_acts),
+        cmocka_unit_test(rolling_friction_takes_spin),
         cmocka_unit_test(without_bounce_a_point_that_sticks_stands_still),
         cmocka_unit_test(a_rock_stands_where_both_frictions_hold_it),
         cmocka_unit_test(no_blow_gains_energy),

@@ -3,6 +3,7 @@
  * they strike it, or roll down a smooth slope. */
 #include "expect.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -184,6 +185,34 @@ static void means_are_normal(void **state)
     expect_mean(&g, o, HIGH - GRAVITY / 2, 1e-9);
     o.kind = CEDUO_OBSERVED_ENERGY;
     expect_mean(&g, o, mass() * speed2 / 2, 1e-6);
+}
+
+/* Of rocks that differ, the error of the simulated mean counts as well. */
+static void a_mean_has_the_error_of_both_sides(void **state)
+{
+    (void)state;
+    struct ground g;
+    struct ceduo_observer *observer;
+    struct ceduo_counterpart c;
+    double *values;
+    size_t n;
+    make_ground(&g, 0, HIGH, FAST, 0);
+    g.scene.release.vx.spread = 2;
+    struct ceduo_observation o = something(CEDUO_OBSERVED_SPEED);
+    o.x = 10;
+    o.n = 400;
+    o.sd = 2;
+    o.mean = 15;
+    EXPECT(ceduo_observer_create(&o, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_look(observer, &g.scene, ROCKS, NULL, &c), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_values(observer, &g.scene, 0, ROCKS, &values, &n), ==, CEDUO_OK);
+    EXPECT(n, ==, ROCKS);
+    double mean = gsl_stats_mean(values, 1, n), variance = 0.01 + gsl_stats_variance(values, 1, n) / ROCKS;
+    EXPECT(variance, >, 0.011);
+    EXPECT_NEAR(c.variance, variance, 1e-12);
+    EXPECT_NEAR(c.deviance, (15 - mean) * (15 - mean) / variance, 1e-9 * c.deviance);
+    free(values);
+    ceduo_observer_free(observer);
 }
 
 static void no_rock_there_is_impossible(void **state)
@@ -561,6 +590,7 @@ int main(void)
         cmocka_unit_test(stops_are_multinomial),
         cmocka_unit_test(a_list_has_classes_of_its_own),
         cmocka_unit_test(means_are_normal),
+        cmocka_unit_test(a_mean_has_the_error_of_both_sides),
         cmocka_unit_test(no_rock_there_is_impossible),
         cmocka_unit_test(the_largest_is_at_an_end_or_on_top),
         cmocka_unit_test(means_along_a_flight),
