@@ -51,6 +51,9 @@ bool ceduo_document_move(struct document *document, const char *list, size_t fro
  * first, "current" the first of them. */
 bool ceduo_document_add_option(struct document *document, const char *stand, struct problems *problems);
 
+/* Another name for an option; what was seen through its forest and the doubts about it go along. */
+bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
+
 /* A copy of an option after it. */
 bool ceduo_document_copy_option(struct document *document, size_t index, struct problems *problems);
 

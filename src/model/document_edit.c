@@ -341,3 +341,34 @@ bool ceduo_document_copy_option(struct document *d, size_t index, struct problem
     const struct node *item = list && index < list->n ? with_new_name(d, list, list->items[index]) : NULL;
     return ceduo_document_commit(d, item ? with_item(d, root, "options", index + 1, item, problems) : NULL, "options", problems);
 }
+
+/* A node with every `option: old` in it as `name`; NULL without memory. */
+static const struct node *with_option_named(struct arena *arena, const struct node *node, const char *old,
+                                            const struct node *name)
+{
+    for (size_t i = 0; node && node->kind != NODE_SCALAR && i < node->n; i++) {
+        const struct node *item = node->items[i];
+        bool same = item->kind == NODE_SCALAR && item->key && strcmp(item->key, "option") == 0 && strcmp(item->text, old) == 0;
+        const struct node *now = same ? ceduo_node_renamed(arena, name, "option") : with_option_named(arena, item, old, name);
+        if (now != item)
+            node = now ? ceduo_node_replaced(arena, node, i, now) : NULL;
+    }
+    return node;
+}
+
+bool ceduo_document_rename_option(struct document *d, size_t index, const char *name, struct problems *problems)
+{
+    struct arena *arena = &d->file.arena;
+    const struct node *root = d->file.root, *list = ceduo_node_get(root, "options");
+    const struct node *item = list && index < list->n ? list->items[index] : NULL;
+    const struct node *scalar = item ? ceduo_node_scalar(arena, item->source, name, true) : NULL;
+    const char *old = item ? ceduo_node_text(item, "name") : NULL;
+    const struct node *seen = ceduo_node_get(root, "observed");
+    item = scalar ? ceduo_node_with(arena, item, "name", scalar) : NULL;
+    list = item ? ceduo_node_replaced(arena, list, index, item) : NULL;
+    root = list ? ceduo_node_with(arena, root, "options", list) : NULL;
+    root = root && old ? ceduo_doubt_unnamed(arena, root, "options", old, index) : root;
+    seen = root && seen && old ? with_option_named(arena, seen, old, scalar) : NULL;
+    root = seen ? ceduo_node_with(arena, root, "observed", seen) : root;
+    return ceduo_document_commit(d, root, "options", problems);
+}

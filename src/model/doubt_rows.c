@@ -76,6 +76,24 @@ const struct node *ceduo_doubt_moved(struct arena *arena, const struct node *roo
     return moved ? ceduo_node_with(arena, root, "doubt", moved) : NULL;
 }
 
+const struct node *ceduo_doubt_unnamed(struct arena *arena, const struct node *root, const char *list, const char *name,
+                                       size_t index)
+{
+    const struct node *rows = ceduo_node_get(root, "doubt"), *left = rows;
+    struct text start = {0};
+    ceduo_text_format(&start, "%s[%s]", list, name);
+    for (size_t i = 0; start.bytes && rows && rows->kind == NODE_LIST && left && i < rows->n; i++) {
+        const char *path = ceduo_node_text(rows->items[i], "path");
+        if (!path || strncmp(path, start.bytes, start.length) != 0)
+            continue;
+        const struct node *row = with_index(arena, rows->items[i], list, index, path + start.length - 1);
+        left = row ? ceduo_node_replaced(arena, left, i, row) : NULL;
+    }
+    bool good = start.bytes && (left || !rows);
+    ceduo_text_free(&start);
+    return !good ? NULL : left == rows ? root : ceduo_node_with(arena, root, "doubt", left);
+}
+
 /* A row about the forest as one about options; the row itself where it is about something else. */
 static const struct node *of_options(struct arena *arena, const struct node *row)
 {

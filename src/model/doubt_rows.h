@@ -15,6 +15,10 @@ const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *r
 /* The same once an item was moved from one place of the list to another. */
 const struct node *ceduo_doubt_moved(struct arena *arena, const struct node *root, const char *list, size_t from, size_t to);
 
+/* The same where rows call item `index` by a name that it is to lose: they call it by its number. */
+const struct node *ceduo_doubt_unnamed(struct arena *arena, const struct node *root, const char *list, const char *name,
+                                       size_t index);
+
 /* The scene with the rows about "forest…" put to options: of one belt to the option "current", of all belts to all options.
  * NULL without memory. */
 const struct node *ceduo_doubt_of_options(struct arena *arena, const struct node *root);

@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "base/language.h"
-#include "io/emit.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/plot_parts.h"
@@ -417,13 +416,7 @@ static void move_option(struct app *app, int by)
 
 static bool filled_name(struct app *app, struct popup *p)
 {
-    struct text value = {0};
-    char path[64];
-    snprintf(path, sizeof path, "options[%zu].name", app->option);
-    ceduo_emit_scalar(&value, p->fields[0].text, true);
-    bool good = value.bytes && ceduo_document_set(&app->document, path, value.bytes, &app->problems);
-    ceduo_text_free(&value);
-    return ceduo_app_edited(app, good);
+    return ceduo_app_edited(app, ceduo_document_rename_option(&app->document, app->option, p->fields[0].text, &app->problems));
 }
 
 static void rename_option(struct app *app)

@@ -6,6 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "ceduo/observe.h"
 #include "io/file.h"
 #include "model/document.h"
 #include "model/recovery.h"
@@ -263,6 +264,55 @@ static void options_belts_and_segments(void **state)
     assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
     assert_int_equal(d.file.scene.options[1].belts[1].stand.shoots_count, 1);
     assert_int_equal(d.file.scene.slope.vertices, 4);
+    ceduo_document_close(&d);
+    ceduo_problems_free(&problems);
+}
+
+static const char of_two[] = "ceduo: scene/1\n"
+                             "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n"
+                             "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+                             "controls_m: [90]\n"
+                             "options:\n"
+                             "  - {name: bare}\n"
+                             "  - {name: thick, forest: [{from_m: 10, to_m: 80, stand: stand.yaml}]}\n"
+                             "doubt:\n"
+                             "  - {path: \"options[thick].forest[0].to_m\", lo: 70, hi: 80}\n"
+                             "  - {path: \"slope.segments[0].rn\", lo: 0.2, hi: 0.4}\n"
+                             "observed:\n"
+                             "  - {option: thick, name: thick, stops: {x_m: [40, 60]}}\n"
+                             "  - {passed: {x_m: 80, count: 1, of: 9, option: thick}}\n"
+                             "  - {option: bare, passed: {x_m: 80, count: 8, of: 9}}\n";
+
+/* What was seen through an option's forest, and what is in doubt about it, stay with it once it has another name. */
+static void an_option_takes_along_what_names_it(void **state)
+{
+    (void)state;
+    struct document d;
+    struct problems problems = {0};
+    bool anew;
+    write_file("two.yaml", of_two);
+    in_folder(path, "two.yaml");
+    open_scene(&d);
+    assert_int_equal(d.file.inputs_count, 2);
+    assert_true(ceduo_document_rename_option(&d, 1, "2 \"thick]", &problems));
+    assert_string_equal(d.file.scene.options[1].name, "2 \"thick]");
+    assert_int_equal(d.file.observations_count, 3);
+    assert_int_equal(d.file.observations[0].option, 1);
+    assert_string_equal(d.file.observations[0].name, "thick");
+    assert_int_equal(d.file.observations[1].option, 1);
+    assert_int_equal(d.file.observations[2].option, 0);
+    assert_int_equal(d.file.inputs_count, 2);
+    assert_true(ceduo_document_save(&d, path, &anew));
+    assert_non_null(strstr(read_file("two.yaml"), "options[1].forest[0].to_m"));
+    assert_true(ceduo_document_undo(&d)); /* one state */
+    assert_string_equal(d.file.scene.options[1].name, "thick");
+    assert_int_equal(d.file.observations[0].option, 1);
+    assert_false(ceduo_document_undo(&d));
+    assert_false(ceduo_document_rename_option(&d, 1, "bare", &problems));
+    assert_string_equal(d.file.scene.options[1].name, "thick");
+    ceduo_document_close(&d);
+    open_scene(&d);
+    assert_int_equal(d.file.observations[1].option, 1);
     ceduo_document_close(&d);
     ceduo_problems_free(&problems);
 }
@@ -801,6 +851,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(undo_and_redo, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(an_option_takes_along_what_names_it, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(a_changed_value_of_another_file_has_no_source, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, folder_tear_down),
