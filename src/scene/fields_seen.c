@@ -17,7 +17,7 @@
         TEXT("only", NAMED(N_("only"), NULL), AT(seen_values, only), UNFLOWN,                                              \
              N_("only those of its rows that have this in another column, such as block=1"))
 #define MEAN_SEEN                                                                                                          \
-    NUMBER("mean", NAMED(N_("mean"), NULL), AT(seen_values, mean), "", -1e9, 1e9, UNFLOWN, NULL,                           \
+    NUMBER("mean", NAMED(N_("mean"), NULL), AT(seen_values, mean), "", 0, 1e9, UNFLOWN, NULL,                           \
            N_("instead of values: their mean")),                                                                           \
         NUMBER("sd", NAMED(N_("standard deviation"), NULL), AT(seen_values, sd), "", 0, 1e9, UNFLOWN, NULL,                \
                N_("their standard deviation")),                                                                            \

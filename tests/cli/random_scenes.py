@@ -10,6 +10,8 @@ import math
 import random
 import re
 
+import random_observed
+
 # ---- the table ----
 
 ROW = re.compile(r"(\S+)\s+((?:\d+ )?\S+)\s+(\S+)\s+((?:>=? )?\S+)\s+(\S+)\s+(.*)")
@@ -118,7 +120,7 @@ NAMES = ["road", "Straße 7", "house, \"old\"", "l'orto", "a; b", "x: y # z", "%
          "word" * 30, " ", "null", "1e3", "[0]", "=SUM(A1)"]
 SOURCES = ["measured", "literature", "assumed", "calibrated"]
 
-# What stands beside a scene and changes no figure of a run: tests of their own draw it.
+# What stands beside a scene and changes no figure of a run: it is drawn apart, random_observed.py, or by tests of their own.
 BESIDE_KEYS = ("observed", "rules")
 BESIDE = ("observed[]", "rules.", "forest[].stand.doubt[]")
 
@@ -620,6 +622,7 @@ class Maker:
         if self.chance(0.08):
             self.spoil()
         self.orders()
+        random_observed.draw(case)
         for file in case.files:
             if isinstance(case.files[file], dict):
                 case.files[file] = yaml(case.files[file])

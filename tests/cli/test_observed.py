@@ -56,6 +56,8 @@ def test_kinds():
     refused("give values, or their mean, sd and n", [{"speed": {"x_m": 50}}])
     refused("a mean needs sd and n too", [{"speed": {"x_m": 50, "mean": 3}}])
     refused("values and their mean together; keep one", [{"speed": {"x_m": 50, "values": [3], **mean}}])
+    refused("observed[0].speed.mean: -3 is below 0", [{"speed": {"x_m": 50, "mean": -3, "sd": 1, "n": 2}}])
+    refused("observed[0].largest.height_m.mean: -1 is below 0", [{"largest": {"height_m": {"mean": -1, "sd": 1, "n": 2}}}])
     refused("observed[0].speed.n: 0 is below 1", [{"speed": {"x_m": 50, "mean": 3, "sd": 1, "n": 0}}])
     refused("observed[0].passed.of: 0 is below 1", [{"passed": {"x_m": 50, "count": 0, "of": 0}}])
     refused("observed[0].stops.x_m: the list is empty", [{"stops": {"x_m": []}}])

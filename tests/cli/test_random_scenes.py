@@ -780,6 +780,25 @@ def check_refusal(case, said):
     expect(any(case.key in line for line in said), f"{case.broken}, but no message names {case.key}:", *said)
 
 
+# ---- a fit to what was seen ----
+
+FIT = ("simulation.gravity_m_s2", 9, 10.5)  # a value that every scene has
+FIT_ROCKS, FIT_WORK = 20, 30                # a scene is simulated thousands of times: only where a rock is little work
+
+
+def check_fit(case, fit):
+    (p,) = fit["parameters"]
+    expect(FIT[1] <= p["best"] <= FIT[2], f"best: {p}")
+    expect_rising([FIT[1], p["p2_5"], p["p50"], p["p97_5"], FIT[2]], f"what is not refuted: {p}")
+    expect(len(fit["observations"]) >= len(case.scene["observed"]), f"{len(fit['observations'])} observations")
+    for o in fit["observations"]:
+        expect(o["p_value"] is None or 0 <= o["p_value"] <= 1, f"p: {o}")
+        expect(o["deviance"] is None or o["deviance"] >= -1e-9, f"deviance: {o}")
+        expect_rising([o["predicted_lo"], o["predicted_hi"]], f"predicted: {o}")
+        expect_rising([o["single_lo"], o["single_hi"]], f"single rocks: {o}")
+        expect(o["use"] in ("fit", "check") and o["n"] >= 0, o)
+
+
 # ---- a chunk of scenes ----
 
 class Chunk:
@@ -921,6 +940,20 @@ class Chunk:
             self.check(i, check_lines, done.out.splitlines(), width, f"--plot {kind} {' '.join(size + charset)}")
             self.count["pictures"] += 1
 
+    def fitted(self, i, result):
+        """A fit to what was seen: its JSON and its page hold together."""
+        case, work = self.cases[i], result["work"]
+        if (work["contacts"] + work["stems_drawn"]) > FIT_WORK * result["rocks"]:
+            return
+        order = ["--calibrate", f"{FIT[0]}={FIT[1]}:{FIT[2]}", "-n", FIT_ROCKS]
+        for done, _ in self.call(*order, "-f", "json", of={i}):
+            expect_equal(done.status, DONE, f"scene {i}: {done}")
+            self.check(i, check_fit, case, json.loads(done.out, parse_constant=no_constant))
+        for done, _ in self.call(*order, of={i}):
+            self.check(i, check_lines, done.out.splitlines(), 80, "the page of the fit")
+            self.check(i, expect_no_words, done.out, "the page of the fit")
+        self.count["fits"] += 1
+
     def in_years(self, i, plain):
         case = self.cases[i]
         orders = ["--years", case.years, "-n", min(case.rocks, 5)]
@@ -950,6 +983,8 @@ class Chunk:
                 self.in_pictures(i)
             if i in self.cases and self.cases[i].years:
                 self.in_years(i, results[i])
+            if i in self.cases and "observed" in self.cases[i].scene:
+                self.fitted(i, results[i])
 
     def work(self):
         """Raises what cannot be laid to one scene."""
@@ -1060,7 +1095,7 @@ def main():
     if SCENES >= 500:
         suite.check("every parameter and every word of the table stands in some scene", expect_covered, table, used, words)
     print(f"# of {count['scenes']} scenes {count['refused']} refused ({count['refused'] / count['scenes']:.0%}), "
-          f"{count['fewer rocks']} with fewer rocks, {count['unfinished']} with unfinished rocks; {count['pictures']} pictures, {count['years']} over years; "
+          f"{count['fewer rocks']} with fewer rocks, {count['unfinished']} with unfinished rocks; {count['pictures']} pictures, {count['years']} over years, {count['fits']} fits; "
           f"{len(ends)} ends of ranges; {CEDUO}")
     suite.end()
 
