@@ -206,7 +206,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 {
     struct ceduo_page page = {.width = 80};
     for (size_t s = 0; s < r->scenes_count; s++)
-        ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), r->files[s].scene.title);
+        ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(r->files[s].scene.title));
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_SECTION), _("Fitted to what was seen"));
     put_values(&page, r);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);

@@ -319,11 +319,11 @@ void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, boo
 {
     struct ceduo_page page = {.width = 80};
     if (!r->answer) {
-        ceduo_text_safe(text, r->file->scene.title);
+        ceduo_text_safe(text, ceduo_words_shipped(r->file->scene.title));
         ceduo_text_put(text, _("\nNothing in this scene is marked as assumed or named by 'doubt'; nothing was computed.\n"));
         return;
     }
-    ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), r->file->scene.title);
+    ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(r->file->scene.title));
     ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);

@@ -34,11 +34,11 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     if (!is_shown(report, note) || is_repeated(report->file->notes, note, &times))
         return;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_ITEM);
-    const char *place = note->path[0] ? note->path : _("the scene");
+    const char *said = ceduo_words_shipped(note->text), *place = note->path[0] ? note->path : _("the scene");
     if (times > 1)
-        ceduo_text_format(line, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), note->text, place, times - 1);
+        ceduo_text_format(line, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place, times - 1);
     else
-        ceduo_text_format(line, "%s (%s)", note->text, place);
+        ceduo_text_format(line, "%s (%s)", said, place);
 }
 
 /* A warning of the run; a gap before the first. */

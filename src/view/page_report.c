@@ -267,7 +267,7 @@ static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum l
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), scene->title);
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), ceduo_words_shipped(scene->title));
     if (controls)
         ceduo_page_answer(page, c);
     add_slope(page, c, least);

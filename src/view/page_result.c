@@ -313,7 +313,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
 {
     const struct ceduo_scene *scene = report->result->scene;
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
-    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), scene->title);
+    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(scene->title));
     ceduo_page_facts(&page, report);
     for (size_t i = 0; i < scene->options_count; i++)
         ceduo_page_option(&page, report, i);

@@ -94,7 +94,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
     if (sources.length > 0)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL), _("Sources: %s."), ceduo_text_string(&sources));
     if (rules->note)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name, ceduo_words_note(rules));
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name, ceduo_words_shipped(rules->note));
     else
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force."), rules->name);
     page->failed |= sources.failed;

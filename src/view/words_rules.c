@@ -1,26 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the law asks, in sentences. */
 #include <math.h>
-#include <string.h>
 
 #include "base/language.h"
 #include "words.h"
-
-/* Notes of the regions that come with the program; those of others stand as they are written. */
-static const char *const notes[] = {
-    N_("D.G.R. 1732 of 2018 has rules of its own"),
-    N_("at least half of the standards come from earlier cuts, evenly spread (art. 22); the turns are those of the regulation "
-       "before, 44/R of 2001"),
-    N_("R.R. 11 of 2012 changed art. 26 and 33; a simple coppice has at most two thirds of the minimum, above the maximum it is "
-       "one with large reserves (art. 23)")};
-
-const char *ceduo_words_note(const struct ceduo_regulation *rules)
-{
-    for (size_t i = 0; rules->note && i < sizeof notes / sizeof notes[0]; i++)
-        if (strcmp(notes[i], rules->note) == 0)
-            return _(notes[i]);
-    return rules->note;
-}
 
 __attribute__((format(printf, 4, 5))) static void say_format(ceduo_words_rule *say, void *context, bool met,
                                                              const char *format, ...)
@@ -81,7 +64,7 @@ void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_complia
     say_standards(belt, c, say, context);
     say_turn(belt, c, say, context);
     if (c->of->note)
-        say_format(say, context, true, _("%s: check the text in force; %s."), c->of->name, ceduo_words_note(c->of));
+        say_format(say, context, true, _("%s: check the text in force; %s."), c->of->name, ceduo_words_shipped(c->of->note));
     else
         say_format(say, context, true, _("%s: check the text in force."), c->of->name);
 }

@@ -101,6 +101,42 @@ def test_pages():
         expect(len(line) <= 80, line)
 
 
+def assumed(page):
+    """What a page lists as assumed, without the places."""
+    below = re.split(r"\n\* (?:Assumed, not measured|Ipotizzato, non misurato):\n", page)[1]
+    items = re.findall(r"^  (\S.*(?:\n    \S.*)*)", below.split("\n  The errors above")[0].split("\n  Gli errori qui sopra")[0], re.M)
+    return [re.sub(r" \([^()]*\)$", "", " ".join(item.split())) for item in items]
+
+
+def test_shipped():
+    """Titles and assumptions of all scenes and stands that come with the program are Italian; JSON has them as they are"""
+    with Folder() as f:
+        stands = sorted((PROFILES / "stands").glob("*.yaml"))
+        every = f.write("every.yaml", "ceduo: scene/1\ntitle: mine\nrock: {diameter_m: 0.5, source: {kind: assumed, text: made up here}}\n"
+                        "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\ncontrols_m: [75]\noptions:\n" +
+                        "".join(f"  - {{name: {p.stem}, forest: [{{from_m: 0, to_m: 60, stand: {p.stem}}}]}}\n" for p in stands))
+        for path in [*sorted((PROFILES / "scenes").glob("*.yaml")), every]:
+            english, italian = both("--batch", "--years", "0:1", "-n", 1, path)
+            mine = {"made up here"} if path == every else set()
+            found = [assumed(page) for page in (english, italian)]
+            expect_equal(set(found[0]) & set(found[1]), mine, path.name)
+            expect(len(found[0]) == len(found[1]) > 0, *found)
+            expect_equal(english.splitlines()[0] == italian.splitlines()[0], path == every, path.name)
+
+
+def test_shipped_title():
+    """The report and the page of doubt have a shipped title in Italian; JSON has it as it is"""
+    titles = "Test site of Ciabocco et al. 2009", "Sito di prova di Ciabocco et al. 2009"
+    with Folder() as f:
+        good("--report", f.path / "r.html", "-s", "doubt=none", "-n", 10, "--language", "it", PAPER)
+        report = (f.path / "r.html").read_text(encoding="utf-8")
+        expect_in(f"<title>{titles[1]}</title>", report)
+        expect_in(f"<h1>{titles[1]}</h1>", report)
+    for words, wanted in (((), 1), (("-f", "json"), 0)):
+        out = good("--sensitivity=2", "-n", 10, *words, "--language", "it", PAPER).out
+        expect_equal([title in out for title in titles], [wanted == 0, wanted == 1], words)
+
+
 def test_pictures():
     """Pictures have the same shape in both languages"""
     for what in ("profile", "energy", "height", "histogram", "adc", "stand", "compare"):
