@@ -89,6 +89,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->def = *def;
     run->def.threads = def->threads > 0 ? def->threads : 1;
     run->controls = def->scene->controls_count;
+    run->last_control = ceduo_scene_last_control(def->scene);
     run->exact = true;
     run->sized = def->scene->blocks_count > 0;
     if (run->sized && run->def.rocks_most > CEDUO_SIZED_ROCKS_MOST)
@@ -98,7 +99,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->columns = run->controls * (size_t)run->kept + 1;
     uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
-    run->varied_most = run->sized || run->controls == 0 ? 0 : VARIED_BYTES / (run->controls * VARIATES * sizeof(float));
+    run->varied_most = run->sized || run->controls == 0 ? 0 : VARIED_BYTES / (VARIATES * sizeof(float));
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
     if (!allocate(run) || (def->part && !begin_part(run))) {
         ceduo_run_free(run);
@@ -141,7 +142,7 @@ uint64_t ceduo_run_rocks(const struct ceduo_run *run)
 size_t ceduo_run_sample_bytes(const struct ceduo_run *run)
 {
     return (size_t)(run->room * run->columns + run->pairs_room * run->controls) * sizeof(double) +
-           (size_t)run->varied_room * run->controls * VARIATES * sizeof(float);
+           (size_t)run->varied_room * VARIATES * sizeof(float);
 }
 
 uint64_t ceduo_run_contacts(const struct ceduo_run *run)

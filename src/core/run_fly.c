@@ -13,7 +13,6 @@
 /* What a rock brings to a control. */
 struct arrival {
     double values[QUANTITIES], stems_hit; /* stems_hit < 0: it does not arrive */
-    double variates[VARIATES];            /* up to there, or to its end */
 };
 
 /* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
@@ -26,6 +25,7 @@ struct worker {
     struct block *block;
     uint64_t from, next, to;         /* rocks of the block: the first, the next to begin, behind the last */
     struct arrival *arrivals;        /* [control][CEDUO_BLOCK_ROCKS] */
+    double (*variates)[VARIATES];    /* of each rock, up to the last control or to its end */
     double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
     struct histogram *bins;
@@ -62,6 +62,11 @@ static bool is_shown(const struct ceduo_run *run, uint64_t rock)
     return !run->sized || ceduo_size_is_typical(&run->ready.sizes, run->ready.scene.simulation.seed, rock);
 }
 
+static void keep_variates(struct worker *w, const struct walker *walker)
+{
+    memcpy(w->variates[walker->number - w->from], walker->variates, sizeof *w->variates);
+}
+
 static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
 {
     struct worker *w = context;
@@ -79,7 +84,8 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     }
     struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
     *a = (struct arrival){.values = {speed, c->height, energy, translation}, .stems_hit = (double)c->stems_hit};
-    memcpy(a->variates, walker->variates, sizeof a->variates);
+    if (what == run->last_control)
+        keep_variates(w, walker);
     keep_sample(w, walker->number, what, a->values);
 }
 
@@ -91,9 +97,9 @@ static void note_missed(struct worker *w, const struct walker *walker, enum cedu
         size_t what = marks->at[m].what;
         if (what >= w->run->controls)
             continue;
-        struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
         w->block->controls[what].ended[end]++;
-        memcpy(a->variates, walker->variates, sizeof a->variates);
+        if (what == w->run->last_control)
+            keep_variates(w, walker);
     }
 }
 
@@ -198,6 +204,7 @@ static void clear_block(struct worker *w)
     size_t n = w->run->controls * CEDUO_BLOCK_ROCKS;
     for (size_t i = 0; i < n; i++)
         w->arrivals[i] = (struct arrival){.stems_hit = -1};
+    memset(w->variates, 0, CEDUO_BLOCK_ROCKS * sizeof *w->variates);
     for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
         w->stops[i] = NAN;
     memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
@@ -222,15 +229,15 @@ static void sum_arrivals(struct worker *w, size_t control)
 }
 
 /* What a rock brings, with its variates. */
-static void vary_arrival(struct variate_sums *to, const struct arrival *a, bool exceeds)
+static void vary_arrival(struct variate_sums *to, const struct arrival *a, const double x[VARIATES], bool exceeds)
 {
-    ceduo_variates_add_with(to->xy[VARIED_REACHED], 1, a->variates);
+    ceduo_variates_add_with(to->xy[VARIED_REACHED], 1, x);
     if (exceeds)
-        ceduo_variates_add_with(to->xy[VARIED_EXCEEDED], 1, a->variates);
-    ceduo_variates_add_with(to->xy[VARIED_SPEED], a->values[SPEED], a->variates);
-    ceduo_variates_add_with(to->xy[VARIED_HEIGHT], a->values[HEIGHT], a->variates);
-    ceduo_variates_add_with(to->xy[VARIED_ENERGY], a->values[ENERGY], a->variates);
-    ceduo_variates_add_with(to->xy[VARIED_TRANSLATION], a->values[TRANSLATION], a->variates);
+        ceduo_variates_add_with(to->xy[VARIED_EXCEEDED], 1, x);
+    ceduo_variates_add_with(to->xy[VARIED_SPEED], a->values[SPEED], x);
+    ceduo_variates_add_with(to->xy[VARIED_HEIGHT], a->values[HEIGHT], x);
+    ceduo_variates_add_with(to->xy[VARIED_ENERGY], a->values[ENERGY], x);
+    ceduo_variates_add_with(to->xy[VARIED_TRANSLATION], a->values[TRANSLATION], x);
 }
 
 static void sum_variates(struct worker *w, size_t control)
@@ -238,17 +245,24 @@ static void sum_variates(struct worker *w, size_t control)
     struct ceduo_run *run = w->run;
     struct variate_sums *to = &w->block->controls[control].varied;
     double accepted = run->ready.scene.controls[control].accepted;
-    uint64_t kept = varied_rocks(run, w->to);
     for (uint64_t i = 0; i < w->to - w->from; i++) {
         const struct arrival *a = &w->arrivals[control * CEDUO_BLOCK_ROCKS + i];
-        ceduo_variates_add(to, a->variates);
+        const double *x = w->variates[i];
+        ceduo_variates_add(to, x);
         if (a->stems_hit < 0)
-            ceduo_variates_add_with(to->xy[VARIED_ENDED + w->ends[i]], 1, a->variates);
+            ceduo_variates_add_with(to->xy[VARIED_ENDED + w->ends[i]], 1, x);
         else
-            vary_arrival(to, a, a->values[ENERGY] > accepted);
-        for (size_t v = 0; w->from + i < run->first + kept && v < VARIATES; v++)
-            varied_of(run, control, w->from + i)[v] = (float)a->variates[v];
+            vary_arrival(to, a, x, a->values[ENERGY] > accepted);
     }
+}
+
+/* For the errors of differences. */
+static void keep_single_variates(const struct worker *w)
+{
+    uint64_t behind = w->run->first + varied_rocks(w->run, w->to);
+    for (uint64_t rock = w->from; rock < w->to && rock < behind; rock++)
+        for (size_t v = 0; v < VARIATES; v++)
+            varied_of(w->run, rock)[v] = (float)w->variates[rock - w->from][v];
 }
 
 /* How the rocks of a block ended, by their weights. */
@@ -277,6 +291,7 @@ static void sum_block(struct worker *w)
         if (!w->run->sized)
             sum_variates(w, c);
     }
+    keep_single_variates(w);
     for (uint64_t i = 0; i < w->to - w->from; i++)
         if (!isnan(w->stops[i]))
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);
@@ -345,7 +360,8 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     *w = (struct worker){.run = run, .chunk = chunk};
     w->walkers = calloc(run->lanes, sizeof *w->walkers);
     w->arrivals = malloc((run->controls * CEDUO_BLOCK_ROCKS + 1) * sizeof *w->arrivals);
-    if (!w->walkers || !w->arrivals)
+    w->variates = malloc(CEDUO_BLOCK_ROCKS * sizeof *w->variates);
+    if (!w->walkers || !w->arrivals || !w->variates)
         return false;
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
@@ -366,6 +382,7 @@ static void worker_release(struct worker *w)
     free(w->stems);
     free(w->walkers);
     free(w->arrivals);
+    free(w->variates);
 }
 
 static void worker_merge(struct worker *w)

@@ -168,16 +168,15 @@ static void pack_single_variates(const struct ceduo_run *run, struct bytes *b, u
 {
     uint64_t last = end < run->varied_most ? end : run->varied_most;
     for (uint64_t r = first; r < last; r++)
-        for (size_t c = 0; c < run->controls; c++)
-            for (float *x = varied_of(run, c, r), *behind = x + VARIATES; x < behind; x += 2) {
-                uint32_t bits[2];
-                memcpy(bits, x, sizeof bits);
-                uint64_t word = bits[0] | (uint64_t)bits[1] << 32;
-                ceduo_bytes_count(b, &word);
-                bits[0] = (uint32_t)word;
-                bits[1] = (uint32_t)(word >> 32);
-                memcpy(x, bits, sizeof bits);
-            }
+        for (float *x = varied_of(run, r), *behind = x + VARIATES; x < behind; x += 2) {
+            uint32_t bits[2];
+            memcpy(bits, x, sizeof bits);
+            uint64_t word = bits[0] | (uint64_t)bits[1] << 32;
+            ceduo_bytes_count(b, &word);
+            bits[0] = (uint32_t)word;
+            bits[1] = (uint32_t)(word >> 32);
+            memcpy(x, bits, sizeof bits);
+        }
 }
 
 /* The samples of rocks first…end - 1, or the histograms, in `bins`. `reached[control]`, then the stops: how many there

@@ -274,7 +274,7 @@ static void beyond_variates(const struct ceduo_run *run, const struct paired_run
                             double to[PAIRED])
 {
     double e = paired_energy(run, control, rock);
-    const float *x = varied_of(run, control, rock);
+    const float *x = varied_of(run, rock);
     to[PAIRED_REACH] = !isnan(e);
     to[PAIRED_EXCEED] = e > run->ready.scene.controls[control].accepted;
     to[PAIRED_ENERGY] = isnan(e) ? 0 : e;
@@ -363,6 +363,21 @@ uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *m
 
 /* ---- ends, envelopes, energies ---- */
 
+/* Shares of the whole profile that agree with those at the last control: of the rocks that arrive there, as many end in each way
+ * as were counted. */
+static void adjust_ends(const struct ceduo_run *run, double share[CEDUO_ENDS], const uint64_t count[CEDUO_ENDS])
+{
+    if (run->controls == 0 || run->rocks == 0)
+        return;
+    struct adjusted a;
+    struct sums s = ceduo_run_sums_at(run, run->last_control);
+    if (!ceduo_run_adjust(run, &s, &a))
+        return;
+    double each = ceduo_run_adjusted_share(&a, VARIED_REACHED) / (double)s.of[SPEED].n;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        share[e] = ceduo_run_adjusted_share(&a, VARIED_ENDED + e) + each * (double)(count[e] - s.ended[e]);
+}
+
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)
 {
     *ends = (struct ceduo_ends){.stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
@@ -375,6 +390,7 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
         ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
         ends->share[e] = (double)ends->count[e] / (double)run->rocks;
     }
+    adjust_ends(run, ends->share, ends->count);
     if (run->sized && run->rocks > 0 && ceduo_run_sized_ends(run, ends) != CEDUO_OK)
         return CEDUO_NO_MEMORY;
     ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);

@@ -168,7 +168,7 @@ static bool grow_varied(struct ceduo_run *run, uint64_t rocks)
     if (wanted <= run->varied_room)
         return true;
     room = room < wanted ? wanted : room > all ? all : room;
-    float *grown = realloc(run->varied, (size_t)room * run->controls * VARIATES * sizeof *grown);
+    float *grown = realloc(run->varied, (size_t)room * VARIATES * sizeof *grown);
     if (!grown)
         return false;
     run->varied = grown;

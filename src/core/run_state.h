@@ -52,7 +52,7 @@ struct ceduo_run {
     struct wide_ground *wide;
     wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
     size_t lanes;            /* rocks that a thread simulates at once */
-    size_t controls;
+    size_t controls, last_control;
     int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
     size_t columns;        /* of samples: controls times kept, and the stops */
     uint64_t rocks;        /* done; of a part: with those before it */
@@ -75,7 +75,7 @@ struct ceduo_run {
     double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
     uint64_t varied_most;  /* of so many rocks the variates are kept, for the errors of differences, */
     uint64_t varied_room;
-    float *varied;         /* [rock][control][VARIATES] */
+    float *varied;         /* [rock][VARIATES] */
     struct histogram *bins; /* [control][quantity], then one of the stops */
     struct envelope_cell *cells;
 };
@@ -97,9 +97,9 @@ static inline struct histogram *bins_of(struct histogram *bins, const struct ced
 }
 
 /* The variates of a rock, of those that are kept. */
-static inline float *varied_of(const struct ceduo_run *run, size_t control, uint64_t rock)
+static inline float *varied_of(const struct ceduo_run *run, uint64_t rock)
 {
-    return &run->varied[((size_t)(rock - run->first) * run->controls + control) * VARIATES];
+    return &run->varied[(size_t)(rock - run->first) * VARIATES];
 }
 
 /* How many of the first `rocks` rocks have them kept, without those before a part. */

@@ -261,6 +261,42 @@ static void figures_fit_together(void **state)
         }
 }
 
+/* One weight a rock for all controls and ends: no more rocks arrive farther down, none is stopped before a control and not on the
+ * whole profile. */
+static void controls_and_ends_agree(void **state)
+{
+    (void)state;
+    init();
+    struct ceduo_control controls[] = {site.control, site.control, site.control, site.control};
+    const double x[] = {100, 30, 135, 134.5};
+    static const int order[] = {1, 0, 3, 2}; /* down the slope */
+    for (size_t i = 0; i < 4; i++)
+        controls[i].x = x[i];
+    site.scene.controls = controls;
+    site.scene.controls_count = 4;
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        site.scene.simulation.seed = seed << 20;
+        struct ceduo_run *run = fly(&site, &site.option, 1000, false);
+        struct ceduo_arrivals a[4];
+        struct ceduo_ends ends;
+        double all = 0;
+        assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+        for (size_t i = 0; i < 4; i++) {
+            assert_int_equal(ceduo_run_arrivals(run, i, &a[i]), CEDUO_OK);
+            assert_true(a[i].adjusted);
+        }
+        for (size_t i = 1; i < 4; i++)
+            EXPECT(a[order[i]].reach_probability, <=, a[order[i - 1]].reach_probability + 1e-12);
+        for (int e = 0; e < CEDUO_ENDS; e++) {
+            for (size_t i = 0; i < 4; i++)
+                EXPECT(a[i].missed[e], <=, ends.share[e] + 1e-12);
+            all += ends.share[e];
+        }
+        EXPECT_NEAR(all, 1, 1e-12);
+        ceduo_run_free(run);
+    }
+}
+
 /* Of few rocks, or few that arrive, figures are as counted; and on a smooth slope, where nothing varies. */
 static void few_rocks_are_counted(void **state)
 {
@@ -341,6 +377,7 @@ int main(void)
         cmocka_unit_test(variates_have_no_mean),
         cmocka_unit_test(intervals_hold_what_is_true),
         cmocka_unit_test(figures_fit_together),
+        cmocka_unit_test(controls_and_ends_agree),
         cmocka_unit_test(few_rocks_are_counted),
         cmocka_unit_test(differences_are_those_of_the_figures),
         cmocka_unit_test(all_ways_give_the_same),
