@@ -54,6 +54,14 @@ void ceduo_text_put(struct text *text, const char *string)
     ceduo_text_add(text, string, strlen(string));
 }
 
+void ceduo_text_quoted(struct text *text, const char *string)
+{
+    ceduo_text_char(text, '\'');
+    for (const char *c = string; *c; c++)
+        ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1);
+    ceduo_text_char(text, '\'');
+}
+
 void ceduo_text_char(struct text *text, char c)
 {
     ceduo_text_add(text, &c, 1);

@@ -21,6 +21,8 @@ bool ceduo_text_lost(void);
 
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);
+/* In quotes, as a shell reads it. */
+void ceduo_text_quoted(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);
 void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));

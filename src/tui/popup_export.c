@@ -19,10 +19,8 @@ static void put_command(struct app *app, struct text *text, const char *how)
     struct document *d = &app->document;
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
     uint64_t rocks = shown ? shown->released : d->file.scene.simulation.rocks;
-    ceduo_text_format(text, "ceduo %s -n %llu '", how, (unsigned long long)rocks);
-    for (const char *c = d->path ? d->path : "scene.yaml"; *c; c++)
-        ceduo_text_add(text, *c == '\'' ? "'\\''" : c, *c == '\'' ? 4 : 1); /* as a shell reads it */
-    ceduo_text_char(text, '\'');
+    ceduo_text_format(text, "ceduo %s -n %llu ", how, (unsigned long long)rocks);
+    ceduo_text_quoted(text, d->path ? d->path : "scene.yaml");
 }
 
 /* More rocks may fall while it is read. */

@@ -173,10 +173,29 @@ static struct ceduo_calibration_report report_of(const struct fit *f)
                                              .answer = &f->answer};
 }
 
+/* What Enter does not keep, and the command that writes it. */
+static void say_draws(const struct fit *f, struct text *text)
+{
+    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    ceduo_text_put(text, _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
+                           "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
+                           "FITTED.yaml, which reads them:\n"));
+    ceduo_text_put(text, "  ceduo");
+    for (size_t i = 0; i < f->wish.n; i++) {
+        struct text value = {0};
+        ceduo_text_format(&value, "%s=%s:%s", f->wish.paths[i], ceduo_number_shortest(f->wish.lo[i], lo),
+                          ceduo_number_shortest(f->wish.hi[i], hi));
+        ceduo_text_put(text, " --calibrate ");
+        ceduo_text_quoted(text, ceduo_text_string(&value));
+        ceduo_text_free(&value);
+    }
+    ceduo_text_format(text, " -n %llu -o FITTED.yaml SCENE.yaml\n", (unsigned long long)f->wish.rocks);
+}
+
 static void say_fit(const struct fit *f, struct text *text, int width)
 {
     const struct ceduo_calibration_report r = report_of(f);
-    ceduo_text_put(text, _("Fitted. Enter takes these values into the scene, Esc leaves it as it is.\n"));
+    ceduo_text_put(text, _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it.\n"));
     for (size_t i = 0; i < f->wish.n; i++) {
         const struct ceduo_fitted *one = &f->answer.parameters[i];
         ceduo_text_put(text, "  ");
@@ -193,6 +212,8 @@ static void say_fit(const struct fit *f, struct text *text, int width)
     ceduo_text_char(text, '\n');
     put_rows(text, &f->file, f->answer.predicted, width);
     ceduo_calibration_words(text, &r, (size_t)width);
+    ceduo_text_char(text, '\n');
+    say_draws(f, text);
 }
 
 static void say_nothing_seen(struct text *text)
@@ -285,7 +306,7 @@ static void take(struct app *app)
     const struct fit_values values = {f->wish.n, f->inputs, f->wish.fields, best, ceduo_text_string(&source), NULL};
     bool good = !source.failed && ceduo_keep_fit(&app->document, &values, &app->problems);
     if (ceduo_app_edited(app, good))
-        ceduo_app_say(app, "%s", _("the fitted values are the scene's now; u takes them back"));
+        ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
     ceduo_text_free(&source);
 }
 

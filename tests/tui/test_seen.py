@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, check_good  # noqa: E402
-from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
+from harness import expect, expect_equal, expect_in, good, run_all  # noqa: E402
 
 # Rocks leave a cliff and fly; all do the same. At x = 20 they have flown 20 / v seconds.
 FLIGHT = """\
@@ -103,6 +103,11 @@ def test_fit_taken():
             "key 8\nwait idle\nkey c\ndump\nkey Enter\nwait idle\ndump\nresize 200 50\ndump\nkey Enter\nwait idle\ndump\n"
             "key s\nwait idle\ndump\nkey u\nwait idle\ndump", "flight.yaml")
         text = place.text("flight.yaml")
+        command = re.search(r"ceduo (--calibrate '(.*?)' -n 100 -o FITTED.yaml) SCENE.yaml", " ".join(large.body.split()))
+        expect(command, "the command that writes the draws", large)
+        expect_equal(command[2], "release.vx_m_s=5:15")
+        good(*command[1].replace("'", "").split(), "flight.yaml", cwd=place.path)
+        expect(len(place.text("FITTED.draws.csv").splitlines()) > 100, "draws")
     expect_in("speed along, m/s", popup.popup)
     expect_in("5:15", popup.popup)
     slope = 1.96 * 0.5 / math.sqrt(5) / 1.30  # of the speed at the gate along v at 10 m/s: (v - (20 g)² / v³) / 22
@@ -111,7 +116,8 @@ def test_fit_taken():
         expect(abs(speed_at_gate(best) - 22) < 0.15 and abs(lo - 10.02 + slope) < 0.1 and abs(hi - 10.02 - slope) < 0.1, screen)
         says(screen, "Fitted. Enter takes these values", "The fit does not hold for what was to check it: too slow.")
     says(large, "The model can give all that it was fitted to.", "a hundred metres beside it may be another.")
-    expect_in("u takes them back", taken.note)
+    says(large, "It does not keep all that fits as well, the draws.", "-n 100 -o FITTED.yaml SCENE.yaml")
+    expect_in("the scene has the values and their ranges, not the draws; u takes them back", taken.note)
     expect("*" in taken.title and "*" not in saved.title, "a star while it is unsaved", taken, saved)
     value = re.search(r"vx_m_s: *([\d.]+)", text)
     expect(value and abs(speed_at_gate(float(value.group(1))) - 22) < 0.05, "the value in the file", text)

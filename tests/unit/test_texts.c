@@ -204,9 +204,19 @@ static void an_arena_says_that_it_is_full(void **state)
     ceduo_arena_free(&arena);
 }
 
+static void quotes_for_a_shell(void **state)
+{
+    (void)state;
+    struct text text = {0};
+    ceduo_text_quoted(&text, "l'orto $x");
+    assert_string_equal(ceduo_text_string(&text), "'l'\\''orto $x'");
+    ceduo_text_free(&text);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(quotes_for_a_shell),
         cmocka_unit_test(utf8_is_decoded),
         cmocka_unit_test(no_character_does_anything),
         cmocka_unit_test(numbers_are_short),
