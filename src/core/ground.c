@@ -161,12 +161,11 @@ static bool build_levels(struct ground *g, double margin)
 
 static bool allocate_segments(struct ground *g)
 {
-    size_t bytes = (g->n + 2) * sizeof *g->segments;
-    struct ground_segment *room = aligned_alloc(sizeof *room, bytes);
+    struct ground_segment *room = aligned_alloc(sizeof *room, (g->n + 3) * sizeof *room);
     if (!room)
         return false;
     memset(room, 0, sizeof *room);
-    memset(room + g->n + 1, 0, sizeof *room);
+    memset(room + g->n + 1, 0, 2 * sizeof *room);
     g->segments = room + 1;
     return true;
 }

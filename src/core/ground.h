@@ -38,7 +38,7 @@ struct ground_block {
 struct ground {
     size_t n; /* segments */
     double *x, *z, *along; /* n + 1; along: metres of ground from the first vertex */
-    struct ground_segment *segments; /* n; with an empty one before and one behind */
+    struct ground_segment *segments; /* n; with an empty one before and two behind, which lanes beyond a wall read */
     const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
     enum ceduo_facets facets;
     bool rn_varies, rt_varies, theta_varies; /* from rock to rock */

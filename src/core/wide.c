@@ -51,10 +51,10 @@ struct wide_ground *ceduo_wide_ground_create(const struct ground *g)
     set_places(wide, g);
     const struct ground_segment *before = g->segments - 1;
     set_table(&wide->place, wide->room, 0, entries);
-    set_table(&wide->slope, &before->m, SEGMENT_SHIFT, g->n + 2);
-    set_table(&wide->tilt, &before->c, SEGMENT_SHIFT, g->n + 2);
-    set_table(&wide->share, &before->rn, SEGMENT_SHIFT, g->n + 2);
-    set_table(&wide->grip, &before->mu, SEGMENT_SHIFT, g->n + 2);
+    set_table(&wide->slope, &before->m, SEGMENT_SHIFT, entries);
+    set_table(&wide->tilt, &before->c, SEGMENT_SHIFT, entries);
+    set_table(&wide->share, &before->rn, SEGMENT_SHIFT, entries);
+    set_table(&wide->grip, &before->mu, SEGMENT_SHIFT, entries);
     return wide;
 }
 
