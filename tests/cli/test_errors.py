@@ -63,12 +63,12 @@ def expect_small(done, size):
 
 # ---- the table ----
 
-def rows():
+def rows(page="man/ceduo.1", head="DIAGNOSTICS"):
     """The messages of the manual's table, as they are printed: {message: section}."""
     found, section, inside = {}, "", False
-    for line in (ROOT / "man/ceduo.1").read_text().splitlines():
+    for line in (ROOT / page).read_text(encoding="utf-8").splitlines():
         if line.startswith(".Sh "):
-            inside = line == ".Sh DIAGNOSTICS"
+            inside = line == f".Sh {head}"
         elif inside and line.startswith(".Ss "):
             section = line[4:].strip('"')
         elif inside and line.startswith(".It "):
@@ -526,8 +526,8 @@ CASES = {
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
     # Parts of a run
     "'mine.yaml' has 8 shards; these are missing: 3, 5-7": Elsewhere("tests/cli/test_shard.py", "def test_missing"),
-    "a part by version 0.1.0, and this is 0.3.0; ...": Elsewhere("tests/cli/test_shard.py", "def test_version"),
-    "a part in a format that this version (0.3.0) does not know": Elsewhere("tests/cli/test_shard.py", "def test_version"),
+    "the part is from version 0.1.0, but this is 0.3.0; ...": Elsewhere("tests/cli/test_shard.py", "def test_version"),
+    "the part has a format that this version (0.3.0) cannot read": Elsewhere("tests/cli/test_shard.py", "def test_version"),
     "the part is incomplete; compute this shard again": Elsewhere("tests/cli/test_shard.py", "def test_cut"),
     "the part was changed after it was written; compute this shard again": Elsewhere("tests/cli/test_shard.py", "def test_edited"),
     "contains no part": Elsewhere("tests/cli/test_shard.py", "def test_no_parts"),
@@ -558,6 +558,45 @@ def test_table_whole():
     wanted = set(rows())
     expect_equal(sorted(wanted - set(CASES)), [], "rows without a case")
     expect_equal(sorted(set(CASES) - wanted), [], "cases without a row")
+
+
+def said_in_italian():
+    """The pieces of each Italian message, between what printf fills in."""
+    text = re.sub(r'"\n"', "", (ROOT / "src/po/it.po").read_text(encoding="utf-8"))
+    messages = re.findall(r'^msgstr(?:\[\d\])? "(.*)"$', text, re.M)
+    plain = (m.replace('\\"', '"').replace("\\\\", "\\").replace("%%", "%") for m in messages)
+    split = (re.split(r"%[-+#0]*[\d.*]*(?:ll|l|z)?[a-zA-Z]", m) for m in plain)
+    return [pieces for pieces in split if max(map(len, pieces)) >= 4]
+
+
+def is_said(row, pieces):
+    """Whether a message with these pieces prints the row, perhaps behind its place and before a word of the file."""
+    text = re.sub(r" \(stato [^)]*\)$", "", row)
+    return all(piece in text for piece in pieces) and re.fullmatch(
+        r"(\S+: )?" + ".+".join(map(re.escape, pieces)) + r"(: \S+)?", text) is not None
+
+
+def begins(text, pieces):
+    """Whether the pieces stand in the text one after the other, though it may end within one of them."""
+    at = 0
+    for piece in pieces:
+        found = text.find(piece, at)
+        if found < 0:
+            return any(text.endswith(piece[:n]) for n in range(min(len(piece), len(text) - at), 0 if at else 3, -1))
+        at = found + len(piece)
+    return True
+
+
+def test_table_italian():
+    """The Italian page has a row for each of the English one, each with words that the program says in Italian"""
+    english, italian = rows(), rows("man/it/ceduo.1", "DIAGNOSTICA")
+    counts = [[list(table.values()).count(s) for s in dict.fromkeys(table.values())] for table in (english, italian)]
+    expect_equal(counts[1], counts[0], "rows of each section")
+    said = said_in_italian()
+    for row in italian:
+        begun = row.split("...")[0].strip()  # a row may end before its message does
+        known = any(begins(begun, p) if begun != row else is_said(row, p) for p in said)
+        expect(known or "No such file" in row or "No space" in row or "Permission denied" in row, f"nothing that is said: {row}")
 
 
 # ---- floods: a large file of one fault ----
@@ -632,7 +671,7 @@ def test_names_on_the_screen():
 
 def main():
     suite = Suite()
-    suite.run([test_table_whole, test_shared_fault, test_names_on_the_screen])
+    suite.run([test_table_whole, test_table_italian, test_shared_fault, test_names_on_the_screen])
     for what, text, csv_text, words in FLOODS:
         suite.check(f"{what}: {words}", flood, text, csv_text, words)
     for row, case in CASES.items():
