@@ -321,6 +321,13 @@ static void adjust_difference(const struct ceduo_run *run, const struct ceduo_ru
     }
 }
 
+/* Then flights to x differ from others of that kind in nothing. */
+static bool is_bare_before(const struct ceduo_run *run, double x)
+{
+    const struct wood *wood = &run->ready.wood;
+    return wood->bare || wood->belts == 0 || wood->along[0][0].from >= x;
+}
+
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control)
 {
@@ -342,7 +349,9 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
             .reach_probability = paired(((double)e->n - (double)f->n) / n, &p.reach, run->rocks),
             .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &p.exceed, run->rocks),
             .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &p.energy, run->rocks)};
-    if (alike)
+    double x = run->ready.scene.controls[control].x;
+    bool bare = is_bare_before(run, x) && is_bare_before(baseline, x);
+    if (alike && !bare)
         adjust_difference(run, baseline, control, &d);
     if (isnan(run->ready.scene.controls[control].accepted))
         d.exceed_probability = unknown;

@@ -41,6 +41,14 @@ bool ceduo_scene_rock_varies(const struct ceduo_scene *scene)
     return scene->blocks_count > 0 || ceduo_rock_varies(&scene->rock);
 }
 
+bool ceduo_option_is_bare_before(const struct ceduo_option *option, double x)
+{
+    for (size_t i = 0; i < option->belts_count; i++)
+        if (option->belts[i].from < x && !ceduo_stand_is_bare(&option->belts[i].stand))
+            return false;
+    return true;
+}
+
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene)
 {
     size_t last = 0;

@@ -197,7 +197,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c, en
         draw_years(page, v, &picture);
 }
 
-static void add_limits(struct ceduo_page *page, const struct ceduo_scene *scene)
+static void add_limits(struct ceduo_page *page, const struct ceduo_result *result)
 {
     static const char *const limits[] = {
         N_("Rocks move in one vertical plane: what leaves it to the side, and what lies beside it, is not seen."),
@@ -214,11 +214,14 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_scene *scene)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(limits[i]));
     ceduo_text_put(
         ceduo_page_add(page, CEDUO_PAGE_ITEM),
-        scene->blocks_count > 0
+        result->scene->blocks_count > 0
             ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
                 "foot can tell.")
             : _("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall "
                 "can tell."));
+    const char *adjusted = ceduo_words_adjusted(result);
+    if (adjusted)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), adjusted);
 }
 
 /* As it would stand in its file: with what the command line changed, and the names of other files. */
@@ -290,7 +293,7 @@ static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum l
     ceduo_page_notes(page, c->report);
     if (several)
         ceduo_page_stand_warnings(page, c->report->result, 0, scene->options_count);
-    add_limits(page, scene);
+    add_limits(page, c->report->result);
     say_left_out(page, c, least);
     add_origin(page, c);
 }

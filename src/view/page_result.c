@@ -322,6 +322,9 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(&page, report, c, c == 0);
     ceduo_page_notes(&page, report);
+    const char *adjusted = ceduo_words_adjusted(report->result);
+    if (adjusted)
+        ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_NOTE), adjusted);
     say_doubt(&page, report->file);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);

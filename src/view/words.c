@@ -327,3 +327,13 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
             ceduo_text_then(text, " ", _("Too close to call with so few rocks."));
     }
 }
+
+const char *ceduo_words_adjusted(const struct ceduo_result *r)
+{
+    bool adjusted = false;
+    for (size_t c = 0; c < r->scene->controls_count && r->bare.rocks > 0; c++)
+        adjusted |= r->bare.arrivals[c].adjusted;
+    return adjusted ? _("Shares and means are adjusted for what chance did to the rocks, so that they differ a little from the "
+                        "counts; --plain gives them as counted.")
+                    : NULL;
+}

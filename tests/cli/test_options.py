@@ -63,6 +63,8 @@ def test_no_stems_on_the_way():
             expect_bare(found["behind"]["controls"][0], f"{model}, a belt behind the control")
             behind = found["behind"]["controls"][1]["wooded"]
             expect(behind["contacts"]["mean"] > 1, "the belt behind the first control is met before the second", behind)
+            apart = [d for d in run["differences"] if d["option"] == "behind" and d["x_m"] == found["behind"]["controls"][0]["x_m"]]
+            expect_equal([d["reach_probability"] for d in apart], [{"mean": 0, "se": 0}], f"{model}: the same flights")
             for name in ("bare", "above"):
                 expect(same_run({**found[name], "stands": [], "summary": 0, "controls": 0},
                                 {**found["none"], "stands": [], "summary": 0, "controls": 0}), f"{model}, {name}: ends")
