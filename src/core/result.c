@@ -80,7 +80,8 @@ void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
 static void take_bare(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
                       struct ceduo_flown *wooded)
 {
-    for (size_t c = 0; c < scene->controls_count && bare->rocks == wooded->rocks; c++) {
+    bool alike = wooded->rocks > 0 && wooded->rocks == bare->rocks; /* of none nothing is read yet */
+    for (size_t c = 0; c < scene->controls_count && alike; c++) {
         struct ceduo_arrivals *a = &wooded->arrivals[c];
         if (!a->adjusted || a->contacts != 0 || !ceduo_option_is_bare_before(option, scene->controls[c].x))
             continue;
