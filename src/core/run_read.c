@@ -298,12 +298,11 @@ static void pair_beyond(const struct ceduo_run *run, const struct paired_run *a,
 
 /* Makes it the difference of adjusted figures, unless both are as counted. Where no variates of single rocks are kept, its error
  * stays that of the difference as counted, which is larger. */
-static void adjust_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control,
-                              struct ceduo_difference *d)
+static void adjust_difference(const struct ceduo_run *run, const struct sums *s, const struct ceduo_run *baseline,
+                              const struct sums *t, size_t control, struct ceduo_difference *d)
 {
     bool adjusted = false;
-    struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
-    struct paired_run a = read_paired(run, &s, &adjusted), b = read_paired(baseline, &t, &adjusted);
+    struct paired_run a = read_paired(run, s, &adjusted), b = read_paired(baseline, t, &adjusted);
     uint64_t rocks = paired_rocks(run), others = paired_rocks(baseline);
     rocks = varied_rocks(run, rocks < others ? rocks : others);
     if (!adjusted)
@@ -352,7 +351,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     double x = run->ready.scene.controls[control].x;
     bool bare = is_bare_before(run, x) && is_bare_before(baseline, x);
     if (alike && !bare)
-        adjust_difference(run, baseline, control, &d);
+        adjust_difference(run, &s, baseline, &t, control, &d);
     if (isnan(run->ready.scene.controls[control].accepted))
         d.exceed_probability = unknown;
     return d;
