@@ -69,6 +69,20 @@ static void squeeze(struct text *text)
         text->bytes[n] = '\0';
 }
 
+/* A text that begins at `column`; its other lines are indented. */
+static void put_wrapped(const struct printer *p, const char *string, size_t column, size_t indent)
+{
+    for (const char *at = string, *next; *at; at = next) {
+        size_t n = ceduo_utf8_wrap(at, p->width > column ? p->width - column : 1, &next);
+        if (at > string) {
+            ceduo_text_char(p->text, '\n');
+            put_blanks(p->text, indent);
+        }
+        ceduo_text_add(p->text, at, n);
+        column = indent;
+    }
+}
+
 static void put_paragraph(const struct printer *p, const struct ceduo_page_block *block)
 {
     size_t indent = styles[block->kind].indent, column;
@@ -82,15 +96,7 @@ static void put_paragraph(const struct printer *p, const struct ceduo_page_block
         ceduo_text_char(p->text, '\n');
     ceduo_text_put(p->text, ceduo_text_string(&first));
     column = ceduo_utf8_width(ceduo_text_string(&first));
-    for (const char *at = ceduo_text_string(&rest), *next; *at; at = next) {
-        size_t n = ceduo_utf8_wrap(at, p->width > column ? p->width - column : 1, &next);
-        if (at > rest.bytes) {
-            ceduo_text_char(p->text, '\n');
-            put_blanks(p->text, indent);
-        }
-        ceduo_text_add(p->text, at, n);
-        column = indent;
-    }
+    put_wrapped(p, ceduo_text_string(&rest), column, indent);
     ceduo_text_char(p->text, '\n');
     ceduo_text_free(&first);
     ceduo_text_free(&rest);
@@ -217,7 +223,7 @@ static void put_cell(const struct printer *p, const struct ceduo_page_column *co
     put_blanks(p->text, (size_t)column->gap);
     ceduo_page_write_cell(&text, cell, (size_t)abs(width), p->plain);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
-        ceduo_text_put(p->text, ceduo_text_string(&text));
+        put_wrapped(p, ceduo_text_string(&text), (size_t)column->gap, (size_t)column->gap);
         ceduo_text_char(p->text, '\n');
         put_blanks(p->text, (size_t)(column->gap + width));
     } else {

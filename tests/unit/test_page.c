@@ -69,10 +69,12 @@ static struct ceduo_page table(void)
     add_row(&page, "0\xe2\x80\x93""20", "oak", 12.34);
     add_row(&page, "1000\xe2\x80\x93""2000", "hornbeam", 1234567);
     add_row(&page, "5", "\xe6\xa3\xae\xe6\x9e\x97", 0.00001234);
+    add_row(&page, "by the brook, below the seven beeches with the shrine", "ash", 1);
     return page;
 }
 
-/* A cell that is too long is cut or goes on below; a number has as many digits as have room; a wide sign takes two columns. */
+/* A cell that is too long is cut, or the row goes on below it, and what is wider than the page is wrapped; a number has as
+ * many digits as have room; a wide sign takes two columns. */
 static void cells_stand_below_one_another(void **state)
 {
     (void)state;
@@ -82,7 +84,10 @@ static void cells_stand_below_one_another(void **state)
                 " 0\xe2\x80\x93""20  oak    12.3 yes 12.3\xc2\xb1""1.3\n"
                 " 1000\xe2\x80\x93""2000\n"
                 "       horn\xe2\x80\xa6   1e6 yes  (1\xc2\xb1""1)e6\n"
-                " 5     \xe6\xa3\xae\xe6\x9e\x97   1e-5 yes (1\xc2\xb1""1)e-5\n");
+                " 5     \xe6\xa3\xae\xe6\x9e\x97   1e-5 yes (1\xc2\xb1""1)e-5\n"
+                " by the brook, below the seven beeches\n"
+                " with the shrine\n"
+                "       ash    1.00 yes  1.0\xc2\xb1""0.1\n");
 }
 
 /* A number too small to have a power of ten of its own is 0, not inf. */
