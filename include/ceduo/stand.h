@@ -124,7 +124,6 @@ bool ceduo_stems_are_grouped(const struct ceduo_stems *stems);
 struct ceduo_species {
     const char *name;   /* as files write it: ostrya-carpinifolia */
     const char *common; /* hop hornbeam */
-    bool has_volume;
     double b0, b1, b2;
     double h_lo, h_hi, d_lo, d_hi; /* m, cm */
     double u;                      /* J/m3: Table 4 of Ciabocco et al. 2009, or its beech value */

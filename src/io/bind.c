@@ -336,6 +336,19 @@ void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problem
     return p;
 }
 
+void *ceduo_bind_room(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size,
+                      struct problems *problems)
+{
+    if (n + more <= *room)
+        return items;
+    size_t all = 2 * n + more;
+    void *grown = ceduo_bind_take(arena, all, size, problems);
+    if (grown && n > 0)
+        memcpy(grown, items, n * size);
+    *room = grown ? all : *room;
+    return grown;
+}
+
 /* Sets a list of `item`: the pointer, and the count beside it. */
 static void put_list(const struct field *f, void *item, void *items, size_t n)
 {

@@ -25,6 +25,10 @@ void ceduo_bind(struct arena *arena, const struct object *object, const struct n
 /* Room for n + 1 items in the arena. NULL without memory, which is told. */
 void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems);
 
+/* A list of n items with room for `more`; `*room` is how many it holds. NULL without memory, which is told. */
+void *ceduo_bind_room(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size,
+                      struct problems *problems);
+
 /* Reports a problem at a node, with the path of the value within its file. */
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -125,6 +125,14 @@ size_t ceduo_csv_lines(const struct csv *csv)
     return n;
 }
 
+bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_span *field)
+{
+    if (!next_field(left, csv->separator, field))
+        return false;
+    *field = trim(*field);
+    return true;
+}
+
 bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *field)
 {
     struct csv_span left = csv->line;

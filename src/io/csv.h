@@ -43,6 +43,9 @@ bool ceduo_csv_next(struct csv *csv);
 /* How many lines the file has at the most. */
 size_t ceduo_csv_lines(const struct csv *csv);
 
+/* The first field of what is left of a row or of the header, which it takes off; false where nothing is left. */
+bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_span *field);
+
 /* A field of the present row, without blanks and quotes around it; false where the row has fewer. */
 bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *field);
 

@@ -7,8 +7,7 @@
 
 static bool is_single(const struct deriver *d)
 {
-    const struct node *blocks = ceduo_node_get(d->root, "blocks");
-    return blocks && blocks->kind == NODE_MAP;
+    return ceduo_node_get(d->root, "blocks")->kind == NODE_MAP;
 }
 
 static const char *path_of(struct deriver *d, size_t i, const char *key)
@@ -19,8 +18,6 @@ static const char *path_of(struct deriver *d, size_t i, const char *key)
 static bool check_volumes(struct deriver *d, const struct ceduo_block_class *b, size_t i)
 {
     const char *path = path_of(d, i, "volume_m3");
-    if (!ceduo_derive_sound(d, path))
-        return false;
     if (b->volumes_count != 2) {
         ceduo_derive_complain(d, path, _("expected two volumes, the smallest and the largest: [lo, hi]"));
         return false;
@@ -59,10 +56,10 @@ static void check_others(struct deriver *d)
 {
     if (ceduo_node_get(d->root, "rocks_per_year"))
         ceduo_derive_complain(d, "rocks_per_year", _("blocks already say this; keep one of the two"));
-    if (is_single(d) && !ceduo_derive_given(d, "blocks", "exponent") && ceduo_derive_known(d, "blocks"))
+    if (is_single(d) && !ceduo_derive_given(d, "blocks", "exponent"))
         ceduo_derive_complain(d, "blocks",
                               _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
-    if (d->draft.scene.simulation.rocks > CEDUO_SIZED_ROCKS_MOST && ceduo_derive_sound(d, "simulation.rocks"))
+    if (d->draft.scene.simulation.rocks > CEDUO_SIZED_ROCKS_MOST)
         ceduo_derive_refuse(d, "simulation.rocks", "", _("with blocks each rock is kept: at most %s rocks"),
                             CEDUO_SIZED_ROCKS_MOST, 0);
 }

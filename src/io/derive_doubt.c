@@ -23,9 +23,17 @@ struct places {
     size_t n, room;
 };
 
+/* For so many more. False without memory. */
+static bool make_room(struct places *p, size_t more)
+{
+    const char **items = ceduo_bind_room(p->d->arena, p->items, p->n, more, &p->room, sizeof *items, p->d->problems);
+    p->items = items ? items : p->items;
+    return items != NULL;
+}
+
 static void add_place(struct places *p, const char *path)
 {
-    if (p->n < p->room)
+    if (make_room(p, 1))
         p->items[p->n++] = ceduo_derive_text(p->d, "%s", path);
 }
 
@@ -35,23 +43,21 @@ static const struct node *list_at(const struct node *root, const char *path)
     const char *within;
     size_t used;
     const struct node *node = ceduo_resolve_walk(root, path, &within, &used);
-    return node && path[used] == '\0' && node->kind == NODE_LIST ? node : NULL;
+    return path[used] == '\0' && node->kind == NODE_LIST ? node : NULL;
 }
 
-/* The path, with every [*] replaced by each item in turn. False where there is no such list. */
-static bool add_all(struct places *p, const char *path)
+/* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. */
+static void add_all(struct places *p, const char *path)
 {
     const char *star = strstr(path, "[*]");
     if (!star) {
         add_place(p, path);
-        return true;
+        return;
     }
     const char *before = ceduo_derive_text(p->d, "%.*s", (int)(star - path), path);
     const struct node *list = list_at(p->d->root, before);
     for (size_t i = 0; list && i < list->n; i++)
-        if (!add_all(p, ceduo_derive_text(p->d, "%s[%zu]%s", before, i, star + 3)))
-            return false;
-    return list != NULL;
+        add_all(p, ceduo_derive_text(p->d, "%s[%zu]%s", before, i, star + 3));
 }
 
 #define GROUND "slope.materials["
@@ -71,7 +77,7 @@ static const char *ground_of(struct deriver *d, const char *path, const char **k
 static bool add_ground(struct places *p, const char *path)
 {
     const char *key, *name = ground_of(p->d, path, &key);
-    if (name)
+    if (name && make_room(p, p->d->draft.scene.slope.vertices))
         p->n = ceduo_input_ground(p->d->arena, p->d->root, &p->d->draft.scene, name, key, p->items);
     return name != NULL;
 }
@@ -92,38 +98,37 @@ static const struct field *row_of(struct deriver *d, const char *path)
 
 static bool is_number_or_word(const struct field *f)
 {
-    return f && !(f->flags & (FIELD_NOWHERE | FIELD_DRAFT)) &&
-           (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_SPREADS || f->type == FIELD_COUNT ||
-            f->type == FIELD_CHOICE || f->type == FIELD_NUMBERS || f->type == FIELD_POINTS);
+    return f && (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
+}
+
+/* Only those of its places that the scene has. */
+static void keep_there(struct places *p)
+{
+    struct value v;
+    size_t there = 0;
+    for (size_t i = 0; i < p->n; i++)
+        if (ceduo_value_find(&p->d->draft.scene, p->items[i], &v))
+            p->items[there++] = p->items[i];
+    p->n = there;
 }
 
 /* All places of a path, which are one kind of value: that is returned. NULL where there are none: the path may be of
  * something that this scene has not, as a stand that was exchanged; if it is of nothing at all, that is told. */
 static const struct field *find_places(struct deriver *d, const struct said *said, struct places *p)
 {
-    const struct field *field = NULL;
-    struct value v;
     const char *path = ceduo_derive_text(d, "%s%s", said->within, said->row->path);
-    size_t stretches = d->draft.scene.slope.vertices;
-    p->room = stretches + CEDUO_ITEMS_MOST;
-    p->items = ceduo_bind_take(d->arena, p->room, sizeof *p->items, d->problems);
-    size_t found = 0;
-    if (!is_number_or_word(row_of(d, path))) {
+    const struct field *field = row_of(d, path);
+    if (!is_number_or_word(field)) {
         ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", said->at),
                               said->within[0] ? _("'%s' is not a number or a word of a stand")
                                               : _("'%s' is not a number or a word of a scene"),
                               said->row->path);
         return NULL;
     }
-    if (!p->items || (!add_ground(p, path) && !add_all(p, path)))
-        return NULL;
-    for (size_t i = 0; i < p->n; i++)
-        if (ceduo_value_find(&d->draft.scene, p->items[i], &v) && (!field || v.field == field) && v.part == VALUE_WHOLE) {
-            field = v.field;
-            p->items[found++] = p->items[i];
-        }
-    p->n = found;
-    return field;
+    if (!add_ground(p, path))
+        add_all(p, path);
+    keep_there(p);
+    return p->n > 0 ? field : NULL;
 }
 
 /* ---- ranges ---- */
@@ -308,11 +313,11 @@ static void take_stand(struct stand_rows *s, const char *path, const struct node
         bool twice = false;
         for (size_t k = 0; k < i; k++) {
             const char *other = ceduo_node_text(rows->items[k], "path");
-            twice |= row.path && other && strcmp(other, row.path) == 0;
+            twice |= other && strcmp(other, row.path) == 0;
         }
         if (twice)
             complain_twice(s->d, &said);
-        else if (row.path)
+        else
             add_stand_row(s, &said, rows->items[i]);
     }
 }
@@ -386,17 +391,15 @@ static void find_ground(struct places *p, bool talus, const char *path)
 
 const struct field *ceduo_derive_find(struct deriver *d, const char *path, bool talus, struct ceduo_input *input)
 {
-    struct places p = {.d = d, .room = d->draft.scene.slope.vertices + CEDUO_ITEMS_MOST};
-    struct value v;
+    struct places p = {.d = d};
     const struct field *field = row_of(d, path);
-    p.items = ceduo_bind_take(d->arena, p.room, sizeof *p.items, d->problems);
-    *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE, .places = p.items};
-    if (!is_number_or_word(field) || field->type == FIELD_CHOICE || !p.items)
+    *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
+    if (!is_number_or_word(field) || field->type == FIELD_CHOICE)
         return NULL;
     find_ground(&p, talus, path);
-    for (size_t i = 0; i < p.n; i++)
-        if (ceduo_value_find(&d->draft.scene, p.items[i], &v) && v.field == field && v.part == VALUE_WHOLE)
-            p.items[input->places_count++] = p.items[i];
+    keep_there(&p);
+    input->places = p.items;
+    input->places_count = p.n;
     return d->arena->failed ? NULL : field;
 }
 

@@ -9,26 +9,14 @@
 #include "derive.h"
 #include "resolve.h"
 
-#define PLACES_MOST 10000
-
 struct draws {
     struct deriver *d;
     struct csv csv;
-    size_t columns, rows, places_count;
+    size_t columns, rows, places_count, room;
     double **values;     /* [column][row] */
     const char **places;
     const double **of;   /* of each place its column */
 };
-
-/* The head of a column, as a string. */
-static const char *head_of(struct draws *t, size_t column)
-{
-    struct csv header = t->csv;
-    struct csv_span field = {"", 0};
-    header.line = t->csv.header;
-    ceduo_csv_field(&header, column, &field);
-    return ceduo_derive_text(t->d, "%.*s", (int)field.n, field.p);
-}
 
 static bool complain_no_value(struct draws *t, const char *path)
 {
@@ -36,10 +24,24 @@ static bool complain_no_value(struct draws *t, const char *path)
     return false;
 }
 
-/* The places that one column sets; it must name one. */
-static bool take_places(struct draws *t, size_t column)
+static bool add_places(struct draws *t, const struct ceduo_input *found, const double *values)
 {
-    char *head = ceduo_arena_string(t->d->arena, head_of(t, column)), *rest = head;
+    struct deriver *d = t->d;
+    size_t n = t->places_count, more = found->places_count, room = t->room;
+    t->places = ceduo_bind_room(d->arena, t->places, n, more, &room, sizeof *t->places, d->problems);
+    t->of = ceduo_bind_room(d->arena, t->of, n, more, &t->room, sizeof *t->of, d->problems);
+    for (size_t i = 0; t->places && t->of && i < more; i++) {
+        t->of[n + i] = values;
+        t->places[n + i] = found->places[i];
+    }
+    t->places_count += more;
+    return t->places && t->of;
+}
+
+/* The places that one column sets, by its head; it must name one. */
+static bool take_places(struct draws *t, size_t column, struct csv_span field)
+{
+    char *head = ceduo_arena_copy(t->d->arena, field.p, field.n), *rest = head;
     char *path = head ? strtok_r(head, " ", &rest) : NULL;
     if (head && !path)
         return complain_no_value(t, head);
@@ -47,23 +49,31 @@ static bool take_places(struct draws *t, size_t column)
         struct ceduo_input found;
         if (!ceduo_derive_find(t->d, path, t->d->ground_assumed, &found) || found.places_count == 0)
             return complain_no_value(t, path);
-        for (size_t i = 0; i < found.places_count && t->places_count < PLACES_MOST; i++) {
-            t->of[t->places_count] = t->values[column];
-            t->places[t->places_count++] = found.places[i];
-        }
+        if (!add_places(t, &found, t->values[column]))
+            return false;
     }
     return head != NULL;
+}
+
+static bool take_header(struct draws *t)
+{
+    struct csv_span left = t->csv.header, field;
+    for (size_t c = 0; ceduo_csv_step(&t->csv, &left, &field); c++)
+        if (!take_places(t, c, field))
+            return false;
+    return true;
 }
 
 static void read_rows(struct draws *t)
 {
     struct csv_span field;
     while (ceduo_csv_next(&t->csv)) {
-        for (size_t c = 0; c < t->columns; c++)
-            if (!ceduo_csv_field(&t->csv, c, &field))
-                ceduo_problem(t->d->problems, t->csv.source, t->csv.number, 1, _("too few columns"));
-            else
-                ceduo_csv_number(&t->csv, field, -1e12, 1e12, "", &t->values[c][t->rows], t->d->problems);
+        struct csv_span left = t->csv.line;
+        size_t c = 0;
+        for (; c < t->columns && ceduo_csv_step(&t->csv, &left, &field); c++)
+            ceduo_csv_number(&t->csv, field, -1e12, 1e12, "", &t->values[c][t->rows], t->d->problems);
+        if (c < t->columns)
+            ceduo_problem(t->d->problems, t->csv.source, t->csv.number, 1, _("too few columns"));
         t->rows++;
     }
 }
@@ -71,27 +81,23 @@ static void read_rows(struct draws *t)
 static bool read_table(struct draws *t, const char *path)
 {
     struct deriver *d = t->d;
-    size_t before = d->problems->met;
     struct text names = {0};
     if (!ceduo_csv_open(&t->csv, d->arena, path, d->problems))
         return false;
+    size_t before = d->problems->met, lines = ceduo_csv_lines(&t->csv);
     t->columns = ceduo_csv_columns(&t->csv, &names);
     ceduo_text_free(&names);
-    t->values = ceduo_bind_take(d->arena, t->columns, sizeof *t->values, d->problems);
-    t->places = ceduo_bind_take(d->arena, PLACES_MOST, sizeof *t->places, d->problems);
-    t->of = ceduo_bind_take(d->arena, PLACES_MOST, sizeof *t->of, d->problems);
-    for (size_t c = 0; t->values && c < t->columns; c++)
-        if (!(t->values[c] = ceduo_bind_take(d->arena, ceduo_csv_lines(&t->csv), sizeof **t->values, d->problems)))
-            return false;
-    if (!t->values || !t->places || !t->of)
+    if (!(t->values = ceduo_bind_take(d->arena, t->columns, sizeof *t->values, d->problems)))
         return false;
-    read_rows(t);
     for (size_t c = 0; c < t->columns; c++)
-        if (!take_places(t, c))
+        if (!(t->values[c] = ceduo_bind_take(d->arena, lines, sizeof **t->values, d->problems)))
             return false;
+    read_rows(t);
+    if (!take_header(t))
+        return false;
     if (t->rows == 0)
         ceduo_node_problem(d->problems, d->draws, "doubt.draws", _("the table has no row"));
-    return d->problems->met == before && t->rows > 0;
+    return d->problems->met == before;
 }
 
 bool ceduo_derive_draws(struct deriver *d, struct ceduo_input *input)

@@ -253,15 +253,15 @@ static bool take_values(const struct seen_place *p, struct seen_values *v)
     const struct node *csv = ceduo_node_get(p->node, "csv"), *list = ceduo_node_get(p->node, p->kind->list);
     if (csv && list)
         ceduo_derive_complain(d, within(p, "csv"), _("%s already says this; keep one of the two"), p->kind->list);
-    else if (csv && csv->kind == NODE_SCALAR) {
+    else if (csv) {
         const char *path = ceduo_resolve_path(d->arena, csv, "scenes");
         if (path)
             read_table(p, path, v);
         else
             ceduo_derive_complain(d, within(p, "csv"), _("cannot find '%s' beside this file"), csv->text);
-    } else if (list && v->values_count == 0 && ceduo_derive_sound(d, within(p, p->kind->list)))
+    } else if (list && v->values_count == 0)
         ceduo_derive_complain(d, within(p, p->kind->list), _("the list is empty"));
-    else if (!csv && (v->column || v->only))
+    else if (v->column || v->only)
         ceduo_derive_complain(d, within(p, v->column ? "column" : "only"), _("names something of a table; name the table, csv"));
     return d->problems->met == before;
 }
@@ -270,12 +270,12 @@ static bool take_values(const struct seen_place *p, struct seen_values *v)
 static bool check_form(const struct seen_place *p, const struct seen_values *v)
 {
     int means = !isnan(v->mean) + !isnan(v->sd) + (v->n > 0);
-    bool known = ceduo_derive_sound(p->d, p->at), listed = v->values_count > 0;
-    if (known && listed && means > 0)
+    bool listed = v->values_count > 0;
+    if (listed && means > 0)
         ceduo_derive_complain(p->d, p->at, _("values and their mean together; keep one"));
-    else if (known && !listed && means < 3)
+    else if (!listed && means < 3)
         ceduo_derive_complain(p->d, p->at, means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
-    return known && (listed ? means == 0 : means == 3);
+    return listed ? means == 0 : means == 3;
 }
 
 /* ---- places ---- */
@@ -321,7 +321,7 @@ static bool check_negative(const struct seen_place *p, const struct seen_values 
 static bool check_released(const struct seen_place *p, const struct seen_values *v)
 {
     uint64_t seen = p->kind->kind == CEDUO_OBSERVED_PASSED ? v->count : v->values_count;
-    if (v->of == 0 || seen <= v->of || p->kind->kind == CEDUO_OBSERVED_SCARS) /* a rock may leave several */
+    if (v->of == 0 || seen <= v->of)
         return true;
     ceduo_derive_complain(p->d, within(p, "of"), _("%llu were seen of %llu released"), (unsigned long long)seen,
                           (unsigned long long)v->of);
@@ -374,7 +374,7 @@ static bool check_values(const struct seen_place *p, const char *row_path, const
     case CEDUO_OBSERVED_PASSED:
         return check_place(p, v->x, release) && check_released(p, v);
     case CEDUO_OBSERVED_SCARS:
-        return check_stretch(p, p->at, v->from, v->to) && check_negative(p, v);
+        return check_stretch(p, p->at, v->from, v->to) && check_negative(p, v); /* a rock may leave several */
     case CEDUO_OBSERVED_SPEED:
     case CEDUO_OBSERVED_HEIGHT:
     case CEDUO_OBSERVED_ENERGY:
@@ -470,14 +470,15 @@ static void derive_row(struct deriver *d, size_t i)
     const char *at = ceduo_derive_text(d, "observed[%zu]", i);
     const struct node *node = ceduo_node_get(d->root, "observed")->items[i];
     struct ceduo_observation shared;
-    size_t found = 0, before = d->problems->met;
+    bool found = false;
     bool good = derive_beside(d, at, node, row, &shared);
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
         const struct node *values = kind_at(node, kinds[k].path);
         struct seen_values *v = values_of(row, kinds[k].kind);
         const struct seen_place p = {d, &kinds[k], ceduo_derive_text(d, "%s.%s", at, kinds[k].path), values};
-        if (!values || values->kind != NODE_MAP || !ceduo_derive_known(d, "%s", p.at) || ++found == 0)
+        if (!values)
             continue;
+        found = true;
         const struct ceduo_release *release = shared.release ? shared.release : &d->draft.scene.release;
         if ((kinds[k].list == NULL || take_values(&p, v)) && check_values(&p, at, row, v, release) && good) {
             struct ceduo_observation *o = &d->observations[d->observations_count++];
@@ -485,7 +486,7 @@ static void derive_row(struct deriver *d, size_t i)
             put_observation(&p, row, v, o);
         }
     }
-    if (found == 0 && d->problems->met == before)
+    if (!found)
         ceduo_derive_complain(d, at, _("say what was seen: stops, passed, speed, height, energy, largest, on_the_way or scars"));
 }
 

@@ -213,8 +213,8 @@ static bool says_the_same(struct deriver *d, const struct node *a, const struct 
 /* Whether numbers of a stand from a file were changed, and it still has the name of that file. */
 static bool has_name_of_another(struct deriver *d, const struct node *stand)
 {
-    const struct node *written = stand->written, *followed = stand->followed;
-    if (!written || !followed || stand->kind != NODE_MAP || followed->kind != NODE_MAP)
+    const struct node *written = stand->written, *followed = stand->followed; /* there or not together */
+    if (!written || stand->kind != NODE_MAP)
         return false;
     const char *name = ceduo_node_text(stand, "name"), *before = ceduo_node_text(followed, "name");
     bool renamed = !name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name");

@@ -72,7 +72,7 @@ static const char *origin_of(struct finder *f, const char *key, const char *path
         return "energy law";
     if (stand && (strcmp(key, "u_J_m3") == 0 || strcmp(key, "fracture_ratio") == 0))
         return text_of(f, "%s of %d", key, stand->species);
-    return node && node->source ? text_of(f, "%s:%u:%u", node->source->name, node->line, node->column) : path;
+    return node ? text_of(f, "%s:%u:%u", node->source->name, node->line, node->column) : path;
 }
 
 /* ---- what is marked as assumed ---- */
@@ -98,7 +98,7 @@ static void consider(struct finder *f, const struct field *field, const struct n
         return;
     bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
     const struct ceduo_stand *stand = law ? stand_of(f, path) : NULL;
-    if (is_assumed(f, path) || (law && stand && !ceduo_stand_is_bare(stand)))
+    if (is_assumed(f, path) || (stand && !ceduo_stand_is_bare(stand)))
         add(f, path, origin_of(f, field->key, path, node), *range);
 }
 
@@ -115,7 +115,7 @@ static void walk_child(struct finder *f, const struct field *field, const struct
 {
     if (field->type == FIELD_LIST && field->flags & FIELD_OR_ONE && node && node->kind == NODE_MAP)
         walk(f, field->object, node);
-    else if (field->type == FIELD_GROUP && (node ? node->kind == NODE_MAP : ceduo_schema_field(field->object, "model") != NULL))
+    else if (field->type == FIELD_GROUP && (node || ceduo_schema_field(field->object, "model")))
         walk(f, field->object, node);
     else if (field->type == FIELD_LIST && node && node->kind == NODE_LIST)
         for (size_t i = 0; i < node->n; i++) {
@@ -260,10 +260,9 @@ static bool put_together(struct finder *f, struct scene_inputs *inputs)
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
 {
     struct finder f = {.file = file, .arena = &file->arena};
-    const char *none = ceduo_node_text(file->root, "doubt");
     *inputs = (struct scene_inputs){0};
     f.last = &f.first;
-    if (none && strcmp(none, "none") == 0)
+    if (ceduo_node_text(file->root, "doubt")) /* none */
         return true;
     walk(&f, ceduo_schema_scene(), file->root);
     walk_grounds(&f);

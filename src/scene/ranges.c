@@ -44,7 +44,7 @@ static bool is_row(const struct field *a, const struct field *b)
 
 const struct range *ceduo_range_of(const struct field *field)
 {
-    for (size_t i = 0; field && i < sizeof ranges / sizeof ranges[0]; i++)
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
         if (is_row(ceduo_schema_at(ranges[i].path), field))
             return &ranges[i];
     return NULL;

@@ -26,7 +26,7 @@ static inline struct stem_volume stem_volume_of(const struct ceduo_stand *stand,
                             .d_lo = INFINITY};
     size_t count;
     const struct ceduo_species *s = stand->species >= 0 ? &ceduo_species_list(&count)[stand->species] : NULL;
-    if (s && s->has_volume && v.height >= s->h_lo && v.height <= s->h_hi) {
+    if (s && v.height >= s->h_lo && v.height <= s->h_hi) {
         v.b0 = s->b0;
         v.b1 = s->b1;
         v.b2 = s->b2;

@@ -44,10 +44,20 @@ static const char seen[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: prof
 static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
                             "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: 2, to_m: 9, height_m: [1]}}\n";
 
+static const char doubted[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
+                              "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
+                              "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
+                              "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: doubtful.yaml}, "
+                              "{from_m: 30, to_m: 50, stand: doubtful.yaml}]\n  - {name: bare}\n"
+                              "doubt: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}]\n";
+
+static const char doubtful[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
+                               "doubt: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
+
 static const char survey[] = "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
                              "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
 
-static char seen_path[256], kinds_path[256], survey_path[256];
+static char seen_path[256], kinds_path[256], doubted_path[256], survey_path[256];
 static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256], elsewhere_path[256];
 
 static int set_up(void **state)
@@ -64,6 +74,7 @@ static int set_up(void **state)
     in_folder(csv_path, "csv.yaml");
     in_folder(seen_path, "seen.yaml");
     in_folder(kinds_path, "kinds.yaml");
+    in_folder(doubted_path, "doubted.yaml");
     in_folder(survey_path, "survey.csv");
     in_folder(link_path, "link");
     in_folder(linked_path, "linked");
@@ -76,6 +87,8 @@ static int set_up(void **state)
     put("csv.yaml", by_csv);
     put("seen.yaml", seen);
     put("kinds.yaml", kinds);
+    put("doubted.yaml", doubted);
+    put("doubtful.yaml", doubtful);
     put("survey.csv", survey);
     put("stops.csv", "block,x_m\n1,40\n2,50\n1,60\n");
     put("draws.csv", "rock.density_kg_m3\n2600\n2550\n");
@@ -265,6 +278,11 @@ static bool read_seen(void)
 static bool read_kinds(void)
 {
     return read_file(kinds_path);
+}
+
+static bool read_doubted(void)
+{
+    return read_file(doubted_path);
 }
 
 static bool read_survey(void)
@@ -494,6 +512,7 @@ static void scenes_are_read(void **state)
     without_memory(read_csv);
     without_memory(read_seen);
     without_memory(read_kinds);
+    without_memory(read_doubted);
     without_memory(read_survey);
     without_memory(read_faulty);
     without_memory(read_missing);

@@ -15,7 +15,7 @@ static struct text part_line(void)
 {
     static const unsigned char bytes[] = "seven!\n";
     char name[] = "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8";
-    struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 3, .rocks = 10, .seconds = 0.5, .inputs = bytes,
+    struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 3, .rocks = 10, .points = 8, .seconds = 0.5, .inputs = bytes,
                         .runs = bytes, .inputs_length = 7, .runs_length = 5};
     struct text text = {0};
     ceduo_part_write(&text, &part);
@@ -47,6 +47,7 @@ static void parts_are_read_back(void **state)
     EXPECT(part.shards, ==, 2);
     EXPECT(part.place, ==, 3);
     EXPECT(part.rocks, ==, 10);
+    EXPECT(part.points, ==, 8);
     EXPECT(part.seconds, ==, 0.5);
     EXPECT(part.inputs_length, ==, 7);
     EXPECT(part.runs_length, ==, 5);
@@ -95,6 +96,7 @@ static void parts_of_another_kind(void **state)
     (void)state;
     struct text line = part_line();
     assert_int_equal(changed(&line, "\"place\"", "\"place\""), PART_GOOD);
+    assert_int_equal(changed(&line, "\"points\": 8, ", ""), PART_GOOD); /* as parts of runs have it */
     assert_int_equal(changed(&line, "ceduo-part-1", "ceduo-part-2"), PART_FORMAT);
     assert_int_equal(changed(&line, "\"version\": \"", "\"version\": \"9"), PART_VERSION);
     const char *const rows[][2] = {
@@ -102,7 +104,8 @@ static void parts_of_another_kind(void **state)
         {"\"place\": 3", "\"place\": 2.5"},  {"\"place\": 3", "\"place\": 3000000000"},
         {"\"place\": 3", "\"place\": 1111111111111111111111111111111"},           {"\"shard\": 1", "\"shard\": 3"},
         {"\"shard\": 1", "\"hard\": 1"},     {"\"shards\": 2", "\"shards\": x"},  {"\"rocks\": 10", "\"rocks\": 0"},
-        {"\"rocks\": 10", "\"rocks\": 1e99"}, {"\"seconds\"", "\"second\""},      {"\"seconds\": 0.5", "\"seconds\": -1"},
+        {"\"rocks\": 10", "\"rocks\": 1e99"}, {"\"points\": 8", "\"points\": 1"},
+        {"\"points\": 8", "\"points\": x"}, {"c2V2ZW4=\"", "c2V2ZW4=\", \"x\": 1"}, {"\"seconds\"", "\"second\""},      {"\"seconds\": 0.5", "\"seconds\": -1"},
         {"\"seconds\": 0.5", "\"seconds\": x"},
         {"\"seconds\": 0.5", "\"seconds\": 0.50000000000000000000000000000000000000"}, {"\"hash\"", "\"Hash\""},
         {"\"hash\": \"0", "\"hash\": \"g"},  {"\"inputs\"", "\"Inputs\""},        {"\"runs\"", "\"Runs\""},

@@ -1,0 +1,418 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene says of blocks, of what is not known and of what was seen: what is told of it, each fault once, and
+ * which places it means. */
+#include "expect.h"
+
+#include <math.h>
+
+#include "base/text.h"
+#include "folder.h"
+#include "io/inputs.h"
+#include "io/scene_file.h"
+
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
+/* `lines`, and what they do not say of a scene that is good. */
+static struct text scene_with(const char *lines)
+{
+    static const char *const plain[] = {
+        "ceduo: scene/1\n", "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n",
+        "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], segments: [{rn: 0.3, rt: 0.8}, {rn: 0.3, rt: 0.8}]}\n",
+        "controls: [{x_m: 90}]\n", "simulation: {rocks: 10}\n"};
+    struct text text = {0};
+    for (size_t i = 0; i < LENGTH(plain); i++) {
+        char key[32];
+        snprintf(key, sizeof key, "\n%.*s", (int)strcspn(plain[i], ":"), plain[i]);
+        bool other = strncmp(lines, key + 1, strlen(key) - 1) == 0 || strstr(lines, key);
+        ceduo_text_put(&text, other ? "" : plain[i]);
+    }
+    ceduo_text_format(&text, "%s\n", lines);
+    return text;
+}
+
+/* Reads it from the folder, with its `sets`; fails where it does not tell what is wanted (NULL: nothing) alone. */
+static void read_scene(struct scene_file *file, const char *lines, const char *const *sets, size_t n, const char *told)
+{
+    struct problems problems = {0};
+    struct text text = scene_with(lines);
+    char path[256];
+    put("scene.yaml", text.bytes);
+    in_folder(path, "scene.yaml");
+    bool good = ceduo_scene_read(file, path, sets, n, &problems);
+    if (good != !told || problems.count != !good || (told && !strstr(problems.text.bytes, told)))
+        fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", told ? told : "nothing",
+                 ceduo_text_string(&problems.text));
+    ceduo_text_free(&text);
+    ceduo_problems_free(&problems);
+}
+
+#define SHOOTS "stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]"
+#define BELT "from_m: 10, to_m: 80, stand: {" SHOOTS
+#define GROUND_ROW "doubt: [{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.4}]"
+#define CLIFF_AND_TALUS                                                                                      \
+    "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, " \
+    "{from_m: 40, to_m: 100, material: talus}]}"
+#define FOREST "forest: [{from_m: 10, to_m: 80, stand: {"
+#define TREE "dbh_m: 0.2, height_m: 9"
+#define GROUPS "groups: {stems: 5, radius_m: 2}"
+#define STOPS "stops: {x_m: [40, 50]}"
+
+static void one_fault_is_told_once(void **state)
+{
+    (void)state;
+    const struct {
+        const char *lines, *told;
+    } rows[] = {
+        {"rock: {diameter_m: {mean: 0.5, spread: 0.4}}\nblocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}",
+         "the spread reaches from -0.7 to 1.7 m"},
+        {"rock: {diameter_m: {mean: 0.5, spread: 0.1}}\nblocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}",
+         "rock: blocks say how large the rocks are; give the size without a spread"},
+        {"controls_m: 5", "controls_m: expected a list, not a single value"},
+        {FOREST "stumps: {per_ha: 9, height_m: 0.3, energy_kJ: 9}}}]", "stumps need diameter_m"},
+        {FOREST "stumps: {per_ha: 9, diameter_m: 0.3, energy_kJ: 9}}}]", "stumps need diameter_m"},
+        {FOREST "stumps: {per_ha: 9, diameter_m: 0.3, height_m: 0.3}}}]", "stumps need diameter_m"},
+        {FOREST "stumps: {per_ha: 9, diameter_m: x, height_m: 0.3, energy_kJ: 9}}}]",
+         "stumps.diameter_m: 'x' is not a number"},
+        {FOREST "logs: {per_ha: 9, diameter_m: 0.3, energy_kJ: 9}}}]", "logs need length_m"},
+        {FOREST "logs: {per_ha: 9, length_m: 5, energy_kJ: 9}}}]", "logs need length_m"},
+        {FOREST "logs: {per_ha: 9, length_m: 5, diameter_m: 0.3}}}]", "logs need length_m"},
+        {"rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: beech}]}",
+         "rules.standards[0].species: expected a list, not a single value"},
+        {"forest: [{" BELT ", doubt: [{lo: 1, hi: 2}, {path: stools.per_ha, lo: 1, hi: 2}]}}]",
+         "doubt[0]: 'path' is missing"},
+        {"doubt: [{path: rock.density_kg_m3, lo: 1, hi: 2}]\nslope: {csv: [1]}",
+         "slope.csv: expected a text, not a list"},
+        {"doubt: {rows: []}", "doubt: expected a list, not a mapping"},
+        {"doubt: [{path: 'controls[*].accepted_kJ', lo: 1, hi: 2}]\ncontrols: 5", "controls: expected a list"},
+        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: 6}", "slope.materials: expected a list"},
+        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: []}", "slope.materials: the list is empty"},
+        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100}]}",
+         "'material' is missing"},
+        {"release: {x_m: 5, source: {kind: guessed}}\nobserved: [{" STOPS ", release: {vx_m_s: 3}}]",
+         "release.source.kind: 'guessed'"},
+        {"observed: [{use: check}]", "observed[0]: say what was seen"},
+        {"observed: [{passed: {x_m: 0, count: 1, of: 2}, release: {vx_m_s: 3}}]",
+         "observed[0].passed.x_m: 0 does not lie beyond the release, 0 m"},
+        {"title: [\r\n", "scene.yaml:6:9: "}, /* where the text ends, not on a line behind it */
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        struct scene_file file;
+        read_scene(&file, rows[i].lines, NULL, 0, rows[i].told);
+        ceduo_scene_release(&file);
+    }
+}
+
+/* What is no number or word; a row of two forms or of half a one; more rows than anybody reads. */
+static void rows_of_doubt_are_told(void **state)
+{
+    (void)state;
+    const char *const paths[] = {"title", "rock", "rock.axes_m", "rock.axes_m[0]", "rock.diameter_m.mean",
+                                 "slope.vertices_m", "controls_m", "forest", "simulation.scale_rn",
+                                 "slope.materials[talus", "slope.materials[talus]rn",
+                                 "slope.materials[talus].hardness", "slope.materials[gold].rn"};
+    for (size_t i = 0; i < LENGTH(paths); i++) {
+        struct scene_file file;
+        char row[256], told[256];
+        snprintf(row, sizeof row, "doubt: [{path: '%s', lo: 1, hi: 2}]", paths[i]);
+        snprintf(told, sizeof told, "doubt[0].path: '%s' is not a number or a word of a scene", paths[i]);
+        read_scene(&file, row, NULL, 0, told);
+        ceduo_scene_release(&file);
+    }
+    const char *const forms[] = {"lo: 1", "hi: 2", "lo: 1, sd: 2", "mean: 1", "lo: 1, hi: 2, mean: 1",
+                                 "lo: 1, hi: 2, one_of: [a, b]", "mean: 1, sd: 2, lo: 1",
+                                 "mean: 1, sd: 2, one_of: [a, b]", "one_of: [a, b], lo: 1", "one_of: [a, b], sd: 1"};
+    for (size_t i = 0; i < LENGTH(forms); i++)
+        for (int word = 0; word < 2; word++) {
+            struct scene_file file;
+            char row[512];
+            snprintf(row, sizeof row, "doubt: [{path: '%s', %s}]\nforest: [{" BELT "}}]",
+                     word ? "forest[0].stand.energy.model" : "rock.density_kg_m3", forms[i]);
+            read_scene(&file, row, NULL, 0,
+                       word ? "doubt[0]: give one_of: the words that it may be"
+                            : "doubt[0]: give lo and hi, or mean and sd");
+            ceduo_scene_release(&file);
+        }
+    struct text many = {0};
+    struct scene_file file;
+    ceduo_text_put(&many, "doubt: [");
+    for (int i = 0; i <= CEDUO_ITEMS_MOST; i++)
+        ceduo_text_put(&many, "{path: rock.density_kg_m3, lo: 1, hi: 2},");
+    ceduo_text_put(&many, "]");
+    read_scene(&file, many.bytes, NULL, 0, "doubt: 1001 items; at most 1000 can be computed");
+    ceduo_scene_release(&file);
+    ceduo_text_free(&many);
+}
+
+/* The input of one row of doubt has these places, with a comma between them. */
+static void expect_places(const char *lines, const char *places)
+{
+    struct scene_file file;
+    struct text found = {0};
+    read_scene(&file, lines, NULL, 0, NULL);
+    assert_int_equal(file.inputs_count, places[0] ? 1 : 0);
+    for (size_t i = 0; places[0] && i < file.inputs[0].places_count; i++)
+        ceduo_text_format(&found, "%s%s", i > 0 ? "," : "", file.inputs[0].places[i]);
+    assert_string_equal(ceduo_text_string(&found), places);
+    ceduo_text_free(&found);
+    ceduo_scene_release(&file);
+}
+
+static void rows_of_doubt_mean_places(void **state)
+{
+    (void)state;
+    expect_places("doubt: [{path: simulation.rocks, lo: 10, hi: 20}]", "simulation.rocks");
+    expect_places("doubt: [{path: 'controls[*].x_m', lo: 50, hi: 60}]\ncontrols: [{x_m: 90}, {x_m: 95}]",
+                  "controls[0].x_m,controls[1].x_m");
+    expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]", ""); /* there are no options */
+    /* an option without a forest is passed over, the others are not */
+    expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
+                  "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]",
+                  "options[1].forest[0].to_m");
+    /* one stand says it, the other that nothing is in doubt */
+    expect_places("forest: [{" BELT ", doubt: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
+                  "doubt: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]", "forest[1].stand.trees[0].per_ha");
+    expect_places(CLIFF_AND_TALUS "\n" GROUND_ROW, "slope.segments[1].rn");
+}
+
+/* More places than there are rows in any list. */
+static void all_places_are_meant(void **state)
+{
+    (void)state;
+    struct text lines = {0};
+    struct scene_file file;
+    ceduo_text_put(&lines, "doubt: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
+                           "options:\n");
+    for (int i = 0; i < 4; i++) {
+        ceduo_text_format(&lines, "  - name: n%d\n    forest: [", i);
+        for (int k = 0; k < 400; k++)
+            ceduo_text_format(&lines, "{from_m: %g, to_m: %g, stand: {}},", k * 0.125, (k + 1) * 0.125);
+        ceduo_text_put(&lines, "]\n");
+    }
+    read_scene(&file, lines.bytes, NULL, 0, NULL);
+    assert_int_equal(file.inputs_count, 1);
+    assert_int_equal(file.inputs[0].places_count, 1600);
+    assert_string_equal(file.inputs[0].places[1599], "options[3].forest[399].stand.energy.u_J_m3");
+    ceduo_scene_release(&file);
+    ceduo_text_free(&lines);
+}
+
+/* Ranges, and what says where they come from, are no values that are computed with. */
+static void sources_of_ranges_are_no_notes(void **state)
+{
+    (void)state;
+    struct scene_file file;
+    read_scene(&file,
+               "doubt: [{path: 'rock.density_kg_m3', lo: 2000, hi: 3000, source: {kind: assumed, text: mine}}]\n"
+               "forest: [{" BELT ", doubt: [{path: stools.per_ha, lo: 1, hi: 9000, "
+               "source: {kind: assumed, text: mine}}]}}]",
+               NULL, 0, NULL);
+    assert_int_equal(file.inputs_count, 2);
+    for (const struct source_note *n = file.notes; n; n = n->before)
+        assert_string_not_equal(n->text, "mine");
+    ceduo_scene_release(&file);
+}
+
+/* ---- draws ---- */
+
+/* Where the slope's file says no ground, talus and segments are those of all stretches; a column may set many. */
+static void draws_of_an_assumed_ground(void **state)
+{
+    (void)state;
+    static const char lines[] = "slope: profile.csv\ndoubt: {draws: draws.csv}";
+    static const char *const places[] = {"slope.segments[0].rn", "slope.segments[1].rn", "slope.segments[0].rt",
+                                         "slope.segments[1].rt", "rock.density_kg_m3"};
+    static const double values[] = {0.25, 0.25, 0.75, 0.75, 2500};
+    struct scene_file file;
+    put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
+    put("draws.csv", "slope.materials[talus].rn,slope.segments[*].rt rock.density_kg_m3\n0.5,0.5\n0.25,0.75\n");
+    read_scene(&file, lines, NULL, 0, NULL);
+    assert_int_equal(file.inputs[0].places_count, LENGTH(places));
+    assert_int_equal(file.inputs[0].draws_count, 2);
+    for (size_t i = 0; i < LENGTH(places); i++) {
+        assert_string_equal(file.inputs[0].places[i], places[i]);
+        EXPECT(file.inputs[0].draws[i][1], ==, i < 4 ? values[i] : 0.75);
+    }
+    ceduo_scene_release(&file);
+    put("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* else it is where the file says so */
+    read_scene(&file, "doubt: {draws: draws.csv}\n" CLIFF_AND_TALUS, NULL, 0, NULL);
+    assert_int_equal(file.inputs[0].places_count, 1);
+    assert_string_equal(file.inputs[0].places[0], "slope.segments[1].rn");
+    ceduo_scene_release(&file);
+    const char *const heads[] = {"slope.materials[cliff].rn", "forest[5].to_m", "options[*].forest[*].to_m",
+                                 "simulation.law"};
+    for (size_t i = 0; i < LENGTH(heads); i++) {
+        char told[128];
+        snprintf(told, sizeof told, "the table has a column '%s', which is no value of this scene", heads[i]);
+        put("draws.csv", heads[i]);
+        read_scene(&file, lines, NULL, 0, told);
+        ceduo_scene_release(&file);
+    }
+    put("draws.csv", "rock.density_kg_m3\n");
+    read_scene(&file, lines, NULL, 0, "the table has no row");
+    ceduo_scene_release(&file);
+    put("draws.csv", "rock.density_kg_m3,release.vx_m_s,release.vz_m_s\n1,2,3\n2500\n");
+    read_scene(&file, lines, NULL, 0, "draws.csv:3:1: too few columns");
+    ceduo_scene_release(&file);
+}
+
+/* A table of very many columns: all are taken. */
+static void draws_of_many_columns(void **state)
+{
+    (void)state;
+    struct text table = {0};
+    struct scene_file file;
+    for (int row = 0; row < 2; row++)
+        for (int c = 0; c < 6000; c++)
+            ceduo_text_format(&table, row == 0 ? "slope.segments[*].r%c%c" : "0.%c5%c",
+                              row == 0 ? "nt"[c % 2] : '1' + c % 8, c == 5999 ? '\n' : ',');
+    put("draws.csv", table.bytes);
+    read_scene(&file, "doubt: {draws: draws.csv}", NULL, 0, NULL);
+    assert_int_equal(file.inputs[0].places_count, 12000);
+    assert_string_equal(file.inputs[0].places[11999], "slope.segments[1].rt");
+    EXPECT(file.inputs[0].draws[11999][0], ==, 0.85);
+    EXPECT(file.inputs[0].draws[11996][0], ==, 0.75);
+    ceduo_scene_release(&file);
+    ceduo_text_free(&table);
+}
+
+/* ---- inputs ---- */
+
+/* The belt of a place; what is no place of a belt of this scene is in none. */
+static void places_have_belts(void **state)
+{
+    (void)state;
+    struct scene_file file;
+    read_scene(&file, "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]", NULL, 0, NULL);
+    const struct ceduo_scene *s = &file.scene;
+    assert_ptr_equal(ceduo_input_belt(s, "options[1].forest[0].stand.stools.per_ha"), &s->options[1].belts[0]);
+    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m", "options[2].forest[0].to_m",
+                                "forest[0].to_m", "rock.density_kg_m3"};
+    for (size_t i = 0; i < LENGTH(none); i++)
+        assert_null(ceduo_input_belt(s, none[i]));
+    ceduo_scene_release(&file);
+    read_scene(&file, "forest: [{" BELT "}}]", NULL, 0, NULL);
+    assert_ptr_equal(ceduo_input_belt(&file.scene, "forest[0].to_m"), &file.scene.options[0].belts[0]);
+    assert_null(ceduo_input_belt(&file.scene, "forest[1].to_m"));
+    assert_null(ceduo_input_belt(&file.scene, "rock.density_kg_m3"));
+    ceduo_scene_release(&file);
+}
+
+/* The strength of the wood of one species is one input wherever it stands; that of another is another. */
+static void strength_is_of_a_species(void **state)
+{
+    (void)state;
+    static const char wood[] = "trees: [{per_ha: 10, " TREE "}], energy: {model: dorren, "
+                               "fracture_ratio: 1.5, source: {kind: assumed}}";
+    struct scene_file file;
+    struct scene_inputs inputs;
+    struct text lines = {0};
+    ceduo_text_put(&lines, "rock: {diameter_m: 0.5, density_kg_m3: 2600, "
+                           "source: {kind: assumed, except: [diameter_m]}}\noptions:\n");
+    for (int i = 0; i < 2; i++)
+        ceduo_text_format(&lines,
+                          "  - {name: n%d, forest: [{from_m: 10, to_m: 20, stand: {species: acer, %s}}, "
+                          "{from_m: 30, to_m: 40, stand: {species: fagus-sylvatica, %s}}]}\n", i, wood, wood);
+    read_scene(&file, lines.bytes, NULL, 0, NULL);
+    assert_true(ceduo_inputs_of(&file, &inputs));
+    size_t strengths = 0;
+    for (size_t i = 0; i < inputs.n; i++)
+        if (strstr(inputs.items[i].path, "fracture_ratio")) {
+            assert_int_equal(inputs.items[i].places_count, 2);
+            strengths++;
+        }
+    assert_int_equal(strengths, 2);
+    assert_string_equal(inputs.items[0].path, "rock.density_kg_m3");
+    ceduo_scene_release(&file);
+    ceduo_text_free(&lines);
+}
+
+/* Groups are of trees: where there are none, or each is alone, there are no groups. */
+static void groups_are_of_trees(void **state)
+{
+    (void)state;
+    struct scene_file file;
+    read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 0, " TREE ", " GROUPS "}, "
+               "{per_ha: 10, " TREE ", " GROUPS "}, {per_ha: 10, " TREE "}]}}]", NULL, 0, NULL);
+    const struct ceduo_stems *trees = file.scene.options[0].belts[0].stand.trees;
+    assert_false(ceduo_stems_are_grouped(&trees[0]));
+    assert_true(ceduo_stems_are_grouped(&trees[1]));
+    assert_false(ceduo_stems_are_grouped(&trees[2]));
+    ceduo_scene_release(&file);
+}
+
+/* ---- changes ---- */
+
+/* A stand whose file has no name may be given one; it is then no other that was changed. */
+static void a_name_of_its_own(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {"forest[0].stand.name=mine", "forest[0].stand.stools.per_ha=1500"};
+    struct scene_file file;
+    put("stand.yaml", "{ceduo: stand/1, " SHOOTS "}\n");
+    read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: stand.yaml}]", sets, 2, NULL);
+    assert_string_equal(file.scene.options[0].belts[0].name, "mine");
+    assert_false(file.scene.options[0].belts[0].changed);
+    EXPECT(file.scene.options[0].belts[0].stand.stools_per_ha, ==, 1500);
+    ceduo_scene_release(&file);
+}
+
+/* A change below a file that is not there. */
+static void a_change_of_nothing(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {"forest[0].stand.name=mine"};
+    struct scene_file file;
+    read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: nowhere.yaml}]", sets, 1, "cannot find 'nowhere.yaml'");
+    ceduo_scene_release(&file);
+}
+
+static size_t notes_of_mu(const struct scene_file *file)
+{
+    size_t n = 0;
+    for (const struct source_note *note = file->notes; note; note = note->before)
+        n += strstr(note->text, "friction mu") != NULL;
+    return n;
+}
+
+/* What is assumed of a ground goes with the law of contacts, also where the slope is as it was. */
+static void another_law_assumes_other_things(void **state)
+{
+    (void)state;
+    struct scene_file file;
+    struct problems problems = {0};
+    put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
+    read_scene(&file, "slope: profile.csv", NULL, 0, NULL);
+    assert_int_equal(notes_of_mu(&file), 0);
+    const char *const laws[] = {"arm", "arm", "lumped"};
+    for (size_t i = 0; i < LENGTH(laws); i++) {
+        char set[64];
+        snprintf(set, sizeof set, "simulation.law=%s", laws[i]);
+        assert_true(ceduo_scene_set(&file, "--set", set, &problems));
+        assert_true(ceduo_scene_bind(&file, &problems));
+        assert_int_equal(notes_of_mu(&file), i < 2 ? 1 : 0);
+    }
+    ceduo_problems_free(&problems);
+    ceduo_scene_release(&file);
+}
+
+#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, folder_set_up, folder_tear_down)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_FOLDER(one_fault_is_told_once),
+        IN_FOLDER(rows_of_doubt_are_told),
+        IN_FOLDER(rows_of_doubt_mean_places),
+        IN_FOLDER(all_places_are_meant),
+        IN_FOLDER(sources_of_ranges_are_no_notes),
+        IN_FOLDER(draws_of_an_assumed_ground),
+        IN_FOLDER(draws_of_many_columns),
+        IN_FOLDER(places_have_belts),
+        IN_FOLDER(strength_is_of_a_species),
+        IN_FOLDER(groups_are_of_trees),
+        IN_FOLDER(a_name_of_its_own),
+        IN_FOLDER(a_change_of_nothing),
+        IN_FOLDER(another_law_assumes_other_things),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
