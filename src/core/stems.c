@@ -118,23 +118,36 @@ static void let_wait(struct stems *s, int i_side, const struct stem *stem)
         put_in(s, side, stem);
 }
 
-/* The next place of a stream, drawn if need be; infinite where there is none. */
-static double next_place(struct stems *s, int i_side, enum stem_stream stream)
+/* Draws the next places of a stream, of which none are left; the first of them, infinite where there is none. */
+static __attribute__((noinline)) double draw_places(struct stems *s, int i_side, enum stem_stream stream)
 {
     struct points *p = points_of(&s->side[i_side], stream);
-    if (p->next == p->count) {
-        if (p->end_belt == s->wood->belts)
-            return INFINITY;
-        s->kernel->fill(s, i_side, stream);
-        if (p->count == 0)
-            return INFINITY;
-    }
-    return p->at[p->next];
+    if (p->end_belt == s->wood->belts)
+        return INFINITY;
+    s->kernel->fill(s, i_side, stream);
+    return p->count > 0 ? p->at[0] : INFINITY;
+}
+
+/* The next place of a stream, drawn if need be; infinite where there is none. */
+static inline double next_place(struct stems *s, int i_side, enum stem_stream stream)
+{
+    const struct points *p = points_of(&s->side[i_side], stream);
+    return p->next < p->count ? p->at[p->next] : draw_places(s, i_side, stream);
 }
 
 static uint64_t event_of_next(const struct points *p, enum stem_stream stream, int side)
 {
     return stem_event(stream, side, p->drawn - p->count + p->next);
+}
+
+/* The kind of a shoot by its 32 bits. */
+static inline const struct wood_kind *cohort_at(const struct wood_stools *stools, uint64_t bits)
+{
+    double u = ((double)(uint32_t)bits + 0.5) * 0x1p-32;
+    size_t found = 0;
+    for (size_t k = 0; k + 1 < stools->cohorts; k++)
+        found += u >= stools->kinds[k].share_to;
+    return &stools->kinds[found];
 }
 
 /* The kind of shoot i of a stool, and its diameter. */

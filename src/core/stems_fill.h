@@ -4,6 +4,7 @@
 #ifndef CEDUO_STEMS_FILL_H
 #define CEDUO_STEMS_FILL_H
 
+#include "base/elementary.h"
 #include "many.h"
 #include "random.h"
 #include "stems_state.h"
@@ -12,6 +13,10 @@
 #define STEPS_OF_A_STEM 4
 
 _Static_assert(POINTS % MANY == 0, "places are drawn in whole vectors");
+_Static_assert(POINTS_ROOM >= POINTS + MANY - 1, "they are read in whole vectors from any place on");
+
+/* Those of m are ones. */
+#define CHOOSE(m, p, q) ((many_reals)(((m) & (many_bits)(p)) | (~(m) & (many_bits)(q))))
 
 /* The number of an event, never 0: which stream, which side, the how-manieth. The side is its last bit. */
 static inline uint64_t stem_event(enum stem_stream stream, int side, uint64_t n)
@@ -106,21 +111,40 @@ static inline void place_points(struct stems *s, int side, enum stem_stream stre
     p->end_belt = j;
 }
 
-/* Which way the rings of stools are turned. */
-static inline void turn_points(const struct stems *s, int side, struct points *p)
+/* Stools of one belt, from the first up to `end`; some behind it are gone over, too. */
+static inline void place_stools(const struct stems *s, const struct wood_stools *t, struct points *p, unsigned first,
+                                unsigned end)
 {
-    _Alignas(64) double angle[POINTS];
-    for (unsigned i = 0; i < p->size; i++) {
-        const struct wood_stools *stools = i < p->count ? s->wood->along[side][p->belt[i]].stools : NULL;
-        angle[i] = stools ? p->turn[i] * stools->turn[p->mark[i] < stools->more] : 0;
-    }
-    for (unsigned i = 0; i < p->size; i += MANY) {
-        many_reals a, sine, cosine;
-        memcpy(&a, &angle[i], sizeof a);
-        many_sincos(&a, &sine, &cosine);
+    const many_reals zero = {0}, turns[] = {zero + t->turn[0], zero + t->turn[1]};
+    const many_reals radii[] = {zero + t->radius[0], zero + t->radius[1]};
+    double width = 2 * t->reach + t->most + s->b;
+    for (unsigned i = first; i < end; i += MANY) {
+        many_reals mark, angle, offset, sine, cosine;
+        memcpy(&mark, &p->mark[i], sizeof mark);
+        memcpy(&angle, &p->turn[i], sizeof angle);
+        memcpy(&offset, &p->offset[i], sizeof offset);
+        many_bits more = (many_bits)(mark < t->more), one = more & 1;
+        many_reals radius = CHOOSE(more, radii[1], radii[0]);
+        angle *= CHOOSE(more, turns[1], turns[0]);
+        many_sincos(&angle, &sine, &cosine);
+        sine *= radius;
+        cosine *= radius;
+        offset *= width;
+        memcpy(&p->centre[i], &offset, sizeof offset);
         memcpy(&p->sine[i], &sine, sizeof sine);
         memcpy(&p->cosine[i], &cosine, sizeof cosine);
+        memcpy(&p->more[i], &one, sizeof one);
     }
+}
+
+/* The first place behind place i that lies in another belt. */
+static inline unsigned end_of_belt(const struct points *p, unsigned i)
+{
+    unsigned end = p->count;
+    if (p->belt[end - 1] != p->belt[i])
+        for (end = i + 1; p->belt[end] == p->belt[i];)
+            end++;
+    return end;
 }
 
 /* 32 bits for each shoot of those stools that have cohorts: four from one draw. */
@@ -152,7 +176,10 @@ static void fill_points(struct stems *s, int side, enum stem_stream stream)
     place_points(s, side, stream, gaps);
     p->drawn += p->count;
     if (stream == STREAM_STOOLS) {
-        turn_points(s, side, p);
+        for (unsigned i = 0, end; i < p->count; i = end) {
+            end = end_of_belt(p, i);
+            place_stools(s, s->wood->along[side][p->belt[i]].stools, p, i, end);
+        }
         draw_cohorts(s, side, p, event);
     }
 }
@@ -165,20 +192,18 @@ static inline struct stool next_stool(struct stems *s, int side)
     struct points *p = &s->side[side].streams[STREAM_STOOLS];
     unsigned k = p->next++;
     const struct wood_stools *stools = s->wood->along[side][p->belt[k]].stools;
-    unsigned more = p->mark[k] < stools->more, n = stools->n + more;
-    const double *ring = stools->ring[more];
+    unsigned n = stools->n + (unsigned)p->more[k];
+    const double *ring = stools->ring[p->more[k]];
     s->drawn += n;
     s->effort += 1 + n;
     return (struct stool){.at = p->at[k],
-                          .centre = p->offset[k] * (2 * stools->reach + stools->most + s->b),
-                          .sine = p->sine[k] * stools->radius[more],
-                          .cosine = p->cosine[k] * stools->radius[more],
+                          .centre = p->centre[k],
+                          .sine = p->sine[k],
+                          .cosine = p->cosine[k],
                           .stools = stools,
                           .ring = ring,
                           .sines = ring + stools->ring_room,
                           .n = n,
-                          .place = k,
-                          .cohorts = p->cohorts,
                           .event = stem_event(STREAM_STOOLS, side, p->drawn - p->count + k)};
 }
 
@@ -200,6 +225,8 @@ static inline bool is_plain_stool(const struct stems *s, int side)
            (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
 }
 
+#define ROW_SHOOTS 6 /* of so many a stool is made by itself; only speed depends on it */
+
 /* Shoots to be put in order: the last bits of `along` tell them apart. */
 struct shoots {
     _Alignas(64) double along[SHOOTS_AT_ONCE + MANY];
@@ -210,18 +237,8 @@ struct shoots {
     unsigned n;
 };
 
-/* The kind of a shoot by its 32 bits. */
-static inline const struct wood_kind *cohort_at(const struct wood_stools *stools, uint64_t bits)
-{
-    double u = ((double)(uint32_t)bits + 0.5) * 0x1p-32;
-    size_t found = 0;
-    for (size_t k = 0; k + 1 < stools->cohorts; k++)
-        found += u >= stools->kinds[k].share_to;
-    return &stools->kinds[found];
-}
-
-/* The shoots of a stool of one kind that the rock can hit. */
-static inline void add_alike(const struct stems *s, const struct stool *t, struct shoots *to)
+/* The shoots of a stool of one kind that the rock can hit: for stools of many. */
+static inline void add_row(const struct stems *s, const struct stool *t, struct shoots *to)
 {
     const struct wood_kind *kind = t->stools->kinds;
     double most = (s->b + kind->dbh) / 2;
@@ -242,18 +259,85 @@ static inline void add_alike(const struct stems *s, const struct stool *t, struc
     to->n = n;
 }
 
-/* The same of several cohorts; it is as likely as not for each, so that no branch depends on it, nor on whether it has
- * one shoot more. */
-static inline void add_cohorts(const struct stems *s, const struct stool *t, struct shoots *to)
+/* Shoots of some stools in a row, by their number on the ring. */
+struct columns {
+    struct {
+        many_reals along, y;
+        many_bits kind, can; /* can: 1 where the rock can hit it */
+    } of[4 * COHORT_GROUPS];
+    unsigned count; /* shoots of a stool, at the most */
+};
+
+/* The kinds of shoot i of stools from place k on. */
+static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k,
+                                many_bits *kind, many_reals *dbh)
 {
-    unsigned n = to->n, most_shoots = t->stools->n + 1;
-    for (unsigned i = 0; i < most_shoots; i++) {
-        place_shoot(t, i, &to->along[n], &to->y[n]);
-        const struct wood_kind *kind = cohort_at(t->stools, t->cohorts[i / 4][i / 2 % 2][t->place] >> i % 2 * 32);
-        to->kind[n] = (uint64_t)(kind - s->wood->kinds);
-        to->stool[n] = t->event;
-        n += (fabs(to->y[n]) <= (s->b + kind->dbh) / 2) & (i < t->n);
+    many_bits bits;
+    many_reals u;
+    memcpy(&bits, &p->cohorts[i / 4][i / 2 % 2][k], sizeof bits);
+    bits = bits >> i % 2 * 32 & UINT32_MAX;
+    many_of_integers(&bits, &u);
+    u = (u + 0.5) * 0x1p-32;
+    for (size_t j = 0; j + 1 < t->cohorts; j++) {
+        many_bits beyond = (many_bits)(u >= t->kinds[j].share_to);
+        *kind -= beyond;
+        *dbh = CHOOSE(beyond, (many_reals){0} + t->kinds[j + 1].dbh, *dbh);
     }
+}
+
+/* The shoots of stools from place k on, all of one belt. */
+static inline void make_columns(const struct stems *s, const struct points *p, unsigned k, const struct wood_stools *t,
+                                struct columns *to)
+{
+    const double *ring = t->ring[0], *other = t->ring[t->more > 0];
+    many_reals at, centre, sine, cosine;
+    many_bits more;
+    memcpy(&at, &p->at[k], sizeof at);
+    memcpy(&centre, &p->centre[k], sizeof centre);
+    memcpy(&sine, &p->sine[k], sizeof sine);
+    memcpy(&cosine, &p->cosine[k], sizeof cosine);
+    memcpy(&more, &p->more[k], sizeof more);
+    many_bits n = more + t->n, is_more = -more;
+    to->count = t->n + (t->more > 0);
+    for (unsigned i = 0; i < to->count; i++) {
+        const many_reals zero = {0};
+        many_reals c = CHOOSE(is_more, zero + other[i], zero + ring[i]);
+        many_reals q = CHOOSE(is_more, zero + other[t->ring_room + i], zero + ring[t->ring_room + i]);
+        many_reals y = centre + (c * sine + q * cosine), dbh = zero + t->kinds->dbh;
+        many_bits kind = (many_bits){0} + (uint64_t)(t->kinds - s->wood->kinds);
+        if (t->cohorts > 1)
+            choose_kinds(p, t, i, k, &kind, &dbh);
+        many_reals off = (many_reals)((many_bits)y & INT64_MAX);
+        to->of[i].along = at + (c * cosine - q * sine);
+        to->of[i].y = y;
+        to->of[i].kind = kind;
+        to->of[i].can = (many_bits)(off <= (s->b + dbh) / 2) & (many_bits)(n > i) & 1;
+    }
+}
+
+/* The shoots of the next stools, all of one belt, stool by stool until there are enough. Whether the rock can hit one is
+ * as likely as not, so that no branch depends on it. */
+static inline void add_columns(struct stems *s, int side, const struct wood_stools *t, struct shoots *to)
+{
+    struct points *p = &s->side[side].streams[STREAM_STOOLS];
+    struct columns columns;
+    unsigned n = to->n, k = p->next, end = end_of_belt(p, k), begin = k;
+    uint64_t event = stem_event(STREAM_STOOLS, side, p->drawn - p->count + k), drawn = 0;
+    end = end < k + MANY ? end : k + MANY;
+    make_columns(s, p, k, t, &columns);
+    for (; k < end && n < STOP_SHOOTS; k++, event += 2) {
+        for (unsigned i = 0; i < columns.count; i++) {
+            to->along[n] = columns.of[i].along[k - begin];
+            to->y[n] = columns.of[i].y[k - begin];
+            to->kind[n] = columns.of[i].kind[k - begin];
+            to->stool[n] = event;
+            n += (unsigned)columns.of[i].can[k - begin];
+        }
+        drawn += t->n + p->more[k];
+    }
+    s->drawn += drawn;
+    s->effort += drawn + (k - begin);
+    p->next = k;
     to->n = n;
 }
 
@@ -297,11 +381,13 @@ static void make_stools(struct stems *s, int i_side)
     _Alignas(64) uint64_t rank[SHOOTS_AT_ONCE];
     add_waiting(s, side, &t);
     do {
-        struct stool stool = next_stool(s, i_side);
-        if (stool.stools->cohorts > 1)
-            add_cohorts(s, &stool, &t);
-        else
-            add_alike(s, &stool, &t);
+        const struct wood_stools *stools = s->wood->along[i_side][p->belt[p->next]].stools;
+        if (stools->cohorts > 1 || stools->n < ROW_SHOOTS) {
+            add_columns(s, i_side, stools, &t);
+        } else {
+            struct stool stool = next_stool(s, i_side);
+            add_row(s, &stool, &t);
+        }
     } while (t.n < STOP_SHOOTS && p->next < p->count && is_plain_stool(s, i_side));
     rank_shoots(&t, rank);
     for (unsigned i = 0; i < t.n; i++) {

@@ -26,18 +26,21 @@ enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAM_GROUPS, STREAMS };
 
 /* The next places of a stream, which are drawn many at a time. */
 #define POINTS     16
+#define POINTS_ROOM (POINTS + 8) /* they may be read some at once from any of them on */
 #define POINTS_FEW 8 /* of trees among stools */
 #define COHORT_GROUPS 4 /* of four shoots: cohorts of so many are drawn together */
 #define SHOOTS_AT_ONCE 64 /* so many are put in order at once, more than STOP_SHOOTS and those of a last stool */
 #define STOP_SHOOTS    24
 #define SHOOTS_FEW     (SHOOTS_AT_ONCE - STOP_SHOOTS)
 struct points {
-    double at[POINTS];              /* m along the strip */
-    double offset[POINTS];          /* uniform in (-1/2, 1/2): how far from the middle of the strip */
-    double mark[POINTS];            /* uniform in (0, 1): which of those that the stream is made of */
-    double turn[POINTS];            /* likewise in (-1/2, 1/2) */
-    double sine[POINTS], cosine[POINTS]; /* of a stool's turn */
-    uint64_t cohorts[COHORT_GROUPS][2][POINTS]; /* of the first shoots of a stool */
+    double at[POINTS_ROOM];         /* m along the strip */
+    double offset[POINTS_ROOM];     /* uniform in (-1/2, 1/2): how far from the middle of the strip */
+    double mark[POINTS_ROOM];       /* uniform in (0, 1): which of those that the stream is made of */
+    double turn[POINTS_ROOM];       /* likewise in (-1/2, 1/2) */
+    /* of a stool: its middle from that of the strip, and the first place of its ring from there */
+    double centre[POINTS_ROOM], sine[POINTS_ROOM], cosine[POINTS_ROOM]; /* m */
+    uint64_t more[POINTS_ROOM];     /* 1: it has one shoot more than others */
+    uint64_t cohorts[COHORT_GROUPS][2][POINTS_ROOM]; /* of the first shoots of a stool */
     size_t belt[POINTS];
     unsigned next, count;           /* of `size`, fewer only where the forest ends */
     unsigned size;
@@ -64,8 +67,7 @@ struct stool {
     double at, centre, sine, cosine;
     const struct wood_stools *stools;
     const double *ring, *sines; /* of its ring */
-    unsigned n, place;
-    uint64_t (*cohorts)[2][POINTS];
+    unsigned n;
     uint64_t event;
 };
 

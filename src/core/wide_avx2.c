@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wide walk and the drawing of stems on AVX2. The rest of the program is for any machine, so this file alone sets
+/* The wide walk on AVX2. The rest of the program is for any machine, so this file and stems_avx2.c alone set
  * the target. */
 #include "wide.h"
 
@@ -13,16 +13,12 @@
 #pragma GCC target("avx2")
 #endif
 
-#define MANY 4
-#include "stems_fill.h"
 #include "wide_walk.h"
 
 void ceduo_wide_walk_avx2(const struct wide_job *job)
 {
     wide_walk(job);
 }
-
-const struct stems_kernel ceduo_stems_avx2 = {fill_points, make_stools};
 
 #ifdef __clang__
 #pragma clang attribute pop

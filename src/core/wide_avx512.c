@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wide walk and the drawing of stems on AVX-512. The rest of the program is for any machine, so this file alone
- * sets the target. */
+/* The wide walk on AVX-512. The rest of the program is for any machine, so this file and stems_avx512.c
+ * alone set the target. */
 #include "wide.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -14,17 +14,12 @@
 #endif
 
 #define WIDE_AVX512
-#define MANY 8
-#define MANY_AVX512
-#include "stems_fill.h"
 #include "wide_walk.h"
 
 void ceduo_wide_walk_avx512(const struct wide_job *job)
 {
     wide_walk(job);
 }
-
-const struct stems_kernel ceduo_stems_avx512 = {fill_points, make_stools};
 
 #ifdef __clang__
 #pragma clang attribute pop
