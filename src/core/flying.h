@@ -114,10 +114,10 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
     struct ceduo_stem_passed p = {.x = x,
                                   .y = stem->y,
                                   .dbh = stem->dbh,
-                                  .height = stem->height,
+                                  .height = stem->kind->height,
                                   .shoot = stem->shoot,
                                   .stool = stem->stool,
-                                  .hit = clearance < stem->height,
+                                  .hit = clearance < stem->kind->height,
                                   .clearance = clearance,
                                   .before = before,
                                   .taken = taken};
@@ -209,7 +209,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             continue;
         }
         clearance = clearance > 0 ? clearance : 0;
-        if (!(clearance < stem.height)) {
+        if (!(clearance < stem.kind->height)) {
             if (w->watch && w->watch->stem)
                 show_stem(w, &stem, x, clearance, 0, 0);
             continue;

@@ -65,7 +65,7 @@ static bool make_room(struct stems *s, struct stems_side *side, size_t more)
 {
     if (side->first == side->end)
         side->first = side->end = 0;
-    if (side->end + more <= side->room)
+    if (side->end + more < side->room)
         return true;
     size_t count = side->end - side->first;
     if (count > 0)
@@ -175,8 +175,6 @@ static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_si
         stem.kind = draw_shoot(s, &t, i, &stem.dbh);
         if (fabs(stem.y) > (s->b + stem.dbh) / 2)
             continue;
-        stem.height = stem.kind->height;
-        stem.energy = stem.kind->energy;
         let_wait(s, i_side, &stem);
     }
 }
@@ -261,10 +259,7 @@ static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
     s->effort += 1 + t->group;
     double centre = p->offset[k] * (2 * t->radius + t->kind->most + s->b);
     for (unsigned i = 0; i < t->group; i++) {
-        struct stem stem = {.kind = t->kind,
-                            .height = t->kind->height,
-                            .energy = t->kind->energy,
-                            .stool = event | (uint64_t)(i + 1) << 44};
+        struct stem stem = {.kind = t->kind, .stool = event | (uint64_t)(i + 1) << 44};
         if (place_tree(s, belt, p->at[k], centre, t->radius, event, i, &stem))
             let_wait(s, i_side, &stem);
     }
@@ -291,8 +286,6 @@ static void make_single(struct stems *s, int i_side)
     side->single = (struct stem){.along = p->at[k],
                                  .y = s->poisson ? NAN : p->offset[k] * (s->b + d),
                                  .dbh = d,
-                                 .height = kind->height,
-                                 .energy = kind->energy,
                                  .kind = kind,
                                  .stool = event};
     p->next++;

@@ -98,11 +98,11 @@ static inline double ceduo_stem_part(const struct stems *stems, const struct ste
 }
 
 /* Energy (J) that a hit of this stem takes from a rock of diameter b that has as much. */
-static inline double ceduo_stem_energy(struct stem *stem, double b)
+static inline double ceduo_stem_energy(const struct stem *stem, double b)
 {
-    if (isnan(stem->energy))
-        stem->energy = stem_energy_hit(&stem->kind->by_hit, stem->dbh, ceduo_stem_eccentricity(stem, b));
-    return stem->energy;
+    const struct wood_kind *kind = stem->kind;
+    return isnan(kind->energy) ? stem_energy_hit(&kind->by_hit, stem->dbh, ceduo_stem_eccentricity(stem, b))
+                               : kind->energy;
 }
 
 #endif

@@ -315,8 +315,8 @@ static inline void make_columns(const struct stems *s, const struct points *p, u
     }
 }
 
-/* The shoots of the next stools, all of one belt, stool by stool until there are enough. Whether the rock can hit one is
- * as likely as not, so that no branch depends on it. */
+/* The shoots of the next stools, all of one belt, stool by stool until there are enough. Whether the rock can hit one
+ * is as likely as not, so that no branch depends on it. */
 static inline void add_columns(struct stems *s, int side, const struct wood_stools *t, struct shoots *to)
 {
     struct points *p = &s->side[side].streams[STREAM_STOOLS];
@@ -395,8 +395,6 @@ static void make_stools(struct stems *s, int i_side)
         side->waiting[rank[i]] = (struct stem){.along = t.along[i],
                                                .y = t.y[i],
                                                .dbh = kind->dbh,
-                                               .height = kind->height,
-                                               .energy = kind->energy,
                                                .kind = kind,
                                                .stool = t.stool[i],
                                                .shoot = true,

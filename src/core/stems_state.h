@@ -11,12 +11,10 @@
 
 struct stem {
     double along;     /* m: place along the strip */
-    double height;    /* m */
-    double energy;    /* J that a hit takes; NaN: not computed yet */
     uint64_t stool;   /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
+    const struct wood_kind *kind;
     double y;         /* m: offset from the middle of the strip */
     double dbh;       /* m; NaN where contacts have no diameter */
-    const struct wood_kind *kind;
     bool shoot;
     bool met;         /* it waits behind the release, and another shoot of its stool was hit ahead */
 };
@@ -54,7 +52,7 @@ struct stems_side {
     struct points *groups;  /* the third stream; NULL: there are none */
     double trees_to;        /* m along the strip: behind that no tree of a group waits */
     struct stem single;     /* the next of its stream; `along` infinite: none */
-    struct stem *waiting;   /* shoots of drawn stools, and trees of drawn groups, that the rock can hit, from `first` to before `end`, the nearest first */
+    struct stem *waiting;   /* shoots of drawn stools, and trees of drawn groups, that the rock can hit, from `first` to before `end`, the nearest first; room for one more */
     size_t first, end, room;
     double sure;            /* m along the strip: a waiting stem before that is next if it is the first of them */
     double next;            /* m along the strip: no stem before */

@@ -36,7 +36,7 @@ struct walker {
     struct stems *stems;       /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
-    double variates[VARIATES]; /* of its contacts so far; of a rock in a lane they are there, see show_variates() */
+    double variates[VARIATES]; /* of its contacts so far; of a rock in a lane they are there, see show_rock() */
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     uint64_t turns_of;

@@ -41,8 +41,16 @@ struct wide {
         double wide[LANES], high[LANES], reach[LANES], gyration[LANES];
     } section;
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
-    double height[LANES]; /* of the next stem ahead; */
-    double cost[LANES], part[LANES]; /* what a hit of it takes: see struct hit */
+    struct {
+        double height[LANES];            /* of the next ahead; */
+        double cost[LANES], part[LANES]; /* what a hit of it takes: see struct hit */
+        const struct stem *next[LANES];  /* NULL where it does not wait, or is not known */
+        double after[LANES];             /* where the stem stands that waits behind it, which is next if that is */
+        double sure[LANES];              /* before here */
+        double around[LANES];            /* so far reach stools that stand around the release */
+        uint64_t *met[LANES];            /* of struct stems */
+        uint64_t hit[LANES], stools_met[LANES];
+    } stem; /* counts and `next` go back to the walker and its stems by show_rock() */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
@@ -87,12 +95,28 @@ static void load_draws(struct wide *k, size_t i)
         load_draws_of(w, RANDOM_TURN, k->turn, i);
 }
 
-/* Those who read the walker find the variates of its rock there. */
-static void show_variates(const struct wide *k, size_t i)
+/* What a rock has met, and which stem comes next, as its lane knows it. */
+static inline void show_stems_met(const struct wide *k, size_t i)
+{
+    struct walker *w = &k->job->walkers[i];
+    if (!w->stems)
+        return;
+    w->stems_hit = k->stem.hit[i];
+    w->stools_met = k->stem.stools_met[i];
+    if (!k->stem.next[i])
+        return;
+    struct stems_side *side = &w->stems->side[0];
+    side->first = (size_t)(k->stem.next[i] - side->waiting);
+    w->stem_ahead = side->next = k->stem_ahead[i];
+}
+
+/* Those who read the walker find there what the lane knows of its rock. */
+static void show_rock(const struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     for (size_t v = 0; v < VARIATES; v++)
         w->variates[v] = k->variates[v][i];
+    show_stems_met(k, i);
 }
 
 static void load_section(struct wide *k, size_t i)
@@ -104,14 +128,13 @@ static void load_section(struct wide *k, size_t i)
     k->section.gyration[i] = section->gyration;
 }
 
-/* The next stem ahead, which is known. */
-LANE void show_stem(struct wide *k, size_t i, struct stem *stem)
+/* What the next stem ahead does to a rock. */
+LANE void load_hit(struct wide *k, size_t i, const struct stem *stem)
 {
     const struct walker *w = &k->job->walkers[i];
-    k->stem_ahead[i] = stem->along;
-    k->height[i] = stem->height;
-    k->cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
-    k->part[i] = ceduo_stem_part(w->stems, stem, &w->rock);
+    k->stem.height[i] = stem->kind->height;
+    k->stem.cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
+    k->stem.part[i] = ceduo_stem_part(w->stems, stem, &w->rock);
 }
 
 /* The next stem ahead, if there is one. */
@@ -121,12 +144,28 @@ static void load_stem(struct wide *k, size_t i)
     unsigned bit = 1u << i;
     k->stem_ahead[i] = w->stem_ahead;
     k->paused &= ~bit;
-    if (!w->stems || w->stem_ahead == INFINITY)
+    if (!w->stems)
         return;
-    if (w->stems->side[0].next_known)
-        show_stem(k, i, ceduo_stems_next(&w->stems->side[0]));
-    else
+    struct stems_side *side = &w->stems->side[0];
+    k->stem.hit[i] = w->stems_hit;
+    k->stem.stools_met[i] = w->stools_met;
+    k->stem.met[i] = w->stems->met;
+    k->stem.around[i] = w->stems->start + 2 * w->stems->wood->reach;
+    k->stem.next[i] = NULL;
+    k->stem.after[i] = k->stem.sure[i] = INFINITY;
+    if (w->stem_ahead == INFINITY)
+        return;
+    if (!side->next_known) {
         k->paused |= bit;
+        return;
+    }
+    load_hit(k, i, ceduo_stems_next(side));
+    if (side->next_waits) {
+        side->waiting[side->end].along = INFINITY;
+        k->stem.next[i] = &side->waiting[side->first];
+        k->stem.after[i] = k->stem.next[i][1].along;
+        k->stem.sure[i] = side->sure;
+    }
 }
 
 /* What the walker knows of itself and the scalar walk may have changed. */
@@ -174,7 +213,7 @@ static struct course course_of(struct wide *k, size_t i)
     size_t to = left ? (k->to[i] == 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
-    show_variates(k, i);
+    show_rock(k, i);
     return (struct course){.at = {.x = k->x[i],
                                   .z = k->z[i],
                                   .vx = k->vx[i],
@@ -262,7 +301,7 @@ static __attribute__((noinline)) void stop_alone(struct wide *k, size_t i, enum 
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
-    show_variates(k, i);
+    show_rock(k, i);
     w->at.x = k->x[i];
     w->at.z = k->z[i];
     k->job->ended(k->job->context, i, end);
@@ -274,7 +313,7 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
-    show_variates(k, i);
+    show_rock(k, i);
     w->at.x = k->to_x[i];
     w->at.z = k->to_z[i];
     k->job->ended(k->job->context, i, CEDUO_LEFT_SLOPE);
@@ -286,7 +325,7 @@ static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = k->spin[i];
-    show_variates(k, i);
+    show_rock(k, i);
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
     k->next_x[i] = w->next_x;

@@ -47,10 +47,27 @@ LANE void go_to_segment(struct form form, const struct wide *k, struct passing *
     }
 }
 
-/* The scalar walk takes the stem that is before each of `lanes`, whose flights pass marks up to there if they hit it.
- * */
-static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct passing *p, unsigned lanes, unsigned hit,
-                                                       reals t)
+/* The scalar walk takes the stem that is before lane i. */
+static void take_stem_alone(struct wide *k, struct passing *p, size_t i, bool hit, struct flight at, double t)
+{
+    struct walker *w = &k->job->walkers[i];
+    if (!ceduo_walk_take_stem(w, hit, at, t))
+        p->ended |= 1u << i;
+    load_stem(k, i);
+}
+
+/* The same for each of `lanes`, of which no flight passes a mark. */
+static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct passing *p, unsigned lanes, unsigned hit)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        show_stems_met(k, i);
+        take_stem_alone(k, p, i, hit >> i & 1, (struct flight){0}, 0);
+    }
+}
+
+/* Of each of `lanes`, whose flights pass marks up to the stem that they hit. */
+static __attribute__((noinline)) void take_stems_past_marks(struct wide *k, struct passing *p, unsigned lanes, reals t)
 {
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES], seconds[LANES];
     store(x, p->x);
@@ -64,44 +81,61 @@ static __attribute__((noinline)) void take_stems_alone(struct wide *k, struct pa
         struct walker *w = &k->job->walkers[i];
         struct flight at = {.x = x[i], .z = z[i], .vx = vx[i], .vz = vz[i]};
         w->spin = spin[i];
-        show_variates(k, i);
-        if (!ceduo_walk_take_stem(w, hit >> i & 1, at, seconds[i]))
-            p->ended |= 1u << i;
+        show_rock(k, i);
+        take_stem_alone(k, p, i, true, at, seconds[i]);
         k->next_x[i] = w->next_x;
         k->pause[i] = w->pause;
-        load_stem(k, i);
     }
 }
 
+/* Takes the stem that is before each of `lanes`, where the one behind it waits and is next. No branch depends on what is
+ * hit. Returns those of which the law asks more than the kind of stem. */
+LANE unsigned take_waiting(struct wide *k, unsigned lanes, unsigned hit)
+{
+    const struct wood *wood = k->job->walkers[0].stems->wood;
+    uint64_t places = wood->places;
+    unsigned ask = wood->shares ? lanes : 0;
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        const struct stem *stem = k->stem.next[i];
+        uint64_t *place = &k->stem.met[i][stem->stool & places];
+        bool is_hit = hit >> i & 1, shoot = is_hit & stem->shoot;
+        k->stem.hit[i] += is_hit;
+        k->stem.stools_met[i] += is_hit & !(shoot & (*place == stem->stool));
+        *place = shoot ? stem->stool : *place;
+        k->stem.next[i] = ++stem;
+        k->stem.after[i] = stem[1].along;
+        k->stem_ahead[i] = stem->along;
+        k->stem.height[i] = stem->kind->height;
+        k->stem.cost[i] = stem->kind->energy;
+        ask |= (unsigned)isnan(stem->kind->energy) << i;
+    }
+    return ask;
+}
+
 /* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
- * waits already and no mark is passed. */
+ * waits already, no mark is passed and no stool stands around the release. */
 LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
 {
-    unsigned alone = hit & bits_of(at_least(load(k->stem_ahead), load(k->next_x)));
-    for (unsigned left = p->under_way & ~alone; left; left &= left - 1) {
-        size_t i = (size_t)__builtin_ctz(left);
-        struct walker *w = &k->job->walkers[i];
-        struct stems_side *side = &w->stems->side[0];
-        if (!ceduo_stems_next_waits(side)) {
-            alone |= 1u << i;
-            continue;
-        }
-        bool is_hit = hit >> i & 1;
-        w->stems_hit += is_hit;
-        const struct stem *stem = &side->waiting[side->first];
-        w->stools_met += stem->shoot ? ceduo_stems_meet_shoot(w->stems, stem, is_hit) : is_hit;
-        ceduo_stems_take_waiting(side);
-        w->stem_ahead = side->next;
-        show_stem(k, i, &side->waiting[side->first]);
+    reals to = load(k->stem_ahead);
+    unsigned marks = hit & bits_of(at_least(to, load(k->next_x)));
+    unsigned waits = bits_of(but(less(load(k->stem.after), load(k->stem.sure)), at_least(load(k->stem.around), to)));
+    unsigned alone = p->under_way & ~marks & ~waits;
+    for (unsigned ask = take_waiting(k, p->under_way & ~marks & waits, hit); ask; ask &= ask - 1) {
+        size_t i = (size_t)__builtin_ctz(ask);
+        load_hit(k, i, k->stem.next[i]);
     }
     if (alone)
-        take_stems_alone(k, p, alone, hit, t);
+        take_stems_alone(k, p, alone, hit);
+    if (marks)
+        take_stems_past_marks(k, p, marks, t);
 }
 
 /* The next stem of each flight under way, whose landing comes behind it or is not known. */
 LANE void pass_stem(struct form form, struct wide *k, struct passing *p)
 {
-    reals zero = all(0), to = load(k->stem_ahead), height = load(k->height), cost = load(k->cost), part = load(k->part);
+    reals zero = all(0), to = load(k->stem_ahead), height = load(k->stem.height);
+    reals cost = load(k->stem.cost), part = load(k->stem.part);
     flags knows = flags_of(p->knows);
     go_to_segment(form, k, p, to);
     reals t = over(sub(to, p->x), p->vx), latest = load(k->t);
