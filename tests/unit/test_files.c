@@ -313,8 +313,10 @@ static void what_cannot_be_written(void **state)
     put("kept", "old");
     in_folder(path, "kept");
     assert_int_equal(chmod(folder, 0777), 0);
-    for (int may = 0; may < 2; may++) {
-        assert_int_equal(chmod(path, may ? 0666 : 0444), 0);
+    static const mode_t modes[] = {0444, 0555, 0545, 0666};
+    for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
+        assert_int_equal(chmod(path, modes[i]), 0);
+        bool may = modes[i] == 0666;
         bool root = geteuid() == 0; /* who may write anything: asked for as another user */
         if (root)
             assert_int_equal(setreuid(65534, 0), 0);

@@ -49,7 +49,8 @@ static const char doubted[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: p
                               "rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: [acer]}]}\n"
                               "options:\n  - name: wood\n    forest: [{from_m: 10, to_m: 30, stand: doubtful.yaml}, "
                               "{from_m: 30, to_m: 50, stand: doubtful.yaml}]\n  - {name: bare}\n"
-                              "doubt: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}]\n";
+                              "doubt: [{path: 'options[*].forest[0].stand.energy.model', one_of: [brauner, dorren]}, "
+                              "{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.3}]\n";
 
 static const char doubtful[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
                                "doubt: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";

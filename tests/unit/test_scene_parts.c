@@ -88,6 +88,10 @@ static void one_fault_is_told_once(void **state)
         {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: []}", "slope.materials: the list is empty"},
         {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100}]}",
          "'material' is missing"},
+        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "
+         "{to_m: 100, material: talus}]}", "'from_m' is missing"},
+        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "
+         "{from_m: x, to_m: 100, material: talus}]}", "materials[1].from_m: 'x' is not a number"},
         {"release: {x_m: 5, source: {kind: guessed}}\nobserved: [{" STOPS ", release: {vx_m_s: 3}}]",
          "release.source.kind: 'guessed'"},
         {"observed: [{use: check}]", "observed[0]: say what was seen"},
