@@ -31,12 +31,6 @@ static bool make_room(struct places *p, size_t more)
     return items != NULL;
 }
 
-static void add_place(struct places *p, const char *path)
-{
-    if (make_room(p, 1))
-        p->items[p->n++] = ceduo_derive_text(p->d, "%s", path);
-}
-
 /* The list that a path before its [*] leads to; NULL: none. */
 static const struct node *list_at(const struct node *root, const char *path)
 {
@@ -44,6 +38,28 @@ static const struct node *list_at(const struct node *root, const char *path)
     size_t used;
     const struct node *node = ceduo_resolve_walk(root, path, &within, &used);
     return path[used] == '\0' && node->kind == NODE_LIST ? node : NULL;
+}
+
+/* The path with the number of an item in place of its name: paths of one place are alike. */
+static const char *with_numbers(struct deriver *d, const char *path)
+{
+    struct path_step step;
+    size_t at = 0, place;
+    while (ceduo_path_next(path, strlen(path), &at, &step)) {
+        if (!step.bracket || ceduo_path_index(&step, &place))
+            continue;
+        int before = (int)(step.p - path);
+        const struct node *list = list_at(d->root, ceduo_derive_text(d, "%.*s", before - 1, path));
+        if (list && ceduo_resolve_item(list, &step, &place))
+            return with_numbers(d, ceduo_derive_text(d, "%.*s%zu%s", before, path, place, step.p + step.n));
+    }
+    return path;
+}
+
+static void add_place(struct places *p, const char *path)
+{
+    if (make_room(p, 1))
+        p->items[p->n++] = ceduo_derive_text(p->d, "%s", with_numbers(p->d, path));
 }
 
 /* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. */

@@ -276,8 +276,7 @@ static bool is_named(const struct node *item, const struct path_step *step)
     return ceduo_path_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name"));
 }
 
-/* The item that a bracket means: by its place, or the first of its name. */
-static bool find_item(const struct node *list, const struct path_step *step, size_t *index)
+bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index)
 {
     if (ceduo_path_index(step, index))
         return *index < list->n;
@@ -296,7 +295,7 @@ const struct node *ceduo_resolve_walk(const struct node *root, const char *path,
     while (ceduo_path_next(path, length, &at, &step)) {
         const struct node *next = NULL;
         size_t i;
-        if (step.bracket && root->kind == NODE_LIST && find_item(root, &step, &i))
+        if (step.bracket && root->kind == NODE_LIST && ceduo_resolve_item(root, &step, &i))
             next = root->items[i];
         for (i = 0; !step.bracket && root->kind == NODE_MAP && i < root->n; i++)
             if (ceduo_path_is(&step, root->items[i]->key))
@@ -439,7 +438,7 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
     struct resolver r = {.arena = s->arena, .problems = s->problems};
     if (object && !(list = resolve_items(&r, object, list)))
         return NULL;
-    if (!find_item(list, step, &i))
+    if (!ceduo_resolve_item(list, step, &i))
         return fail_at(s, step, _("no such item"));
     if (is_ambiguous(s, list, step, i))
         return NULL;

@@ -20,6 +20,9 @@ const char *ceduo_resolve_path(struct arena *arena, const struct node *node, con
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
                                      size_t path_length, const struct node *value, struct problems *problems);
 
+/* The item of a list that a bracket means: by its place, or the first of its name. False where there is none. */
+bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index);
+
 /* The deepest node along `path` that exists; `*within` is the part of the path from its file's root on,
  * `*used` how many bytes of the path led to it. */
 const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used);

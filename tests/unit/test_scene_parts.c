@@ -112,7 +112,7 @@ static void rows_of_doubt_are_told(void **state)
     (void)state;
     const char *const paths[] = {"title", "rock", "rock.axes_m", "rock.axes_m[0]", "rock.diameter_m.mean",
                                  "slope.vertices_m", "controls_m", "forest", "simulation.scale_rn",
-                                 "slope.materials[talus", "slope.materials[talus]rn",
+                                 "slope.materials[talus", "slope.materials[talus]_rn",
                                  "slope.materials[talus].hardness", "slope.materials[gold].rn"};
     for (size_t i = 0; i < LENGTH(paths); i++) {
         struct scene_file file;
@@ -170,12 +170,42 @@ static void rows_of_doubt_mean_places(void **state)
     expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]", ""); /* there are no options */
     /* an option without a forest is passed over, the others are not */
     expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]\n"
-                  "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]",
+                  "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}, {name: cut}]",
                   "options[1].forest[0].to_m");
     /* one stand says it, the other that nothing is in doubt */
     expect_places("forest: [{" BELT ", doubt: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
                   "doubt: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]", "forest[1].stand.trees[0].per_ha");
     expect_places(CLIFF_AND_TALUS "\n" GROUND_ROW, "slope.segments[1].rn");
+}
+
+/* A place has one path: by its number, though a row gives its name. */
+static void places_by_name(void **state)
+{
+    (void)state;
+    static const char place[] = "options[1].forest[0].stand.trees[0].per_ha";
+    static const char *const more[] = {"doubt: [{path: 'trees[0].per_ha', lo: 40, hi: 120}]", "source: {kind: assumed}"};
+    for (size_t i = 0; i < LENGTH(more); i++) { /* which the row of the scene goes before */
+        struct text lines = {0};
+        struct scene_file file;
+        struct scene_inputs inputs;
+        size_t found = 0;
+        ceduo_text_format(&lines, "doubt: [{path: 'options[wood].forest[trees].stand.trees[0].per_ha', lo: 70, hi: 90}]\n"
+                          "options: [{name: bare}, {name: wood, forest: [{from_m: 10, to_m: 80, stand: {name: trees, "
+                          "trees: [{per_ha: 80, " TREE "}], energy: {model: brauner, u_J_m3: 1e5}, %s}}]}]", more[i]);
+        read_scene(&file, lines.bytes, NULL, 0, NULL);
+        assert_true(ceduo_inputs_of(&file, &inputs));
+        for (size_t k = 0; k < inputs.n; k++)
+            for (size_t n = 0; n < inputs.items[k].places_count; n++)
+                found += strcmp(inputs.items[k].places[n], place) == 0;
+        assert_int_equal(found, 1);
+        EXPECT(inputs.items[0].hi, ==, 90);
+        assert_string_equal(inputs.items[0].places[0], place);
+        ceduo_scene_release(&file);
+        ceduo_text_free(&lines);
+    }
+    expect_places("doubt: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]", "");
+    expect_places("doubt: [{path: 'options[wood].forest[0].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
+    expect_places("doubt: [{path: 'forest[wood].to_m', lo: 50, hi: 60}]\nforest: [{" BELT "}}]", "");
 }
 
 /* More places than there are rows in any list. */
@@ -289,8 +319,8 @@ static void places_have_belts(void **state)
     read_scene(&file, "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]", NULL, 0, NULL);
     const struct ceduo_scene *s = &file.scene;
     assert_ptr_equal(ceduo_input_belt(s, "options[1].forest[0].stand.stools.per_ha"), &s->options[1].belts[0]);
-    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m", "options[2].forest[0].to_m",
-                                "forest[0].to_m", "rock.density_kg_m3"};
+    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m",
+                                "options[4000000000].forest[0].to_m", "forest[0].to_m", "rock.density_kg_m3"};
     for (size_t i = 0; i < LENGTH(none); i++)
         assert_null(ceduo_input_belt(s, none[i]));
     ceduo_scene_release(&file);
@@ -407,6 +437,7 @@ int main(void)
         IN_FOLDER(one_fault_is_told_once),
         IN_FOLDER(rows_of_doubt_are_told),
         IN_FOLDER(rows_of_doubt_mean_places),
+        IN_FOLDER(places_by_name),
         IN_FOLDER(all_places_are_meant),
         IN_FOLDER(sources_of_ranges_are_no_notes),
         IN_FOLDER(draws_of_an_assumed_ground),
