@@ -192,7 +192,7 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
         prepare_segment(ground, j, radius);
         ground->theta_varies |= radius_varies && ground->given[j]->roughness_m > 0;
     }
-    if (build_levels(ground, MARGIN * size))
+    if (build_levels(ground, MARGIN * size) && ceduo_ground_prepare_rolls(ground, radius, radius_varies))
         return true;
 fail:
     ceduo_ground_release(ground);
@@ -212,8 +212,12 @@ void ceduo_ground_release(struct ground *ground)
     if (ground->segments)
         free(ground->segments - 1);
     free(ground->given);
-    for (int l = 0; l < GROUND_LEVELS; l++)
+    free(ground->corners);
+    for (int l = 0; l < GROUND_LEVELS; l++) {
         free(ground->levels[l]);
+        free(ground->rolls[0][l]);
+        free(ground->rolls[1][l]);
+    }
     memset(ground, 0, sizeof *ground);
 }
 

@@ -8,9 +8,6 @@
 
 #include "flying.h"
 
-#ifndef ROUNDING
-#define ROUNDING 1e-9 /* what is nearer to a limit is looked at more closely; only speed depends on it */
-#endif
 #ifndef STOP_ROUNDING
 #define STOP_ROUNDING (4 * DBL_EPSILON) /* of the coordinates: a rock stops no nearer than this */
 #endif
@@ -148,6 +145,11 @@ static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, str
     }
 }
 
+static inline bool knows_corners(const struct walker *w)
+{
+    return w->g->corners && w->rock.radius >= w->g->reach;
+}
+
 /* At the end of the segment: onto the next one, off the profile, or into the air. `l` is set where it takes off. */
 static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct landing *l)
 {
@@ -163,7 +165,8 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
         r->u2 = cosine > 0 ? r->u2 * (cosine * cosine) : 0;
     }
     w->at.segment = next;
-    if (turn < 0) {
+    bool surely = knows_corners(w) && r->u2 < g->gravity * g->corners[r->dir > 0 ? next : j].surely[r->dir > 0 ? 0 : 1];
+    if (turn < 0 && !surely) {
         double u = r->dir * sqrt(r->u2);
         struct flight off = {
             .x = w->at.x, .z = w->at.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
@@ -176,54 +179,54 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
     return ROLLED;
 }
 
-/* Ground ahead of a roll: a vertex less than R away, when it was looked for the last such. */
-struct ahead {
-    bool known;
+/* A roll from vertex to vertex. */
+struct pass {
     size_t vertex;
+    double u2, left, pull; /* pull: 2g/(1+k) */
 };
 
-static void look_ahead(const struct walker *w, int dir, size_t v, struct ahead *to)
+/* Over a block of segments; false where more than the speed may change. */
+HOT bool pass_block(const struct ground *g, int dir, int level, double next_x, struct pass *p)
 {
-    const double *along = w->g->along;
-    size_t last = dir > 0 ? w->g->n : 0, step = 1;
-    if (!to->known)
-        to->vertex = v;
-    to->known = true;
-    double r = w->rock.radius * (1 - ROUNDING);
-    for (;; step *= 2) { /* in ever larger steps, */
-        size_t room = dir > 0 ? last - to->vertex : to->vertex;
-        size_t next = dir > 0 ? to->vertex + step : to->vertex - step;
-        if (step > room || !(fabs(along[next] - along[v]) < r))
-            break;
-        to->vertex = next;
-    }
-    for (; step > 0; step /= 2) { /* then smaller ones */
-        size_t room = dir > 0 ? last - to->vertex : to->vertex;
-        size_t next = dir > 0 ? to->vertex + step : to->vertex - step;
-        if (step <= room && fabs(along[next] - along[v]) < r)
-            to->vertex = next;
-    }
+    size_t many = (size_t)1 << (ROLL_BITS * level), i = p->vertex >> (ROLL_BITS * level);
+    if (dir > 0 && p->vertex + many > g->n)
+        return false;
+    size_t to = dir > 0 ? p->vertex + many : p->vertex - many;
+    const struct ground_roll *b = dir > 0 ? &g->rolls[0][level][i] : &g->rolls[1][level][i - 1];
+    double way = dir * (g->along[to] - g->along[p->vertex]);
+    if (!(way < p->left && p->u2 > p->pull * b->above && p->u2 < g->gravity * b->below) ||
+        (dir > 0 && next_x <= g->x[to]))
+        return false;
+    p->u2 = b->kept * p->u2 + p->pull * b->gained;
+    p->left -= way;
+    p->vertex = to;
+    return true;
 }
 
-/* Whether a rock that comes along segment j over its end v with speed u (u2 = u^2) surely rolls on at this convex vertex:
- * it rises little, and would be under the ground at a vertex less than R away. Looking at some vertices is enough, as most
- * often the farthest tells. */
-static bool surely_rolls(const struct walker *w, int dir, size_t j, size_t v, double turn, double c_next, double u2,
-                         struct ahead *ahead)
+/* The same over one segment. */
+HOT bool pass_vertex(const struct ground *g, int dir, double next_x, struct pass *p)
 {
-    const struct ground *g = w->g;
-    const struct ground_segment *s = &g->segments[j];
-    if (!(u2 * (turn * turn) < w->rock.radius * (2 * g->gravity * c_next) * (1 - ROUNDING)))
+    size_t to = dir > 0 ? p->vertex + 1 : p->vertex - 1, j = dir > 0 ? p->vertex : to;
+    double way = g->along[j + 1] - g->along[j], falls = dir * (g->z[j] - g->z[j + 1]);
+    double u2 = p->u2 + p->pull * (falls - g->corners[j].friction * (g->x[j + 1] - g->x[j]));
+    if (!(way < p->left && u2 > 0 && u2 < g->gravity * g->corners[to].surely[dir > 0 ? 0 : 1]) ||
+        (dir > 0 && next_x <= g->x[to]))
         return false;
-    if (!ahead->known || !(fabs(g->along[ahead->vertex] - g->along[v]) > w->rock.radius / 2))
-        look_ahead(w, dir, v, ahead);
-    for (size_t far = dir > 0 ? ahead->vertex - v : v - ahead->vertex; far > 0; far /= 4) {
-        size_t p = dir > 0 ? v + far : v - far;
-        double dx = fabs(g->x[p] - g->x[v]), above = dir * s->s * dx - s->c * (g->z[p] - g->z[v]);
-        if (2 * u2 * s->c * above < g->gravity * (dx * dx) * (1 - ROUNDING))
-            return true;
+    p->u2 = u2 * g->corners[to].kept;
+    p->left -= way;
+    p->vertex = to;
+    return true;
+}
+
+HOT void pass_many(const struct ground *g, int dir, double next_x, struct pass *p)
+{
+    for (;;) {
+        int level = __builtin_ctzll(p->vertex | (size_t)1 << (ROLL_BITS * g->roll_top)) / ROLL_BITS;
+        while (level > 0 && !pass_block(g, dir, level, next_x, p))
+            level--;
+        if (level == 0 && !pass_vertex(g, dir, next_x, p))
+            return;
     }
-    return false;
 }
 
 /* Rolls over whole segments, from the vertex that `at` is on, as long as nothing but the speed changes: what may be a
@@ -231,34 +234,21 @@ static bool surely_rolls(const struct walker *w, int dir, size_t j, size_t v, do
 static void roll_over_segments(struct walker *w, struct roll *r)
 {
     const struct ground *g = w->g;
-    if (w->stems || (w->watch && w->watch->piece))
+    if (w->stems || (w->watch && w->watch->piece) || !knows_corners(w))
         return;
-    int dir = r->dir;
-    double pull = 2 * g->gravity / (1 + w->k);
-    struct ahead ahead = {.known = false};
-    for (;;) {
-        size_t j = w->at.segment, v = dir > 0 ? j + 1 : j;
-        double ds = g->along[j + 1] - g->along[j];
-        if (v == (dir > 0 ? g->n : 0) || !(ds < r->left) || (dir > 0 && w->next_x <= g->x[v]))
-            return;
-        size_t next = dir > 0 ? j + 1 : j - 1;
-        const struct ground_segment *a = &g->segments[j], *b = &g->segments[next];
-        double u2 = r->u2 + pull * (dir * (g->z[j] - g->z[j + 1]) - a->friction * (g->x[j + 1] - g->x[j]));
-        if (!(u2 > 0))
-            return;
-        double turn = dir * (a->c * b->s - a->s * b->c);
-        if (turn > 0) {
-            double cosine = a->c * b->c + a->s * b->s;
-            u2 = cosine > 0 ? u2 * (cosine * cosine) : 0;
-        } else if (turn < 0 && !surely_rolls(w, dir, j, v, turn, b->c, u2, &ahead)) {
-            return;
-        }
-        r->u2 = u2;
-        r->left -= ds;
-        w->at.x = g->x[v];
-        w->at.z = g->z[v];
-        w->at.segment = next;
-    }
+    size_t j = w->at.segment, from = r->dir > 0 ? j : j + 1;
+    struct pass p = {.vertex = from, .u2 = r->u2, .left = r->left, .pull = 2 * g->gravity / (1 + w->k)};
+    if (r->dir > 0)
+        pass_many(g, 1, w->next_x, &p);
+    else
+        pass_many(g, -1, w->next_x, &p);
+    if (p.vertex == from)
+        return;
+    r->u2 = p.u2;
+    r->left = p.left;
+    w->at.x = g->x[p.vertex];
+    w->at.z = g->z[p.vertex];
+    w->at.segment = r->dir > 0 ? p.vertex : p.vertex - 1;
 }
 
 /* Rolls for a length R along the ground from speed u; 0: downhill. */

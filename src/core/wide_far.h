@@ -95,10 +95,13 @@ static __attribute__((noinline)) void search_far(const struct wide *k, unsigned 
         for (unsigned left = lanes; left; left &= left - 1) {
             size_t i = (size_t)__builtin_ctz(left);
             struct quest *f = &quests[i];
-            if (f->level > 0)
+            if (f->level > 0) {
                 quest_blocks(k, f);
-            else if (quest_vertices(k, f))
+            } else if (quest_vertices(k, f)) {
                 lanes &= ~(1u << i);
+                __builtin_prefetch(&k->g->segments[f->vertex]); /* where it lands */
+                continue;
+            }
             fetch_for(k, f);
         }
     }
