@@ -44,9 +44,6 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 /* The same, with the first and the last year that the scene names instead. */
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option);
 
-/* Whether the stand of a belt is the same in all years. */
-bool ceduo_belt_is_alike(const struct ceduo_belt *belt);
-
 struct ceduo_years {
     struct ceduo_scene scene; /* what it points to must outlive the years */
     struct ceduo_window window;

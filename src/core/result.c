@@ -70,8 +70,7 @@ void ceduo_flown_meets_nothing(struct ceduo_flown *f)
 
 void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
 {
-    bool both = f->arrivals && bare->arrivals; /* one run may be without memory */
-    for (size_t c = 0; both && c < f->controls; c++)
+    for (size_t c = 0; f->arrivals && c < f->controls; c++) /* there may have been no memory for them */
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 

@@ -461,7 +461,8 @@ bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sa
 
 bool ceduo_run_stops(const struct ceduo_run *run, double *to)
 {
-    if (run->exact)
-        memcpy(to, stops_of(run), (size_t)run->rocks * sizeof *to);
+    const double *stops = stops_of(run);
+    for (uint64_t r = 0; run->exact && r < run->rocks; r++)
+        to[r] = stops[r];
     return run->exact;
 }

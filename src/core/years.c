@@ -9,11 +9,6 @@
 
 /* ---- windows ---- */
 
-bool ceduo_belt_is_alike(const struct ceduo_belt *belt)
-{
-    return ceduo_first_cut(&belt->stand, belt->cut_year) == CEDUO_NEVER && !ceduo_stand_grows(&belt->stand);
-}
-
 static unsigned greatest_divisor(unsigned a, unsigned b)
 {
     while (b > 0) {

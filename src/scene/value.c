@@ -255,3 +255,12 @@ bool ceduo_value_put(const struct value *v, double number)
         *v->relative = si - v->origin;
     return true;
 }
+
+void ceduo_value_forget(const struct value *v)
+{
+    const double none = NAN; /* of a spread its mean */
+    for (size_t i = 0; i < v->n; i++)
+        memcpy((char *)v->at + i * v->stride, &none, sizeof none);
+    if (v->relative)
+        *v->relative = none;
+}

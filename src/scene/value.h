@@ -31,4 +31,7 @@ double ceduo_value_get(const struct value *value);
  * scene ceduo_scene_check() says; a scene that somebody else reads meanwhile must not be set. */
 bool ceduo_value_put(const struct value *value, double number);
 
+/* Makes it one that is not given, where it need not be. */
+void ceduo_value_forget(const struct value *value);
+
 #endif

@@ -119,8 +119,6 @@ static double width_if_known(struct sample *samples, size_t n, double *room)
 {
     size_t classes = n / 4 < KNOWN_CLASSES ? n / 4 : KNOWN_CLASSES;
     double width = 0;
-    if (classes == 0)
-        return NAN;
     qsort(samples, n, sizeof *samples, by_input);
     for (size_t c = 0; c < classes; c++) {
         size_t from = c * n / classes, to = (c + 1) * n / classes;
@@ -434,7 +432,7 @@ static void pass(struct bytes *b, struct inquiry *q, size_t from, size_t to)
         b->bad |= group >= q->answer->groups || (q->plan.values && group != q->group[i]);
         q->group[i] = b->bad ? 0 : (size_t)group;
     }
-    for (size_t item = from; item < to && q->plan.values; item++) {
+    for (size_t item = from; item < to; item++) {
         size_t n;
         struct ceduo_halves *values = ceduo_plan_values(&q->plan, q->answer->figures_count, item, &n);
         for (size_t i = 0; i < n; i++)

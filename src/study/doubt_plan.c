@@ -196,6 +196,7 @@ static void tell(struct work *w)
     pthread_mutex_unlock(&w->talking);
 }
 
+/* Nothing more once any thread has failed. */
 static enum ceduo_status run_item(struct work *w, size_t item, struct input_scene *copy, struct memory *memory)
 {
     const struct ceduo_doubt_def *def = w->def;
@@ -220,8 +221,7 @@ static void *run_items(void *context)
     int good = CEDUO_OK, status = (int)ceduo_inputs_open(&copy, def->scene, def->inputs, def->inputs_count);
     if (!memory.items)
         status = CEDUO_NO_MEMORY;
-    for (size_t item; status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK &&
-                      (item = atomic_fetch_add(&w->next, 1)) < w->to;)
+    for (size_t item; status == CEDUO_OK && (item = atomic_fetch_add(&w->next, 1)) < w->to;)
         status = (int)run_item(w, item, &copy, &memory);
     ceduo_inputs_release(&copy);
     free(memory.items);

@@ -61,7 +61,7 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
     for (size_t i = 0; i < n; i++)
         places += inputs[i].places_count;
     copy->places = ceduo_arena_take(&copy->arena, (places + 1) * sizeof *copy->places);
-    if (!copy_scene(&copy->arena, &copy->scene) || !copy->places)
+    if (!copy_scene(&copy->arena, &copy->scene))
         return CEDUO_NO_MEMORY;
     struct input_place *p = copy->places;
     for (size_t i = 0; i < n; i++)
@@ -97,13 +97,15 @@ static double value_at(const struct ceduo_input *input, size_t k, const struct i
     }
 }
 
-/* What lies outside the range of the value is set to the end of the range. */
+/* What lies outside the range of the value is set to the end of the range; NaN: it is not given. */
 static void put(const struct value *value, double number)
 {
     const struct field *f = value->field;
     if (f->type == FIELD_COUNT)
         number = round(number);
-    if (!isnan(number) && !ceduo_value_put(value, number))
+    if (isnan(number))
+        ceduo_value_forget(value);
+    else if (!ceduo_value_put(value, number))
         ceduo_value_put(value, fmin(fmax(number, nextafter(f->lo, INFINITY)), nextafter(f->hi, -INFINITY)));
 }
 

@@ -333,7 +333,7 @@ static void compare_normal(struct ceduo_counterpart *c, double difference, doubl
 static void sum_values(const struct plan *p, const double *values, size_t n, struct ceduo_counterpart *c)
 {
     struct ceduo_moments m = {0};
-    bool rest = p->classes > p->bounds_count + 1 || p->seen->kind == CEDUO_OBSERVED_PASSED;
+    bool rest = p->classes > p->bounds_count + 1; /* of a list that has no class for it none */
     for (size_t i = 0; i < n; i++) {
         if (!isnan(values[i]))
             ceduo_moments_add(&m, values[i]);
@@ -371,7 +371,7 @@ static bool compare_scars(const struct plan *p, const struct flown *f, struct ce
     for (uint64_t i = 0; i < f->rocks; i++)
         ceduo_moments_add(&m, each[i]);
     free(each);
-    double variance = m.n > 1 ? m.m2 / (n - 1) : NAN;
+    double variance = m.m2 / (n - 1); /* NaN of one rock */
     c->scars = of * m.mean * share;
     c->scars_variance = share * share * variance * of * (1 + of / n) + of * m.mean * share * (1 - share);
     compare_normal(c, (double)seen->n - c->scars, c->scars_variance);

@@ -131,7 +131,7 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
     if (r->scene->controls_count > 0) {
         c->today = ceduo_share_at(ceduo_result_wooded(r, option, r->last_control));
         c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
-        if (years && years->count > 0)
+        if (years)
             read_years(years, c);
     }
     unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MOST;
@@ -146,7 +146,7 @@ static bool all_are_known(const struct ceduo_verdict *v, bool rotation)
     for (size_t i = 0; i < v->n; i++)
         if (isnan(rotation ? v->choices[i].mean.mean : v->choices[i].today.mean))
             return false;
-    return v->wooded && v->n > 1;
+    return v->n > 1;
 }
 
 static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdict *v, size_t option)

@@ -6,7 +6,6 @@ import os
 import re
 import signal
 import subprocess
-import time
 
 from harness import CEDUO, DONE, INPUT, ROOT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, run_all, scene
 
@@ -222,11 +221,16 @@ def test_interrupted():
     """Ctrl-C prints what is known so far, says so, and ends by the signal"""
     with Folder() as f:
         path = f.write("s.yaml", quarry())
-        command = [str(CEDUO), "-n", "200000", "-j", "2", "--calibrate", f"{RT}=0.7:0.98", str(path)]
-        child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(), cwd=ROOT)
-        time.sleep(2)
+        command = [str(CEDUO), "-n", "20000", "-j", "2", "--calibrate", f"{RT}=0.7:0.98", str(path)]
+        reads, writes = os.openpty()  # a terminal is told how far it is
+        child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=writes, env=environment(), cwd=ROOT)
+        os.close(writes)
+        shown = b""
+        while not re.search(rb"log-likelihood -?\d", shown):  # something is known
+            shown += os.read(reads, 1000)
         os.kill(child.pid, signal.SIGINT)
         out, _ = child.communicate(timeout=100)
+        os.close(reads)
         expect_equal(child.returncode, -signal.SIGINT)
         expect_in("Ended early", out.decode())
 

@@ -421,6 +421,11 @@ def test_no_threads():
         wanted, _ = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="none")
         done, reached = place.run(*BATCH[:-1], "-j", 4, "-n", 5000, "scene.yaml", fault="threads")
         expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, told(done, 0))
+        place.write("seen.yaml", FAST + "observed: {passed: {x_m: 60, count: 3, of: 5}}\n")
+        for what in (("--sensitivity=2", "scene.yaml"), ("--calibrate", "release.vx_m_s=1:9", "../seen.yaml")):
+            wanted, _ = place.run("-f", "json", "-j", 2, "-n", 2, *what, fault="none")
+            done, reached = place.run("-f", "json", "-j", 2, "-n", 2, *what, fault="threads")
+            expect(reached and done.returncode == DONE and done.stdout == wanted.stdout, told(done, 0))
         place.write("play.txt", "key q\n")
         done, reached = place.run("--script", "../play.txt", "scene.yaml", fault="threads")
         expect(reached and done.returncode in (RUN, INPUT) and done.stderr != b"", told(done, 0))

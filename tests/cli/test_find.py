@@ -87,6 +87,27 @@ def test_exceed_equal():
     expect(not is_found(drop(accepted=0.0249), "exceed", below(1)), "less than all")
 
 
+def test_arrive_equal():
+    """Goal arrive: a share that equals the target reaches it"""
+    expect(is_found(drop(), "arrive", 1), "all")
+    expect(not is_found(drop(), "arrive", below(1)), "less than all")
+
+
+def test_nobody_arrives():
+    """Goal energy: where no rock arrives all is well"""
+    stopped = drop(controls=(99,))
+    stopped["slope"]["segments"] = [{"rn": 0, "rt": 0.1, "friction": 1}]
+    expect(is_found(stopped, "energy", 0), "nobody")
+
+
+def test_energy_by_index():
+    """Goal energy by the index: what it leaves of the mean; where nothing stands before the control that is all of it"""
+    mapping = drop()
+    mapping["simulation"]["contact_model"] = "index"
+    expect(is_found(mapping, "energy", 0.025), "25 J")
+    expect(not is_found(mapping, "energy", below(0.025)), "less than 25 J")
+
+
 def test_exceed_one_in_twenty():
     """Goal exceed without a value: 1 rock of 20 is as many as may exceed, 2 are too many"""
     mapping = wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": trees(400)}], simulation={"rocks": 20})

@@ -37,6 +37,11 @@ def answer(what, *arguments):
         return json.loads(r.out)
 
 
+def good_of(what, *arguments, rocks=100):
+    with Folder() as f:
+        return good("-f", "json", "-n", rocks, *arguments, f.write("s.yaml", what), timeout=200).out
+
+
 def paths(result):
     return sorted(i["path"] for i in result["figures"][0]["inputs"])
 
@@ -78,6 +83,57 @@ def test_lights():
             page = " ".join(ceduo(f"--sensitivity={POINTS}", "-n", 200, path).out.split())
             expect_equal("Whether the test of energy passes depends on " in page, energy, page)
             expect_equal("Whether the test of contact passes depends on " in page, contact, page)
+
+
+def test_lights_of_gaps():
+    """A gap without stems fails the test of contact whatever stems stand beside it: it depends on nothing"""
+    doubt = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
+    for start, depends in ((0, True), (60, False)):
+        what = measured(doubt=doubt, forest=[{"from_m": start, "to_m": 85, "stand": wood()}], simulation={"threshold_m": 30})
+        with Folder() as f:
+            page = " ".join(good(f"--sensitivity={POINTS}", "-n", 20, f.write("s.yaml", what)).out.split())
+            expect_equal("Whether the test of contact passes depends on " in page, depends, page)
+
+
+def test_index():
+    """By the index no rock flies among stems: its figures are those without forest, and no stem moves them"""
+    doubt = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}]
+    what = measured(doubt=doubt, simulation={"contact_model": "index"})
+    result = answer(what)
+    with Folder() as f:
+        run = json.loads(good("-b", "-f", "json", "-n", 200, f.write("s.yaml", what)).out)
+    bare = run["options"][0]["controls"][0]["bare"]
+    for name in ("reach_probability", "exceed_probability"):
+        found = figure(result, name)
+        expect_equal([found[k] for k in ("value", "doubt_p5", "doubt_p95")], [bare[name]] * 3, name)
+
+
+def test_what_is_not_given():
+    """A value that the scene does not give is set where it is varied, and not given where it is not"""
+    accepted = {"path": "controls[0].accepted_kJ", "lo": 20, "hi": 100}
+    result = answer(measured(controls=[{"x_m": 90}], doubt=[accepted, DENSITY]))
+    exceed = figure(result, "exceed_probability")
+    ends = {i["path"]: [i["at_lo"], i["at_hi"]] for i in exceed["inputs"]}
+    expect_equal((exceed["value"], ends[DENSITY["path"]]), (None, [None, None]), "without an accepted energy")
+    expect(ends[accepted["path"]][0] > ends[accepted["path"]][1] >= 0, ends)
+
+
+def test_ends_of_counts_and_ranges():
+    """A count is varied in whole numbers; what a factor takes out of a range stays at its end"""
+    assumed = {"kind": "assumed", "text": "a guess"}
+    slope = {"vertices_m": [[0, 70], [100, 0]],
+             "segments": [{"rn": 0.3, "rt": 0.98, "roughness_rad": 0.2, "friction": 0.5, "source": assumed}]}
+    group = {"path": "forest[0].stand.trees[0].groups.stems", "lo": 1.2, "hi": 4.6}
+    trees = [{**TREES[0], "groups": {"stems": 2, "radius_m": 2}}]
+    what = measured(slope=slope, forest=[{"from_m": 0, "to_m": 80, "stand": wood(trees=trees)}], doubt=[group])
+    ends = {i["path"]: i for i in figure(answer(what), "energy_per_released_kJ")["inputs"]}
+    with Folder() as f:
+        path = f.write("s.yaml", what)
+        for key, end, value in ((group["path"], "at_lo", 1), (group["path"], "at_hi", 5),
+                                ("slope.segments[0].rt", "at_hi", 0.9999999999999999)):
+            run = json.loads(good("--batch", "--plain", "-f", "json", "-n", 200, "-s", f"{key}={value}", path).out)
+            known = run["options"][0]["controls"][0]["wooded"]["energy_per_released_kJ"]["mean"]
+            expect(abs(ends[key][end] - known) <= 1e-9 * known, f"{key}={value}: {ends[key][end]} instead of {known}")
 
 
 def test_named():
@@ -228,6 +284,17 @@ def test_many():
         expect_equal(len(together[0]["together"]), 41)
         page = " ".join(ceduo("--sensitivity=4", "-n", 20, path, timeout=120).out.split())
         expect_in("These 41 inputs move together:", page)
+
+
+def test_ranked_by_few_rocks():
+    """Of more inputs than have an index the heaviest is found by a quarter of the rocks, wherever it stands"""
+    speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
+    belts = [{"from_m": 4 * i, "to_m": 4 * i + 4, "stand": wood()} for i in range(20)]
+    doubt = [{"path": f"forest[{i}].stand.trees[0].dbh_m", "lo": 0.12, "hi": 0.1201} for i in range(20)]
+    result = json.loads(good_of(measured(forest=belts, doubt=[*doubt, speed]), "--sensitivity=2", rocks=204))
+    inputs = result["figures"][0]["inputs"]
+    expect_equal([i["places"] for i in inputs if "together" in i], [2])
+    expect(speed["path"] in {i["path"] for i in inputs}, "moves together with others")
 
 
 def test_ranking():

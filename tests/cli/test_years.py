@@ -739,6 +739,22 @@ def test_find_reserves():
     expect_equal(option["stands"][0]["adc"]["adc_m"], found["goal_at_value"], "ADC with 379")
 
 
+def test_find_over_years():
+    """--find over a rotation: of shares the mean over its years, of all else the worst year; by the index a share is that without forest"""
+    for model, goals in (("stems", ("arrive=1", "adc=1e6", "free-run=1", "energy=1e6", "exceed=1")), ("index", ("arrive=1", "adc=1e6"))):
+        mapping = site(belt(0, 135, coppice(rotation=5, stay=[30])), rocks=40, simulation={"contact_model": model})
+        rows = run(mapping, "1:5", "--plain")["options"][0]["years"]
+        controls = [row["controls"][0] for row in rows]
+        arrivals = [c["wooded"] or c["bare"] for c in controls]
+        expect(model == "index" or len({a["energy_kJ"]["mean"] for a in arrivals}) == 5, "years are alike")
+        for goal in goals:
+            name = goal.split("=")[0]
+            share = {"arrive": "reach_probability", "exceed": "exceed_probability"}.get(name)
+            wanted = sum(a[share] for a in arrivals) / 5 if share else max(goal_of({"options": [row]}, name) for row in rows)
+            found = find(mapping, RESERVES, 60, 60, goal, "--years", "--plain")
+            expect_near(found["goal_at_value"], wanted, 1e-9 * wanted, name)
+
+
 KINDS = [  # path, whole, lo, hi, further settings
     (RESERVES, True, 1, 5000, {}),
     ("forest[0].stand.shoots[0].per_ha", True, 2500, 60000, {"rule": "gsteiger-stems"}),

@@ -245,6 +245,19 @@ static void one_rock_of_twenty_may_exceed(void **state)
         }
 }
 
+/* An index hangs on the thin stems where either light is another without them. */
+static void what_hangs_on_thin_stems(void **state)
+{
+    (void)state;
+    const enum ceduo_light lights[] = {CEDUO_PASS, CEDUO_FAIL};
+    for (int i = 0; i < 16; i++) {
+        struct ceduo_index index = {.contact = lights[i & 1], .free_run = lights[i >> 1 & 1]};
+        index.thick.contact = lights[i >> 2 & 1];
+        index.thick.free_run = lights[i >> 3];
+        EXPECT(ceduo_index_hangs_on_thin(&index), ==, (i & 3) != i >> 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -256,6 +269,7 @@ int main(void)
         cmocka_unit_test(a_rock_with_the_accepted_energy_does_not_exceed_it),
         cmocka_unit_test(a_difference_counts_no_rock_with_the_accepted_energy),
         cmocka_unit_test(one_rock_of_twenty_may_exceed),
+        cmocka_unit_test(what_hangs_on_thin_stems),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,6 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "full.h"
 
@@ -55,8 +56,9 @@ static int alike(unsigned long call, unsigned long first, unsigned long end)
 
 static atomic_ulong calls;
 static atomic_long live;
-static unsigned long fail_at; /* 0: none */
-static bool fail_on;          /* all that follow as well */
+static atomic_ulong fail_at; /* 0: none */
+static atomic_bool fail_on;  /* all that follow as well */
+static atomic_long grow_at;  /* the call of realloc that fails, counted down; 0: none */
 
 static bool fails(void)
 {
@@ -105,7 +107,7 @@ void *__wrap_calloc(size_t n, size_t size)
 
 void *__wrap_realloc(void *p, size_t n)
 {
-    if (fails())
+    if (fails() || (grow_at > 0 && --grow_at == 0))
         return NULL;
     void *to = __real_realloc(p, n);
     return p ? to : counted(to);
@@ -152,6 +154,33 @@ static void add(const void *bytes, size_t n)
 __attribute__((unused)) static void relieve(void)
 {
     fail_at = 0;
+}
+
+/* ---- one thread of several ---- */
+
+#define PATIENCE 10000 /* ms */
+
+static void sleep_ms(long ms)
+{
+    nanosleep(&(struct timespec){0, ms * 1000000}, NULL);
+}
+
+/* Waits until other threads have asked for memory n times. */
+__attribute__((unused)) static void wait_for_others(unsigned long n)
+{
+    const unsigned long enough = calls + n;
+    for (int i = 0; calls < enough && i < PATIENCE; i++)
+        sleep_ms(1);
+}
+
+/* The others find no memory for once, and have had time to say so. */
+__attribute__((unused)) static void fail_others(void)
+{
+    fail_on = true;
+    fail_at = 1;
+    wait_for_others(1);
+    sleep_ms(20);
+    relieve();
 }
 
 /* Does all, and adds what it found; false where there was no memory. */

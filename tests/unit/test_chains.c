@@ -2,8 +2,10 @@
 /* Chains on densities whose moments are known, and what is read of them. */
 #include "expect.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "study/chains.h"
 #include "study/guess.h"
@@ -200,6 +202,13 @@ static void a_guess_learns_a_quadratic(void **state)
         values[i] = i < 60 ? -INFINITY : 0; /* too few are known */
     assert_true(ceduo_guess_learn(&g, u, values, 64));
     EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
+    for (int i = 0; i < 16; i++) { /* less than three times the six terms: each counts */
+        u[2 * i] = i % 4 / 4.;
+        u[2 * i + 1] = i / 4 / 4.;
+        values[i] = 1 - u[2 * i];
+    }
+    assert_true(ceduo_guess_learn(&g, u, values, 16));
+    EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
     ceduo_guess_release(&g);
 }
 
@@ -248,6 +257,48 @@ static void chains_are_ended(void **state)
     ceduo_chains_release(&c);
 }
 
+/* A density that fails in the first chain; another chain waits until it has. */
+struct failure {
+    atomic_int started, failed, after;
+};
+
+static void sleep_ms(long ms)
+{
+    nanosleep(&(struct timespec){0, ms * 1000000}, NULL);
+}
+
+static enum ceduo_status fails_in_one(void *context, size_t chain, const double *x, double *log_density)
+{
+    struct failure *f = context;
+    *log_density = log_normal(x);
+    if (f->started++ < 4) /* where the chains start */
+        return CEDUO_OK;
+    if (chain == 0) {
+        f->failed = 1;
+        return CEDUO_NO_MEMORY;
+    }
+    for (int i = 0; !f->failed && i < 10000; i++)
+        sleep_ms(1);
+    if (f->after++ == 0)
+        sleep_ms(20); /* in which the failure is known */
+    return CEDUO_OK;
+}
+
+/* Where one chain fails the others end: of the round's 50 steps of each few are made then. */
+static void one_chain_ends_all(void **state)
+{
+    (void)state;
+    struct chains c;
+    struct failure f = {0};
+    struct chains_def def = two_dimensions();
+    def.density = fails_in_one;
+    def.context = &f;
+    def.threads = 2;
+    EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_NO_MEMORY);
+    EXPECT(f.after, <, CEDUO_CHAINS_ROUND);
+    ceduo_chains_release(&c);
+}
+
 static enum ceduo_status one_place(void *context, size_t chain, const double *x, double *log_density)
 {
     (void)context, (void)chain;
@@ -276,6 +327,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(chains_are_ended),
+        cmocka_unit_test(one_chain_ends_all),
         cmocka_unit_test(chains_that_stand_still),
         cmocka_unit_test(a_normal_law_is_drawn_from),        cmocka_unit_test(a_wrong_guess_changes_nothing),
         cmocka_unit_test(threads_change_no_bit),             cmocka_unit_test(chains_apart_do_not_agree),

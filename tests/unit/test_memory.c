@@ -5,8 +5,10 @@
 #include <math.h>
 
 #include "ceduo/doubt.h"
+#include "ceduo/record.h"
 #include "core/run_pack.h"
 #include "physics/paper_site.h"
+#include "study/inputs.h"
 #include "study/outlook.h"
 #include "study/verdict.h"
 
@@ -233,6 +235,16 @@ static bool join_pools(void)
     return status == CEDUO_OK;
 }
 
+/* Now the second option is clearly worse, and by the other energy law clearly better. */
+static void turn(struct ceduo_result *r)
+{
+    const struct ceduo_paired worse = {0.5, 0.1}, better = {-0.5, 0.1};
+    r->options[1].differences[0].exceed_probability = worse;
+    for (size_t i = 0; i < 2; i++)
+        r->options[i].others[0] = (struct ceduo_other_energy){.known = true};
+    r->options[1].others[0].to_first.exceed_probability = better;
+}
+
 /* Two options, of which one is cut in the second of the years, and blocks of other sizes. */
 static bool question(void)
 {
@@ -256,9 +268,12 @@ static bool question(void)
     enum ceduo_status status = ceduo_ask(&q, &pool, &answer);
     struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
+        turn(answer.result);
+    if (status == CEDUO_OK)
         status = ceduo_verdict_make(answer.result, answer.years, &verdict);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
+        assert_int_equal(verdict.turned_count, 1);
         add(&verdict.choices[0].yield.volume_today, sizeof verdict.choices[0].yield.volume_today);
         add(ceduo_result_wooded(answer.result, 0, 0), offsetof(struct ceduo_arrivals, exact));
         add(&s.reach, sizeof s.reach);
@@ -302,25 +317,23 @@ static bool ask_both_laws(void)
     return ask(q);
 }
 
-/* A doubt of two inputs: whole where `parts` is 0. */
-static bool doubt(uint64_t parts)
+static const char *const density = "rock.density_kg_m3", *const speed = "release.vx_m_s";
+static const struct ceduo_input inputs[2] = {{"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
+                                             {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
+
+/* A doubt, whole where `parts` is 0. */
+static bool ask_doubt(const struct ceduo_doubt_def *def, uint64_t parts)
 {
-    static const char *const density = "rock.density_kg_m3", *const speed = "release.vx_m_s";
-    const struct ceduo_input inputs[2] = {{density, CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
-                                          {speed, CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    const struct ceduo_doubt_def def = {
-        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 1};
     struct ceduo_doubt_answer answer;
     struct ceduo_doubt_part written[3] = {{0}};
     enum ceduo_status status = CEDUO_OK;
     for (uint64_t i = 0; i < parts && status == CEDUO_OK; i++) {
         unsigned char *bytes;
-        status = ceduo_doubt_ask_part(&def, i + 1, parts, &bytes, &written[i].length);
+        status = ceduo_doubt_ask_part(def, i + 1, parts, &bytes, &written[i].length);
         written[i].bytes = bytes;
     }
     if (status == CEDUO_OK)
-        status = parts > 0 ? ceduo_doubt_join(&def, written, parts, &answer) : ceduo_doubt_ask(&def, &answer);
+        status = parts > 0 ? ceduo_doubt_join(def, written, parts, &answer) : ceduo_doubt_ask(def, &answer);
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_DOUBT_ENERGY].p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].p50);
         add(answer.order, 2 * sizeof answer.order[0]);
@@ -330,6 +343,26 @@ static bool doubt(uint64_t parts)
         free((void *)(uintptr_t)written[i].bytes);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
+}
+
+static bool doubt(uint64_t parts)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    return ask_doubt(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 2},
+                     parts);
+}
+
+/* One input more than can have an index: a first look ranks them, by two base points. */
+static bool doubt_of_many(void)
+{
+    enum { MANY = CEDUO_SENSITIVITY_GROUPS + 1 };
+    struct ceduo_input many[MANY];
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    for (size_t i = 0; i < MANY; i++)
+        many[i] = inputs[1];
+    return ask_doubt(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = MANY, .inputs = many, .points = 2, .first = 2,
+                                               .rocks = 2, .threads = 1},
+                     0);
 }
 
 static bool doubt_whole(void)
@@ -342,15 +375,66 @@ static bool doubt_in_parts(void)
     return doubt(3);
 }
 
+/* What was told of a doubt on two threads: the first time something happens meanwhile. */
+static struct {
+    void (*meanwhile)(void);
+    atomic_int inside, most_inside, times;
+} told;
+
+static void tell(void *context, uint64_t done, uint64_t all)
+{
+    (void)context, (void)done, (void)all;
+    int inside = atomic_fetch_add(&told.inside, 1) + 1;
+    told.most_inside = inside > told.most_inside ? inside : told.most_inside;
+    if (told.times++ == 0)
+        told.meanwhile();
+    told.inside--;
+}
+
+static enum ceduo_status doubt_on_two_threads(void (*meanwhile)(void))
+{
+    struct ceduo_doubt_answer answer;
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    told.most_inside = told.times = 0;
+    told.meanwhile = meanwhile;
+    enum ceduo_status status =
+        ceduo_doubt_ask(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 100,
+                                                  .rocks = 8, .threads = 2, .progress = tell},
+                        &answer);
+    if (status == CEDUO_OK)
+        ceduo_doubt_free(&answer);
+    return status;
+}
+
+static void others_go_on(void)
+{
+    wait_for_others(500);
+}
+
+/* Who is told how far it is holds up nobody, and is not told meanwhile. */
+static void one_is_told_at_a_time(void **state)
+{
+    (void)state;
+    assert_int_equal(doubt_on_two_threads(others_go_on), CEDUO_OK);
+    assert_int_equal(told.most_inside, 1);
+    assert_true(told.times > 1);
+}
+
+/* Where one thread has no memory the other ends, too: of 404 evaluations few are made then. */
+static void one_thread_ends_all(void **state)
+{
+    (void)state;
+    assert_int_equal(doubt_on_two_threads(fail_others), CEDUO_NO_MEMORY);
+    assert_true(told.times < 100);
+}
+
 /* Bytes that are not those of this doubt. */
 static void parts_that_do_not_fit(void **state)
 {
     (void)state;
-    static const char *const speed = "release.vx_m_s";
-    const struct ceduo_input input = {speed, CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     const struct ceduo_doubt_def def = {
-        .scene = &site.scene, .inputs_count = 1, .inputs = &input, .points = 2, .rocks = 8, .threads = 1};
+        .scene = &site.scene, .inputs_count = 1, .inputs = &inputs[1], .points = 2, .rocks = 8, .threads = 1};
     struct ceduo_doubt_answer answer;
     unsigned char *bytes;
     size_t n;
@@ -365,6 +449,70 @@ static void parts_that_do_not_fit(void **state)
     bytes[8] = 1; /* a group that is not there */
     assert_int_equal(ceduo_doubt_join(&def, &(struct ceduo_doubt_part){bytes, n}, 1, &answer), CEDUO_BAD_PART);
     free(bytes);
+}
+
+/* Parts of two inputs, of which the second ranks them otherwise than the first, or is longer than it should be. */
+static void parts_that_do_not_fit_together(void **state)
+{
+    (void)state;
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    const struct ceduo_doubt_def def = {
+        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 1};
+    struct ceduo_doubt_answer answer;
+    struct ceduo_doubt_part parts[2];
+    unsigned char *bytes[2];
+    for (uint64_t i = 0; i < 2; i++) {
+        assert_int_equal(ceduo_doubt_ask_part(&def, i + 1, 2, &bytes[i], &parts[i].length), CEDUO_OK);
+        bytes[i] = realloc(bytes[i], parts[i].length + 8);
+        assert_non_null(bytes[i]);
+        memset(bytes[i] + parts[i].length, 0, 8);
+        parts[i].bytes = bytes[i];
+    }
+    parts[1].length += 8;
+    assert_int_equal(ceduo_doubt_join(&def, parts, 2, &answer), CEDUO_BAD_PART);
+    parts[1].length -= 8;
+    bytes[1][8] = 1, bytes[1][16] = 0;
+    assert_int_equal(ceduo_doubt_join(&def, parts, 2, &answer), CEDUO_BAD_PART);
+    bytes[1][8] = 0, bytes[1][16] = 1;
+    assert_int_equal(ceduo_doubt_join(&def, parts, 2, &answer), CEDUO_OK);
+    ceduo_doubt_free(&answer);
+    free(bytes[0]);
+    free(bytes[1]);
+}
+
+/* What is in doubt has to be in the scene. */
+static void a_place_that_is_not_there(void **state)
+{
+    (void)state;
+    static const char *const colour = "rock.colour";
+    const struct ceduo_input input = {"rock.colour", CEDUO_INPUT_RANGE, 0, 1, .places_count = 1, .places = &colour};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_doubt_answer answer;
+    assert_int_equal(ceduo_doubt_ask(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = 1, .inputs = &input, .points = 2,
+                                                               .rocks = 8, .threads = 1},
+                                     &answer),
+                     CEDUO_BAD_SLOPE);
+}
+
+/* A copy of a scene with more belts than the arena gives room for at once. */
+static bool copy_belts(void)
+{
+    enum { MANY = 300 };
+    static struct ceduo_belt belts[MANY];
+    struct input_scene copy;
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    for (size_t i = 0; i < MANY; i++)
+        belts[i] = site.belts[0];
+    site.option.belts = belts;
+    site.option.belts_count = MANY;
+    enum ceduo_status status = ceduo_inputs_open(&copy, &site.scene, inputs, 2);
+    if (status == CEDUO_OK) {
+        assert_ptr_not_equal(copy.scene.options[0].belts[MANY - 1].stand.shoots, belts[0].stand.shoots);
+        add(&copy.scene.options[0].belts[MANY - 1].to, sizeof belts[0].to);
+    }
+    ceduo_inputs_release(&copy);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
 }
 
 static bool ask_by_index(void)
@@ -420,7 +568,7 @@ static bool assess(void)
 }
 
 /* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
-static bool follow_roll(void)
+static void make_roll(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     site.scene.slope.vertices = 2;
@@ -435,6 +583,11 @@ static bool follow_roll(void)
         stand->trees_count = 0;
         stand->u = 1e-3; /* they hardly take anything */
     }
+}
+
+static bool follow_roll(void)
+{
+    make_roll();
     struct ceduo_trajectory way;
     enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
@@ -442,6 +595,22 @@ static bool follow_roll(void)
         assert_true(way.end == CEDUO_LEFT_SLOPE && way.stems_hit > 100);
         add(&way.stems_hit, sizeof way.stems_hit);
     }
+    return status == CEDUO_OK;
+}
+
+/* The same, and all blows are kept. */
+static bool record_roll(void)
+{
+    make_roll();
+    struct ceduo_record record;
+    enum ceduo_status status =
+        ceduo_record(&(struct ceduo_record_def){.scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true}, &record);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    if (status == CEDUO_OK) {
+        assert_true(record.blows_count > 100);
+        add(&record.blows_count, sizeof record.blows_count);
+    }
+    ceduo_record_release(&record);
     return status == CEDUO_OK;
 }
 
@@ -564,12 +733,15 @@ static void what_stands_on_runs(void **state)
     without_memory(ask_both_laws);
     without_memory(doubt_whole);
     without_memory(doubt_in_parts);
+    without_memory(doubt_of_many);
+    without_memory(copy_belts);
     without_memory(ask_of_one_option);
     without_memory(ask_part);
     without_memory(assess);
     without_memory(follow);
     without_memory(follow_one);
     without_memory(follow_roll);
+    without_memory(record_roll);
     without_memory(find);
 }
 
@@ -580,6 +752,10 @@ int main(void)
         cmocka_unit_test(parts_are_joined),
         cmocka_unit_test(what_stands_on_runs),
         cmocka_unit_test(parts_that_do_not_fit),
+        cmocka_unit_test(parts_that_do_not_fit_together),
+        cmocka_unit_test(a_place_that_is_not_there),
+        cmocka_unit_test(one_is_told_at_a_time),
+        cmocka_unit_test(one_thread_ends_all),
         cmocka_unit_test(what_is_to_be_seen_of_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -74,6 +74,8 @@ static bool ask_of_blocks(void)
     q.rocks = ROCKS;
     q.run.threads = 1;
     q.run.other_energy = true;
+    q.years = true;
+    q.window = (struct ceduo_window){.last = 1, .step = 1};
     enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
     if (status == CEDUO_OK) {
         const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0);
@@ -167,9 +169,9 @@ static bool fit(void)
     make_ground();
     seen.x = 1;
     seen.option = 1;
-    const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen};
-    const struct ceduo_calibration_def def = {.scenes_count = 1,
-                                              .scenes = &scene,
+    const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen}, scenes[2] = {scene, scene};
+    const struct ceduo_calibration_def def = {.scenes_count = 2,
+                                              .scenes = scenes,
                                               .parameters_count = 1,
                                               .rocks = 1,
                                               .seed = 1,
@@ -185,6 +187,115 @@ static bool fit(void)
         add(&a.predicted[0].at_best.deviance, sizeof a.predicted[0].at_best.deviance);
         ceduo_calibration_free(&a);
     }
+    return is_done(status);
+}
+
+/* ---- a fit that goes on ---- */
+
+/* What happens as it is told how far a fit is. */
+static struct {
+    void (*meanwhile)(void); /* NULL: nothing, */
+    int at;                  /* or when it is told so often */
+    enum ceduo_calibration_stage stage;
+    atomic_int inside, most_inside, times;
+} told;
+
+static void tell(void *context, const struct ceduo_calibration_state *state)
+{
+    (void)context;
+    int inside = atomic_fetch_add(&told.inside, 1) + 1;
+    told.most_inside = inside > told.most_inside ? inside : told.most_inside;
+    if (state->stage == told.stage && ++told.times == told.at && told.meanwhile)
+        told.meanwhile();
+    told.inside--;
+}
+
+/* A fit of one value to where one rock stops, its chains of one round. */
+static enum ceduo_status fit_of_one_round(unsigned threads, void (*meanwhile)(void), enum ceduo_calibration_stage stage, int at)
+{
+    static const char *const place = "release.vx_m_s";
+    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
+    struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
+    make_ground();
+    seen.x = 1;
+    seen.option = 1;
+    const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen};
+    struct ceduo_calibration a;
+    told.meanwhile = meanwhile;
+    told.stage = stage;
+    told.at = at;
+    told.most_inside = told.times = 0;
+    enum ceduo_status status = ceduo_calibrate(&(struct ceduo_calibration_def){.scenes_count = 1, .scenes = &scene, .parameters_count = 1,
+                                                                               .rocks = 1, .seed = 1, .threads = threads,
+                                                                               .steps_most = 1, .progress = tell},
+                                               &a);
+    if (status == CEDUO_OK) {
+        assert_true(a.complete);
+        add(&a.parameters[0].best, sizeof a.parameters[0].best);
+        ceduo_calibration_free(&a);
+    }
+    return status;
+}
+
+static void others_go_on(void)
+{
+    wait_for_others(500);
+}
+
+/* Who is told how far it is holds up nobody, and is not told meanwhile. */
+static void one_is_told_at_a_time(void **state)
+{
+    (void)state;
+    assert_int_equal(fit_of_one_round(2, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
+    assert_int_equal(told.most_inside, 1);
+    assert_true(told.times > 1);
+}
+
+/* Where one thread has no memory the other ends, too: of 256 points few are looked at then. */
+static void one_thread_ends_all(void **state)
+{
+    (void)state;
+    assert_int_equal(fit_of_one_round(2, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
+    assert_true(told.times < 100);
+}
+
+static long growth;
+
+static void fail_to_grow(void)
+{
+    grow_at = growth;
+}
+
+static bool fit_that_cannot_grow(void)
+{
+    return is_done(fit_of_one_round(1, fail_to_grow, CEDUO_REFINE, 3));
+}
+
+/* What chains have tried, and what is learned of it and of all points before, has no room. */
+static void chains_of_a_fit(void **state)
+{
+    (void)state;
+    for (growth = 1; growth <= 4; growth++) {
+        assert_false(begin(fit_that_cannot_grow, 0, false));
+        assert_int_equal(grow_at, 0);
+    }
+}
+
+/* ---- many that were seen ---- */
+
+/* Each of a rock of its own, which takes room of its own. */
+static bool see_many(void)
+{
+    enum { MANY = 64 };
+    static struct ceduo_rock_def rocks[MANY];
+    struct ceduo_observation seen[MANY];
+    struct ceduo_observer *observer;
+    for (size_t i = 0; i < MANY; i++) {
+        seen[i] = something(CEDUO_OBSERVED_SPEED);
+        seen[i].rock = &rocks[i];
+    }
+    enum ceduo_status status = ceduo_observer_create(seen, MANY, &observer);
+    ceduo_observer_free(observer);
     return is_done(status);
 }
 
@@ -257,6 +368,7 @@ static void what_was_seen(void **state)
     (void)state;
     without_memory(look);
     without_memory(look_without_a_fit);
+    without_memory(see_many);
 }
 
 static void fits(void **state)
@@ -278,6 +390,9 @@ int main(void)
         cmocka_unit_test(blocks_come_down),
         cmocka_unit_test(what_was_seen),
         cmocka_unit_test(fits),
+        cmocka_unit_test(one_is_told_at_a_time),
+        cmocka_unit_test(one_thread_ends_all),
+        cmocka_unit_test(chains_of_a_fit),
         cmocka_unit_test(surveys),
     };
     gsl_set_error_handler_off();

@@ -4,6 +4,7 @@
 
 #include "physics/paper_site.h"
 #include "study/goal.h"
+#include "study/verdict.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
@@ -32,6 +33,18 @@ static void no_rocks_are_not_precise(void **state)
     ceduo_answer_release(&answer);
 }
 
+/* Without a control nothing is known of what arrives, today or over years; what the stands yield is. */
+static void expect_yields_alone(const struct ceduo_answer *answer)
+{
+    struct ceduo_verdict v;
+    assert_int_equal(ceduo_verdict_make(answer->result, answer->years, &v), CEDUO_OK);
+    assert_false(v.wooded || v.accepted || v.today.known || v.rotation.known || v.choices[0].energy_known);
+    assert_true(isnan(v.choices[0].today.mean) && isnan(v.choices[0].mean.mean));
+    EXPECT(v.choices[0].yield.volume_today, >, 0);
+    ceduo_verdict_release(&v);
+    assert_true(isnan(ceduo_years_difference(answer->years[0], answer->years[0]).mean));
+}
+
 /* Where rocks are counted nowhere they fly all the same, and there is nothing to say of other sizes. */
 static void nothing_is_counted_without_a_control(void **state)
 {
@@ -42,8 +55,11 @@ static void nothing_is_counted_without_a_control(void **state)
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         site.scene.controls_count = 0;
         q.block_rocks = 20;
+        q.years = true;
+        q.window = (struct ceduo_window){.last = 1, .step = 1};
         assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
         assert_null(answer.blocks);
+        expect_yields_alone(&answer);
         assert_int_equal(ceduo_result_rocks(answer.result), 20);
         assert_int_equal(answer.result->options[0].wooded.rocks, 20);
         assert_int_equal(answer.result->options[0].wooded.controls, 0);
@@ -102,6 +118,74 @@ static void a_goal_is_reached_at_the_worst_control(void **state)
     }
 }
 
+/* Of two options that are the same the difference is 0, and its error that of no rock among so many: Wilson's interval of 0 of n
+ * ends at z2/(n + z2). */
+static void options_that_are_the_same(void **state)
+{
+    (void)state;
+    struct ceduo_question q = question_of(200);
+    struct ceduo_answer answer;
+    struct ceduo_option options[2] = {site.option, site.option};
+    const double z2 = CEDUO_Z95 * CEDUO_Z95;
+    site.control.accepted = 1e12;
+    site.scene.options = options;
+    site.scene.options_count = 2;
+    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    struct ceduo_portion difference = ceduo_share_to_first(answer.result, 1);
+    EXPECT(difference.mean, ==, 0);
+    EXPECT_NEAR(difference.half, z2 / (200 + z2), 1e-12);
+    ceduo_answer_release(&answer);
+}
+
+/* Three belts that are cut together, every ten years from the second on: by year, then along the slope. */
+static void fellings_are_in_order(void **state)
+{
+    (void)state;
+    struct ceduo_belt belts[3];
+    struct ceduo_option option = {.belts = belts, .belts_count = 3};
+    struct ceduo_yield yield;
+    paper_site_init(&site);
+    for (size_t i = 0; i < 3; i++) {
+        belts[i] = site.belts[0];
+        belts[i].stand.growth = paper_growth;
+        belts[i].stand.cutting = (struct ceduo_cutting){.rotation = 10};
+        belts[i].cut_year = 2;
+    }
+    assert_int_equal(ceduo_yield_of(&option, 25, &yield), CEDUO_OK);
+    EXPECT(yield.fellings_count, ==, 9);
+    for (size_t i = 0; i < 9; i++) {
+        EXPECT(yield.fellings[i].year, ==, 2 + i / 3 * 10);
+        EXPECT(yield.fellings[i].belt, ==, i % 3);
+    }
+    ceduo_yield_release(&yield);
+}
+
+/* A coppice that was just cut has no stem today and a volume to cut later: half of the forest beside one that is bare for good, which
+ * does not count. */
+static void a_stand_just_cut_yields(void **state)
+{
+    (void)state;
+    static struct ceduo_stems none[1];
+    struct ceduo_belt belts[2];
+    struct ceduo_option option = {.belts = belts, .belts_count = 1};
+    struct ceduo_yield alone, beside;
+    paper_site_init(&site);
+    belts[0] = site.belts[0];
+    belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species, .stools_per_ha = 2000, .spacing = 0.3, .shoots = none,
+                                          .fracture_ratio = NAN, .growth = paper_growth, .cutting = {.rotation = 10}};
+    belts[0].cut_year = 10;
+    belts[1] = belts[0];
+    belts[1].stand = (struct ceduo_stand){.species = -1, .fracture_ratio = NAN};
+    assert_int_equal(ceduo_yield_of(&option, 25, &alone), CEDUO_OK);
+    EXPECT(alone.volume_today, ==, 0);
+    EXPECT(alone.cut_per_year, >, 0);
+    option.belts_count = 2;
+    assert_int_equal(ceduo_yield_of(&option, 25, &beside), CEDUO_OK);
+    EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
+    ceduo_yield_release(&alone);
+    ceduo_yield_release(&beside);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -109,6 +193,9 @@ int main(void)
         cmocka_unit_test(nothing_is_counted_without_a_control),
         cmocka_unit_test(other_sizes_are_cancelled),
         cmocka_unit_test(a_goal_is_reached_at_the_worst_control),
+        cmocka_unit_test(options_that_are_the_same),
+        cmocka_unit_test(fellings_are_in_order),
+        cmocka_unit_test(a_stand_just_cut_yields),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

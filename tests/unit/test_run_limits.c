@@ -295,6 +295,52 @@ static void differences_of_the_first_rocks(void **state)
     }
 }
 
+/* Blocks of all sizes: the difference of two runs is one of the rocks that both have, whichever is longer. */
+static void differences_of_blocks(void **state)
+{
+    (void)state;
+    static double volumes[] = {0.05, 1};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    paper_site_init(&site);
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    struct ceduo_run_def bare = ceduo_run_def_default(&site.scene), wood = bare;
+    wood.option = &site.option;
+    double none[1], stops[1];
+    struct ceduo_run *few = run_of(&wood, 50), *many = run_of(&wood, 120), *least = run_of(&bare, 50), *most = run_of(&bare, 120);
+    struct ceduo_run *empty = run_of(&bare, 0);
+    struct ceduo_difference wanted = ceduo_run_difference(few, least, 0);
+    EXPECT(wanted.energy_per_released.mean, <, 0);
+    struct ceduo_difference first = ceduo_run_difference(few, most, 0), second = ceduo_run_difference(many, least, 0);
+    assert_memory_equal(&first, &wanted, sizeof wanted);
+    assert_memory_equal(&second, &wanted, sizeof wanted);
+    assert_true(isnan(ceduo_run_difference(empty, most, 0).reach_probability.mean));
+    assert_true(isnan(ceduo_run_difference(few, empty, 0).reach_probability.mean));
+    EXPECT(ceduo_run_energies(empty, 0, none, 1), ==, 0);
+    assert_true(ceduo_run_stops(empty, stops)); /* of nobody */
+    struct ceduo_run *runs[] = {few, many, least, most, empty};
+    for (size_t i = 0; i < 5; i++)
+        ceduo_run_free(runs[i]);
+}
+
+/* Runs that keep no samples have no values to give, and runs of other lengths no difference. */
+static void what_needs_samples(void **state)
+{
+    (void)state;
+    paper_site_init(&site);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run *exact = run_of(&def, 40);
+    def.exact_bytes = 64;
+    struct ceduo_run *binned = run_of(&def, 20);
+    double values[40];
+    assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) && ceduo_run_stops(exact, values));
+    assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) || ceduo_run_stops(binned, values));
+    assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
+    assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
+    ceduo_run_free(exact);
+    ceduo_run_free(binned);
+}
+
 /* Years that were not flown yet say nothing of what arrives. */
 static void years_before_they_are_flown(void **state)
 {
@@ -507,6 +553,8 @@ int main(void)
         cmocka_unit_test(looking_on_changes_nothing),
         cmocka_unit_test(a_rock_without_end),
         cmocka_unit_test(differences_of_the_first_rocks),
+        cmocka_unit_test(differences_of_blocks),
+        cmocka_unit_test(what_needs_samples),
         cmocka_unit_test(years_before_they_are_flown),
         cmocka_unit_test(little_is_asked_of_a_run),
         cmocka_unit_test(a_pool_forgets_what_is_old),

@@ -150,23 +150,63 @@ static void cancel_at(void *context, const struct ceduo_calibration_state *state
         atomic_store(&e->cancelled, true);
 }
 
-/* Whenever it is ended, what is known so far is the answer, or nothing is where all was asked for. Rocks fly 20 m in 2 s with the
- * speed that is fitted: of hypot(v, 19.62) = 22.021 m/s the best v is 10 m/s. */
+/* Level ground, and rocks that fall 100 m on it: what they have then, hypot(v, sqrt(2 g h)), tells their speed v. */
+static struct flight {
+    double x[2], z[2];
+    struct ceduo_segment segment;
+    struct ceduo_option option;
+    struct ceduo_scene scene;
+    struct ceduo_observation seen;
+} flights[2];
+
+static const char *const speed = "release.vx_m_s", *const place = "release.x_m";
+
+static struct ceduo_input range(const char *const *path, double lo, double hi)
+{
+    return (struct ceduo_input){*path, CEDUO_INPUT_RANGE, lo, hi, .places_count = 1, .places = path};
+}
+
+static void make_flight(struct flight *f, double v, double sd)
+{
+    *f = (struct flight){.x = {0, 200}, .option = {.name = (char *)(uintptr_t) "bare"}};
+    f->segment = (struct ceduo_segment){
+        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
+    f->scene = ceduo_scene_default();
+    f->scene.slope = (struct ceduo_slope){.vertices = 2, .x = f->x, .z = f->z, .segments = &f->segment, .segments_given = 1};
+    f->scene.rock.shape = CEDUO_SPHERE;
+    f->scene.rock.diameter = ceduo_number(1);
+    f->scene.rock.density = ceduo_number(2600);
+    f->scene.release.height = ceduo_number(100);
+    f->scene.release.vx = ceduo_number(10);
+    f->scene.options = &f->option;
+    f->scene.options_count = 1;
+    f->seen = (struct ceduo_observation){
+        .kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(v, sqrt(2 * 9.81 * 100)), .sd = sd};
+}
+
+static struct ceduo_calibration_def fit_of(const struct ceduo_calibration_scene *scenes, size_t n, size_t parameters)
+{
+    return (struct ceduo_calibration_def){
+        .scenes_count = n, .scenes = scenes, .parameters_count = parameters, .rocks = 2, .seed = 1, .threads = 1};
+}
+
+/* Whenever it is ended, what is known so far is the answer, or nothing is where all was asked for. */
 static void a_fit_is_ended(void **state)
 {
     (void)state;
-    static const char *const place = "release.vx_m_s";
-    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 5, 15, .places_count = 1, .places = &place};
-    struct ceduo_scene scene = flight();
-    const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(10, sqrt(2 * 9.81 * 100)), .sd = 0.1};
-    const struct ceduo_calibration_scene fitted = {&scene, &input, 1, &o};
+    const struct ceduo_input input = range(&speed, 5, 15);
+    make_flight(&flights[0], 10, 0.1);
+    const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
+    struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+    struct ceduo_calibration a;
+    struct ending e;
+    def.cancel = &e.cancelled;
+    def.progress = cancel_at;
+    def.context = &e;
     for (int stage = CEDUO_SEARCH; stage <= CEDUO_CHAINS; stage++)
         for (int whole = 0; whole < 2; whole++) {
-            struct ending e = {false, (enum ceduo_calibration_stage)stage};
-            struct ceduo_calibration a;
-            const struct ceduo_calibration_def def = {.scenes_count = 1, .scenes = &fitted, .parameters_count = 1, .rocks = 2,
-                                                      .seed = 1, .threads = 1, .cancel = &e.cancelled, .whole = whole == 1,
-                                                      .progress = cancel_at, .context = &e};
+            e = (struct ending){false, (enum ceduo_calibration_stage)stage};
+            def.whole = whole == 1;
             EXPECT(ceduo_calibrate(&def, &a), ==, whole == 1 ? CEDUO_CANCELLED : CEDUO_OK);
             if (whole == 1)
                 continue;
@@ -175,6 +215,112 @@ static void a_fit_is_ended(void **state)
             EXPECT_NEAR(a.parameters[0].best, 10, stage == CEDUO_SEARCH ? 5 : 0.05);
             ceduo_calibration_free(&a);
         }
+    e = (struct ending){true, CEDUO_SEARCH}; /* before anything is known */
+    def.whole = false;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
+}
+
+/* Chains of a given length end there, whether they agree or not: of two rounds the second half of each of four chains is drawn
+ * from. Cancelled as they end, the rest is computed all the same, or not where all was asked for. */
+static void a_fit_of_few_steps(void **state)
+{
+    (void)state;
+    const struct ceduo_input input = range(&speed, 5, 15);
+    make_flight(&flights[0], 10, 0.1);
+    const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
+    struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+    struct ceduo_calibration a;
+    def.steps_most = 2 * 50 + 1;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+    assert_true(a.complete && !a.settled);
+    EXPECT(a.draws_count, ==, 4 * 51);
+    ceduo_calibration_free(&a);
+    struct ending e = {false, CEDUO_CHAINS};
+    def.cancel = &e.cancelled;
+    def.progress = cancel_at;
+    def.context = &e;
+    def.steps_most = 1;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+    assert_true(a.complete && !a.settled);
+    EXPECT(a.draws_count, ==, 0);
+    ceduo_calibration_free(&a);
+    e.cancelled = false;
+    def.whole = true;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_CANCELLED);
+}
+
+/* Without draws nothing is known of how two values hang together. */
+static void two_values_without_draws(void **state)
+{
+    (void)state;
+    const struct ceduo_input inputs[2] = {range(&speed, 5, 15), range(&place, 0, 50)};
+    make_flight(&flights[0], 10, 0.1);
+    const struct ceduo_calibration_scene fitted = {&flights[0].scene, inputs, 1, &flights[0].seen};
+    struct ceduo_calibration_def def = fit_of(&fitted, 1, 2);
+    struct ceduo_calibration a;
+    struct ending e = {false, CEDUO_SEARCH};
+    def.cancel = &e.cancelled;
+    def.progress = cancel_at;
+    def.context = &e;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+    EXPECT(a.correlation[0][0], ==, 1);
+    EXPECT(a.correlation[1][1], ==, 1);
+    assert_true(isnan(a.correlation[0][1]) && isnan(a.correlation[1][0]));
+    ceduo_calibration_free(&a);
+}
+
+/* One of two scenes ends at 30 m, and what was seen in the other was a fall over an edge at 60 m, which only rocks released
+ * beyond 40 m reach: the place must be one that both scenes have, however badly that fits. */
+static void a_scene_that_does_not_fit_together(void **state)
+{
+    (void)state;
+    const struct ceduo_input input = range(&place, 0, 100);
+    struct ceduo_calibration_scene fitted[2];
+    struct ceduo_calibration a;
+    double x[] = {0, 60, 61, 200}, z[] = {0, 0, -100, -100};
+    struct ceduo_segment segments[3];
+    for (size_t i = 0; i < 2; i++) {
+        make_flight(&flights[i], 10, 0.1);
+        flights[i].segment.friction = 2;
+        flights[i].scene.release.height = ceduo_number(5);
+        fitted[i] = (struct ceduo_calibration_scene){&flights[i].scene, &input, 1, &flights[i].seen};
+    }
+    flights[0].x[1] = 30;
+    flights[0].seen.mean = hypot(10, sqrt(2 * 9.81 * 5));
+    for (size_t i = 0; i < 3; i++)
+        segments[i] = flights[1].segment;
+    flights[1].scene.slope = (struct ceduo_slope){.vertices = 4, .x = x, .z = z, .segments = segments, .segments_given = 3};
+    struct ceduo_calibration_def def = fit_of(fitted, 2, 1);
+    def.steps_most = 1;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+    EXPECT(a.parameters[0].best, <, 30);
+    ceduo_calibration_free(&a);
+    def = fit_of(&fitted[1], 1, 1);
+    def.steps_most = 1;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+    EXPECT(a.parameters[0].best, >, 40);
+    ceduo_calibration_free(&a);
+}
+
+/* A value of which half of the draws lie within the last 5 % of its bounds is at its bound, even where the best is 3 % away; at
+ * 10 % it is not. */
+static void half_of_the_draws_at_a_bound(void **state)
+{
+    (void)state;
+    const struct ceduo_input input = range(&speed, 5, 15);
+    const double v[2] = {5.3, 6};
+    for (int i = 0; i < 2; i++) {
+        make_flight(&flights[0], v[i], 0.01);
+        const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
+        struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
+        struct ceduo_calibration a;
+        def.steps_most = 251;
+        EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+        EXPECT_NEAR(a.parameters[0].best, v[i], 0.02);
+        assert_true(a.parameters[0].determined);
+        EXPECT(a.parameters[0].at_bound, ==, i == 0);
+        ceduo_calibration_free(&a);
+    }
 }
 
 int main(void)
@@ -182,6 +328,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_of_ten),
         cmocka_unit_test(a_fit_is_ended),
+        cmocka_unit_test(a_fit_of_few_steps),
+        cmocka_unit_test(two_values_without_draws),
+        cmocka_unit_test(a_scene_that_does_not_fit_together),
+        cmocka_unit_test(half_of_the_draws_at_a_bound),
         cmocka_unit_test(two_shapes_tell_mu),
         cmocka_unit_test(those_that_go_on_lie_farther),
         cmocka_unit_test(one_place_has_no_picture),
