@@ -315,7 +315,7 @@ static void adjust_difference(const struct ceduo_run *run, const struct sums *s,
     for (int k = 0; k < PAIRED; k++) {
         struct ceduo_paired found = paired(a.mean[k] - b.mean[k], &m[k], run->rocks);
         to[k]->mean = found.mean;
-        if (rocks >= 2 && isfinite(found.se * sqrt(more)))
+        if (rocks >= 2)
             to[k]->se = found.se * sqrt(more);
     }
 }
@@ -324,7 +324,7 @@ static void adjust_difference(const struct ceduo_run *run, const struct sums *s,
 static bool is_bare_before(const struct ceduo_run *run, double x)
 {
     const struct wood *wood = &run->ready.wood;
-    return wood->bare || wood->belts == 0 || wood->along[0][0].from >= x;
+    return wood->bare || wood->along[0][0].from >= x;
 }
 
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,

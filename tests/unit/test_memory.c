@@ -254,7 +254,8 @@ static bool question(void)
     site.scene.options_count = 2;
     struct ceduo_stand *stand = &site.belts[0].stand;
     stand->growth = paper_growth;
-    stand->cutting = (struct ceduo_cutting){.rotation = 20};
+    static double stay = 50;
+    stand->cutting = (struct ceduo_cutting){.rotation = 20, .stay_count = 1, .stay_per_ha = &stay};
     site.belts[0].cut_year = 2;
     struct ceduo_question q = ceduo_question_default(&site.scene);
     struct ceduo_pool *pool = NULL;

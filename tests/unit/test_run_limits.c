@@ -323,6 +323,35 @@ static void differences_of_blocks(void **state)
         ceduo_run_free(runs[i]);
 }
 
+/* In brief a run says what it says at length: adjusted or as counted, of blocks of all sizes, with and without an accepted energy. */
+static void a_run_in_brief(void **state)
+{
+    (void)state;
+    static double volumes[] = {0.05, 1};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    for (int i = 0; i < 6; i++) {
+        paper_site_init(&site);
+        site.control.x = 20;
+        site.control.accepted = i % 2 == 0 ? 1e3 : NAN;
+        site.scene.blocks = &blocks;
+        site.scene.blocks_count = i / 2 == 2;
+        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+        def.plain = i / 2 == 1;
+        struct ceduo_run *run = run_of(&def, 300);
+        struct ceduo_brief brief = ceduo_run_brief(run, 0);
+        struct ceduo_arrivals a;
+        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+        EXPECT(a.adjusted, ==, i / 2 == 0);
+        EXPECT_NEAR(brief.reach_probability, a.reach_probability, 1e-12);
+        EXPECT(isnan(brief.exceed_probability), ==, i % 2);
+        if (i % 2 == 0)
+            EXPECT_NEAR(brief.exceed_probability, a.exceed_probability, 1e-12);
+        EXPECT_NEAR(brief.energy, a.energy.mean, 1e-12 * a.energy.mean);
+        EXPECT_NEAR(brief.energy_per_released, a.energy_per_released, 1e-12 * a.energy_per_released);
+        ceduo_run_free(run);
+    }
+}
+
 /* Runs that keep no samples have no values to give, and runs of other lengths no difference. */
 static void what_needs_samples(void **state)
 {
@@ -335,6 +364,7 @@ static void what_needs_samples(void **state)
     double values[40];
     assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) && ceduo_run_stops(exact, values));
     assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) || ceduo_run_stops(binned, values));
+    assert_int_equal(ceduo_run_adopt(exact, (const unsigned char *)"", 0), CEDUO_BAD_PART); /* nor anything in nothing */
     assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
     assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
     ceduo_run_free(exact);
@@ -554,6 +584,7 @@ int main(void)
         cmocka_unit_test(a_rock_without_end),
         cmocka_unit_test(differences_of_the_first_rocks),
         cmocka_unit_test(differences_of_blocks),
+        cmocka_unit_test(a_run_in_brief),
         cmocka_unit_test(what_needs_samples),
         cmocka_unit_test(years_before_they_are_flown),
         cmocka_unit_test(little_is_asked_of_a_run),
