@@ -246,6 +246,25 @@ static void sources_of_ranges_are_no_notes(void **state)
     ceduo_scene_release(&file);
 }
 
+/* The number of an entry; what is not there, is none or beyond what a number holds is NaN. */
+static void entries_have_numbers(void **state)
+{
+    (void)state;
+    struct scene_file file;
+    const char *const none[] = {"1e999", "x"};
+    for (size_t i = 0; i < LENGTH(none); i++) {
+        char title[32];
+        snprintf(title, sizeof title, "title: %s", none[i]);
+        read_scene(&file, title, NULL, 0, NULL);
+        const struct node *rock = ceduo_node_get(file.root, "rock");
+        EXPECT(ceduo_node_number(rock, "diameter_m"), ==, 0.5);
+        assert_true(isnan(ceduo_node_number(rock, "shape")));
+        assert_true(isnan(ceduo_node_number(file.root, "title")));
+        assert_true(isnan(ceduo_node_number(file.root, "rock")));
+        ceduo_scene_release(&file);
+    }
+}
+
 /* ---- draws ---- */
 
 /* Where the slope's file says no ground, talus and segments are those of all stretches; a column may set many. */
@@ -440,6 +459,7 @@ int main(void)
         IN_FOLDER(places_by_name),
         IN_FOLDER(all_places_are_meant),
         IN_FOLDER(sources_of_ranges_are_no_notes),
+        IN_FOLDER(entries_have_numbers),
         IN_FOLDER(draws_of_an_assumed_ground),
         IN_FOLDER(draws_of_many_columns),
         IN_FOLDER(places_have_belts),
