@@ -22,14 +22,18 @@
 
 /* ---- what is next ---- */
 
-static inline void set_next_x(struct walker *w)
+static inline bool is_behind_marks(const struct walker *w)
 {
-    w->next_x = w->next_mark < w->marks->n ? w->marks->at[w->next_mark].x : INFINITY;
+    return w->next_mark == w->marks->n && w->next_cell == w->marks->cells;
 }
 
-static inline void end_at_last_mark(struct walker *w)
+static inline void set_next_x(struct walker *w)
 {
-    if (w->arrivals_only && w->next_mark == w->marks->n)
+    const struct marks *m = w->marks;
+    w->mark_x = w->next_mark < m->n ? m->at[w->next_mark].x : INFINITY;
+    double cell_x = m->cell_x[w->next_cell];
+    w->next_x = cell_x < w->mark_x ? cell_x : w->mark_x;
+    if (w->arrivals_only && is_behind_marks(w))
         w->pause = 0;
 }
 
@@ -60,19 +64,49 @@ static inline void pass_mark(struct walker *w, double vx, double vz, double spin
     struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0,
                                .stems_hit = w->stems_hit};
     w->cross(w->context, w, w->next_mark++, &c);
-    set_next_x(w);
-    end_at_last_mark(w);
+}
+
+/* Whether there are cells up to x, and what it brings to them is noted. */
+static inline bool comes_to_cells(struct walker *w, double x)
+{
+    const double *cell_x = w->marks->cell_x;
+    if (w->row.at[0])
+        return cell_x[w->next_cell] <= x;
+    while (cell_x[w->next_cell] <= x)
+        w->next_cell++;
+    return false;
+}
+
+/* What a rock brings into the next cell. */
+static inline void note_in_cell(struct walker *w, double vx, double vz, double spin, double height)
+{
+    double speed = sqrt(vx * vx + vz * vz);
+    double energy = 0.5 * w->rock.mass * (speed * speed) + 0.5 * w->rock.moment * (spin * spin);
+    envelope_note(&w->row, w->next_cell++, (double[]){speed, height, energy});
+}
+
+/* A flight `at` when it comes to a place. */
+static inline struct flight flight_to(const struct walker *w, const struct flight *at, double x, double t_end)
+{
+    double t = (x - at->x) / at->vx;
+    t = t < t_end ? t : t_end;
+    return (struct flight){.vx = at->vx,
+                           .vz = at->vz - w->g->gravity * t,
+                           .z = at->z + (at->vz - w->g->half_g * t) * t};
 }
 
 /* The marks that the flight from `at` to `l` passes. */
 SELDOM void pass_in_flight(struct walker *w, struct flight at, double x, double t_end)
 {
-    while (w->next_x <= x) {
-        double t = (w->next_x - at.x) / at.vx;
-        t = t < t_end ? t : t_end;
-        double z = at.z + (at.vz - w->g->half_g * t) * t;
-        pass_mark(w, at.vx, at.vz - w->g->gravity * t, w->spin, z - w->marks->at[w->next_mark].z);
+    while (comes_to_cells(w, x)) {
+        struct flight f = flight_to(w, &at, w->marks->cell_x[w->next_cell], t_end);
+        note_in_cell(w, f.vx, f.vz, w->spin, f.z - w->marks->cell_z[w->next_cell]);
     }
+    for (; w->mark_x <= x; set_next_x(w)) {
+        struct flight f = flight_to(w, &at, w->mark_x, t_end);
+        pass_mark(w, f.vx, f.vz, w->spin, f.z - w->marks->at[w->next_mark].z);
+    }
+    set_next_x(w);
 }
 
 SELDOM void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)

@@ -270,6 +270,14 @@ EACH(reals, choose, (const double *table, ints p), OF_TABLE, PART_CHOOSE)
 
 #ifdef WIDE_AVX512
 #define PART_NONE_BUT(p) ((unsigned)(uint8_t)~(p)) /* bits of those that are not */
+#define PART_LOAD_ROW(from) _mm512_loadu_pd(from)
+#define PART_STORE_ROW(to, p) _mm512_storeu_pd(to, p)
+
+/* The upper 17 bits of each, which are below 2^16. */
+LANE void part_store_upper(uint16_t *to, part_reals p)
+{
+    _mm_storeu_si128((__m128i *)to, _mm512_cvtepi64_epi16(_mm512_srli_epi64(PART_AS_INTS(p), 47)));
+}
 
 /* PART pairs, or fours, from an address on, by columns. */
 LANE void part_of_pairs(const double (*from)[2], part_reals *first, part_reals *second)
@@ -299,6 +307,15 @@ LANE part_reals part_shifted(part_reals p, double last)
 }
 #else
 #define PART_NONE_BUT(p) (~PART_BITS(p) & 15)
+#define PART_LOAD_ROW(from) _mm256_loadu_pd(from)
+#define PART_STORE_ROW(to, p) _mm256_storeu_pd(to, p)
+
+LANE void part_store_upper(uint16_t *to, part_reals p)
+{
+    __m256i upper = _mm256_srli_epi64(PART_AS_INTS(p), 47);
+    __m128i row = _mm_packus_epi32(_mm256_castsi256_si128(upper), _mm256_extracti128_si256(upper, 1));
+    _mm_storel_epi64((__m128i *)to, _mm_packus_epi32(row, row));
+}
 
 LANE void part_of_pairs(const double (*from)[2], part_reals *first, part_reals *second)
 {

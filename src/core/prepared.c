@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "prepared.h"
 
+#include <math.h>
 #include <stdlib.h>
 
+#define BEHIND_LAST  8   /* numbers in the longest vector */
 #define LENGTH_LEAST 1.0 /* m of a way, so that places on it are no huge numbers */
 
 static int by_x(const void *a, const void *b)
@@ -13,21 +15,36 @@ static int by_x(const void *a, const void *b)
     return (p->what > q->what) - (p->what < q->what);
 }
 
-static bool make_marks(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
+static bool make_cells(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
 {
-    size_t controls = scene->controls_count, n = controls + cells;
-    struct mark *at = malloc((n + 1) * sizeof *at);
+    size_t room = cells + BEHIND_LAST;
+    marks->cells = cells;
+    marks->cell_x = malloc(2 * room * sizeof *marks->cell_x);
+    if (!marks->cell_x)
+        return false;
+    marks->cell_z = marks->cell_x + room;
+    for (size_t i = 0; i < room; i++) {
+        marks->cell_x[i] = i < cells ? cell_x[i] : NAN;
+        marks->cell_z[i] = i < cells ? ceduo_slope_height(&scene->slope, cell_x[i]) : NAN;
+    }
+    return true;
+}
+
+static bool make_marks(struct marks *marks, const struct ceduo_scene *scene)
+{
+    size_t n = scene->controls_count;
+    struct mark *at = marks->at = malloc((n + 1) * sizeof *at);
     if (!at)
         return false;
-    for (size_t i = 0; i < n; i++) {
-        double x = i < controls ? scene->controls[i].x : cell_x[i - controls];
-        at[i] = (struct mark){x, ceduo_slope_height(&scene->slope, x), i};
-    }
+    for (size_t i = 0; i < n; i++)
+        at[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
     qsort(at, n, sizeof *at, by_x);
     double from = scene->release.x.mean, last = from + LENGTH_LEAST;
-    for (size_t i = 0; i < controls; i++)
+    for (size_t i = 0; i < n; i++)
         last = scene->controls[i].x > last ? scene->controls[i].x : last;
-    *marks = (struct marks){n, at, from, 1 / (last - from)};
+    marks->n = n;
+    marks->from = from;
+    marks->per_metre = 1 / (last - from);
     return true;
 }
 
@@ -40,7 +57,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
         return status;
     bool good = ceduo_sizes_init(&to->sizes, scene) &&
                 ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
-                make_marks(&to->marks, scene, cells, cell_x) &&
+                make_marks(&to->marks, scene) && make_cells(&to->marks, scene, cells, cell_x) &&
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -51,5 +68,6 @@ void ceduo_prepared_release(struct prepared *p)
     ceduo_sizes_release(&p->sizes);
     ceduo_wood_release(&p->wood);
     free(p->marks.at);
+    free(p->marks.cell_x);
     ceduo_ground_release(&p->ground);
 }

@@ -7,15 +7,17 @@
 #include "sizes.h"
 #include "wood.h"
 
-/* A place where something is noted of a rock's first passage going +x: a control, or a cell of the envelopes. */
+/* A place where something is noted of a rock's first passage going +x: a control. */
 struct mark {
     double x, z; /* m; z: the ground */
-    size_t what; /* a control's index, or the number of controls plus a cell's */
+    size_t what; /* the control's index */
 };
 
+/* Controls, and cells of the envelopes, where rocks are noted many at once. */
 struct marks {
-    size_t n;
-    struct mark *at; /* rising along x */
+    size_t n, cells;
+    struct mark *at;         /* rising along x */
+    double *cell_x, *cell_z; /* likewise; behind the last NaN, as many as a vector reads */
     double from, per_metre; /* of the way to the last control: places on it are 0 at the mean release, 1 at that control */
 };
 

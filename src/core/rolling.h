@@ -62,17 +62,27 @@ static inline void roll_point(const struct walker *w, int dir, double ds, bool t
     }
 }
 
+/* The speed of a roll whose u2 changes by `rate` a metre, where it comes to a place. */
+static inline double speed_at(const struct walker *w, const struct roll *r, double rate, double x, double z)
+{
+    double u2 = r->u2 + rate * ground_length(&w->g->segments[w->at.segment], w->at.x, w->at.z, x, z);
+    return u2 > 0 ? sqrt(u2) : 0;
+}
+
 /* The marks that a roll of ds metres to x passes. */
 SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double rate = ds > 0 ? (u2_end - r->u2) / ds : 0;
-    while (w->next_x <= x) {
-        double z = w->marks->at[w->next_mark].z;
-        double u2 = r->u2 + rate * ground_length(s, w->at.x, w->at.z, w->next_x, z);
-        double u = u2 > 0 ? sqrt(u2) : 0;
+    while (comes_to_cells(w, x)) {
+        double u = speed_at(w, r, rate, w->marks->cell_x[w->next_cell], w->marks->cell_z[w->next_cell]);
+        note_in_cell(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
+    }
+    for (; w->mark_x <= x; set_next_x(w)) {
+        double u = speed_at(w, r, rate, w->mark_x, w->marks->at[w->next_mark].z);
         pass_mark(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
     }
+    set_next_x(w);
 }
 
 SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, double x1, double z1)

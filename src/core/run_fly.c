@@ -29,7 +29,7 @@ struct worker {
     double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
     struct histogram *bins;
-    struct envelope_cell *cells;
+    struct envelopes cells;
     bool no_memory;
     struct chunk *chunk;
 };
@@ -70,23 +70,16 @@ static void keep_variates(struct worker *w, const struct walker *walker)
 static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
 {
     struct worker *w = context;
-    struct ceduo_run *run = w->run;
     const struct ceduo_rock *rock = &walker->rock;
-    size_t what = run->ready.marks.at[mark].what;
+    size_t control = w->run->ready.marks.at[mark].what;
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
-    if (what >= run->controls && !is_shown(run, walker->number))
-        return;
-    if (what >= run->controls) {
-        ceduo_envelope_add(&w->cells[what - run->controls], speed, c->height, energy);
-        return;
-    }
-    struct arrival *a = &w->arrivals[what * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
+    struct arrival *a = &w->arrivals[control * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
     *a = (struct arrival){.values = {speed, c->height, energy, translation}, .stems_hit = (double)c->stems_hit};
-    if (what == run->last_control)
+    if (control == w->run->last_control)
         keep_variates(w, walker);
-    keep_sample(w, walker->number, what, a->values);
+    keep_sample(w, walker->number, control, a->values);
 }
 
 /* A rock counts at each control that it did not reach. */
@@ -94,13 +87,25 @@ static void note_missed(struct worker *w, const struct walker *walker, enum cedu
 {
     const struct marks *marks = &w->run->ready.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++) {
-        size_t what = marks->at[m].what;
-        if (what >= w->run->controls)
-            continue;
-        w->block->controls[what].ended[end]++;
-        if (what == w->run->last_control)
+        w->block->controls[marks->at[m].what].ended[end]++;
+        if (marks->at[m].what == w->run->last_control)
             keep_variates(w, walker);
     }
+}
+
+/* At its release, and at its end: a rock that the pictures show has a row of cells. */
+static void begin_row(struct worker *w, size_t lane)
+{
+    struct walker *walker = &w->walkers[lane];
+    if (w->cells.n > 0)
+        walker->row = is_shown(w->run, walker->number) ? ceduo_envelopes_begin(&w->cells, lane, walker->next_cell)
+                                                       : (struct envelope_row){0};
+}
+
+static void end_row(struct worker *w, size_t lane)
+{
+    if (w->walkers[lane].row.at[0])
+        ceduo_envelopes_end(&w->cells, lane, w->walkers[lane].next_cell);
 }
 
 static void clear_samples(struct ceduo_run *run, uint64_t rock)
@@ -142,6 +147,7 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
                        walker->at.x < w->run->ready.scene.release.x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     note_missed(w, walker, end);
+    end_row(w, lane);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         note_stop(w, walker->number, walker->at.x);
     if (walker->cancelled)
@@ -192,8 +198,10 @@ static bool next_rock(void *context, size_t lane)
     while (w->next < w->to && goes_on(w)) {
         uint64_t number = w->next++;
         clear_samples(run, number);
-        if (release(w, &w->walkers[lane], number) == CEDUO_OK)
+        if (release(w, &w->walkers[lane], number) == CEDUO_OK) {
+            begin_row(w, lane);
             return true;
+        }
         note_undrawn(w);
     }
     return false;
@@ -370,13 +378,13 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
         return false;
     if (!run->exact && !(w->bins = calloc(run->columns, sizeof *w->bins)))
         return false;
-    return run->def.cells == 0 || (w->cells = calloc(run->def.cells, sizeof *w->cells));
+    return run->def.cells == 0 || ceduo_envelopes_init(&w->cells, run->def.cells, run->lanes);
 }
 
 static void worker_release(struct worker *w)
 {
     ceduo_histograms_free(w->bins, w->run->columns);
-    free(w->cells);
+    ceduo_envelopes_release(&w->cells);
     for (size_t i = 0; w->stems && i < w->run->lanes; i++)
         ceduo_stems_release(&w->stems[i]);
     free(w->stems);
@@ -390,10 +398,8 @@ static void worker_merge(struct worker *w)
     struct ceduo_run *run = w->run;
     if (w->bins)
         ceduo_histograms_merge(run->bins, w->bins, run->columns);
-    for (size_t i = 0; w->cells && i < run->def.cells; i++) {
-        ceduo_envelope_settle(&w->cells[i]);
-        ceduo_envelope_merge(&run->cells[i], &w->cells[i]);
-    }
+    if (w->cells.n > 0)
+        ceduo_envelopes_merge(run->cells, &w->cells);
 }
 
 /* Runs a chunk on as many threads as can be started; this one works too. */

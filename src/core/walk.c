@@ -79,8 +79,10 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->next_mark = 0;
     while (w->next_mark < marks->n && marks->at[w->next_mark].x <= x)
         w->next_mark++;
+    w->next_cell = 0;
+    while (marks->cell_x[w->next_cell] <= x)
+        w->next_cell++;
     set_next_x(w);
-    end_at_last_mark(w);
     w->stems_hit = w->stools_met = 0;
     w->stem_ahead = INFINITY;
     w->stem_behind = -INFINITY;
@@ -112,6 +114,8 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     if (w->has_section)
         draw_section(w);
     w->next_mark = first->next_mark;
+    w->next_cell = first->next_cell;
+    w->mark_x = first->mark_x;
     w->next_x = first->next_x;
 }
 
@@ -120,7 +124,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 /* Whether a long trajectory is to end here: too many contacts, or nobody waits for it any more. */
 SELDOM bool has_enough(struct walker *w)
 {
-    if (w->arrivals_only && w->next_mark == w->marks->n)
+    if (w->arrivals_only && is_behind_marks(w))
         return true;
     w->pause = next_pause(w);
     w->cancelled = is_cancelled(w);

@@ -7,6 +7,7 @@
 
 #include "base/elementary.h"
 #include "ceduo/trajectory.h"
+#include "envelope.h"
 #include "landing.h"
 #include "prepared.h"
 #include "random.h"
@@ -31,8 +32,10 @@ struct walker {
     uint64_t contacts;
     uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
     uint64_t stems_pause; /* the same, of the effort spent on stems */
-    size_t next_mark;
-    double next_x;    /* of that mark, infinite behind the last */
+    size_t next_mark, next_cell;
+    double mark_x;    /* of that mark, infinite behind the last; */
+    double next_x;    /* or of that cell, which comes first */
+    struct envelope_row row; /* what it brings to the cells */
     struct stems *stems;       /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
@@ -41,6 +44,7 @@ struct walker {
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     uint64_t turns_of;
     struct random_pair turns;  /* likewise, how the section is turned */
+    /* at a control */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_watch *watch; /* NULL: nobody looks */
     void *context;                   /* of cross */

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#include "lanes.h"
 #include "wide.h"
+#include "wide_cells.h"
 
 /* What is known before the first step, so that the steps are compiled for it. */
 struct form {
@@ -254,7 +254,7 @@ static void refill(struct wide *k, size_t i)
     k->there |= bit;
     while (job->next(job->context, i)) {
         enum ceduo_end end;
-        size_t mark = w->next_mark;
+        double mark = w->next_x;
         bool known = k->same_start;
         if (known || ceduo_walk_start(w, &k->start, &end)) {
             load_course(k, i, &k->start);
@@ -268,7 +268,7 @@ static void refill(struct wide *k, size_t i)
             if (w->has_section)
                 load_section(k, i);
             k->fresh |= bit;
-            k->same_start = known || (job->alike && w->next_mark == mark);
+            k->same_start = known || (job->alike && w->next_x == mark);
             return;
         }
         job->ended(job->context, i, end);
@@ -325,8 +325,10 @@ static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = k->spin[i];
-    show_rock(k, i);
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
+    if (w->row.at[0] && w->marks->cell_x[w->next_cell] <= k->to_x[i])
+        pass_cells(w, &at, k->to_x[i], k->t[i]);
+    show_rock(k, i);
     ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
     k->next_x[i] = w->next_x;
     k->pause[i] = w->pause;

@@ -11,17 +11,27 @@
 
 /* ---- cells along the slope: 32 bins an octave ---- */
 
-/* What a cell says of rocks whose speed is `values` and energy twice that. */
+/* What the second of three cells says of rocks whose speed is `values` and energy twice that; one more ends before it, and one
+ * begins behind it. */
 static struct ceduo_envelope cell_of(const double *values, size_t n)
 {
     struct ceduo_envelope e;
-    struct envelope_cell *cell = calloc(1, sizeof *cell);
-    assert_non_null(cell);
-    for (size_t i = 0; i < n; i++)
-        ceduo_envelope_add(cell, values[i], values[i] / 2, 2 * values[i]);
-    ceduo_envelope_settle(cell);
-    ceduo_envelope_read(cell, &e);
-    free(cell);
+    struct envelopes all;
+    struct envelope_cell *cells = calloc(3, sizeof *cells);
+    assert_non_null(cells);
+    assert_true(ceduo_envelopes_init(&all, 3, 2));
+    for (size_t i = 0; i < n + 2; i++) {
+        size_t from = i == n ? 0 : i == n + 1 ? 2 : 1;
+        double value = i < n ? values[i] : 7;
+        struct envelope_row row = ceduo_envelopes_begin(&all, i % 2, from);
+        envelope_note(&row, from, (double[]){value, value / 2, 2 * value});
+        ceduo_envelopes_end(&all, i % 2, from + 1);
+    }
+    ceduo_envelopes_merge(cells, &all);
+    ceduo_envelopes_release(&all);
+    ceduo_envelope_read(&cells[1], &e);
+    EXPECT(e.passed, ==, n);
+    free(cells);
     return e;
 }
 
@@ -80,6 +90,34 @@ static void a_cell_has_an_end(void **state)
     EXPECT(e.speed.p50, ==, 0x1p29 * (127. / 64));
     EXPECT(e.speed.max, ==, 0x1p40);
     EXPECT(e.passed, ==, 1);
+}
+
+/* 2^-10 begins the smallest octave of a speed: what lies below it is read as 0, but for the largest; likewise where
+ * nothing is brought. */
+static void a_cell_has_a_beginning(void **state)
+{
+    (void)state;
+    const double values[] = {0x1p-11, 0};
+    struct ceduo_envelope e = cell_of(values, 1);
+    EXPECT(e.speed.p50, ==, 0);
+    EXPECT(e.speed.max, ==, 0x1p-11);
+    e = cell_of(values + 1, 1);
+    EXPECT(e.speed.p50, ==, 0);
+    EXPECT(e.speed.max, ==, 0);
+    EXPECT(e.energy.max, ==, 0);
+}
+
+/* 1000 rocks of 1, 2, … 1000 m/s: more than wait at a time. The 500th lies in the bin of 496 to 504. */
+static void a_cell_counts_all_rocks(void **state)
+{
+    (void)state;
+    double values[1000];
+    for (int i = 0; i < 1000; i++)
+        values[i] = i + 1;
+    struct ceduo_envelope e = cell_of(values, 1000);
+    EXPECT(e.speed.p50, ==, 500);
+    EXPECT(e.speed.max, ==, 1000);
+    EXPECT(e.height.max, ==, 500);
 }
 
 /* ---- histograms of long runs: 16384 bins an octave ---- */
@@ -158,6 +196,8 @@ int main(void)
         cmocka_unit_test(a_cell_reads_no_more_than_the_largest),
         cmocka_unit_test(a_cell_reads_the_rock_of_the_rank),
         cmocka_unit_test(a_cell_has_an_end),
+        cmocka_unit_test(a_cell_has_a_beginning),
+        cmocka_unit_test(a_cell_counts_all_rocks),
         cmocka_unit_test(a_histogram_reads_the_middle_of_a_bin),
         cmocka_unit_test(a_histogram_has_a_beginning),
         cmocka_unit_test(a_distribution_of_bins_has_no_more_than_the_largest),

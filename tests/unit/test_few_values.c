@@ -176,10 +176,15 @@ static void cells_take_any_value(void **state)
 {
     (void)state;
     struct envelope_cell *cell = calloc(1, sizeof *cell);
+    struct envelopes cells;
     struct ceduo_envelope e;
     assert_non_null(cell);
-    ceduo_envelope_add(cell, 1e200, 1e-200, 1e300);
-    ceduo_envelope_settle(cell);
+    assert_true(ceduo_envelopes_init(&cells, 1, 1));
+    struct envelope_row row = ceduo_envelopes_begin(&cells, 0, 0);
+    envelope_note(&row, 0, (double[]){1e200, 1e-200, 1e300});
+    ceduo_envelopes_end(&cells, 0, 1);
+    ceduo_envelopes_merge(cell, &cells);
+    ceduo_envelopes_release(&cells);
     ceduo_envelope_read(cell, &e);
     assert_int_equal(e.passed, 1);
     EXPECT(e.speed.max, ==, 1e200);
