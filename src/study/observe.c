@@ -67,7 +67,7 @@ static struct setting *setting_of(struct ceduo_observer *o, const struct ceduo_o
     *s = (struct setting){.rock = seen->rock, .release = seen->release, .option = seen->option};
     s->controls = ceduo_arena_take(&o->arena, (o->n + 1) * sizeof *s->controls);
     s->stretches = ceduo_arena_take(&o->arena, (o->n + 1) * sizeof *s->stretches);
-    return s->controls && s->stretches ? s : NULL;
+    return o->arena.failed ? NULL : s;
 }
 
 static size_t control_of(struct setting *s, double x)

@@ -275,7 +275,7 @@ static bool fit_that_cannot_grow(void)
 static void chains_of_a_fit(void **state)
 {
     (void)state;
-    for (growth = 1; growth <= 4; growth++) {
+    for (growth = 1; growth <= 30; growth++) {
         assert_false(begin(fit_that_cannot_grow, 0, false));
         assert_int_equal(grow_at, 0);
     }
