@@ -11,9 +11,7 @@
 /* What a row has in the first bin of a quantity. */
 static size_t first_of(int quantity)
 {
-    uint64_t bits;
-    memcpy(&bits, &envelope_least[quantity], sizeof bits);
-    return (size_t)(bits >> ENVELOPE_SHIFT);
+    return envelope_place(quantity, 0);
 }
 
 static double middle_of(int quantity, size_t bin)
@@ -110,8 +108,10 @@ void ceduo_envelopes_merge(struct envelope_cell *into, struct envelopes *from)
     settle(from);
     for (size_t cell = 0; cell < from->n; cell++)
         for (int q = 0; q < ENVELOPE_QUANTITIES; q++) {
-            into[cell].max[q] = fmax(into[cell].max[q], from->rows[0].max[q][cell]);
-            for (size_t i = 0; i < ENVELOPE_BINS; i++)
+            double max = from->rows[0].max[q][cell];
+            size_t last = envelope_place(q, max) - first_of(q); /* of those that are not empty */
+            into[cell].max[q] = fmax(into[cell].max[q], max);
+            for (size_t i = 0; i <= last; i++)
                 into[cell].bins[q][i] += from->cells[cell].bins[q][i];
         }
 }

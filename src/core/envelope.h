@@ -54,15 +54,22 @@ void ceduo_envelopes_merge(struct envelope_cell *into, struct envelopes *from);
 
 void ceduo_envelope_read(const struct envelope_cell *cell, struct ceduo_envelope *envelope);
 
+/* What is counted of a value. */
+static inline uint16_t envelope_place(int quantity, double value)
+{
+    double least = envelope_least[quantity], most = envelope_most[quantity];
+    uint64_t bits;
+    value = value > least ? value : least;
+    value = value < most ? value : most;
+    memcpy(&bits, &value, sizeof bits);
+    return (uint16_t)(bits >> ENVELOPE_SHIFT);
+}
+
 /* Notes what a rock brings to a cell. */
 static inline void envelope_note(const struct envelope_row *row, size_t cell, const double values[ENVELOPE_QUANTITIES])
 {
     for (int q = 0; q < ENVELOPE_QUANTITIES; q++) {
-        double value = values[q] > envelope_least[q] ? values[q] : envelope_least[q];
-        value = value < envelope_most[q] ? value : envelope_most[q];
-        uint64_t bits;
-        memcpy(&bits, &value, sizeof bits);
-        row->at[q][cell] = (uint16_t)(bits >> ENVELOPE_SHIFT);
+        row->at[q][cell] = envelope_place(q, values[q]);
         row->max[q][cell] = values[q] > row->max[q][cell] ? values[q] : row->max[q][cell];
     }
 }

@@ -2,6 +2,7 @@
 #ifndef CEDUO_WALKER_H
 #define CEDUO_WALKER_H
 
+#include <math.h>
 #include <stdatomic.h>
 #include <stdint.h>
 
@@ -67,5 +68,22 @@ struct course {
     struct velocity v; /* on the ground */
     struct landing l;  /* in flight */
 };
+
+/* ---- what is next ---- */
+
+static inline bool is_behind_marks(const struct walker *w)
+{
+    return w->next_mark == w->marks->n && w->next_cell == w->marks->cells;
+}
+
+static inline void set_next_x(struct walker *w)
+{
+    const struct marks *m = w->marks;
+    w->mark_x = w->next_mark < m->n ? m->at[w->next_mark].x : INFINITY;
+    double cell_x = m->cell_x[w->next_cell];
+    w->next_x = cell_x < w->mark_x ? cell_x : w->mark_x;
+    if (w->arrivals_only && is_behind_marks(w))
+        w->pause = 0;
+}
 
 #endif

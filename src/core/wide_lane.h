@@ -320,18 +320,27 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
     refill(k, i);
 }
 
+/* A flight passes marks up to x, which it reaches after t. */
+LANE void pass_marks(struct wide *k, size_t i, const struct flight *at, double x, double t, double spin)
+{
+    struct walker *w = &k->job->walkers[i];
+    w->spin = spin;
+    if (w->row.at[0] && w->marks->cell_x[w->next_cell] <= x)
+        pass_cells(w, at, x, t);
+    set_next_x(w);
+    if (w->next_x <= x) {
+        show_rock(k, i);
+        ceduo_walk_pass_marks(w, *at, x, t);
+    }
+    k->next_x[i] = w->next_x;
+    k->pause[i] = w->pause;
+}
+
 /* A flight that passes marks and goes on in its lane. */
 static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
 {
-    struct walker *w = &k->job->walkers[i];
-    w->spin = k->spin[i];
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
-    if (w->row.at[0] && w->marks->cell_x[w->next_cell] <= k->to_x[i])
-        pass_cells(w, &at, k->to_x[i], k->t[i]);
-    show_rock(k, i);
-    ceduo_walk_pass_marks(w, at, k->to_x[i], k->t[i]);
-    k->next_x[i] = w->next_x;
-    k->pause[i] = w->pause;
+    pass_marks(k, i, &at, k->to_x[i], k->t[i], k->spin[i]);
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
