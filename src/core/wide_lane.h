@@ -48,8 +48,10 @@ struct wide {
         double after[LANES];             /* where the stem stands that waits behind it, which is next if that is */
         double sure[LANES];              /* before here */
         double around[LANES];            /* so far reach stools that stand around the release */
+        double free_to[LANES];           /* before here the flight is above `tallest` */
         uint64_t *met[LANES];            /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
+        double tallest;                  /* m: all that may wait are less tall */
     } stem; /* counts and `next` go back to the walker and its stems by show_rock() */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */

@@ -88,13 +88,42 @@ static __attribute__((noinline)) void take_stems_past_marks(struct wide *k, stru
     }
 }
 
-/* Takes the stem that is before each of `lanes`, where the one behind it waits and is next. No branch depends on what is
- * hit. Returns those of which the law asks more than the kind of stem. */
-LANE unsigned take_waiting(struct wide *k, unsigned lanes, unsigned hit)
+/* Which flights are above all that may wait when they pass `to` after t, and go on so over some of them: up to the end
+ * of the segment, or to where the parabola comes down so far. */
+LANE unsigned fly_over(struct wide *k, const struct passing *p, reals to, reals t, reals clearance)
+{
+    reals over_all = sub(clearance, all(k->stem.tallest));
+    flags high = both(both(less(all(0), over_all), less(all(0), t)), less(load(k->stem.after), p->x1));
+    unsigned above = p->under_way & bits_of(high);
+    if (!above)
+        return 0;
+    reals g = all(k->g->gravity), up = sub(sub(p->vz, mul(g, t)), mul(p->m, p->vx));
+    reals seconds = over(add(up, root_of(add(mul(up, up), mul(mul(all(2), g), over_all)))), g);
+    store(k->stem.free_to, least(p->x1, add(to, mul(p->vx, seconds))));
+    return above;
+}
+
+/* The last of those that wait and are next one after the other, and that lane i flies over from its next stem on. */
+LANE const struct stem *last_below(const struct wide *k, size_t i)
+{
+    const struct stem *stem = k->stem.next[i];
+    while (stem[1].along < k->stem.free_to[i] && stem[2].along < k->stem.sure[i])
+        stem++;
+    return stem;
+}
+
+/* Takes the stem that is before each of `lanes`, where the one behind it waits and is next; of those that are `above`
+ * all, more of them. No branch depends on what is hit. Returns those of which the law asks more than the kind of stem.
+ * */
+LANE unsigned take_waiting(struct wide *k, unsigned lanes, unsigned hit, unsigned above)
 {
     const struct wood *wood = k->job->walkers[0].stems->wood;
     uint64_t places = wood->places;
     unsigned ask = wood->shares ? lanes : 0;
+    for (above &= lanes; above; above &= above - 1) {
+        size_t i = (size_t)__builtin_ctz(above);
+        k->stem.next[i] = last_below(k, i);
+    }
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
         const struct stem *stem = k->stem.next[i];
@@ -115,13 +144,13 @@ LANE unsigned take_waiting(struct wide *k, unsigned lanes, unsigned hit)
 
 /* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
  * waits already, no mark is passed and no stool stands around the release. */
-LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, reals t)
+LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, unsigned above, reals t)
 {
     reals to = load(k->stem_ahead);
     unsigned marks = hit & bits_of(at_least(to, load(k->next_x)));
     unsigned waits = bits_of(but(less(load(k->stem.after), load(k->stem.sure)), at_least(load(k->stem.around), to)));
     unsigned alone = p->under_way & ~marks & ~waits;
-    for (unsigned ask = take_waiting(k, p->under_way & ~marks & waits, hit); ask; ask &= ask - 1) {
+    for (unsigned ask = take_waiting(k, p->under_way & ~marks & waits, hit, above); ask; ask &= ask - 1) {
         size_t i = (size_t)__builtin_ctz(ask);
         load_hit(k, i, k->stem.next[i]);
     }
@@ -147,7 +176,7 @@ LANE void pass_stem(struct form form, struct wide *k, struct passing *p)
     unsigned hit = p->under_way & bits_of(less(most(clearance, zero), height));
     if (!p->under_way)
         return;
-    take_stems(k, p, hit, t);
+    take_stems(k, p, hit, fly_over(k, p, to, t, clearance), t);
     hit &= ~p->ended;
     p->under_way &= ~p->ended;
     if (hit) {

@@ -141,6 +141,7 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
     for (size_t i = 0; i < s->cohorts; i++) {
         s->most = fmax(s->most, kinds[i].most);
         s->spread |= kinds[i].shape > 0;
+        w->tallest = fmax(w->tallest, kinds[i].height);
     }
     w->reach = fmax(w->reach, s->reach);
     return true;
@@ -166,7 +167,10 @@ static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *st
     kinds += stand->shoots_count;
     for (size_t i = 0; i < stand->trees_count; i++) {
         strata[n] = tree_stratum(stand, i, kinds++);
-        w->grouped |= strata[n].group > 0;
+        if (strata[n].group > 0) {
+            w->grouped = true;
+            w->tallest = fmax(w->tallest, strata[n].kind->height);
+        }
         w->group_reach = fmax(w->group_reach, strata[n++].radius);
     }
     if (stand->stumps.per_ha > 0)

@@ -61,6 +61,7 @@ struct wood {
     double reach;               /* m: the largest radius of any ring */
     bool grouped;               /* there are groups of trees */
     double group_reach;         /* m: the largest radius of any of those */
+    double tallest;             /* m: no shoot, nor tree of a group, is taller */
     size_t places;              /* 2^k - 1: far more stools than a rock can be among at a time */
     struct wood_kind *kinds;
     struct wood_stratum *strata_room;
