@@ -34,12 +34,15 @@ static inline uint64_t shoot_draw(enum random_kind kind, unsigned i)
  * units of their mean. */
 static inline void draw_points(const struct stems *s, uint64_t event, struct points *to, double gaps[POINTS])
 {
+    many_bits first[POINTS / MANY], second[POINTS / MANY];
+    for (unsigned i = 0; i < to->size / MANY; i++) { /* by itself: the processor has more of them under way at once */
+        many_from(event + 2 * i * MANY, 2, &first[i]);
+        many_from(RANDOM_STEM, 0, &second[i]);
+        many_threefry(s->seed, s->number, &first[i], &second[i]);
+    }
     for (unsigned i = 0; i < to->size; i += MANY) {
-        many_bits p, q, low;
+        many_bits p = first[i / MANY], q = second[i / MANY], low;
         many_reals u, log;
-        many_from(event + 2 * i, 2, &p);
-        many_from(RANDOM_STEM, 0, &q);
-        many_threefry(s->seed, s->number, &p, &q);
         low = p >> 24;
         many_of_integers(&low, &u);
         u = u * 0x1p-40 + 0x1p-41;
