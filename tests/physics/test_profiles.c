@@ -467,6 +467,43 @@ static void rolls_are_the_same_whoever_looks_on(void **state)
     EXPECT(rolled, >, 0);                       /* something was passed as a whole */
 }
 
+/* Nothing is passed as a whole beyond a mark, nor by rocks that are smaller than what the blocks hold for. */
+static void rolls_past_marks_are_the_same(void **state)
+{
+    (void)state;
+    init_site(CEDUO_LAW_CRSP);
+    struct ceduo_slope fine = cut(&site.scene.slope, 20000);
+    move_vertices(&fine, 1e-3, 3);
+    struct ceduo_scene scene = site.scene;
+    struct ceduo_control control = site.control;
+    scene.slope = fine;
+    scene.controls = &control;
+    scene.rock.diameter.kind = CEDUO_UNIFORM;
+    scene.rock.diameter.spread = 0.8 * scene.rock.diameter.mean;
+    size_t same = 0, reached = 0;
+    for (uint64_t rock = 0; rock < 60; rock++) {
+        struct ceduo_trajectory v, w;
+        struct ceduo_crossing c, d;
+        struct ceduo_watch watch = {.piece = nobody_minds};
+        control = site.control;
+        struct ceduo_follower *f = ceduo_follower_create(&scene, NULL);
+        assert_non_null(f);
+        assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
+        ceduo_follower_free(f);
+        control.x = control.x_given = v.x - 0.05; /* just before it stops */
+        f = ceduo_follower_create(&scene, NULL);
+        assert_non_null(f);
+        assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
+        assert_int_equal(ceduo_follower_follow(f, rock, &watch, &w, &d), CEDUO_OK);
+        same += fabs(v.x - w.x) < 1e-6 && c.reached == d.reached && fabs(c.vx - d.vx) < 1e-6 * (1 + fabs(d.vx));
+        reached += d.reached;
+        ceduo_follower_free(f);
+    }
+    free_slope(&fine);
+    EXPECT(same, >=, 59);
+    EXPECT(reached, >=, 59);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -478,6 +515,7 @@ int main(void)
         cmocka_unit_test(flights_along_teeth_touch_the_same_with_blocks),
         cmocka_unit_test(blocks_are_rolled_over_as_their_segments),
         cmocka_unit_test(rolls_are_the_same_whoever_looks_on),
+        cmocka_unit_test(rolls_past_marks_are_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
