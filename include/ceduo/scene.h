@@ -136,7 +136,7 @@ bool ceduo_scene_rock_varies(const struct ceduo_scene *scene);
 /* The control farthest along x; 0 where there is none. */
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene);
 
-/* Whether nothing of the option stands before x (m, relative to the slope's first vertex). */
-bool ceduo_option_is_bare_before(const struct ceduo_option *option, double x);
+/* Where the first of its belts that are not bare begins (m, relative to the slope's first vertex); infinite: nothing stands. */
+double ceduo_option_stems_from(const struct ceduo_option *option);
 
 #endif

@@ -82,7 +82,7 @@ static void take_bare(const struct ceduo_scene *scene, const struct ceduo_option
     bool alike = wooded->rocks > 0 && wooded->rocks == bare->rocks; /* of none nothing is read yet */
     for (size_t c = 0; c < scene->controls_count && alike; c++) {
         struct ceduo_arrivals *a = &wooded->arrivals[c];
-        if (!a->adjusted || a->contacts != 0 || !ceduo_option_is_bare_before(option, scene->controls[c].x))
+        if (!a->adjusted || a->contacts != 0 || ceduo_option_stems_from(option) < scene->controls[c].x)
             continue;
         double contacts_se = a->contacts_se;
         *a = bare->arrivals[c];

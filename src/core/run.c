@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/clock.h"
@@ -60,6 +61,7 @@ static bool begin_part(struct ceduo_run *run)
 static void choose_kernel(struct ceduo_run *run)
 {
     run->wide_walk = ceduo_wide_walk(run->def.kernel, &run->lanes);
+    run->variates = ceduo_variates_kernel(run->def.kernel);
 }
 
 static bool allocate(struct ceduo_run *run)
@@ -89,6 +91,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->def = *def;
     run->def.threads = def->threads > 0 ? def->threads : 1;
     run->controls = def->scene->controls_count;
+    run->stems_from = def->option ? ceduo_option_stems_from(def->option) : INFINITY;
     run->last_control = ceduo_scene_last_control(def->scene);
     run->exact = true;
     run->sized = def->scene->blocks_count > 0;

@@ -8,7 +8,7 @@
 #define ADJUST_ROCKS   200 /* so many rocks for ten variates, */
 #define ADJUST_REACHED 100 /* of which so many arrive, make a regression of use */
 
-static double total(const struct sums *s, size_t varied)
+static double total(const struct sums *s, enum varied varied)
 {
     static const int quantity[VARIED_ENDED] = {
         [VARIED_SPEED] = SPEED, [VARIED_HEIGHT] = HEIGHT, [VARIED_ENERGY] = ENERGY, [VARIED_TRANSLATION] = TRANSLATION};
@@ -36,10 +36,12 @@ bool ceduo_run_adjust(const struct ceduo_run *run, const struct sums *s, struct 
     double n = (double)run->rocks;
     if (run->def.plain || run->sized || run->rocks < ADJUST_ROCKS || s->of[SPEED].n < ADJUST_REACHED)
         return false;
-    if (!ceduo_variates_fit(&s->varied, n, &a->fit))
+    struct variate_sums variates = run->whole.variates;
+    ceduo_variates_merge(&variates, &run->tail.variates);
+    if (!ceduo_variates_fit(&variates, n, &a->fit))
         return false;
-    for (size_t k = 0; k < VARIED; k++)
-        a->sums[k] = ceduo_variates_sum(&a->fit, &s->varied, total(s, k), s->varied.xy[k]);
+    for (enum varied k = 0; k < VARIED; k++)
+        a->sums[k] = ceduo_variates_sum(&a->fit, &s->varied, k, total(s, k));
     return are_shares(a);
 }
 

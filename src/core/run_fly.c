@@ -10,10 +10,17 @@
 #include "run_state.h"
 #include "walk.h"
 
-/* What a rock brings to a control. */
+/* What a rock brings to a control, zeros where it does not arrive. */
 struct arrival {
-    double values[QUANTITIES], stems_hit; /* stems_hit < 0: it does not arrive */
+    _Alignas(64) double brings[VARIED_ENDED]; /* by enum varied; the quantities in their order */
+    double stems_hit;
 };
+_Static_assert(sizeof(struct arrival) == VARIED_ROW * sizeof(double), "rows, as the variates'");
+
+static bool arrives(const struct arrival *a)
+{
+    return a->brings[VARIED_REACHED] > 0;
+}
 
 /* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
  * have ended. */
@@ -25,11 +32,12 @@ struct worker {
     struct block *block;
     uint64_t from, next, to;         /* rocks of the block: the first, the next to begin, behind the last */
     struct arrival *arrivals;        /* [control][CEDUO_BLOCK_ROCKS] */
-    double (*variates)[VARIATES];    /* of each rock, up to the last control or to its end */
+    struct variate_row *variates;    /* of each rock, up to the last control or to its end */
     double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
     struct histogram *bins;
     struct envelopes cells;
+    bool varies; /* the variates are summed */
     bool no_memory;
     struct chunk *chunk;
 };
@@ -43,19 +51,6 @@ struct chunk {
 
 /* ---- one rock ---- */
 
-static void keep_sample(struct worker *w, uint64_t rock, size_t control, const double values[QUANTITIES])
-{
-    struct ceduo_run *run = w->run;
-    for (int q = 0; q < run->kept; q++) {
-        if (run->exact)
-            samples_of(run, control, q)[rock - run->first] = values[q];
-        else if (!ceduo_histogram_add(bins_of(w->bins, run, control, q), values[q]))
-            w->no_memory = true;
-    }
-    if (rock < run->pairs_room)
-        run->pairs[control * run->pairs_room + rock] = values[ENERGY];
-}
-
 /* Pictures along the slope show blocks as frequent as they come down. */
 static bool is_shown(const struct ceduo_run *run, uint64_t rock)
 {
@@ -64,7 +59,14 @@ static bool is_shown(const struct ceduo_run *run, uint64_t rock)
 
 static void keep_variates(struct worker *w, const struct walker *walker)
 {
-    memcpy(w->variates[walker->number - w->from], walker->variates, sizeof *w->variates);
+    double *to = w->variates[walker->number - w->from].x;
+    for (size_t v = 0; v < VARIATES; v++)
+        to[v] = walker->lane_variates ? walker->lane_variates[v * walker->lanes] : walker->variates[v];
+}
+
+static struct arrival *arrival_of(const struct worker *w, size_t control, uint64_t rock)
+{
+    return &w->arrivals[control * CEDUO_BLOCK_ROCKS + (rock - w->from)];
 }
 
 static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
@@ -75,22 +77,21 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double speed = sqrt(c->vx * c->vx + c->vz * c->vz);
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
-    struct arrival *a = &w->arrivals[control * CEDUO_BLOCK_ROCKS + (walker->number - w->from)];
-    *a = (struct arrival){.values = {speed, c->height, energy, translation}, .stems_hit = (double)c->stems_hit};
-    if (control == w->run->last_control)
+    bool exceeds = energy > w->run->ready.scene.controls[control].accepted; /* never, where that is NaN */
+    *arrival_of(w, control, walker->number) = (struct arrival){
+        .brings = {1, exceeds, speed, c->height, energy, translation}, .stems_hit = (double)c->stems_hit};
+    if (w->varies && control == w->run->last_control)
         keep_variates(w, walker);
-    keep_sample(w, walker->number, control, a->values);
 }
 
 /* A rock counts at each control that it did not reach. */
 static void note_missed(struct worker *w, const struct walker *walker, enum ceduo_end end)
 {
     const struct marks *marks = &w->run->ready.marks;
-    for (size_t m = walker->next_mark; m < marks->n; m++) {
+    for (size_t m = walker->next_mark; m < marks->n; m++)
         w->block->controls[marks->at[m].what].ended[end]++;
-        if (marks->at[m].what == w->run->last_control)
-            keep_variates(w, walker);
-    }
+    if (w->varies && !arrives(arrival_of(w, w->run->last_control, walker->number)))
+        keep_variates(w, walker);
 }
 
 /* At its release, and at its end: a rock that the pictures show has a row of cells. */
@@ -106,28 +107,6 @@ static void end_row(struct worker *w, size_t lane)
 {
     if (w->walkers[lane].row.at[0])
         ceduo_envelopes_end(&w->cells, lane, w->walkers[lane].next_cell);
-}
-
-static void clear_samples(struct ceduo_run *run, uint64_t rock)
-{
-    for (size_t c = 0; rock < run->pairs_room && c < run->controls; c++)
-        run->pairs[c * run->pairs_room + rock] = NAN;
-    if (!run->exact)
-        return;
-    for (size_t c = 0; c < run->controls; c++)
-        for (int q = 0; q < run->kept; q++)
-            samples_of(run, c, q)[rock - run->first] = NAN;
-    stops_of(run)[rock - run->first] = NAN;
-}
-
-static void note_stop(struct worker *w, uint64_t rock, double x)
-{
-    struct ceduo_run *run = w->run;
-    w->stops[rock - w->from] = x;
-    if (run->exact)
-        stops_of(run)[rock - run->first] = x;
-    else if (!ceduo_histogram_add(&w->bins[run->columns - 1], x))
-        w->no_memory = true;
 }
 
 static void note_end(void *context, size_t lane, enum ceduo_end end)
@@ -149,7 +128,7 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     note_missed(w, walker, end);
     end_row(w, lane);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
-        note_stop(w, walker->number, walker->at.x);
+        w->stops[walker->number - w->from] = walker->at.x;
     if (walker->cancelled)
         atomic_store(&w->chunk->stop, true);
 }
@@ -183,8 +162,9 @@ static enum ceduo_status release(struct worker *w, struct walker *walker, uint64
 }
 
 /* A rock that cannot be drawn has no trajectory: it is unfinished before every control. */
-static void note_undrawn(struct worker *w)
+static void note_undrawn(struct worker *w, uint64_t rock)
 {
+    memset(w->variates[rock - w->from].x, 0, VARIATES * sizeof(double));
     w->block->ends[CEDUO_UNFINISHED]++;
     for (size_t c = 0; c < w->run->controls; c++)
         w->block->controls[c].ended[CEDUO_UNFINISHED]++;
@@ -194,74 +174,100 @@ static void note_undrawn(struct worker *w)
 static bool next_rock(void *context, size_t lane)
 {
     struct worker *w = context;
-    struct ceduo_run *run = w->run;
     while (w->next < w->to && goes_on(w)) {
         uint64_t number = w->next++;
-        clear_samples(run, number);
         if (release(w, &w->walkers[lane], number) == CEDUO_OK) {
             begin_row(w, lane);
             return true;
         }
-        note_undrawn(w);
+        note_undrawn(w, number);
     }
     return false;
 }
 
 static void clear_block(struct worker *w)
 {
-    size_t n = w->run->controls * CEDUO_BLOCK_ROCKS;
-    for (size_t i = 0; i < n; i++)
-        w->arrivals[i] = (struct arrival){.stems_hit = -1};
-    memset(w->variates, 0, CEDUO_BLOCK_ROCKS * sizeof *w->variates);
+    memset(w->arrivals, 0, w->run->controls * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
     for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
         w->stops[i] = NAN;
     memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
 }
 
+/* What is summed in the order of the rocks, the quantities side by side. */
 static void sum_arrivals(struct worker *w, size_t control)
 {
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
-    struct sums *to = &w->block->controls[control], sums = *to;
-    double accepted = w->run->ready.scene.controls[control].accepted;
+    struct sums *to = &w->block->controls[control];
+    struct ceduo_moments speed = to->of[SPEED], height = to->of[HEIGHT], energy = to->of[ENERGY],
+                         translation = to->of[TRANSLATION];
+    bool spins = w->run->kept == QUANTITIES; /* otherwise all energy is translation */
     for (uint64_t i = 0; i < w->to - w->from; i++) {
-        const struct arrival *a = &arrivals[i];
-        if (a->stems_hit < 0)
+        const double *brings = arrivals[i].brings;
+        if (!arrives(&arrivals[i])) {
+            if (w->varies)
+                ceduo_variates_add_ended(&to->varied, w->ends[i], &w->variates[i]);
             continue;
-        for (int q = 0; q < QUANTITIES; q++)
-            ceduo_moments_add(&sums.of[q], a->values[q]);
+        }
+        ceduo_moments_add(&speed, brings[VARIED_SPEED]);
+        ceduo_moments_add(&height, brings[VARIED_HEIGHT]);
+        ceduo_moments_add(&energy, brings[VARIED_ENERGY]);
+        if (spins)
+            ceduo_moments_add(&translation, brings[VARIED_TRANSLATION]);
         if (w->stems)
-            ceduo_moments_add(&sums.contacts, a->stems_hit);
-        sums.exceeded += a->values[ENERGY] > accepted; /* never, where that is NaN */
+            ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
+        to->exceeded += brings[VARIED_EXCEEDED] > 0;
     }
-    *to = sums;
+    to->of[SPEED] = speed;
+    to->of[HEIGHT] = height;
+    to->of[ENERGY] = energy;
+    to->of[TRANSLATION] = spins ? translation : energy;
 }
 
-/* What a rock brings, with its variates. */
-static void vary_arrival(struct variate_sums *to, const struct arrival *a, const double x[VARIATES], bool exceeds)
+static void sum_variates(struct worker *w)
 {
-    ceduo_variates_add_with(to->xy[VARIED_REACHED], 1, x);
-    if (exceeds)
-        ceduo_variates_add_with(to->xy[VARIED_EXCEEDED], 1, x);
-    ceduo_variates_add_with(to->xy[VARIED_SPEED], a->values[SPEED], x);
-    ceduo_variates_add_with(to->xy[VARIED_HEIGHT], a->values[HEIGHT], x);
-    ceduo_variates_add_with(to->xy[VARIED_ENERGY], a->values[ENERGY], x);
-    ceduo_variates_add_with(to->xy[VARIED_TRANSLATION], a->values[TRANSLATION], x);
+    const struct variates_kernel *kernel = w->run->variates;
+    size_t n = (size_t)(w->to - w->from);
+    kernel->add(&w->block->variates, w->variates, n);
+    for (size_t c = 0; c < w->run->controls; c++)
+        kernel->add_with(&w->block->controls[c].varied, w->arrivals[c * CEDUO_BLOCK_ROCKS].brings, w->variates, n);
 }
 
-static void sum_variates(struct worker *w, size_t control)
+/* The samples of a column; NaN where a rock has none. False without memory. */
+static bool bin_column(struct histogram *bins, const double *column, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isnan(column[i]) && !ceduo_histogram_add(bins, column[i]))
+            return false;
+    return true;
+}
+
+/* What single rocks bring to a control. */
+static bool keep_arrivals(struct worker *w, size_t control)
 {
     struct ceduo_run *run = w->run;
-    struct variate_sums *to = &w->block->controls[control].varied;
-    double accepted = run->ready.scene.controls[control].accepted;
-    for (uint64_t i = 0; i < w->to - w->from; i++) {
-        const struct arrival *a = &w->arrivals[control * CEDUO_BLOCK_ROCKS + i];
-        const double *x = w->variates[i];
-        ceduo_variates_add(to, x);
-        if (a->stems_hit < 0)
-            ceduo_variates_add_with(to->xy[VARIED_ENDED + w->ends[i]], 1, x);
-        else
-            vary_arrival(to, a, x, a->values[ENERGY] > accepted);
+    const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
+    size_t n = (size_t)(w->to - w->from), from = (size_t)(w->from - run->first);
+    for (int q = 0; q < run->kept; q++) {
+        double block[CEDUO_BLOCK_ROCKS], *column = run->exact ? samples_of(run, control, q) + from : block;
+        for (size_t i = 0; i < n; i++)
+            column[i] = arrives(&arrivals[i]) ? arrivals[i].brings[VARIED_SPEED + q] : NAN;
+        if (!run->exact && !bin_column(bins_of(w->bins, run, control, q), column, n))
+            return false;
     }
+    for (size_t i = 0; i < n && w->from + i < run->pairs_room; i++)
+        run->pairs[control * run->pairs_room + w->from + i] =
+            arrives(&arrivals[i]) ? arrivals[i].brings[VARIED_ENERGY] : NAN;
+    return true;
+}
+
+static bool keep_stops(struct worker *w)
+{
+    struct ceduo_run *run = w->run;
+    size_t n = (size_t)(w->to - w->from);
+    if (!run->exact)
+        return bin_column(&w->bins[run->columns - 1], w->stops, n);
+    memcpy(stops_of(run) + (w->from - run->first), w->stops, n * sizeof *w->stops);
+    return true;
 }
 
 /* For the errors of differences. */
@@ -270,7 +276,7 @@ static void keep_single_variates(const struct worker *w)
     uint64_t behind = w->run->first + varied_rocks(w->run, w->to);
     for (uint64_t rock = w->from; rock < w->to && rock < behind; rock++)
         for (size_t v = 0; v < VARIATES; v++)
-            varied_of(w->run, rock)[v] = (float)w->variates[rock - w->from][v];
+            varied_of(w->run, rock)[v] = (float)w->variates[rock - w->from].x[v];
 }
 
 /* How the rocks of a block ended, by their weights. */
@@ -281,11 +287,11 @@ static void weigh_ends(struct worker *w)
     for (uint64_t i = 0; i < w->to - w->from; i++) {
         w->block->ended[w->ends[i]] += weights[i];
         for (size_t c = 0; c < run->controls; c++) {
-            double hits = w->arrivals[c * CEDUO_BLOCK_ROCKS + i].stems_hit;
-            if (hits < 0)
-                w->block->controls[c].missed[w->ends[i]] += weights[i];
+            const struct arrival *a = &w->arrivals[c * CEDUO_BLOCK_ROCKS + i];
+            if (arrives(a))
+                weighted_sum_add(&w->block->controls[c].hits, weights[i], a->stems_hit);
             else
-                weighted_sum_add(&w->block->controls[c].hits, weights[i], hits);
+                w->block->controls[c].missed[w->ends[i]] += weights[i];
         }
     }
 }
@@ -294,11 +300,14 @@ static void sum_block(struct worker *w)
 {
     if (w->run->sized)
         weigh_ends(w);
+    bool kept = keep_stops(w);
     for (size_t c = 0; c < w->run->controls; c++) {
         sum_arrivals(w, c);
-        if (!w->run->sized)
-            sum_variates(w, c);
+        kept = kept && keep_arrivals(w, c);
     }
+    w->no_memory |= !kept;
+    if (w->varies)
+        sum_variates(w);
     keep_single_variates(w);
     for (uint64_t i = 0; i < w->to - w->from; i++)
         if (!isnan(w->stops[i]))
@@ -365,12 +374,14 @@ static bool init_stems(struct worker *w)
 
 static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *chunk)
 {
-    *w = (struct worker){.run = run, .chunk = chunk};
+    *w = (struct worker){.run = run, .chunk = chunk, .varies = !run->sized && run->controls > 0};
     w->walkers = calloc(run->lanes, sizeof *w->walkers);
-    w->arrivals = malloc((run->controls * CEDUO_BLOCK_ROCKS + 1) * sizeof *w->arrivals);
-    w->variates = malloc(CEDUO_BLOCK_ROCKS * sizeof *w->variates);
+    w->arrivals = aligned_alloc(64, (run->controls + 1) * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
+    w->variates = aligned_alloc(64, CEDUO_BLOCK_ROCKS * sizeof *w->variates);
     if (!w->walkers || !w->arrivals || !w->variates)
         return false;
+    for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
+        w->variates[i] = (struct variate_row){.x = {[VARIATES] = 1}};
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};

@@ -30,15 +30,23 @@ static void pack_sum(struct bytes *b, struct weighted_sum *s)
     ceduo_bytes_number(b, &s->tw);
 }
 
-static void pack_varied(struct bytes *b, struct variate_sums *s)
+static void pack_variates(struct bytes *b, struct variate_sums *s)
 {
-    for (size_t i = 0; i < VARIATES; i++)
-        ceduo_bytes_number(b, &s->x[i]);
-    for (size_t i = 0; i < VARIATE_PAIRS; i++)
-        ceduo_bytes_number(b, &s->xx[i]);
-    for (size_t k = 0; k < VARIED; k++)
-        for (size_t i = 0; i < VARIATES; i++)
-            ceduo_bytes_number(b, &s->xy[k][i]);
+    for (size_t i = 0; i < VARIATES; i++) {
+        ceduo_bytes_number(b, variate_sum(s, i));
+        for (size_t j = 0; j <= i; j++)
+            ceduo_bytes_number(b, variate_product(s, i, j));
+    }
+}
+
+static void pack_varied(struct bytes *b, struct varied_sums *s)
+{
+    for (size_t i = 0; i < VARIATES; i++) {
+        for (size_t k = 0; k < VARIED_ENDED; k++)
+            ceduo_bytes_number(b, &s->with[i][k]);
+        for (size_t e = 0; e < CEDUO_ENDS; e++)
+            ceduo_bytes_number(b, &s->ended[e][i]);
+    }
 }
 
 static void pack_block(const struct ceduo_run *run, struct bytes *b, struct block *block)
@@ -69,6 +77,8 @@ static void pack_block(const struct ceduo_run *run, struct bytes *b, struct bloc
         pack_weights(b, s->missed);
         pack_sum(b, &s->hits);
     }
+    if (!run->sized)
+        pack_variates(b, &block->variates);
 }
 
 static bool is_plain_zero(double value)

@@ -320,13 +320,6 @@ static void adjust_difference(const struct ceduo_run *run, const struct sums *s,
     }
 }
 
-/* Then flights to x differ from others of that kind in nothing. */
-static bool is_bare_before(const struct ceduo_run *run, double x)
-{
-    const struct wood *wood = &run->ready.wood;
-    return wood->bare || wood->along[0][0].from >= x;
-}
-
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control)
 {
@@ -349,7 +342,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
             .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &p.exceed, run->rocks),
             .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &p.energy, run->rocks)};
     double x = run->ready.scene.controls[control].x;
-    bool bare = is_bare_before(run, x) && is_bare_before(baseline, x);
+    bool bare = run->stems_from >= x && baseline->stems_from >= x; /* then their flights to x differ in nothing */
     if (alike && !bare)
         adjust_difference(run, &s, baseline, &t, control, &d);
     if (isnan(run->ready.scene.controls[control].accepted))

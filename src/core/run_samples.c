@@ -29,7 +29,7 @@ static void merge_sums(struct sums *into, const struct sums *from)
     into->hits.t += from->hits.t;
     into->hits.tt += from->hits.tt;
     into->hits.tw += from->hits.tw;
-    ceduo_variates_merge(&into->varied, &from->varied);
+    ceduo_varied_merge(&into->varied, &from->varied);
     for (int e = 0; e < CEDUO_ENDS; e++) {
         into->ended[e] += from->ended[e];
         into->missed[e] += from->missed[e];
@@ -49,6 +49,7 @@ void ceduo_run_block_merge(struct block *into, const struct block *from, size_t 
         into->ended[e] += from->ended[e];
     }
     ceduo_moments_merge(&into->stop_x, &from->stop_x);
+    ceduo_variates_merge(&into->variates, &from->variates);
     for (size_t c = 0; c < controls; c++)
         merge_sums(&into->controls[c], &from->controls[c]);
 }

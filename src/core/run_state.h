@@ -33,7 +33,7 @@ struct sums {
     uint64_t exceeded, ended[CEDUO_ENDS]; /* ended: rocks that did not arrive, by how they ended */
     double missed[CEDUO_ENDS];            /* the same by their weights, where rocks have any */
     struct weighted_sum hits;             /* contacts by them */
-    struct variate_sums varied;           /* where rocks have none */
+    struct varied_sums varied;            /* where rocks have none */
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
@@ -43,6 +43,7 @@ struct block {
     double ended[CEDUO_ENDS]; /* ends by the weights of the rocks, where they have any */
     struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;
+    struct variate_sums variates; /* where rocks have no weights */
     struct sums *controls;
 };
 
@@ -51,8 +52,10 @@ struct ceduo_run {
     struct prepared ready;
     struct wide_ground *wide;
     wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
+    const struct variates_kernel *variates;
     size_t lanes;            /* rocks that a thread simulates at once */
     size_t controls, last_control;
+    double stems_from;     /* as ceduo_option_stems_from(): the option may be gone when the run is read */
     int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
     size_t columns;        /* of samples: controls times kept, and the stops */
     uint64_t rocks;        /* done; of a part: with those before it */

@@ -6,6 +6,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "wide.h"
+#define MANY 2
+#include "variates_add.h"
+
 #define LEFT_LEAST 1e-10 /* a variate of which the others leave a smaller share tells nothing of its own */
 
 /* Where row i begins. */
@@ -14,31 +18,43 @@ static size_t row(size_t i)
     return i * (i + 1) / 2;
 }
 
-void ceduo_variates_add(struct variate_sums *s, const double x[VARIATES])
+const struct variates_kernel ceduo_variates_scalar = {add_variates, add_varied};
+
+const struct variates_kernel *ceduo_variates_kernel(enum ceduo_kernel kernel)
 {
-    double *xx = s->xx;
-    for (size_t i = 0; i < VARIATES; i++) {
-        s->x[i] += x[i];
-        for (size_t j = 0; j <= i; j++)
-            *xx++ += x[i] * x[j];
-    }
+#if defined(__x86_64__) && defined(__GNUC__)
+    kernel = ceduo_wide_kernel(kernel);
+    if (kernel == CEDUO_KERNEL_AVX512)
+        return &ceduo_variates_avx512;
+    if (kernel == CEDUO_KERNEL_AVX2)
+        return &ceduo_variates_avx2;
+#else
+    (void)kernel;
+#endif
+    return &ceduo_variates_scalar;
 }
 
-void ceduo_variates_add_with(double xy[VARIATES], double y, const double x[VARIATES])
+void ceduo_variates_add_ended(struct varied_sums *to, enum ceduo_end end, const struct variate_row *row)
 {
     for (size_t i = 0; i < VARIATES; i++)
-        xy[i] += y * x[i];
+        to->ended[end][i] += row->x[i];
+}
+
+static void add_up(double *to, const double *from, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] += from[i];
 }
 
 void ceduo_variates_merge(struct variate_sums *into, const struct variate_sums *from)
 {
-    for (size_t i = 0; i < VARIATES; i++)
-        into->x[i] += from->x[i];
-    for (size_t i = 0; i < VARIATE_PAIRS; i++)
-        into->xx[i] += from->xx[i];
-    for (size_t k = 0; k < VARIED; k++)
-        for (size_t i = 0; i < VARIATES; i++)
-            into->xy[k][i] += from->xy[k][i];
+    add_up(into->with[0][0], from->with[0][0], sizeof from->with / sizeof(double));
+}
+
+void ceduo_varied_merge(struct varied_sums *into, const struct varied_sums *from)
+{
+    add_up(into->with[0], from->with[0], sizeof from->with / sizeof(double));
+    add_up(into->ended[0], from->ended[0], sizeof from->ended / sizeof(double));
 }
 
 /* Row i of the Cholesky factor; `square`: the diagonal. A variate without anything of its own gets a row that takes no
@@ -74,16 +90,18 @@ static void solve(const struct variate_fit *fit, const double y[VARIATES], doubl
     }
 }
 
-bool ceduo_variates_fit(const struct variate_sums *s, double n, struct variate_fit *fit)
+bool ceduo_variates_fit(const struct variate_sums *of, double n, struct variate_fit *fit)
 {
+    struct variate_sums s = *of;
     *fit = (struct variate_fit){.n = n};
     double mean[VARIATES];
     bool good = n > 0;
     for (size_t i = 0; i < VARIATES; i++) {
-        mean[i] = s->x[i] / n;
+        fit->sums[i] = *variate_sum(&s, i);
+        mean[i] = fit->sums[i] / n;
         for (size_t j = 0; j < i; j++)
-            fit->root[row(i) + j] = s->xx[row(i) + j] - s->x[i] * mean[j];
-        good = good && factor_row(fit, i, s->xx[row(i) + i] - s->x[i] * mean[i]);
+            fit->root[row(i) + j] = *variate_product(&s, i, j) - fit->sums[i] * mean[j];
+        good = good && factor_row(fit, i, *variate_product(&s, i, i) - fit->sums[i] * mean[i]);
     }
     if (!good || fit->used == 0)
         return false;
@@ -93,13 +111,14 @@ bool ceduo_variates_fit(const struct variate_sums *s, double n, struct variate_f
     return isfinite(fit->chance_square);
 }
 
-struct varied_sum ceduo_variates_sum(const struct variate_fit *fit, const struct variate_sums *s, double y,
-                                     const double xy[VARIATES])
+struct varied_sum ceduo_variates_sum(const struct variate_fit *fit, const struct varied_sums *s, enum varied which, double y)
 {
     double centred[VARIATES];
     struct varied_sum sum = {.y = y};
-    for (size_t i = 0; i < VARIATES; i++)
-        centred[i] = xy[i] - s->x[i] * (y / fit->n);
+    for (size_t i = 0; i < VARIATES; i++) {
+        double with = which < VARIED_ENDED ? s->with[i][which] : s->ended[which - VARIED_ENDED][i];
+        centred[i] = with - fit->sums[i] * (y / fit->n);
+    }
     solve(fit, centred, sum.along);
     return sum;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a contact adds to the variates of its rock, in one text for the walk of one rock and for lanes: it is written with
- * the operations of one_lane.h or lanes.h, one of which was included before. See variates.h. */
+ * the operations of one_lane.h or lanes.h, one of which was included before. See variate_sums.h. */
 #ifndef CEDUO_VARY_H
 #define CEDUO_VARY_H
 

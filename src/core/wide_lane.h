@@ -52,7 +52,7 @@ struct wide {
         uint64_t *met[LANES];            /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
         double tallest;                  /* m: all that may wait are less tall */
-    } stem; /* counts and `next` go back to the walker and its stems by show_rock() */
+    } stem; /* counts and `next` go back to the walker and its stems by show_stems_met() */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
@@ -112,13 +112,13 @@ static inline void show_stems_met(const struct wide *k, size_t i)
     w->stem_ahead = side->next = k->stem_ahead[i];
 }
 
-/* Those who read the walker find there what the lane knows of its rock. */
-static void show_rock(const struct wide *k, size_t i)
+/* A rock goes on by itself, with its variates. */
+static void leave_lane(const struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
+    w->lane_variates = NULL;
     for (size_t v = 0; v < VARIATES; v++)
         w->variates[v] = k->variates[v][i];
-    show_stems_met(k, i);
 }
 
 static void load_section(struct wide *k, size_t i)
@@ -215,7 +215,7 @@ static struct course course_of(struct wide *k, size_t i)
     size_t to = left ? (k->to[i] == 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
-    show_rock(k, i);
+    show_stems_met(k, i);
     return (struct course){.at = {.x = k->x[i],
                                   .z = k->z[i],
                                   .vx = k->vx[i],
@@ -254,6 +254,8 @@ static void refill(struct wide *k, size_t i)
     k->left &= ~bit;
     k->rolls &= ~bit;
     k->there |= bit;
+    for (size_t v = 0; v < VARIATES; v++)
+        k->variates[v][i] = 0;
     while (job->next(job->context, i)) {
         enum ceduo_end end;
         double mark = w->next_x;
@@ -265,8 +267,6 @@ static void refill(struct wide *k, size_t i)
             k->mass[i] = w->rock.mass;
             k->moment[i] = w->rock.moment;
             k->number[i] = w->number;
-            for (size_t v = 0; v < VARIATES; v++)
-                k->variates[v][i] = 0;
             if (w->has_section)
                 load_section(k, i);
             k->fresh |= bit;
@@ -303,7 +303,7 @@ static __attribute__((noinline)) void stop_alone(struct wide *k, size_t i, enum 
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
-    show_rock(k, i);
+    show_stems_met(k, i);
     w->at.x = k->x[i];
     w->at.z = k->z[i];
     k->job->ended(k->job->context, i, end);
@@ -315,7 +315,7 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
-    show_rock(k, i);
+    show_stems_met(k, i);
     w->at.x = k->to_x[i];
     w->at.z = k->to_z[i];
     k->job->ended(k->job->context, i, CEDUO_LEFT_SLOPE);
@@ -331,7 +331,7 @@ LANE void pass_marks(struct wide *k, size_t i, const struct flight *at, double x
         pass_cells(w, at, x, t);
     set_next_x(w);
     if (w->next_x <= x) {
-        show_rock(k, i);
+        show_stems_met(k, i);
         ceduo_walk_pass_marks(w, *at, x, t);
     }
     k->next_x[i] = w->next_x;

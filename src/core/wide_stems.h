@@ -81,7 +81,7 @@ static __attribute__((noinline)) void take_stems_past_marks(struct wide *k, stru
         struct walker *w = &k->job->walkers[i];
         struct flight at = {.x = x[i], .z = z[i], .vx = vx[i], .vz = vz[i]};
         w->spin = spin[i];
-        show_rock(k, i);
+        show_stems_met(k, i);
         take_stem_alone(k, p, i, true, at, seconds[i]);
         k->next_x[i] = w->next_x;
         k->pause[i] = w->pause;

@@ -116,6 +116,7 @@ static void finish_alone(struct wide *k)
             c.v = (struct velocity){.along = c.at.vx * s->c + c.at.vz * s->s, .off = c.at.vz * s->c - c.at.vx * s->s};
         }
         enum ceduo_end end;
+        leave_lane(k, i);
         if (!c.aloft || ceduo_walk_come_down(w, &c, &end))
             end = ceduo_walk_on(w, &c, k->job->law);
         k->job->ended(k->job->context, i, end);
@@ -155,6 +156,8 @@ static void wide_walk(const struct wide_job *job)
     struct wide k = {.job = job, .ground = job->ground, .live = ALL_LANES};
     for (size_t i = 0; i < LANES; i++) {
         k.radius[i] = 1;
+        job->walkers[i].lane_variates = &k.variates[0][i];
+        job->walkers[i].lanes = LANES;
         refill(&k, i);
     }
     if (!k.live)

@@ -41,12 +41,13 @@ bool ceduo_scene_rock_varies(const struct ceduo_scene *scene)
     return scene->blocks_count > 0 || ceduo_rock_varies(&scene->rock);
 }
 
-bool ceduo_option_is_bare_before(const struct ceduo_option *option, double x)
+double ceduo_option_stems_from(const struct ceduo_option *option)
 {
+    double from = INFINITY;
     for (size_t i = 0; i < option->belts_count; i++)
-        if (option->belts[i].from < x && !ceduo_stand_is_bare(&option->belts[i].stand))
-            return false;
-    return true;
+        if (option->belts[i].from < from && !ceduo_stand_is_bare(&option->belts[i].stand))
+            from = option->belts[i].from;
+    return from;
 }
 
 size_t ceduo_scene_last_control(const struct ceduo_scene *scene)

@@ -35,53 +35,130 @@ static double spread_number(unsigned i, unsigned k)
     return x - floor(x) - 0.5;
 }
 
+enum { EXPLAINED = 1000 };
+
+/* Of which y tells of the first and the fifth; the last but one tells nothing new, and the last is 0. */
+static struct variate_row explained_row(unsigned i)
+{
+    struct variate_row row = {.x = {[VARIATES] = 1}};
+    for (unsigned k = 0; k + 2 < VARIATES; k++)
+        row.x[k] = spread_number(i, k) * pow(10, k);
+    row.x[VARIATES - 2] = 2 * row.x[0] - row.x[1];
+    return row;
+}
+
 static void what_variates_explain_is_taken_out(void **state)
 {
     (void)state;
-    enum { N = 1000 };
-    struct variate_sums s = {.x = {0}}, parts[2] = {{.x = {0}}, {.x = {0}}};
+    static struct variate_row rows[EXPLAINED];
+    static _Alignas(64) double brought[EXPLAINED][VARIED_ROW];
     double sum = 0, square = 0;
-    for (unsigned i = 0; i < N; i++) {
-        double x[VARIATES] = {0};
-        for (unsigned k = 0; k + 2 < VARIATES; k++)
-            x[k] = spread_number(i, k) * pow(10, k);
-        x[VARIATES - 2] = 2 * x[0] - x[1]; /* tells nothing new; and the last is 0 */
-        double y = 7 + 3 * x[0] - 2e-3 * x[4];
+    for (unsigned i = 0; i < EXPLAINED; i++) {
+        rows[i] = explained_row(i);
+        double y = brought[i][VARIED_SPEED] = 7 + 3 * rows[i].x[0] - 2e-3 * rows[i].x[4];
         sum += y;
         square += y * y;
-        struct variate_sums *to[] = {&s, &parts[i >= 300]};
-        for (int k = 0; k < 2; k++) {
-            ceduo_variates_add(to[k], x);
-            ceduo_variates_add_with(to[k]->xy[VARIED_SPEED], y, x);
-        }
     }
+    const struct variates_kernel *kernel = ceduo_variates_kernel(CEDUO_KERNEL_BEST);
+    struct variate_sums x = {{{{0}}}};
+    struct varied_sums s = {.ended = {{0}}};
+    kernel->add(&x, rows, EXPLAINED);
+    kernel->add_with(&s, brought[0], rows, EXPLAINED);
     struct variate_fit fit;
-    assert_true(ceduo_variates_fit(&s, N, &fit));
+    assert_true(ceduo_variates_fit(&x, EXPLAINED, &fit));
     EXPECT(fit.used, ==, VARIATES - 2);
-    struct varied_sum y = ceduo_variates_sum(&fit, &s, sum, s.xy[VARIED_SPEED]);
+    struct varied_sum y = ceduo_variates_sum(&fit, &s, VARIED_SPEED, sum);
     EXPECT_NEAR(ceduo_varied_mean(&fit, &y), 7, 1e-10);
-    EXPECT_NEAR(ceduo_varied_variance(&fit, &y, square - sum * sum / N), 0, 1e-12);
+    EXPECT_NEAR(ceduo_varied_variance(&fit, &y, square - sum * sum / EXPLAINED), 0, 1e-12);
     double slopes[VARIATES];
     ceduo_varied_slopes(&fit, &y, slopes);
     for (unsigned k = 0; k < VARIATES; k++)
         EXPECT_NEAR(slopes[k] * pow(10, k), k == 0 ? 3 : k == 4 ? -20 : 0, 1e-6);
     struct varied_sum none = ceduo_varied_less(y, 1, y);
     EXPECT(ceduo_varied_mean(&fit, &none), ==, 0);
-    ceduo_variates_merge(&parts[0], &parts[1]);
-    for (unsigned k = 0; k < VARIATES; k++)
-        EXPECT_NEAR(parts[0].xy[VARIED_SPEED][k], s.xy[VARIED_SPEED][k], 1e-9 * pow(10, k));
+}
+
+enum { SUMMED = 301, SUMMED_FIRST = 100 };
+
+/* What sums are of. */
+static struct {
+    struct variate_row rows[SUMMED];
+    _Alignas(64) double brought[SUMMED][VARIED_ROW];
+    double x[VARIATES], xx[VARIATES][VARIATES], xy[VARIED][VARIATES];
+} summed;
+
+/* Rock by rock, product by product; each ends in every way. */
+static void sum_one_by_one(void)
+{
+    memset(&summed, 0, sizeof summed);
+    for (unsigned i = 0; i < SUMMED; i++) {
+        const double *x = summed.rows[i].x;
+        summed.rows[i] = explained_row(i);
+        for (unsigned k = 0; k < VARIED_ENDED; k++)
+            summed.brought[i][k] = spread_number(k, i);
+        for (unsigned j = 0; j < VARIATES; j++) {
+            summed.x[j] += x[j];
+            for (unsigned k = 0; k <= j; k++)
+                summed.xx[j][k] += x[j] * x[k];
+            for (unsigned k = 0; k < VARIED; k++)
+                summed.xy[k][j] += k < VARIED_ENDED ? summed.brought[i][k] * x[j] : x[j];
+        }
+    }
+}
+
+/* No more than `off` from those, as a part of what they can be. */
+static void expect_summed(struct variate_sums *s, const struct varied_sums *with, double off)
+{
+    for (unsigned j = 0; j < VARIATES; j++) {
+        double most = off * sqrt(summed.xx[j][j] * SUMMED);
+        EXPECT_NEAR(*variate_sum(s, j), summed.x[j], most);
+        for (unsigned k = 0; k <= j; k++)
+            EXPECT_NEAR(*variate_product(s, j, k), summed.xx[j][k], off * sqrt(summed.xx[j][j] * summed.xx[k][k]));
+        for (unsigned k = 0; k < VARIED_ENDED; k++)
+            EXPECT_NEAR(with->with[j][k], summed.xy[k][j], most);
+        for (unsigned e = 0; e < CEDUO_ENDS; e++)
+            EXPECT_NEAR(with->ended[e][j], summed.xy[VARIED_ENDED + e][j], most);
+    }
+}
+
+/* In two steps they have the same bits, by each kind of registers; merged, their last ones may differ. */
+static void sums_are_those_of_single_rocks(void **state)
+{
+    (void)state;
+    const enum ceduo_kernel kernels[] = {CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512, CEDUO_KERNEL_BEST};
+    const size_t from[] = {0, SUMMED_FIRST, SUMMED};
+    sum_one_by_one();
+    for (int k = 0; k < 4; k++) {
+        const struct variates_kernel *by = ceduo_variates_kernel(kernels[k]);
+        struct variate_sums s[2] = {{{{{0}}}}};
+        struct varied_sums with[2] = {{.ended = {{0}}}};
+        bool merges = k == 3;
+        for (int step = 0; step < 2; step++) {
+            const struct variate_row *rows = &summed.rows[from[step]];
+            size_t n = from[step + 1] - from[step];
+            int to = merges ? step : 0;
+            by->add(&s[to], rows, n);
+            by->add_with(&with[to], summed.brought[from[step]], rows, n);
+            for (int e = 0; e < CEDUO_ENDS; e++)
+                for (size_t i = 0; i < n; i++)
+                    ceduo_variates_add_ended(&with[to], (enum ceduo_end)e, &rows[i]);
+        }
+        ceduo_variates_merge(&s[0], &s[1]);
+        ceduo_varied_merge(&with[0], &with[1]);
+        expect_summed(&s[0], &with[0], merges ? 1e-13 : 0);
+    }
 }
 
 static void nothing_that_varies_is_no_regression(void **state)
 {
     (void)state;
-    struct variate_sums s = {.x = {0}};
+    struct variate_sums s = {{{{0}}}};
     struct variate_fit fit;
     assert_false(ceduo_variates_fit(&s, 1000, &fit));
     assert_false(ceduo_variates_fit(&s, 0, &fit));
-    s.xx[0] = INFINITY;
+    *variate_product(&s, 0, 0) = INFINITY;
     assert_false(ceduo_variates_fit(&s, 1000, &fit));
-    s.xx[0] = NAN;
+    *variate_product(&s, 0, 0) = NAN;
     assert_false(ceduo_variates_fit(&s, 1000, &fit));
 }
 
@@ -373,6 +450,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_variates_explain_is_taken_out),
+        cmocka_unit_test(sums_are_those_of_single_rocks),
         cmocka_unit_test(nothing_that_varies_is_no_regression),
         cmocka_unit_test(variates_have_no_mean),
         cmocka_unit_test(intervals_hold_what_is_true),
