@@ -59,7 +59,8 @@ static int by_value(const void *a, const void *b)
 
 void ceduo_weighted_sort(struct weighted *values, size_t n)
 {
-    qsort(values, n, sizeof *values, by_value);
+    if (n > 0) /* otherwise there is no array */
+        qsort(values, n, sizeof *values, by_value);
 }
 
 static double weight_of(const struct weighted *values, size_t n)

@@ -5,6 +5,7 @@
 #define CEDUO_WIDE_LANE_H
 
 #include <math.h>
+#include <stddef.h>
 
 #include "wide.h"
 #include "wide_cells.h"
@@ -51,13 +52,13 @@ struct wide {
         double free_to[LANES];           /* before here the flight is above `tallest` */
         uint64_t *met[LANES];            /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
-        double tallest;                  /* m: all that may wait are less tall */
     } stem; /* counts and `next` go back to the walker and its stems by show_stems_met() */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
     double variates[VARIATES][LANES];
     double from, per_metre; /* as in struct marks */
+    double tallest;         /* m: all stems that may wait are less tall */
 
     /* bit i is lane i */
     unsigned live;  /* has a rock */
@@ -73,6 +74,9 @@ struct wide {
     bool same_start; /* every rock comes to its first contact as `start`, without passing a mark */
     struct course start;
 };
+
+_Static_assert(offsetof(struct wide, variates) % 64 == 0 && offsetof(struct wide, contacts) % 64 == 0,
+               "what is for lanes is loaded from whole lines of the cache");
 
 /* Lanes that come to no contact in this step. */
 LANE unsigned in_the_air(struct form form, const struct wide *k)

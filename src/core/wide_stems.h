@@ -92,7 +92,7 @@ static __attribute__((noinline)) void take_stems_past_marks(struct wide *k, stru
  * of the segment, or to where the parabola comes down so far. */
 LANE unsigned fly_over(struct wide *k, const struct passing *p, reals to, reals t, reals clearance)
 {
-    reals over_all = sub(clearance, all(k->stem.tallest));
+    reals over_all = sub(clearance, all(k->tallest));
     flags high = both(both(less(all(0), over_all), less(all(0), t)), less(load(k->stem.after), p->x1));
     unsigned above = p->under_way & bits_of(high);
     if (!above)

@@ -171,7 +171,7 @@ static void wide_walk(const struct wide_job *job)
     k.scale_rn = w->scale_rn;
     k.from = w->marks->from;
     k.per_metre = w->marks->per_metre;
-    k.stem.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* more than rounding can make of a height */
+    k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* more than rounding can make of a height */
     if (w->stems)
         walk_among(job->law, small, true, &k);
     else

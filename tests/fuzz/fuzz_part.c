@@ -423,7 +423,7 @@ static void try_without_files(const char *path, const char *folder)
 }
 
 /* The line of a shard as the program writes it, but for the seconds: seeds are always the same. */
-static void add_shard(const struct made *m, uint64_t shard, uint64_t shards, struct text *to)
+static void add_shard(struct made *m, uint64_t shard, uint64_t shards, struct text *to)
 {
     const struct arguments a = {.shard = shard, .shards = shards, .threads = 1, .quiet = true};
     struct text line = {0};
