@@ -56,8 +56,8 @@ static inline bool comes_to_cells(struct walker *w, double x)
 {
     const double *cell_x = w->marks->cell_x;
     if (w->row.at[0])
-        return cell_x[w->next_cell] <= x;
-    while (cell_x[w->next_cell] <= x)
+        return islessequal(cell_x[w->next_cell], x);
+    while (islessequal(cell_x[w->next_cell], x))
         w->next_cell++;
     return false;
 }

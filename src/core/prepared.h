@@ -17,7 +17,8 @@ struct mark {
 struct marks {
     size_t n, cells;
     struct mark *at;         /* rising along x */
-    double *cell_x, *cell_z; /* likewise; behind the last NaN, as many as a vector reads */
+    double *cell_x, *cell_z; /* likewise; behind the last NaN, as many as a vector reads: compare with isless() and its like,
+                              * which raise no exception */
     double from, per_metre; /* of the way to the last control: places on it are 0 at the mean release, 1 at that control */
 };
 

@@ -83,7 +83,7 @@ static inline void set_next_x(struct walker *w)
     const struct marks *m = w->marks;
     w->mark_x = w->next_mark < m->n ? m->at[w->next_mark].x : INFINITY;
     double cell_x = m->cell_x[w->next_cell];
-    w->next_x = cell_x < w->mark_x ? cell_x : w->mark_x;
+    w->next_x = isless(cell_x, w->mark_x) ? cell_x : w->mark_x;
     if (w->arrivals_only && is_behind_marks(w))
         w->pause = 0;
 }
