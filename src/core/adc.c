@@ -7,7 +7,7 @@
 #include "energy.h"
 #include "strata.h"
 
-/* Mean dbh over some kinds of stem, of which there are some. */
+/* Mean dbh over some kinds of stem; 0 where no stem is of them. */
 static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struct ceduo_stems *more, size_t m)
 {
     double count = 0, sum = 0;
@@ -16,7 +16,7 @@ static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struc
         count += s->per_ha;
         sum += s->per_ha * s->dbh;
     }
-    return sum / count;
+    return count > 0 ? sum / count : 0;
 }
 
 static double mean_shoot_dbh(const struct ceduo_stand *stand)

@@ -348,12 +348,12 @@ def check_adc(stand, s, b, what):
     low = low_width(stand, b)[0]
     stools = stand["stools"]["per_ha"] if shoots else 0
     all_stems, n_shoots, n_trees = shoots + trees, sum(t["per_ha"] for t in shoots), sum(t["per_ha"] for t in trees)
-    mean = sum(t["per_ha"] * t["dbh_m"] for t in all_stems) / (n_shoots + n_trees) if all_stems else 0
+    mean = sum(t["per_ha"] * t["dbh_m"] for t in all_stems) / (n_shoots + n_trees) if n_shoots + n_trees > 0 else 0
     width_of_trees = sum(t["per_ha"] * (b + t["dbh_m"]) for t in trees) + low
     expect_width(adc["gsteiger_stools_m"], (stools + n_trees) * (b + mean) + low, f"{what}: gsteiger-stools")
     expect_width(adc["gsteiger_stems_m"], low + sum(t["per_ha"] * (b + t["dbh_m"]) for t in all_stems),
                  f"{what}: gsteiger-stems")
-    thick = sum(t["per_ha"] * t["dbh_m"] for t in shoots) / n_shoots if shoots else 0
+    thick = sum(t["per_ha"] * t["dbh_m"] for t in shoots) / n_shoots if n_shoots > 0 else 0
     spacing = stand["stools"]["spacing_m"] if shoots else 0
     expect_width(adc["interception_m"], width_of_trees + stools * (b + thick + spacing), f"{what}: interception")
     each, hull = (n_shoots / stools, 0) if shoots else (0, 0)

@@ -328,6 +328,20 @@ static void energy_of_one_contact(void **state)
     expect_exact(ceduo_contact_energy(&two.stand, &two.trees), 606.52);
 }
 
+/* The trees are all gone, and the rock meets the stumps alone, as each form says. */
+static void stumps_where_no_tree_is_left(void **state)
+{
+    (void)state;
+    struct ceduo_stems felled = {.per_ha = 0, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
+    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &felled, .u = NAN,
+                                .stumps = {.per_ha = 400, .diameter = 0.25, .height = 0.4}};
+    struct ceduo_adc adc = ceduo_adc(&stand, 0.75);
+    expect_exact(adc.gsteiger_stools, 25); /* 10 000 m2 / (400 x 1 m) */
+    expect_exact(adc.gsteiger_stems, 25);
+    expect_exact(adc.interception, 25);
+    expect_exact(adc.crofton, 25);
+}
+
 static void reserves_after_a_cut(void **state)
 {
     (void)state;
@@ -744,6 +758,7 @@ int main(void)
         cmocka_unit_test(the_rule_of_the_paper),
         cmocka_unit_test(energy_of_tables_7_and_8),
         cmocka_unit_test(energy_of_one_contact),
+        cmocka_unit_test(stumps_where_no_tree_is_left),
         cmocka_unit_test(reserves_after_a_cut),
         cmocka_unit_test(the_threshold_in_a_belt),
         cmocka_unit_test(sensitivity_to_the_spacing_of_the_shoots),
