@@ -6,7 +6,6 @@
 
 #define WAITING 128   /* rows */
 #define AT_ONCE 8     /* cells whose bins fit the fastest cache */
-#define VECTOR_MOST 8 /* numbers that a vector may write behind the last cell */
 
 /* What a row has in the first bin of a quantity. */
 static size_t first_of(int quantity)
@@ -23,7 +22,7 @@ static double middle_of(int quantity, size_t bin)
 
 bool ceduo_envelopes_init(struct envelopes *e, size_t cells, size_t lanes)
 {
-    size_t width = (cells + VECTOR_MOST + 31) / 32 * 32, rows = lanes + WAITING;
+    size_t width = (cells + ENVELOPE_VECTOR + 31) / 32 * 32, rows = lanes + WAITING;
     *e = (struct envelopes){.n = cells, .lanes = lanes};
     e->rows = malloc(rows * sizeof *e->rows);
     e->cells = calloc(cells, sizeof *e->cells);

@@ -10,6 +10,7 @@
  * larger. */
 #define ENVELOPE_BINS (40 * 32)
 #define ENVELOPE_QUANTITIES 3 /* speed, height, energy */
+#define ENVELOPE_VECTOR 8 /* numbers that a vector may read or write behind the last cell */
 
 /* The smallest octaves begin at a millimetre, or a millimetre a second, and at 1/16 J. */
 static const double envelope_least[ENVELOPE_QUANTITIES] = {0x1p-10, 0x1p-10, 0x1p-4};

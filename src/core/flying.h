@@ -51,14 +51,23 @@ static inline void pass_mark(struct walker *w, double vx, double vz, double spin
     w->cross(w->context, w, w->next_mark++, &c);
 }
 
+static inline bool is_cell_before(const struct walker *w, double x)
+{
+    return islessequal(w->marks->cell_x[w->next_cell], x);
+}
+
+static inline void skip_cells(struct walker *w, double x)
+{
+    while (is_cell_before(w, x))
+        w->next_cell++;
+}
+
 /* Whether there are cells up to x, and what it brings to them is noted. */
 static inline bool comes_to_cells(struct walker *w, double x)
 {
-    const double *cell_x = w->marks->cell_x;
     if (w->row.at[0])
-        return islessequal(cell_x[w->next_cell], x);
-    while (islessequal(cell_x[w->next_cell], x))
-        w->next_cell++;
+        return is_cell_before(w, x);
+    skip_cells(w, x);
     return false;
 }
 

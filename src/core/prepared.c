@@ -4,7 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define BEHIND_LAST  8   /* numbers in the longest vector */
+#include "envelope.h"
+
 #define LENGTH_LEAST 1.0 /* m of a way, so that places on it are no huge numbers */
 
 static int by_x(const void *a, const void *b)
@@ -17,7 +18,7 @@ static int by_x(const void *a, const void *b)
 
 static bool make_cells(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
 {
-    size_t room = cells + BEHIND_LAST;
+    size_t room = cells + ENVELOPE_VECTOR;
     marks->cells = cells;
     marks->cell_x = malloc(2 * room * sizeof *marks->cell_x);
     if (!marks->cell_x)

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "kernel.h"
 #include "random.h"
 #define MANY 2
 #include "stems_fill.h"
@@ -22,11 +23,10 @@ const struct stems_kernel ceduo_stems_scalar = {fill_points, make_stools};
 static const struct stems_kernel *choose_kernel(enum ceduo_kernel kernel)
 {
 #if defined(__x86_64__) && defined(__GNUC__)
-    bool best = kernel == CEDUO_KERNEL_BEST;
-    if ((best || kernel == CEDUO_KERNEL_AVX512) && __builtin_cpu_supports("avx512f") &&
-        __builtin_cpu_supports("avx512dq"))
+    kernel = ceduo_kernel_here(kernel);
+    if (kernel == CEDUO_KERNEL_AVX512)
         return &ceduo_stems_avx512;
-    if ((best || kernel == CEDUO_KERNEL_AVX2) && __builtin_cpu_supports("avx2"))
+    if (kernel == CEDUO_KERNEL_AVX2)
         return &ceduo_stems_avx2;
 #else
     (void)kernel;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "wide.h"
+#include "kernel.h"
 #define MANY 2
 #include "variates_add.h"
 
@@ -23,7 +23,7 @@ const struct variates_kernel ceduo_variates_scalar = {add_variates, add_varied};
 const struct variates_kernel *ceduo_variates_kernel(enum ceduo_kernel kernel)
 {
 #if defined(__x86_64__) && defined(__GNUC__)
-    kernel = ceduo_wide_kernel(kernel);
+    kernel = ceduo_kernel_here(kernel);
     if (kernel == CEDUO_KERNEL_AVX512)
         return &ceduo_variates_avx512;
     if (kernel == CEDUO_KERNEL_AVX2)

@@ -80,8 +80,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     while (w->next_mark < marks->n && marks->at[w->next_mark].x <= x)
         w->next_mark++;
     w->next_cell = 0;
-    while (islessequal(marks->cell_x[w->next_cell], x))
-        w->next_cell++;
+    skip_cells(w, x);
     set_next_x(w);
     w->stems_hit = w->stools_met = 0;
     w->stem_ahead = INFINITY;

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "kernel.h"
+
 #define SEGMENT_SHIFT 2
 _Static_assert(sizeof(struct ground_segment) == (size_t)16 << SEGMENT_SHIFT, "a segment is pairs of numbers");
 
@@ -66,25 +68,10 @@ void ceduo_wide_ground_free(struct wide_ground *wide)
     free(wide);
 }
 
-enum ceduo_kernel ceduo_wide_kernel(enum ceduo_kernel wanted)
-{
-#if defined(__x86_64__) && defined(__GNUC__)
-    bool best = wanted == CEDUO_KERNEL_BEST, avx2 = __builtin_cpu_supports("avx2");
-    bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
-    if (avx512 && (best || wanted == CEDUO_KERNEL_AVX512))
-        return CEDUO_KERNEL_AVX512;
-    if (avx2 && (best || wanted == CEDUO_KERNEL_AVX2))
-        return CEDUO_KERNEL_AVX2;
-#else
-    (void)wanted;
-#endif
-    return CEDUO_KERNEL_SCALAR;
-}
-
 wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)
 {
 #if defined(__x86_64__) && defined(__GNUC__)
-    kernel = ceduo_wide_kernel(kernel);
+    kernel = ceduo_kernel_here(kernel);
     if (kernel == CEDUO_KERNEL_AVX512) {
         *lanes = 32;
         return ceduo_wide_walk_avx512;

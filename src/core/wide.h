@@ -33,9 +33,6 @@ struct wide_ground {
 struct wide_ground *ceduo_wide_ground_create(const struct ground *g);
 void ceduo_wide_ground_free(struct wide_ground *wide);
 
-/* The best kind of registers that this machine has, or that kind if it has it; otherwise CEDUO_KERNEL_SCALAR. */
-enum ceduo_kernel ceduo_wide_kernel(enum ceduo_kernel wanted);
-
 /* The wide walk of a kind of registers, or NULL where this machine has none of the kind; how many rocks at once. */
 struct wide_job;
 typedef void wide_walk_fn(const struct wide_job *job);
