@@ -41,7 +41,8 @@ struct ceduo_window {
  * together. */
 struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 
-/* The same, with the first and the last year that the scene names instead. */
+/* The same, with the first and the last year that the scene names instead; of more than CEDUO_YEARS_MOST some, evenly
+ * spread. */
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option);
 
 struct ceduo_years {

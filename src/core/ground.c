@@ -96,6 +96,15 @@ static void keep_vertices(struct ground *g, const struct ceduo_slope *slope, dou
 
 /* ---- segments ---- */
 
+/* A length of few bits would make c and s longer than 1 together, and a contact would give energy. */
+static void set_direction(struct ground_segment *to, double dx, double dz)
+{
+    double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
+    double length = ceduo_length(dx * scale, dz * scale);
+    to->c = dx * scale / length;
+    to->s = dz * scale / length;
+}
+
 static void prepare_segment(struct ground *g, size_t j, double radius)
 {
     const struct ceduo_segment *from = g->given[j];
@@ -103,8 +112,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     double dx = g->x[j + 1] - g->x[j], dz = g->z[j + 1] - g->z[j];
     double length = ceduo_length(dx, dz);
     to->m = dz / dx;
-    to->c = dx / length;
-    to->s = dz / length;
+    set_direction(to, dx, dz);
     to->friction = from->friction;
     to->mu = from->mu;
     to->rn = from->rn.mean;

@@ -58,6 +58,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struc
     w.first = isnan(first) ? 0 : (unsigned)first;
     w.last = isnan(last) ? w.first + period : (unsigned)last;
     w.last = w.last < w.first ? w.first : w.last;
+    w.step = (w.last - w.first) / CEDUO_YEARS_MOST + 1;
     return w;
 }
 

@@ -9,7 +9,8 @@
 /* Draws the rules of the ADC as bars on a log scale. */
 
 #define RULES (CEDUO_CROFTON - CEDUO_GSTEIGER_STOOLS + 1)
-#define VALUE 9 /* columns of "12.3 m" and blanks */
+#define VALUE 9      /* columns of "12.3 m" and blanks */
+#define LEAST 1e-300 /* m; the numbers below it stand too far apart for the next mark to be another */
 
 struct adc_picture {
     struct ceduo_canvas *canvas;
@@ -27,7 +28,7 @@ static int bar_left(const struct adc_picture *p)
 
 static double share_of(const struct adc_picture *p, double metres)
 {
-    return isfinite(metres) ? log(metres / p->lo) / log(p->hi / p->lo) : 1;
+    return isfinite(metres) ? fmax(0, log(metres / p->lo) / log(p->hi / p->lo)) : 1;
 }
 
 static int column_of(const struct adc_picture *p, double metres)
@@ -50,7 +51,7 @@ static void find_scale(struct adc_picture *p, const struct ceduo_option *option)
             most = fmax(most, v);
         }
     }
-    p->lo = ceduo_plot_round(least / 1.5, false);
+    p->lo = ceduo_plot_round(fmax(least / 1.5, LEAST), false);
     p->hi = ceduo_plot_round(1.5 * most, true);
 }
 

@@ -943,8 +943,9 @@ class Chunk:
 
     def fitted(self, i, result):
         """A fit to what was seen: its JSON and its page hold together."""
-        case, work = self.cases[i], result["work"]
-        if (work["contacts"] + work["stems_drawn"]) > FIT_WORK * result["rocks"]:
+        case = self.cases[i]
+        _, tried = self.results("-s", f"{FIT[0]}={sum(FIT[1:]) / 2}", "-n", FIT_ROCKS, of={i})
+        if any(r["work"]["contacts"] + r["work"]["stems_drawn"] > FIT_WORK * r["rocks"] for r in (result, tried[i])):
             return
         order = ["--calibrate", f"{FIT[0]}={FIT[1]}:{FIT[2]}", "-n", FIT_ROCKS]
         for done, _ in self.call(*order, "-f", "json", of={i}):

@@ -53,6 +53,25 @@ static void a_flight_onto_a_slope(void **state)
     }
 }
 
+/* A facet at 45 degrees turns a fall by half a right angle, however short it is: its rock leaves with what is left of the energy. */
+static void the_shortest_facet(void **state)
+{
+    (void)state;
+    static const double shortest[] = {5e-324, 1.5e-323, 1e-310, 1e-290, 1};
+    for (size_t i = 0; i < LENGTH(shortest); i++)
+        for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+            const double x[] = {0, shortest[i], 50}, z[] = {0, -shortest[i], -20};
+            line_scene_init(&scene, 3, x, z, (struct line_ground){1, 1, 0}, 1, (enum ceduo_law)law);
+            line_scene_release(&scene, 0, 5, 0, 0, 0);
+            assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+            double vx = way.pieces[1].vx, vz = way.pieces[1].vz;
+            assert_true(vx > 0);
+            assert_true(vx * vx + vz * vz <= 2 * 9.81 * 5 * (1 + EXACT));
+            if (law == CEDUO_LAW_LUMPED)
+                expect_near(vx, sqrt(2 * 9.81 * 5));
+        }
+}
+
 /* On the flat from speed v a rock without bounce stops after (1 + k) v2 / (2 g mu), whatever the law. */
 static void the_way_to_a_stop(void **state)
 {
@@ -151,6 +170,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flight_onto_a_slope),
+        cmocka_unit_test(the_shortest_facet),
         cmocka_unit_test(the_way_to_a_stop),
         cmocka_unit_test(the_first_contacts_on_the_slope_of_table_3),
         cmocka_unit_test(statistics_agree_within_their_error),

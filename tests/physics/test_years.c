@@ -606,6 +606,12 @@ static void whole_rotations(void **state)
     wood.site.scene.year_last = 5;
     w = ceduo_window_in(&wood.site.scene, &wood.option);
     EXPECT(w.last, ==, 5);
+    wood.site.scene.year_last = 3 + CEDUO_YEARS_MOST - 1;
+    EXPECT(ceduo_window_in(&wood.site.scene, &wood.option).step, ==, 1);
+    wood.site.scene.year_last = 48700;
+    w = ceduo_window_in(&wood.site.scene, &wood.option);
+    EXPECT(w.step, ==, 49); /* 48 698 years, 1000 at the most */
+    EXPECT(w.last, ==, 48700);
     wood.belts[0].cut_year = wood.belts[1].cut_year = INFINITY; /* never */
     expect_window(CEDUO_WINDOW_UNCUT, 0, CEDUO_YEARS_UNCUT - 1);
     wood.belts[0].stand.growth = wood.belts[1].stand.growth = (struct ceduo_growth){0};

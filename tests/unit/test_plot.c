@@ -760,6 +760,9 @@ static void adc_shows_the_forms_beside_the_threshold(void **state)
            "\n"
            "│ 30 m: in this distance without a contact a rock reaches its full sp…\n"
            "\n");
+    s.scene.simulation.threshold = 1e-323; /* 1.5 times 5e-324 are 5e-324 again */
+    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "9.88131e-324 m "));
+    s.scene.simulation.threshold = 30;
     s.shoots.per_ha = 20;
     s.belts[0].stand.stools_per_ha = 10;
     s.belts[0].stand.trees_count = 0;
