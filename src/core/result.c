@@ -208,18 +208,19 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
                                       struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
-    const struct ceduo_run *baseline = ceduo_pool_find(pool, &scene->options[0]);
+    const struct ceduo_run *bare = ceduo_pool_find(pool, NULL), *baseline = ceduo_pool_find(pool, &scene->options[0]);
     struct ceduo_result *r = allocate(scene);
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = read_if_there(ceduo_pool_find(pool, NULL), controls, &r->bare);
+    enum ceduo_status status = read_if_there(bare, controls, &r->bare);
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = ceduo_pool_find(pool, &scene->options[i]);
         for (size_t c = 0; c < controls; c++)
             r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
-        if (run)
-            status = ceduo_flown_read(run, controls, &r->options[i].wooded);
+        if (run) /* that of an option without stems is the one without forest */
+            status = run == bare ? copy(&r->bare, &r->options[i].wooded)
+                                 : ceduo_flown_read(run, controls, &r->options[i].wooded);
     }
     if (r->wooded && status == CEDUO_OK)
         status = read_others(scene, pool, r->options);

@@ -227,12 +227,15 @@ struct pairs {
     struct ceduo_moments reach, exceed, energy;
 };
 
-static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
+/* `same`: they do not differ up to the control. */
+static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control, bool same)
 {
     double accepted = run->ready.scene.controls[control].accepted;
     uint64_t a = paired_rocks(run), b = paired_rocks(baseline);
     struct pairs p = {.rocks = a < b ? a : b};
-    for (uint64_t r = 0; r < p.rocks; r++) {
+    if (same)
+        p.reach = p.exceed = p.energy = (struct ceduo_moments){.n = p.rocks};
+    for (uint64_t r = 0; r < p.rocks && !same; r++) {
         double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
         ceduo_moments_add(&p.reach, (double)!isnan(e) - (double)!isnan(f));
         ceduo_moments_add(&p.exceed, (double)(e > accepted) - (double)(f > accepted));
@@ -329,8 +332,9 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
         return (struct ceduo_difference){unknown, unknown, unknown};
     if (run->sized)
         return ceduo_run_sized_difference(run, baseline, control);
-    double n = (double)run->rocks;
-    struct pairs p = pair(run, baseline, control);
+    double n = (double)run->rocks, x = run->ready.scene.controls[control].x;
+    bool same = alike && (run == baseline || (run->stems_from >= x && baseline->stems_from >= x));
+    struct pairs p = pair(run, baseline, control, same);
     struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
     const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
     struct ceduo_difference d = {.reach_probability = paired(p.reach.mean, &p.reach, p.rocks),
@@ -341,9 +345,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
             .reach_probability = paired(((double)e->n - (double)f->n) / n, &p.reach, run->rocks),
             .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &p.exceed, run->rocks),
             .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &p.energy, run->rocks)};
-    double x = run->ready.scene.controls[control].x;
-    bool bare = run->stems_from >= x && baseline->stems_from >= x; /* then their flights to x differ in nothing */
-    if (alike && !bare)
+    if (alike && !same)
         adjust_difference(run, &s, baseline, &t, control, &d);
     if (isnan(run->ready.scene.controls[control].accepted))
         d.exceed_probability = unknown;
