@@ -253,14 +253,16 @@ do-lint:
 	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
 	    "-DCEDUO_DATADIR=\"\"" "-DCEDUO_LOCALEDIR=\"\"" 2>/dev/null' tidy
 
-# Runs all tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Failures do
-# not count here, as this build is too slow for some tests that depend on the clock; `make check` judges them.
+# Runs tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Tests of the screen
+# and of whole workflows are left out: what they take of these parts others take sooner, and they would take most of the time.
+# Failures do not count here, as this build is too slow for some tests that depend on the clock; `make check` judges them.
+COUNTED := $(patsubst $(T)/%,build/cov/tests/%,$(filter-out $(T)/tui/% %/test_workflows.py.tap,$(TAPS)))
 do-coverage:
 	@+$(MAKE) --no-print-directory VARIANT=cov all
 	@find build/cov -name '*.gcda' -delete
-	@rm -rf $(TAPS:$(T)/%=build/cov/tests/%)
-	@+SCENES=500 TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(TAPS:$(T)/%=build/cov/tests/%) do-replay
-	@-tests/summary $(TAPS:$(T)/%=build/cov/tests/%) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
+	@rm -rf $(COUNTED)
+	@+SCENES=500 TEST_SECONDS=20000 $(MAKE) --no-print-directory -j$(CORES) VARIANT=cov $(COUNTED) do-replay
+	@-tests/summary $(COUNTED) $(REPLAYS:%=build/cov/tests/fuzz/%.tap)
 	@tests/coverage.py build/cov
 
 # For changes that should leave all output as it was.
