@@ -385,7 +385,7 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     memset(s->met, 0, (s->wood->places + 1) * sizeof *s->met);
     start_side(s, 0, x, 1);
     find_next(s, 0);
-    bool any = s->wood->belts > 0 && s->wood->along[0][0].from < x + fmax(s->wood->reach, s->wood->group_reach);
+    bool any = s->wood->along[0][0].from < x + fmax(s->wood->reach, s->wood->group_reach);
     s->side[1].next = any ? -x : INFINITY;
     s->side[1].next_known = false;
 }

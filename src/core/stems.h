@@ -64,22 +64,17 @@ static inline void ceduo_stems_take(struct stems *stems, int i)
  * */
 void ceduo_stems_meet_behind(struct stems *stems, uint64_t stool);
 
-/* Notes that a shoot is hit, or not; whether it is hit and its stool was not before. Which is as likely as not, so
- * that no branch depends on it. */
-static inline bool ceduo_stems_meet_shoot(struct stems *stems, const struct stem *stem, bool hit)
-{
-    uint64_t *place = &stems->met[stem->stool & stems->wood->places];
-    bool first = hit & (*place != stem->stool) & !stem->met;
-    *place = hit ? stem->stool : *place;
-    if (stem->along <= stems->start + 2 * stems->wood->reach && first && !(stem->stool & 1))
-        ceduo_stems_meet_behind(stems, stem->stool);
-    return first;
-}
-
 /* Notes that a stem was hit; whether its stool or tree was not hit before. */
 static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem)
 {
-    return !stem->shoot || ceduo_stems_meet_shoot(stems, stem, true);
+    if (!stem->shoot)
+        return true;
+    uint64_t *place = &stems->met[stem->stool & stems->wood->places];
+    bool first = (*place != stem->stool) & !stem->met; /* as likely as not: no branch depends on it */
+    *place = stem->stool;
+    if (stem->along <= stems->start + 2 * stems->wood->reach && first && !(stem->stool & 1))
+        ceduo_stems_meet_behind(stems, stem->stool);
+    return first;
 }
 
 /* How far off its middle a rock of diameter b hits this stem, 0…1; 0 for a contact without a stem. */

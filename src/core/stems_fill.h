@@ -87,7 +87,7 @@ static inline void place_points(struct stems *s, int side, enum stem_stream stre
     size_t j = p->end_belt, first = j;
     unsigned i = 0;
     double left = gaps[0];
-    while (i < p->size && j < s->wood->belts) {
+    while (j < s->wood->belts) {
         const struct wood_belt *belt = &s->wood->along[side][j];
         const struct belt_rates *r = rates_in(s, side, j);
         double rate = r->rate[stream], metres = r->metres[stream];

@@ -47,7 +47,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
 {
     const struct ceduo_scene *scene = &ready->scene;
     const struct ground *g = w->g = &ready->ground;
-    const struct marks *marks = w->marks = &ready->marks;
+    w->marks = &ready->marks;
     w->seed = scene->simulation.seed;
     w->number = number;
     w->scale_rn = scene->simulation.scale_rn;
@@ -76,9 +76,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->stems_pause = PAUSE;
     w->cancelled = w->gives_up = false;
     w->facets_of = w->turns_of = UINT64_MAX;
-    w->next_mark = 0;
-    while (w->next_mark < marks->n && marks->at[w->next_mark].x <= x)
-        w->next_mark++;
+    w->next_mark = 0; /* all stand below each release */
     w->next_cell = 0;
     skip_cells(w, x);
     set_next_x(w);

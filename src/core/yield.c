@@ -84,7 +84,7 @@ static int by_year(const void *a, const void *b)
     const struct ceduo_felling *f = a, *g = b;
     if (f->year != g->year)
         return f->year < g->year ? -1 : 1;
-    return f->belt < g->belt ? -1 : f->belt > g->belt;
+    return (f->belt > g->belt) - (f->belt < g->belt);
 }
 
 static size_t count_fellings(const struct ceduo_belt *belt, unsigned last)

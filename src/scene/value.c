@@ -260,7 +260,5 @@ void ceduo_value_forget(const struct value *v)
 {
     const double none = NAN; /* of a spread its mean */
     for (size_t i = 0; i < v->n; i++)
-        memcpy((char *)v->at + i * v->stride, &none, sizeof none);
-    if (v->relative)
-        *v->relative = none;
+        memcpy((char *)v->at + i * v->stride, &none, sizeof none); /* no place along the slope: all these must be given */
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/run_pack.h"
+#include "core/variate_sums.h"
 #include "paper_site.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
@@ -289,12 +290,16 @@ static void weights_that_are_none_are_refused(void **state)
             assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
             memcpy(first.bytes + places[i], was, 8);
         }
+    struct ceduo_ends ends;
+    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK); /* of no rocks yet */
+    assert_true(isnan(ends.stop_p50));
     assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_OK);
     ceduo_run_free(run);
     free(first.bytes);
 }
 
-/* Where samples are not kept the energies of the first rocks come last: no more of them than rocks that arrived. */
+/* Where samples are not kept the energies of the first rocks and then their variates come last: no more energies than rocks that
+ * arrived. */
 static void more_energies_than_arrivals_are_refused(void **state)
 {
     (void)state;
@@ -315,16 +320,20 @@ static void more_energies_than_arrivals_are_refused(void **state)
     def.rocks_most = 8;
     struct ceduo_run *to = run_of(def, 0);
     assert_int_equal(paper_run_save(from, &s.bytes, &s.n), CEDUO_OK);
-    size_t at = s.n - 8 * (size_t)a.reached - 1; /* their bits */
+    size_t variates = 8 * VARIATES * sizeof(float), behind = s.n - variates;
+    size_t at = behind - 8 * (size_t)a.reached - 1; /* their bits */
     unsigned lacks = ~(unsigned)s.bytes[at] & 0xff;
-    s.bytes = realloc(s.bytes, s.n + 8);
-    assert_non_null(s.bytes);
-    s.bytes[at] = (unsigned char)(s.bytes[at] | (lacks & -lacks)); /* one more of them */
-    put_double(&s, s.n, 1000);
-    assert_int_equal(ceduo_run_adopt(to, s.bytes, s.n + 8), CEDUO_BAD_PART);
-    s.bytes[at] = (unsigned char)(s.bytes[at] & ~(lacks & -lacks));
-    assert_int_equal(ceduo_run_adopt(to, s.bytes, s.n + 8), CEDUO_BAD_PART); /* too long */
+    struct saved more = {malloc(s.n + 8), s.n + 8};
+    assert_non_null(more.bytes);
+    memcpy(more.bytes, s.bytes, behind);
+    memcpy(more.bytes + behind + 8, s.bytes + behind, variates);
+    more.bytes[at] = (unsigned char)(s.bytes[at] | (lacks & -lacks)); /* one more of them */
+    put_double(&more, behind, 1000);
+    assert_int_equal(ceduo_run_adopt(to, more.bytes, more.n), CEDUO_BAD_PART);
+    more.bytes[at] = s.bytes[at];
+    assert_int_equal(ceduo_run_adopt(to, more.bytes, more.n), CEDUO_BAD_PART); /* too long */
     assert_int_equal(ceduo_run_adopt(to, s.bytes, s.n), CEDUO_OK);
+    free(more.bytes);
     free(s.bytes);
     ceduo_run_free(from);
     ceduo_run_free(to);

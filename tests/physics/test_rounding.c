@@ -69,6 +69,12 @@ static void the_shortest_facet(void **state)
             assert_true(vx * vx + vz * vz <= 2 * 9.81 * 5 * (1 + EXACT));
             if (law == CEDUO_LAW_LUMPED)
                 expect_near(vx, sqrt(2 * 9.81 * 5));
+            const double wall[] = {0, -1, -20}; /* as steep as can be: what falls along it keeps all of its speed */
+            line_scene_init(&scene, 3, x, wall, (struct line_ground){1, 1, 0}, 1, (enum ceduo_law)law);
+            line_scene_release(&scene, 0, 5, 0, 0, 0);
+            assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
+            vx = way.pieces[1].vx, vz = way.pieces[1].vz;
+            assert_true(vx * vx + vz * vz <= 2 * 9.81 * 5 * (1 + EXACT));
         }
 }
 

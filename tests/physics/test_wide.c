@@ -366,6 +366,25 @@ static void a_long_profile(void **state)
         line.scene.controls_count = 1;
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
         EXPECT(expect_same("long profile", &def, 100, 400), >, 5000);
+
+        static struct paper_site site; /* uphill at first, among stems, behind which each looks for its landing again */
+        double middle = x[LONG_VERTICES / 2];
+        paper_site_init(&site);
+        site.scene.slope = line.scene.slope;
+        site.scene.simulation.law = (enum ceduo_law)law;
+        site.scene.simulation.contact_model = CEDUO_STEMS;
+        site.scene.release = (struct ceduo_release){.x = ceduo_number(middle),
+                                                    .height = ceduo_number(1),
+                                                    .vx = ceduo_number(-25),
+                                                    .vz = ceduo_number(12),
+                                                    .spin = ceduo_number(0)};
+        site.belts[0].from = 0;
+        site.belts[0].to = site.belts[1].from = middle - 10;
+        site.belts[1].to = x[LONG_VERTICES - 1];
+        site.control.x = middle + 20;
+        def = ceduo_run_def_default(&site.scene);
+        def.option = &site.option;
+        EXPECT(expect_same("uphill among stems", &def, 100, 400), >, 1000);
     }
 }
 

@@ -595,6 +595,13 @@ static void whole_rotations(void **state)
     expect_window(CEDUO_WINDOW_ROTATION, 10, 10 + ROTATION - 1); /* the selection coppice's first cut: 10 */
     wood.belts[0].cut_year = 40;
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + ROTATION - 1);
+    for (int i = 0; i < 2; i++) { /* together they begin every 899 years: then the longer one counts */
+        wood.belts[i].stand.cutting.rotation = 29;
+        wood.belts[1 - i].stand.cutting.rotation = 31;
+        struct ceduo_window w = ceduo_window_of(&wood.option);
+        EXPECT(w.last - w.first, ==, 31 - 1);
+    }
+    wood.belts[1].stand.cutting.rotation = ROTATION;
     wood.belts[0].stand.cutting.rotation = 2 * ROTATION; /* two rotations that begin together every 2 ROTATION years */
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + 2 * ROTATION - 1);
     wood.site.scene.year_first = 3;

@@ -112,20 +112,21 @@ static bool fly_scalar_wood(void)
     return fly(def_of(true, CEDUO_EXACT_BYTES));
 }
 
-/* A profile so long that its segments are put into blocks. */
-static bool fly_long(void)
+/* A profile of so many vertices that its segments are put into blocks. */
+enum { VERTICES_MOST = 2600 };
+static bool fly_profile(size_t vertices)
 {
-    enum { VERTICES = 40 };
-    static double x[VERTICES], z[VERTICES];
-    static struct ceduo_segment segments[VERTICES - 1];
+    static double x[VERTICES_MOST], z[VERTICES_MOST];
+    static struct ceduo_segment segments[VERTICES_MOST - 1];
+    double metres = 156 / (double)(vertices - 1);
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    for (size_t i = 0; i < VERTICES; i++) {
-        x[i] = 4 * (double)i;
-        z[i] = -3 * (double)i + (double)(i % 3);
+    for (size_t i = 0; i < vertices; i++) {
+        x[i] = metres * (double)i;
+        z[i] = metres * (-0.75 * (double)i + 0.25 * (double)(i % 3));
         if (i > 0)
             segments[i - 1] = site.segments[2];
     }
-    site.scene.slope = (struct ceduo_slope){.vertices = VERTICES, .x = x, .z = z, .segments = segments};
+    site.scene.slope = (struct ceduo_slope){.vertices = vertices, .x = x, .z = z, .segments = segments};
     site.scene.simulation.rocks = 50;
     site.scene.release.x.mean = 20;
     site.scene.release.vx.mean = 3;
@@ -139,6 +140,17 @@ static bool fly_long(void)
     add(&contacts, sizeof contacts);
     ceduo_run_free(run);
     return true;
+}
+
+static bool fly_long(void)
+{
+    return fly_profile(40);
+}
+
+/* Its vertices are less than a rock's radius apart, so that blocks of them are rolled over. */
+static bool fly_fine(void)
+{
+    return fly_profile(VERTICES_MOST);
 }
 
 /* From samples to histograms on the way. */
@@ -313,6 +325,9 @@ static bool ask(struct ceduo_question q)
 static bool ask_both_laws(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_control controls[2] = {site.control, site.control}; /* at one place */
+    site.scene.controls = controls;
+    site.scene.controls_count = 2;
     struct ceduo_question q = ceduo_question_default(&site.scene);
     q.run.other_energy = true;
     return ask(q);
@@ -568,6 +583,23 @@ static bool assess(void)
     return status == CEDUO_OK;
 }
 
+/* What was read before, by the index: nothing flew among stems. */
+static bool assess_index(void)
+{
+    init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
+    static struct ceduo_arrivals bare = {.released = 10, .reached = 10};
+    const struct ceduo_flown flown = {.rocks = 10, .controls = 1, .arrivals = &bare};
+    struct ceduo_result *result;
+    enum ceduo_status status = ceduo_result_assess(&site.scene, &flown, NULL, NULL, NULL, &result);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    if (status == CEDUO_OK) {
+        assert_null(ceduo_result_wooded(result, 0, 0));
+        add(&result->options[0].controls[0].dissipated, sizeof(double));
+    }
+    ceduo_result_free(result);
+    return status == CEDUO_OK;
+}
+
 /* A rock that rolls among stools of one shoot to stools of many: more room for these is wanted as it rolls. */
 static void make_roll(void)
 {
@@ -713,8 +745,8 @@ static bool find(void)
 static void runs_go_on(void **state)
 {
     (void)state;
-    task *const tasks[] = {fly_bare, fly_long, fly_scalar_wood, fly_histograms};
-    for (size_t i = 0; i < 4; i++)
+    task *const tasks[] = {fly_bare, fly_long, fly_fine, fly_scalar_wood, fly_histograms};
+    for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }
 
@@ -739,6 +771,7 @@ static void what_stands_on_runs(void **state)
     without_memory(ask_of_one_option);
     without_memory(ask_part);
     without_memory(assess);
+    without_memory(assess_index);
     without_memory(follow);
     without_memory(follow_one);
     without_memory(follow_roll);

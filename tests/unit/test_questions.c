@@ -28,6 +28,7 @@ static void no_rocks_are_not_precise(void **state)
     assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(answer.result), 0);
     assert_null(ceduo_result_wooded(answer.result, 0, 0));
+    assert_true(isnan(ceduo_share_to_first(answer.result, 0).half));
     assert_false(answer.tolerance_met);
     EXPECT(answer.result->options[0].stands[0].adc_m, >, 0);
     ceduo_answer_release(&answer);
@@ -137,6 +138,43 @@ static void options_that_are_the_same(void **state)
     ceduo_answer_release(&answer);
 }
 
+/* Two things at one place: the same rocks come, and each has its own limit. */
+static void controls_at_one_place(void **state)
+{
+    (void)state;
+    struct ceduo_question q = question_of(200);
+    struct ceduo_answer answer;
+    struct ceduo_control controls[2] = {site.control, site.control};
+    controls[1].accepted = 0;
+    site.scene.controls = controls;
+    site.scene.controls_count = 2;
+    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    const struct ceduo_arrivals *a = ceduo_result_wooded(answer.result, 0, 0), *b = ceduo_result_wooded(answer.result, 0, 1);
+    EXPECT(a->reached, >, 0);
+    EXPECT(a->reached, ==, b->reached);
+    EXPECT(a->energy.p95, ==, b->energy.p95);
+    EXPECT(b->exceeded, ==, b->reached);
+    ceduo_answer_release(&answer);
+}
+
+/* Years in which no rock was simulated have no share that could be less. */
+static void years_without_rocks_differ_by_nothing_known(void **state)
+{
+    (void)state;
+    struct ceduo_question q = question_of(50);
+    struct ceduo_answer answer;
+    struct ceduo_years *none;
+    q.years = true;
+    q.window = (struct ceduo_window){.last = 1, .step = 1};
+    assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, q.window, &none), CEDUO_OK);
+    EXPECT(ceduo_years_difference(answer.years[0], answer.years[0]).mean, ==, 0);
+    assert_true(isnan(ceduo_years_difference(answer.years[0], none).mean));
+    assert_true(isnan(ceduo_years_difference(none, answer.years[0]).mean));
+    ceduo_years_free(none);
+    ceduo_answer_release(&answer);
+}
+
 /* Three belts that are cut together, every ten years from the second on: by year, then along the slope. */
 static void fellings_are_in_order(void **state)
 {
@@ -194,6 +232,8 @@ int main(void)
         cmocka_unit_test(other_sizes_are_cancelled),
         cmocka_unit_test(a_goal_is_reached_at_the_worst_control),
         cmocka_unit_test(options_that_are_the_same),
+        cmocka_unit_test(controls_at_one_place),
+        cmocka_unit_test(years_without_rocks_differ_by_nothing_known),
         cmocka_unit_test(fellings_are_in_order),
         cmocka_unit_test(a_stand_just_cut_yields),
     };
