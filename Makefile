@@ -11,7 +11,7 @@
 #   make man        write the tables of the program into the manual
 #   make pictures   draw the pictures of README
 #   make po         bring the marked text of the sources into src/po/*.po
-#   make lint       run cppcheck and clang-tidy
+#   make lint       run clang's warnings, cppcheck and clang-tidy
 #   make fuzz       run libFuzzer, FUZZ_SECONDS=600 for each reader
 #   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
 #   make coverage   list branches of the library and src/io that no test takes, with the reason for each: slow
@@ -243,15 +243,16 @@ DEBIAN_FUZZ := clang libclang-rt-dev
 # These checks of cppcheck are off: uninitialised variables of which only the address is taken, and memory kept by realloc
 # when a later one fails, both known to be correct here (-Wall, the sanitizers and the tests of failing allocations check
 # them too); two variables with the same initial value.
-DEBIAN_LINT := cppcheck clang-tidy
+DEBIAN_LINT := cppcheck clang clang-tidy
 CPPCHECK := -q --error-exitcode=1 --std=c11 --enable=warning,performance,portability --inline-suppr \
 	--suppress=missingIncludeSystem --suppress=uninitvar --suppress=legacyUninitvar --suppress=memleak \
 	--suppress=duplicateAssignExpression
+CLANG_DEFINES := -std=c17 -D_GNU_SOURCE -Iinclude -Isrc -Itests "-DCEDUO_DATADIR=\"\"" "-DCEDUO_LOCALEDIR=\"\""
 do-lint:
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_LINT)" deps
+	ls src/*/*.c tests/*/*.c | xargs -P $(CORES) -n 8 clang -fsyntax-only -Werror $(WARNINGS) $(CLANG_DEFINES)
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
-	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- -std=c17 -D_GNU_SOURCE -Iinclude -Isrc \
-	    "-DCEDUO_DATADIR=\"\"" "-DCEDUO_LOCALEDIR=\"\"" 2>/dev/null' tidy
+	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(CLANG_DEFINES) 2>/dev/null' tidy
 
 # Runs tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Tests of the screen
 # and of whole workflows are left out: what they take of these parts others take sooner, and they would take most of the time.

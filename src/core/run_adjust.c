@@ -25,7 +25,7 @@ static double total(const struct sums *s, enum varied varied)
 static bool are_shares(const struct adjusted *a)
 {
     for (int e = 0; e < CEDUO_ENDS; e++)
-        if (!(ceduo_run_adjusted_share(a, VARIED_ENDED + e) >= 0))
+        if (!(ceduo_run_adjusted_share(a, (enum varied)(VARIED_ENDED + e)) >= 0))
             return false;
     double reach = ceduo_run_adjusted_share(a, VARIED_REACHED), exceed = ceduo_run_adjusted_share(a, VARIED_EXCEEDED);
     return reach > 0 && reach <= 1 && exceed >= 0 && exceed <= reach;

@@ -106,7 +106,7 @@ static void adjust(const struct ceduo_run *run, const struct sums *s, struct ced
         to->exceed_hi = fmin(to->exceed_hi, to->reach_hi);
     }
     for (int e = 0; e < CEDUO_ENDS; e++)
-        to->missed[e] = ceduo_run_adjusted_share(&a, VARIED_ENDED + e);
+        to->missed[e] = ceduo_run_adjusted_share(&a, (enum varied)(VARIED_ENDED + e));
     struct ceduo_paired released = ceduo_run_adjusted_per_released(&a, &s->of[ENERGY]);
     to->energy_per_released = released.mean;
     to->energy_per_released_se = released.se;
@@ -378,7 +378,7 @@ static void adjust_ends(const struct ceduo_run *run, double share[CEDUO_ENDS], c
         return;
     double each = ceduo_run_adjusted_share(&a, VARIED_REACHED) / (double)s.of[SPEED].n;
     for (int e = 0; e < CEDUO_ENDS; e++)
-        share[e] = ceduo_run_adjusted_share(&a, VARIED_ENDED + e) + each * (double)(count[e] - s.ended[e]);
+        share[e] = ceduo_run_adjusted_share(&a, (enum varied)(VARIED_ENDED + e)) + each * (double)(count[e] - s.ended[e]);
 }
 
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)

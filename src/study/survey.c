@@ -224,7 +224,7 @@ static bool make_classes(struct surveyor *s)
     s->answer->classes = classes;
     for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST; k++)
         if (present[k])
-            fill_class(s, &classes[s->answer->classes_count++], k / CLASSES_MOST, k % CLASSES_MOST);
+            fill_class(s, &classes[s->answer->classes_count++], (enum ceduo_survey_kind)(k / CLASSES_MOST), k % CLASSES_MOST);
     free(present);
     return classes != NULL;
 }

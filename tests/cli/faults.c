@@ -23,6 +23,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -31,7 +32,7 @@ void *__libc_malloc(size_t n);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t n);
 
-static enum { NOTHING, MEMORY, CALL, KILL, STOP, TAKEN, SHORT, THREADS } fault;
+static enum fault { NOTHING, MEMORY, CALL, KILL, STOP, TAKEN, SHORT, THREADS } fault;
 static unsigned long fault_at;
 static bool fault_on;
 static const char *fault_from; /* NULL: everything counts */
@@ -44,7 +45,7 @@ __attribute__((constructor)) static void set_up(void)
     const char *name = getenv("FAULT"), *at = getenv("FAULT_AT");
     for (int i = 1; name && i < 8; i++)
         if (strcmp(name, names[i]) == 0)
-            fault = i;
+            fault = (enum fault)i;
     fault_at = at ? strtoul(at, NULL, 10) : 0;
     fault_on = getenv("FAULT_ON") != NULL;
     fault_from = getenv("FAULT_FROM");
@@ -225,6 +226,7 @@ static int main_with_faults(int argc, char **argv, char **environment)
     return real_main(argc, argv, environment);
 }
 
+int __libc_start_main(int (*)(int, char **, char **), int, char **, void (*)(void), void (*)(void), void (*)(void), void *);
 int __libc_start_main(int (*program)(int, char **, char **), int argc, char **argv, void (*init)(void), void (*fini)(void),
                       void (*end_of_linker)(void), void *stack_end)
 {

@@ -473,7 +473,7 @@ static void random_stand(struct sample *s)
         .shoots = s->shoots,
         .trees = s->trees,
         .u = NAN,
-        .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000)},
+        .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000), 0},
         .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s->stay}};
     stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
     stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;

@@ -1061,7 +1061,7 @@ static void nothing_is_drawn_beside_the_area(void **state)
             p.stems = i % 11 < 3 ? passed : NULL;
             p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);
-            ceduo_plot_draw(plot, &cells->canvas, &area, &p);
+            ceduo_plot_draw((enum ceduo_plot)plot, &cells->canvas, &area, &p);
             for (int row = 0; row < cells->height; row++)
                 for (int column = 0; column < cells->width; column++) {
                     bool in = column >= area.left && column < area.left + area.width && row >= area.top &&
@@ -1160,7 +1160,7 @@ static void pictures_draw_on_another_surface(void **state)
         struct page page = {0};
         struct ceduo_canvas canvas = {&surface, &page, 8, 16};
         bool bars = plot == CEDUO_PLOT_HISTOGRAM || plot == CEDUO_PLOT_ADC || plot == CEDUO_PLOT_COMPARE;
-        ceduo_plot_draw(plot, &canvas, &area, &p);
+        ceduo_plot_draw((enum ceduo_plot)plot, &canvas, &area, &p);
         if (page.labels == 0 || page.strayed)
             fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
         bool computed = plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_DOUBT &&

@@ -19,8 +19,8 @@ static char *scene_with(const char *line)
         "ceduo: scene/1\n", "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n", "release: {vx_m_s: 1}\n",
         "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], segments: [{rn: 0.3, rt: 0.8, friction: 0.5}]}\n",
         "controls: [{x_m: 90}]\n", "simulation: {rocks: 10}\n",
-        "forest: [{from_m: 10, to_m: 80, stand: {stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: "
-        "0.06, height_m: 6}]}}]\n"};
+        ("forest: [{from_m: 10, to_m: 80, stand: {stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: "
+         "0.06, height_m: 6}]}}]\n")};
     struct text text = {0};
     for (size_t i = 0; i < LENGTH(lines); i++) {
         size_t key = strcspn(lines[i], ":") + 1;
@@ -113,8 +113,8 @@ static void wrong_scenes_are_told(void **state)
         "simulation: {scale_rn: true}", "simulation: {scale_rn: false}", "release: {x_m: {spread: 0}}",
         "rock: {shape: cylinder, diameter_m: 1, height_m: 1, mass_kg: 9}",
         "rock: {diameter_m: {mean: 0.5, spread: 0.1, kind: uniform, source: {kind: measured}}}",
-        "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, {from_m: 40, "
-        "to_m: 120, material: talus}, {from_m: 120, to_m: 150, material: cliff}]}",
+        ("slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, {from_m: 40, "
+         "to_m: 120, material: talus}, {from_m: 120, to_m: 150, material: cliff}]}"),
         "forest: [{from_m: 10, to_m: 80, stand: {name: none}}]", "forest: [{from_m: 10, to_m: 80, stand: {}}]"};
     for (size_t i = 0; i < LENGTH(fine); i++) {
         char *told = problems_of(fine[i], &good);

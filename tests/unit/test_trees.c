@@ -53,7 +53,7 @@ static void scalars_are_read_back(void **state)
         "a: b", "#x",   "a #b", "\"q\"", "\\",  "\n",   "a\nb", "\x01", "\x7f", "0.5", "1e5", "007", "+1",  "\xc3\xa0", "[a]",
         "{a}",  "&a",   "*a",  "!a",   "%a",    "@a",   "`a`", "|",    ">",   "?",   "? a", ":",    "a,b", "=",   "<<",
         "_",    ".",    "/",   "a/b",  "..",    "---",  "...", "'",    "a'b", "AZaz09", "on", "null x", "a\tb", "\\n", "no",
-        "a\xc2\x80", "a\xc2\x85z", "\xc2\x9f", "\xc2\xa0", "a\xe2\x80\xa8z", "\xe2\x80\xa9", "\xef\xbb\xbf" "a", "\xef\xbf\xbe", "\xef\xbf\xbf",
+        "a\xc2\x80", "a\xc2\x85z", "\xc2\x9f", "\xc2\xa0", "a\xe2\x80\xa8z", "\xe2\x80\xa9", ("\xef\xbb\xbf" "a"), "\xef\xbf\xbe", "\xef\xbf\xbf",
         "\xf4\x8f\xbf\xbf", "a\rb", "a  b", " ", "\t"};
     struct arena arena = {0};
     const struct node *empty = parsed(&arena, "{}");
