@@ -282,9 +282,10 @@ static inline void choose_kinds(const struct points *p, const struct wood_stools
     many_of_integers(&bits, &u);
     u = (u + 0.5) * 0x1p-32;
     for (size_t j = 0; j + 1 < t->cohorts; j++) {
-        many_bits beyond = (many_bits)(u >= t->kinds[j].share_to);
+        const many_bits beyond = (many_bits)(u >= t->kinds[j].share_to);
+        const many_reals zero = {0}, next = zero + t->kinds[j + 1].dbh;
         *kind -= beyond;
-        *dbh = CHOOSE(beyond, (many_reals){0} + t->kinds[j + 1].dbh, *dbh);
+        *dbh = CHOOSE(beyond, next, *dbh);
     }
 }
 

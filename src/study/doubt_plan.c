@@ -70,7 +70,7 @@ static enum ceduo_status fly(const struct ceduo_doubt_def *def, const struct ced
     return status;
 }
 
-static const struct known *find(const struct memory *memory, uint64_t scene, uint64_t forest)
+static struct known *find(struct memory *memory, uint64_t scene, uint64_t forest)
 {
     for (size_t i = 0; i < memory->n; i++)
         if (memory->items[i].scene == scene && memory->items[i].forest == forest)
@@ -96,15 +96,14 @@ static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struc
     uint64_t key = ceduo_scene_key(scene);
     for (size_t i = 0; i < options; i++) {
         uint64_t forest = ceduo_option_key(scene, &scene->options[i]);
-        const struct known *known = find(memory, key, forest);
+        struct known *known = find(memory, key, forest);
         if (!known) {
-            struct known *fresh = &memory->items[memory->n];
-            *fresh = (struct known){key, forest, {{{0}}}};
-            enum ceduo_status status = fly(def, scene, forest != 0 ? &scene->options[i] : NULL, fresh->values);
+            known = &memory->items[memory->n];
+            *known = (struct known){key, forest, {{{0}}}};
+            enum ceduo_status status = fly(def, scene, forest != 0 ? &scene->options[i] : NULL, known->values);
             if (status != CEDUO_OK)
                 return status;
             memory->n++;
-            known = fresh;
         }
         memcpy(&values[i * CEDUO_DOUBT_KINDS], known->values, sizeof known->values);
         read_lights(scene, i, &values[i * CEDUO_DOUBT_KINDS]);

@@ -226,7 +226,7 @@ def play(folder, script, *arguments, charset="braille"):
                 width, height = map(int, rest.split())
             lines.append(line)
     done = run_script(folder, "\n".join(lines) + "\n", "--charset", charset, *arguments)
-    expect(done.status == DONE and done.err == "", "the script", "\n".join(lines), done)
+    expect(done.status == DONE and done.err == "", done, "the script", "\n".join(lines))
     screens = []
     for i, (width, height) in enumerate(sizes):
         path = folder / f"screen-{i}.txt"
