@@ -102,8 +102,8 @@ static void answer_many(struct text *text, const struct subject *s)
 {
     struct text best = {0};
     ceduo_words_best(&best, s->result->scene, s->chapter->report->verdict);
-    for (char *end = best.bytes; end && (end = strchr(end, '\n'));)
-        *end = ' ';
+    for (size_t i = 0; i < best.length; i++)
+        best.bytes[i] = best.bytes[i] == '\n' ? ' ' : best.bytes[i];
     ceduo_text_put(text, ceduo_text_string(&best));
     text->failed |= best.failed;
     ceduo_text_free(&best);

@@ -78,7 +78,7 @@ static const struct content contents[2][3] = {
 static double value_at(const struct strip *s, const struct curve *curve, size_t cell)
 {
     const struct ceduo_envelope *e = &(curve->bare ? s->bare : s->sight)->envelopes[cell];
-    return *(const double *)((const char *)e + curve->offset) * (s->energy ? KILO : 1);
+    return *(const double *)(const void *)((const char *)e + curve->offset) * (s->energy ? KILO : 1);
 }
 
 /* Columns for the names of the curves and a blank on either side. */
