@@ -24,7 +24,7 @@ static bool reserve(struct text *text, size_t more)
 {
     if (text->failed)
         return false;
-    if (text->length + more + 1 <= text->room)
+    if (more < text->room - text->length)
         return true;
     size_t room = text->room ? text->room : 64;
     while (room < text->length + more + 1)
