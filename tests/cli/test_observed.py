@@ -42,6 +42,13 @@ def test_forms():
     accepted([])
 
 
+def test_too_many():
+    """A thousand rows are read, and one more is refused by its number"""
+    row = {"stops": {"x_m": [40], "of": 1}}
+    accepted([{**row, "name": f"n{i}"} for i in range(1000)])
+    refused("1001 items; at most 1000 can be computed", [{**row, "name": f"n{i}"} for i in range(1001)])
+
+
 def test_kinds():
     """All kinds, as values or as their mean, sd and number"""
     mean = {"mean": 10, "sd": 2, "n": 5}

@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import re
 
 from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, run_all, scene, stand
 
@@ -83,6 +84,21 @@ def test_lights():
             page = " ".join(ceduo(f"--sensitivity={POINTS}", "-n", 200, path).out.split())
             expect_equal("Whether the test of energy passes depends on " in page, energy, page)
             expect_equal("Whether the test of contact passes depends on " in page, contact, page)
+
+
+def test_lights_of_two_inputs():
+    """Two kinds of trees that are alike and in equal doubt are both named; beside one that is nearly known the other alone"""
+    tree = {"per_ha": 200, "dbh_m": 0.3, "height_m": 18}
+    for least, most, both in ((50, 350, True), (195, 205, False)):
+        doubt = [{"path": "forest[0].stand.trees[0].per_ha", "lo": 50, "hi": 350},
+                 {"path": "forest[0].stand.trees[1].per_ha", "lo": least, "hi": most}]
+        forest = [{"from_m": 0, "to_m": 85, "stand": {"trees": [tree, tree], "species": "fagus-sylvatica"}}]
+        what = measured(doubt=doubt, forest=forest, simulation={"threshold_m": 30})
+        with Folder() as f:
+            page = " ".join(good("--sensitivity=128", "-n", 20, f.write("s.yaml", what)).out.split())
+            found = re.search(r"Whether the test of contact passes depends on (.*?)\.", page)
+            expect(found, page)
+            expect_equal(" and " in found[1], both, found[1])
 
 
 def test_lights_of_gaps():

@@ -122,7 +122,7 @@ static bool fly_profile(size_t vertices)
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < vertices; i++) {
         x[i] = metres * (double)i;
-        z[i] = metres * (-0.75 * (double)i + 0.25 * (double)(i % 3));
+        z[i] = metres * (-0.75 * (double)i + 0.25 * (double)(i % 2));
         if (i > 0)
             segments[i - 1] = site.segments[2];
     }
