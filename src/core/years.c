@@ -9,20 +9,12 @@
 
 /* ---- windows ---- */
 
-static unsigned greatest_divisor(unsigned a, unsigned b)
-{
-    while (b > 0) {
-        unsigned rest = a % b;
-        a = b;
-        b = rest;
-    }
-    return a;
-}
-
 /* After how many years two rhythms begin together again. */
 static unsigned period_of(unsigned a, unsigned b)
 {
-    unsigned together = a / greatest_divisor(a, b) * b;
+    unsigned together = a;
+    while (together <= CEDUO_PERIOD_MOST && together % b > 0)
+        together += a;
     return together <= CEDUO_PERIOD_MOST ? together : a > b ? a : b;
 }
 

@@ -259,7 +259,7 @@ static enum ceduo_status refine(struct fitting *f)
 static enum ceduo_status density(void *context, size_t chain, const double *y, double *log_density)
 {
     struct fitting *f = context;
-    double u[PARAMETERS], prior = 0;
+    double u[PARAMETERS] = {0}, prior = 0;
     for (size_t i = 0; i < f->def->parameters_count; i++) {
         u[i] = unit(y[i]);
         prior += log(u[i]) + log1p(-u[i]);

@@ -178,11 +178,14 @@ void ceduo_plot_axes(struct ceduo_canvas *canvas, const struct ceduo_frame *fram
 double ceduo_plot_round(double value, bool up)
 {
     static const double round[] = {1, 2, 5, 10};
-    double power = pow(10, floor(log10(value)));
-    for (int i = 0; i < 4; i++)
-        if (round[i] * power * (1 + 1e-9) >= value)
-            return up || round[i] * power <= value * (1 + 1e-9) ? round[i] * power : round[i - 1] * power;
-    return 10 * power;
+    double power = pow(10, floor(log10(value))), before = power;
+    for (int i = 0; i < 4; i++) {
+        double here = round[i] * power;
+        if (here * (1 + 1e-9) >= value)
+            return up || here <= value * (1 + 1e-9) ? here : before;
+        before = here;
+    }
+    return before;
 }
 
 enum ceduo_role ceduo_plot_light_role(enum ceduo_light light)
