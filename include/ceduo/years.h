@@ -41,8 +41,10 @@ struct ceduo_window {
  * together. */
 struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 
-/* The same, with the first and the last year that the scene names instead; of more than CEDUO_YEARS_MOST some, evenly
- * spread. */
+/* At the most so many (> 0) of its years, evenly spread. */
+struct ceduo_window ceduo_window_of_most(struct ceduo_window window, unsigned most);
+
+/* As ceduo_window_of(), with the first and the last year that the scene names instead, CEDUO_YEARS_MOST at the most. */
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option);
 
 struct ceduo_years {

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define WAITING 128   /* rows */
-#define AT_ONCE 8     /* cells whose bins fit the fastest cache */
+#define WAITING 128 /* rows */
+#define AT_ONCE 8   /* cells whose bins fit the fastest cache */
 
 /* What a row has in the first bin of a quantity. */
 static size_t first_of(int quantity)

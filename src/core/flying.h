@@ -51,11 +51,6 @@ static inline void pass_mark(struct walker *w, double vx, double vz, double spin
     w->cross(w->context, w, w->next_mark++, &c);
 }
 
-static inline bool is_cell_before(const struct walker *w, double x)
-{
-    return islessequal(w->marks->cell_x[w->next_cell], x);
-}
-
 static inline void skip_cells(struct walker *w, double x)
 {
     while (is_cell_before(w, x))

@@ -96,23 +96,17 @@ static void keep_vertices(struct ground *g, const struct ceduo_slope *slope, dou
 
 /* ---- segments ---- */
 
-/* A length of few bits would make c and s longer than 1 together, and a contact would give energy. */
-static void set_direction(struct ground_segment *to, double dx, double dz)
-{
-    double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
-    double length = ceduo_length(dx * scale, dz * scale);
-    to->c = dx * scale / length;
-    to->s = dz * scale / length;
-}
-
 static void prepare_segment(struct ground *g, size_t j, double radius)
 {
     const struct ceduo_segment *from = g->given[j];
     struct ground_segment *to = &g->segments[j];
     double dx = g->x[j + 1] - g->x[j], dz = g->z[j + 1] - g->z[j];
-    double length = ceduo_length(dx, dz);
+    /* a length of few bits would make c and s longer than 1 together, and a contact would give energy */
+    double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
+    double length = ceduo_length(dx * scale, dz * scale);
     to->m = dz / dx;
-    set_direction(to, dx, dz);
+    to->c = dx * scale / length;
+    to->s = dz * scale / length;
     to->friction = from->friction;
     to->mu = from->mu;
     to->rn = from->rn.mean;
@@ -121,7 +115,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
         to->theta = g->segments[j - 1].theta;
     else
         to->theta = isnan(from->roughness_m) ? from->roughness_rad : ceduo_atan(from->roughness_m / radius);
-    g->along[j + 1] = g->along[j] + length;
+    g->along[j + 1] = g->along[j] + length / scale;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;
 }

@@ -42,9 +42,8 @@ static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_
         if (q->only != CEDUO_ALL_OPTIONS && q->only != i)
             continue;
         struct ceduo_window window = q->window.step > 0 ? q->window : ceduo_window_in(scene, option);
-        unsigned count = (window.last - window.first) / window.step + 1;
-        if (q->years_most > 0 && count > q->years_most)
-            window.step *= (count + q->years_most - 1) / q->years_most;
+        if (q->years_most > 0)
+            window = ceduo_window_of_most(window, q->years_most);
         status = ceduo_years_create(scene, option, window, &a->years[i]);
         if (status == CEDUO_OK)
             status = ceduo_years_fly(a->years[i], pool, bare, rocks);

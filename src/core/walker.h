@@ -78,6 +78,11 @@ static inline bool is_behind_marks(const struct walker *w)
     return w->next_mark == w->marks->n && w->next_cell == w->marks->cells;
 }
 
+static inline bool is_cell_before(const struct walker *w, double x)
+{
+    return islessequal(w->marks->cell_x[w->next_cell], x);
+}
+
 static inline void set_next_x(struct walker *w)
 {
     const struct marks *m = w->marks;

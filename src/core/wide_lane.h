@@ -331,7 +331,7 @@ LANE void pass_marks(struct wide *k, size_t i, const struct flight *at, double x
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = spin;
-    if (w->row.at[0] && islessequal(w->marks->cell_x[w->next_cell], x))
+    if (w->row.at[0] && is_cell_before(w, x))
         pass_cells(w, at, x, t);
     set_next_x(w);
     if (w->next_x <= x) {

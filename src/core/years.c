@@ -39,6 +39,13 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
     return w;
 }
 
+struct ceduo_window ceduo_window_of_most(struct ceduo_window w, unsigned most)
+{
+    unsigned count = (w.last - w.first) / w.step + 1;
+    w.step *= (count + most - 1) / most;
+    return w;
+}
+
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
     struct ceduo_window w = ceduo_window_of(option);
@@ -50,8 +57,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struc
     w.first = isnan(first) ? 0 : (unsigned)first;
     w.last = isnan(last) ? w.first + period : (unsigned)last;
     w.last = w.last < w.first ? w.first : w.last;
-    w.step = (w.last - w.first) / CEDUO_YEARS_MOST + 1;
-    return w;
+    return ceduo_window_of_most(w, CEDUO_YEARS_MOST);
 }
 
 /* ---- growing ---- */

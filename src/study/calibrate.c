@@ -255,15 +255,22 @@ static enum ceduo_status refine(struct fitting *f)
 
 /* ---- chains ---- */
 
-/* Every value within the bounds is as likely before: in y the density is u(1 - u). */
-static enum ceduo_status density(void *context, size_t chain, const double *y, double *log_density)
+/* The place u of y, and the logarithm of its density before: every value within the bounds is as likely, which in y is
+ * u(1 - u). */
+static double prior_at(const struct fitting *f, const double *y, double *u)
 {
-    struct fitting *f = context;
-    double u[PARAMETERS] = {0}, prior = 0;
+    double prior = 0;
     for (size_t i = 0; i < f->def->parameters_count; i++) {
         u[i] = unit(y[i]);
         prior += log(u[i]) + log1p(-u[i]);
     }
+    return prior;
+}
+
+static enum ceduo_status density(void *context, size_t chain, const double *y, double *log_density)
+{
+    struct fitting *f = context;
+    double u[PARAMETERS] = {0}, prior = prior_at(f, y, u);
     *log_density = -INFINITY;
     if (!isfinite(prior))
         return CEDUO_OK;
@@ -275,11 +282,7 @@ static enum ceduo_status density(void *context, size_t chain, const double *y, d
 static double guess_at(void *context, const double *y)
 {
     const struct fitting *f = context;
-    double u[PARAMETERS], prior = 0;
-    for (size_t i = 0; i < f->def->parameters_count; i++) {
-        u[i] = unit(y[i]);
-        prior += log(u[i]) + log1p(-u[i]);
-    }
+    double u[PARAMETERS] = {0}, prior = prior_at(f, y, u);
     return isfinite(prior) ? FLATTER * ceduo_guess_at(&f->guess, u) + prior : -INFINITY;
 }
 
