@@ -90,7 +90,7 @@ static enum exit_status find_value(struct job *j, size_t i)
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
         const struct field *field = ceduo_input_find(&j->files[s], path, input);
         if (!field)
-            return ceduo_usage("calibrate", _("'%s' is not a number of a scene; ceduo --list-parameters shows all"), path);
+            return ceduo_usage("calibrate", _("'%s' is not a number of a scene that can be fitted; ceduo --list-parameters shows all"), path);
         j->fields[i] = field;
         input->lo = j->lo[i];
         input->hi = j->hi[i];

@@ -98,6 +98,16 @@ static bool add_ground(struct places *p, const char *path)
     return name != NULL;
 }
 
+/* The path of the first item where it says [*]. */
+static const char *first_of(struct deriver *d, const char *path)
+{
+    char *first = ceduo_arena_string(d->arena, path);
+    for (char *p = first; p && *p; p++)
+        if (p[0] == '[' && p[1] == '*')
+            p[1] = '0';
+    return first ? first : "";
+}
+
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: there is none. */
 static const struct field *row_of(struct deriver *d, const char *path)
 {
@@ -105,11 +115,7 @@ static const struct field *row_of(struct deriver *d, const char *path)
     if (ground)
         return ceduo_choice_find(&ceduo_material_words, ground) < 0 ? NULL
                                                                    : ceduo_schema_field(ceduo_schema_segment(), key);
-    char *first = ceduo_arena_string(d->arena, path);
-    for (char *p = first; p && *p; p++)
-        if (p[0] == '[' && p[1] == '*')
-            p[1] = '0';
-    return first ? ceduo_schema_at(first) : NULL;
+    return ceduo_schema_at(first_of(d, path));
 }
 
 static bool is_number_or_word(const struct field *f)
@@ -138,6 +144,13 @@ static const struct field *find_places(struct deriver *d, const struct said *sai
         ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", said->at),
                               said->within[0] ? _("'%s' is not a number or a word of a stand")
                                               : _("'%s' is not a number or a word of a scene"),
+                              said->row->path);
+        return NULL;
+    }
+    if (ceduo_schema_is_settled(first_of(d, path))) {
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", said->at),
+                              _("no answer is in doubt because of '%s'; name a value of the rock, its release, the slope, a "
+                                "stand or the law"),
                               said->row->path);
         return NULL;
     }
@@ -410,7 +423,7 @@ const struct field *ceduo_derive_find(struct deriver *d, const char *path, bool 
     struct places p = {.d = d};
     const struct field *field = row_of(d, path);
     *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
-    if (!is_number_or_word(field) || field->type == FIELD_CHOICE)
+    if (!is_number_or_word(field) || field->type == FIELD_CHOICE || ceduo_schema_is_settled(first_of(d, path)))
         return NULL;
     find_ground(&p, talus, path);
     keep_there(&p);

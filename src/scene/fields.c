@@ -371,7 +371,7 @@ static const struct field stand_fields[] = {
     GROUP("cutting", NAMED(N_("cutting"), NULL),
         SAME, 0, N_("how it is cut; without it never"), &cutting_object),
     ITEMS("doubt", NAMED(N_("doubt"), NULL),
-        NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | UNFLOWN,
+        NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | UNFLOWN | FIELD_SETTLED,
         N_("what is not known of the stand, for --sensitivity; paths begin at the stand: stools.per_ha"), &doubt_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
@@ -420,9 +420,9 @@ static const struct field simulation_fields[] = {
     WORD("law", NAMED(N_("law of impact"), NULL),
         AT(ceduo_simulation, law), 0, "lumped", N_("law of an impact on the ground"), &ceduo_law_words),
     NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)"), NULL),
-        AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST, UNFLOWN, "1000", N_("rocks simulated")),
+        AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST, UNFLOWN | FIELD_SETTLED, "1000", N_("rocks simulated")),
     NUM(FIELD_COUNT, "seed", NAMED(N_("seed"), NULL),
-        AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, 0, "1", N_("seed of the random numbers")),
+        AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED, "1", N_("seed of the random numbers")),
     WORD("contact_model", NAMED(N_("rocks among stems"), NULL),
         AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
          N_("how rocks meet stems: stem by stem, as a Poisson process with the rate of the rule, "
@@ -505,11 +505,11 @@ static const struct field scene_fields[] = {
         AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, UNFLOWN, NULL,
            N_("rocks that come down in a year, to print how many to expect")),
     ITEMS("doubt", NAMED(N_("doubt"), NULL),
-        LIST(scene_draft, doubts, doubts_count), FIELD_DRAFT | FIELD_OR_NONE | UNFLOWN,
+        LIST(scene_draft, doubts, doubts_count), FIELD_DRAFT | FIELD_OR_NONE | UNFLOWN | FIELD_SETTLED,
         N_("what is not known, for --sensitivity; values that are marked as assumed have ranges of their own; none: nothing"),
         &doubt_object),
     ITEMS("observed", NAMED(N_("seen"), NULL),
-        LIST(scene_draft, seen, seen_count), FIELD_DRAFT | UNFLOWN,
+        LIST(scene_draft, seen, seen_count), FIELD_DRAFT | UNFLOWN | FIELD_SETTLED,
         N_("what was seen of real rocks, for --calibrate; each row is of one kind"), &ceduo_seen_object),
     GROUP("design", NAMED(N_("design values"), NULL),
         AT(scene_draft, scene.design), 0, N_("prints the design values of UNI 11211-4"), &design_object),
@@ -519,7 +519,7 @@ static const struct field scene_fields[] = {
         AT(scene_draft, scene.rules), FIELD_FOLLOWS | UNFLOWN,
           N_("what the forest regulation asks: a file, or what such a file holds"), &rules_object),
     GROUP("years", NAMED(N_("years"), NULL),
-        SAME, 0, N_("years to look at; the default is one whole rotation of each option after its first cut"),
+        SAME, FIELD_SETTLED, N_("years to look at; the default is one whole rotation of each option after its first cut"),
           &window_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");

@@ -20,7 +20,8 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
     return NULL;
 }
 
-const struct field *ceduo_schema_at(const char *path)
+/* *flags: of the row and of those around it. */
+static const struct field *row_at(const char *path, unsigned *flags)
 {
     const struct object *object = ceduo_schema_scene();
     const struct field *f = NULL;
@@ -37,9 +38,22 @@ const struct field *ceduo_schema_at(const char *path)
         f = item ? f : object ? ceduo_schema_step(object, &step) : NULL;
         if (!f)
             return NULL;
+        *flags |= (unsigned)f->flags;
         object = item || f->type == FIELD_GROUP ? f->object : NULL;
     }
     return at == n && f && !f->object ? f : NULL;
+}
+
+const struct field *ceduo_schema_at(const char *path)
+{
+    unsigned flags = 0;
+    return row_at(path, &flags);
+}
+
+bool ceduo_schema_is_settled(const char *path)
+{
+    unsigned flags = 0;
+    return row_at(path, &flags) && flags & FIELD_SETTLED;
 }
 
 /* ---- defaults ---- */

@@ -45,7 +45,8 @@ enum field_flag {
     FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
     FIELD_OR_NONE = 1 << 13, /* a list instead of which the word none may stand */
     FIELD_OR_ONE = 1 << 14,  /* a list instead of which its only item may stand */
-    FIELD_UNFLOWN = 1 << 12  /* it decides about no rock: a name, a limit that figures are held against */
+    FIELD_UNFLOWN = 1 << 12, /* it decides about no rock: a name, a limit that figures are held against */
+    FIELD_SETTLED = 1 << 15  /* no answer is in doubt because of it or what it holds: how much is computed or shown, what was seen */
 };
 
 struct object;
@@ -141,6 +142,9 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
 
 /* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */
 const struct field *ceduo_schema_at(const char *path);
+
+/* Whether the row of that value, or one around it, has FIELD_SETTLED. */
+bool ceduo_schema_is_settled(const char *path);
 
 /* Fills an item with its defaults. */
 void ceduo_schema_init(const struct object *object, void *item);

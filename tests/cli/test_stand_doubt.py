@@ -99,6 +99,7 @@ def test_no_change_of_a_run():
 def test_refused():
     """What is wrong is told once, in the stand's file"""
     wrong = [({**TREES, "path": "rock.mass_kg"}, "c.yaml", "doubt[0].path: 'rock.mass_kg' is not a number or a word of a stand"),
+             ({**TREES, "path": "doubt[0].lo"}, "c.yaml", "doubt[0].path: no answer is in doubt because of 'doubt[0].lo'"),
              ({**TREES, "lo": 130}, "c.yaml", "doubt[0].hi: the range is empty"),
              ({**TREES, "lo": -1}, "c.yaml", "doubt[0].lo: -1 is outside the range of per_ha"),
              ({"path": "trees[0].per_ha"}, "c.yaml", "doubt[0]: give lo and hi, or mean and sd"),

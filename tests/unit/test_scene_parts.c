@@ -164,7 +164,9 @@ static void expect_places(const char *lines, const char *places)
 static void rows_of_doubt_mean_places(void **state)
 {
     (void)state;
-    expect_places("doubt: [{path: simulation.rocks, lo: 10, hi: 20}]", "simulation.rocks");
+    expect_places("doubt: [{path: 'forest[0].stand.cutting.rotation_years', lo: 10, hi: 20}]\n"
+                  "forest: [{" BELT ", cutting: {rotation_years: 15}}}]",
+                  "forest[0].stand.cutting.rotation_years");
     expect_places("doubt: [{path: 'controls[*].x_m', lo: 50, hi: 60}]\ncontrols: [{x_m: 90}, {x_m: 95}]",
                   "controls[0].x_m,controls[1].x_m");
     expect_places("doubt: [{path: 'options[*].forest[*].to_m', lo: 50, hi: 60}]", ""); /* there are no options */
