@@ -401,8 +401,29 @@ bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role rol
     return top && *top < most;
 }
 
+/* Drops the last word, and the blank or the end of a line before it. */
+static bool drop_word(struct text *text)
+{
+    size_t n = text->length;
+    while (n > 0 && text->bytes[n - 1] != ' ' && text->bytes[n - 1] != '\n')
+        n--;
+    if (n == 0)
+        return false;
+    text->length = n - 1;
+    text->bytes[n - 1] = '\0';
+    return true;
+}
+
+void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
+{
+    while (!text->failed && text->length > 0 && ceduo_app_text_lines(app, text->bytes, width) > lines && drop_word(text))
+        if (drop_word(text)) /* the sign takes the place of a word */
+            ceduo_text_put(text, " \xe2\x80\xa6");
+}
+
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)
 {
+    ceduo_app_shorten(app, text, area.width, area.height);
     if (text->bytes)
         ceduo_app_text(app, area, role, text->bytes, NULL);
     ceduo_text_free(text);

@@ -175,7 +175,10 @@ bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role rol
 /* Lines that it takes. */
 int ceduo_app_text_lines(struct app *app, const char *text, int width);
 
-/* Draws a text from its first line and frees it. */
+/* A text that fills no more than so many lines: what is too long ends in a sign of more. */
+void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines);
+
+/* Draws a text, shortened to its area, and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 5, 6)));

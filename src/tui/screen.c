@@ -60,23 +60,6 @@ static void draw_title(struct app *app)
     put_scene_title(app, app->width - x - 1);
 }
 
-/* A text that fills no more than so many lines: what is too long ends in a sign of more. */
-static void shorten(struct app *app, struct text *text, int lines)
-{
-    while (!text->failed && text->length > 0 && ceduo_app_text_lines(app, text->bytes, app->width) > lines) {
-        char *blank = strrchr(text->bytes, ' ');
-        if (!blank)
-            return;
-        *blank = '\0';
-        text->length = (size_t)(blank - text->bytes);
-        blank = strrchr(text->bytes, ' '); /* the sign takes the place of a word */
-        if (blank) {
-            text->length = (size_t)(blank - text->bytes);
-            ceduo_text_put(text, " \xe2\x80\xa6");
-        }
-    }
-}
-
 static void draw_explanation(struct app *app)
 {
     struct text text = {0}, safe = {0};
@@ -90,7 +73,7 @@ static void draw_explanation(struct app *app)
     }
     ceduo_text_safe(&safe, ceduo_text_string(&text));
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
-    shorten(app, &safe, lines.height);
+    ceduo_app_shorten(app, &safe, lines.width, lines.height);
     if (safe.bytes && (int)ceduo_utf8_width(safe.bytes) > app->width)
         ceduo_app_text(app, lines, role, safe.bytes, NULL);
     else if (safe.bytes)

@@ -69,7 +69,14 @@ static void say_all(const struct app *app, const struct doubted *d, const struct
 
 /* ---- drawing ---- */
 
-#define PICTURE_LEAST 7
+#define OPTIONS_LEAST 6 /* in a picture that shares its room with words, if there are so many */
+
+/* Lines that the picture keeps: options, an input, a line above each, and one between it and the words. */
+static int picture_least(const struct ceduo_doubt_report *r)
+{
+    size_t n = r->file->scene.options_count;
+    return (int)(n < OPTIONS_LEAST ? n : OPTIONS_LEAST) + 4;
+}
 
 /* Lines that the picture fills: options, inputs, and a line above each. */
 static int picture_lines(const struct ceduo_doubt_report *r)
@@ -82,7 +89,7 @@ static void draw(struct app *app, struct ceduo_area area)
 {
     const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
     struct text words = {0};
-    int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 2;
+    int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
     area.height -= form + 1;
     struct ceduo_picture picture = ceduo_app_picture(app);
@@ -93,7 +100,8 @@ static void draw(struct app *app, struct ceduo_area area)
     if (d && r.answer) {
         say_all(app, d, &r, &words);
         said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
-        said = said > area.height - PICTURE_LEAST ? area.height - PICTURE_LEAST : said;
+        int most = area.height - picture_least(&r);
+        said = said > most ? most : said;
         int lines = picture_lines(&r);
         if (lines < area.height - said - 1)
             area.height = lines + said + 1;

@@ -10,6 +10,7 @@
 #define SHOWN_LEAST  0.005 /* of the share of an input */
 #define WIDTH_LEAST  40
 #define HEIGHT_LEAST 4
+#define INPUTS_LEAST 2 /* lines: a head and one input */
 #define NAME_MOST    34
 #define VALUES       24 /* columns of "1000  1000–1000" and the like … */
 #define VALUES_LEAST 19 /* … and where there are few */
@@ -73,12 +74,18 @@ static void put_caption(const struct sure *s, const struct ceduo_control *contro
     ceduo_plot_put_fitting(s->canvas, s->left, s->y, s->width - s->values - 1, CEDUO_ROLE_AXIS, 2, words);
 }
 
+/* Of so many lines: all options, where that leaves INPUTS_LEAST; otherwise two thirds of the lines, one of them to say so. */
+static size_t options_room(size_t options, size_t lines)
+{
+    size_t most = lines * 2 / 3;
+    return options + INPUTS_LEAST <= lines ? options : most > 1 ? most - 1 : 1;
+}
+
 static void draw_options(struct sure *s)
 {
     const struct ceduo_scene *scene = &s->report->file->scene;
-    size_t n = scene->options_count, room = (size_t)(s->end - s->y) / 2, first = 0;
-    room = room > 0 ? room : 1;
-    if (n > room && s->option >= room)
+    size_t n = scene->options_count, room = options_room(n, (size_t)(s->end - s->y - 1)), first = 0;
+    if (s->option >= room)
         first = s->option - room + 1;
     ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_AXIS, "%s",
                          _("now (doubt, 90 %)"));
@@ -86,6 +93,11 @@ static void draw_options(struct sure *s)
     s->y++;
     for (size_t i = first; i < n && i < first + room; i++)
         draw_option(s, i);
+    if (n > room) {
+        ceduo_plot_say(s->canvas, s->left, s->y, s->width, CEDUO_ROLE_AXIS,
+                       ngettext("%zu more option has no room here", "%zu more options have no room here", n - room), n - room);
+        s->y++;
+    }
 }
 
 static void draw_input(struct sure *s, size_t g)

@@ -89,5 +89,22 @@ def test_options():
     thick.has("thick is better than thin in", "clear.", "thick depends on")
 
 
+def test_many_options():
+    """At 80x24 eight options: those without room are counted, the words end in a sign of more; four have room"""
+    names = ["one", "two", "three", "four", "five", "six", "seven", "eight"]
+    head, (thick, *_), tail = CUTS.split("options:")[0], CUTS.split("  - name: ")[1:], CUTS[CUTS.index("simulation:"):]
+    with Place() as place:
+        for n in (4, 8):
+            options = "".join(f"  - name: {thick.replace('thick', name, 1)}" for name in names[:n])
+            place.write(f"{n}.yaml", head + "options:\n" + options + tail + DOUBT.replace("forest[0]", "options[*].forest[0]"))
+        four, = place.play("key 7\nwait idle\ndump", "4.yaml")
+        eight, last = place.play("key 7\nwait idle\ndump\nkey [\nwait idle\ndump", "8.yaml")
+    for screen, shown, more in ((four, names[:4], 0), (eight, names[:4], 4), (last, names[4:], 4)):
+        expect_equal(re.findall(r"^(\w+) .*\(\d+–\d+\)", screen.body, re.M), shown, screen)
+        expect_equal(re.findall(r"^(\d+) more options have no room here", screen.body, re.M), [str(more)] if more else [], screen)
+        expect(re.search(r" depends on +of .*\n.* leaves", screen.body), "an input in", screen)
+        expect_in("…\n\n", screen.body)  # the words go on
+
+
 if __name__ == "__main__":
     run_all(__name__)
