@@ -175,7 +175,8 @@ def compared(screen):
         for head, end in heads:
             cells[head.replace("m3", "m³")] = line[begin:end].strip()
             begin = end
-        if re.search(r"\d|…|\.\.\.|none|-", line[heads[0][1] - 5:heads[0][1]]) and re.search(r"\d/\d|…|\.\.\.|-", line):
+        in_columns = "  " in line.strip()  # the words below are not
+        if in_columns and re.search(r"\d|…|\.\.\.|none|-", line[heads[0][1] - 5:heads[0][1]]) and re.search(r"\d/\d|…|\.\.\.|-", line):
             cells.setdefault("CFE", above[-1] if above else "")
             own = re.split(r"  +|[▁▂▃▄▅▆▇█]", line[:heads[0][1] - 8].strip())[0].strip()
             cells["best"] = "best" if " best" in line else "worst" if " worst" in line else ""
