@@ -226,14 +226,13 @@ static void put_contact(struct pen *pen, const char *name, double adc, enum cedu
     put_light(pen, name, what, light);
 }
 
-static void put_free_run(struct pen *pen, const char *name, double free_run, enum ceduo_light light)
+/* A share and its limit, where there is room; whole is "100", as in Italian 100.0 would have none. */
+static void put_percent(struct pen *pen, const char *name, double share, double most, enum ceduo_light light)
 {
     char what[64];
-    snprintf(what, sizeof what,
-             pen->area.width >= 30 ? "%.1f %% (\xe2\x89\xa4"
-                                     "10)"
-                                   : "%.1f %%",
-             free_run * 100);
+    int n = snprintf(what, sizeof what, "%.*f %%", share >= 0.9995 ? 0 : 1, share * 100);
+    if (pen->area.width >= 30)
+        snprintf(what + n, sizeof what - (size_t)n, " (\xe2\x89\xa4%g)", most * 100);
     put_light(pen, name, what, light);
 }
 
@@ -248,10 +247,10 @@ static void put_thick(struct pen *pen, const struct ceduo_index *index, double t
                     "8 cm",
                     thick->worst_adc, thick->contact, threshold, index->length > 0);
     if (free_run && pen->area.width >= 30)
-        put_free_run(pen,
-                     " \xe2\x89\xa5"
-                     "8 cm",
-                     thick->worst_free_run, thick->free_run);
+        put_percent(pen,
+                    " \xe2\x89\xa5"
+                    "8 cm",
+                    thick->worst_free_run, CEDUO_FREE_RUN_MOST, thick->free_run);
     if ((contact || free_run) && pen->area.width < 30)
         line(pen, CEDUO_ROLE_BAD, "%s %s", ceduo_plot_light_mark(CEDUO_FAIL),
              contact && free_run ? _("\xe2\x89\xa5"
@@ -274,17 +273,13 @@ static void put_lights(struct pen *pen, const struct ceduo_index *index, const s
         put_contact(pen, _("Contact"), index->worst_adc, index->contact, threshold, index->length > 0);
     }
     put_causes(pen, CEDUO_DOUBT_CONTACT);
-    put_free_run(pen, _("Free run"), index->worst_free_run, index->free_run);
+    put_percent(pen, _("Free run"), index->worst_free_run, CEDUO_FREE_RUN_MOST, index->free_run);
     put_causes(pen, CEDUO_DOUBT_FREE_RUN);
     put_thick(pen, index, threshold);
-    what[0] = '\0';
     if (index->energy != CEDUO_UNKNOWN && wood)
-        snprintf(what, sizeof what,
-                 wide ? "%.1f %% (\xe2\x89\xa4"
-                        "5)"
-                      : "%.1f %%",
-                 wood->exceed_probability * 100);
-    put_light(pen, _("Energy"), what, index->energy);
+        put_percent(pen, _("Energy"), wood->exceed_probability, CEDUO_EXCEED_MOST, index->energy);
+    else
+        put_light(pen, _("Energy"), "", index->energy);
     put_causes(pen, CEDUO_DOUBT_EXCEED);
 }
 

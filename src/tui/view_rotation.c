@@ -100,8 +100,11 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
                           share.mean * 1000, ceil(1000 * share.half), control->accepted * KILO);
         ceduo_text_put(text, "; ");
     }
-    double thick = y->controls[c].thick.worst_adc;
-    ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), WRITTEN(y->controls[c].worst_adc, 3));
+    double adc = y->controls[c].worst_adc, thick = y->controls[c].thick.worst_adc;
+    if (isinf(adc))
+        ceduo_text_put(text, _("no stems"));
+    else
+        ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), WRITTEN(adc, 3));
     if (ceduo_index_hangs_on_thin(&y->controls[c]))
         ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"), WRITTEN(thick, 3));
     ceduo_text_put(text, ". ");

@@ -39,9 +39,13 @@ static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *s
 static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    if (s->bare) {
+        ceduo_text_format(line, "%s%s: %s", b->name, b->assumed ? "*" : "", _("no stems"));
+        return;
+    }
     ceduo_text_format(line, _("%s%s: ADC %s m, free run %.1f %%, %s kJ per 100 m (%s)"), b->name, b->assumed ? "*" : "",
                       WRITTEN(s->adc_m, 3), s->free_run_probability * 100, WRITTEN(s->per_100m * KILO, 3),
-                      s->bare ? _("no stems") : ceduo_rule_words.names[s->rule]);
+                      ceduo_rule_words.names[s->rule]);
 }
 
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
