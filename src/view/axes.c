@@ -259,7 +259,8 @@ static struct scale bottom_scale(const struct ceduo_frame *frame, const struct c
     for (int n = frame->width / 3 + 1; n > 0; --n) {
         struct scale scale = {0};
         scale.count = ceduo_ticks(frame->x0, frame->x1, n, scale.value, &scale.interval);
-        if (!bottom_scale_fits(&scale, frame, canvas) || (scale.count < 2 && most.count > 1))
+        bool between = frame->x_whole && scale.interval > 0 && scale.interval < 1;
+        if (between || !bottom_scale_fits(&scale, frame, canvas) || (scale.count < 2 && most.count > 1))
             continue;
         most = most.count == 0 ? scale : most;
         *unit_start = unit_column(&scale, frame, unit_width);

@@ -61,6 +61,7 @@ struct ceduo_frame {
     int left, top;     /* cell of the upper left corner; may lie outside the surface */
     int width, height; /* cells; 2..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT */
     double x0, x1;     /* data at the left and the right edge */
+    bool x_whole;      /* labels at the bottom are whole numbers: years */
     double y0, y1;     /* data at the bottom and the top edge */
 };
 

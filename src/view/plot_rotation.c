@@ -169,6 +169,7 @@ const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_
         r.frame = (struct ceduo_frame){.left = area->left + 6,
                                        .width = area->width - 8,
                                        .x0 = r.x[0],
+                                       .x_whole = true,
                                        .x1 = last > r.x[0] ? last : r.x[0] + 1};
         /* a whole number of columns for each year, where there are as many, so that marks stand at even distances */
         int steps = (int)years->count - 1, step = steps > 0 ? (r.frame.width - 1) / steps : 0;

@@ -194,6 +194,21 @@ static void turned_axis_has_its_unit_at_the_right(void **state)
     ceduo_cells_free(cells);
 }
 
+static void years_have_no_fractions(void **state)
+{
+    (void)state;
+    struct ceduo_cells *cells = cells_in(30, 3, ASCII);
+    struct ceduo_frame frame = {.left = 1, .width = 29, .height = 1, .x0 = 0, .x1 = 1, .y1 = 1};
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
+    expect_text(cells, "\n +-------------+-------------+\n0.0 y         0.5          1.0\n");
+    ceduo_cells_free(cells);
+    cells = cells_in(30, 3, ASCII);
+    frame.x_whole = true;
+    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
+    expect_text(cells, "\n +---------------------------+\n 0 y                         1\n");
+    ceduo_cells_free(cells);
+}
+
 /* Counts the runs of text in a row that are at least two blanks apart. */
 static int words_in(const char *row)
 {
@@ -269,6 +284,7 @@ int main(void)
         cmocka_unit_test(unit_without_room_after_the_last_number_follows_the_first),
         cmocka_unit_test(strip_of_two_rows_has_two_labels),
         cmocka_unit_test(turned_axis_has_its_unit_at_the_right),
+        cmocka_unit_test(years_have_no_fractions),
         cmocka_unit_test(bottom_labels_never_touch),
         cmocka_unit_test(axis_width_holds_every_label),
     };
