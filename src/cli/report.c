@@ -126,7 +126,8 @@ static enum ceduo_status ask_doubt(const struct arguments *a, struct scene_file 
                                         .cancel = ceduo_interrupt_flag(),
                                         .progress = ceduo_progress_steps,
                                         .context = progress};
-    c->told = (struct ceduo_doubt_report){.file = file, .inputs = &c->inputs, .points = def.points, .rocks = def.rocks};
+    c->told = (struct ceduo_doubt_report){
+        .file = file, .inputs = &c->inputs, .points = def.points, .rocks = def.rocks, .finer = c->answer.result};
     if (c->inputs.n == 0 || rocks < 2 || file->scene.controls_count == 0)
         return CEDUO_OK;
     enum ceduo_status status = ceduo_doubt_ask(&def, &c->doubt);

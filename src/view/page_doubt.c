@@ -62,9 +62,10 @@ static void put_options(struct ceduo_page *page, const struct ceduo_doubt_report
     ceduo_page_table(page, option_columns, 4);
     for (size_t i = 0; i < s->options_count; i++) {
         const struct ceduo_doubt_figure *f = main_of(r, i);
+        struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        put_value(ceduo_page_text(page), f->value, scale);
-        put_range(ceduo_page_text(page), f->sampling_lo, f->sampling_hi, scale);
+        put_value(ceduo_page_text(page), now.value, scale);
+        put_range(ceduo_page_text(page), now.lo, now.hi, scale);
         put_range(ceduo_page_text(page), f->p5, f->p95, scale);
     }
 }
@@ -213,12 +214,13 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
     const struct ceduo_result *finer = r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
     if (!a || a->released <= r->rocks)
-        return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi};
+        return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, r->rocks};
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
         return (struct ceduo_doubt_now){a->exceed_probability, floor(a->exceed_lo * 1000) / 1000,
-                                        ceil(a->exceed_hi * 1000) / 1000}; /* outwards, as in the other views */
+                                        ceil(a->exceed_hi * 1000) / 1000, /* outwards, as in the other views */
+                                        a->released};
     double mean = a->energy_per_released, half = ceduo_half_width(a->energy_per_released_se, a->released);
-    return (struct ceduo_doubt_now){mean, mean - half, mean + half};
+    return (struct ceduo_doubt_now){mean, mean - half, mean + half, a->released};
 }
 
 void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
@@ -312,7 +314,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                       _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
                         "reduces it. %llu scenes were computed."),
-                      (unsigned long long)r->rocks, (unsigned long long)r->answer->evaluations);
+                      (unsigned long long)ceduo_doubt_now_of(r, 0).rocks, (unsigned long long)r->answer->evaluations);
 }
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)

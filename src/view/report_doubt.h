@@ -19,6 +19,7 @@ struct ceduo_doubt_report {
 /* The main figure of an option in the scene as it is, with the error of the rocks. */
 struct ceduo_doubt_now {
     double value, lo, hi;
+    uint64_t rocks; /* of which it is */
 };
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *report, size_t option);
 

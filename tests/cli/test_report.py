@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--report: one HTML file that is well formed, needs nothing from elsewhere, and is the same each time."""
 import html
+import math
 import os
 import re
 import shutil
@@ -133,6 +134,20 @@ def test_answer():
     for words, scene in (("nothing in this scene is marked as assumed", ("-s", "doubt=none")), ("By the index (Eq. 4 and 5)",
                          ("-s", "simulation.contact_model=index"))):
         expect_in(words, report(*scene, "paper-site")[1].text["div"], scene)
+
+
+def test_one_figure():
+    """The table of the doubt has the figures of the run, where that has more rocks, and says of how many its error is"""
+    run = ("-n", 1500, "-s", DOUBT[3], "four-systems")
+    options = good("-b", "-f", "json", *run).json()[0]["options"]
+    text, _ = report("--sensitivity=2", *run, few=())
+    flat = re.sub(r"\s+", " ", html.unescape(re.sub(r"<[^>]*>", " ", text)))
+    rows = flat[flat.index("doubt (90 %)"):flat.index("What the first option depends on")]
+    for option in options:
+        share = option["controls"][0]["wooded"]
+        ends = math.floor(1000 * share["exceed_lo"]), math.ceil(1000 * share["exceed_hi"])
+        expect_in(f"{option['name']} {1000 * share['exceed_probability']:.0f} {ends[0]}–{ends[1]} ", rows)
+    expect_in("'rocks' is the error of 1500 rocks", flat)
 
 
 def test_odd_titles():
