@@ -109,11 +109,12 @@ void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report 
 {
     struct value v;
     const char *word;
+    char room[CEDUO_NUMBER_ROOM];
     double value = end_of(r, group, end, &v, &word);
     if (word)
         ceduo_text_put(text, word);
-    else if (!isnan(value))
-        ceduo_words_number(text, value * v.field->shown.per, 4);
+    else if (!isnan(value)) /* 6.3, not 6.300, which is six thousand in Italian */
+        ceduo_text_put(text, ceduo_number_shortest(strtod(WRITTEN(value * v.field->shown.per, 4), NULL), room));
 }
 
 const char *ceduo_doubt_verdict(double probability)
