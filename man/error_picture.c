@@ -79,7 +79,8 @@ static void draw_series(struct ceduo_canvas *canvas, const struct ceduo_frame *f
 
 static void draw(struct ceduo_canvas *canvas, const struct points *points)
 {
-    struct ceduo_frame frame = {7, 2, COLUMNS - 9, ROWS - 5, -4, 1, -2, 1};
+    struct ceduo_frame frame = {
+        .left = 7, .top = 2, .width = COLUMNS - 9, .height = ROWS - 5, .x0 = -4, .x1 = 1, .y0 = -2, .y1 = 1};
     struct ceduo_tick ticks[8];
     int n = decades(&frame, canvas, true, -2, 1, ticks);
     ceduo_canvas_label(canvas, 0, 0, CEDUO_ROLE_TITLE,

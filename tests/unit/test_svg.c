@@ -35,7 +35,8 @@ static void expect_not(const char *whole, const char *part)
 /* Dots have a middle: the first column of dots of a frame at cell 2 is at 2 * 8 + 2 units. */
 static struct ceduo_frame frame_of(int width, int height)
 {
-    return (struct ceduo_frame){2, 1, width, height, 0, 2 * width - 1, 0, 4 * height - 1};
+    return (struct ceduo_frame){
+        .left = 2, .top = 1, .width = width, .height = height, .x1 = 2 * width - 1, .y1 = 4 * height - 1};
 }
 
 static void lines_are_where_they_are(void **state)
@@ -63,7 +64,7 @@ static void curves_need_few_points(void **state)
     enum { N = 1000 };
     static double x[N], y[N];
     struct ceduo_svg *svg = ceduo_svg_create(60, 20);
-    struct ceduo_frame frame = {0, 0, 60, 20, 0, 119, 0, 79};
+    struct ceduo_frame frame = {.width = 60, .height = 20, .x1 = 119, .y1 = 79};
     for (int i = 0; i < N; i++) {
         x[i] = 60 - 50 * cos(M_PI * i / (N - 1));
         y[i] = 10 + 50 * sin(M_PI * i / (N - 1));
@@ -90,7 +91,7 @@ static void axes_and_bars(void **state)
     (void)state;
     struct ceduo_svg *svg = ceduo_svg_create(30, 10);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
-    struct ceduo_frame frame = {4, 1, 20, 5, 0, 39, 0, 19};
+    struct ceduo_frame frame = {.left = 4, .top = 1, .width = 20, .height = 5, .x1 = 39, .y1 = 19};
     ceduo_canvas_axis_left(canvas, &frame);
     ceduo_canvas_axis_bottom(canvas, &frame, "m");
     ceduo_canvas_bar(canvas, 2, 9, 10, 0.25, CEDUO_ROLE_GOOD);
