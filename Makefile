@@ -227,7 +227,7 @@ $(FUZZERS:%=$(T)/fuzz/%): $(T)/fuzz/%: $(BUILD)/tests/fuzz/fuzz_%.o $(PARTS) $(L
 
 FUZZ_SECONDS ?= 600
 FUZZ_OPTIONS = -max_total_time=$(FUZZ_SECONDS) -timeout=20 -rss_limit_mb=1000 -max_len=8192 -print_final_stats=1 \
-	-dict=tests/fuzz/words.dict -artifact_prefix=$(T)/fuzz/
+	-dict=tests/fuzz/words.dict -artifact_prefix=$(call quoted,$(CURDIR)/$(T)/fuzz/)
 $(FUZZERS:%=do-fuzz_%): do-fuzz_%: $(T)/fuzz/%
 	@mkdir -p $(T)/fuzz/corpus/$*
 	$< $(FUZZ_OPTIONS) $(foreach f,$(T)/fuzz/corpus/$* $(wildcard tests/fuzz/seeds/$*) $(dir $(SEEDS_$*)),$(call quoted,$(CURDIR)/$f)) \
