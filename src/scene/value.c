@@ -55,9 +55,11 @@ static bool enter_item(struct finder *f, const struct object *object, char *item
     if (!ceduo_path_index(&step, &i))
         for (i = 0; i < n && !ceduo_path_is(&step, name_of(object, items + i * object->size));)
             i++;
+    if (i >= n)
+        return false;
     f->object = object;
     f->item = items + i * object->size;
-    return i < n;
+    return true;
 }
 
 static bool enter_list(struct finder *f, const struct field *list)
