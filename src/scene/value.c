@@ -50,16 +50,14 @@ static bool enter_item(struct finder *f, const struct object *object, char *item
 {
     struct path_step step;
     size_t i;
-    if (!next(f, &step) || !step.bracket)
+    if (!next(f, &step) || !step.bracket || !items) /* an empty list, or segments of materials that cannot be used */
         return false;
     if (!ceduo_path_index(&step, &i))
         for (i = 0; i < n && !ceduo_path_is(&step, name_of(object, items + i * object->size));)
             i++;
-    if (i >= n)
-        return false;
     f->object = object;
     f->item = items + i * object->size;
-    return true;
+    return i < n;
 }
 
 static bool enter_list(struct finder *f, const struct field *list)
