@@ -270,13 +270,14 @@ do-coverage:
 do-net: all $(T)/tables $(BUILD)/man/completion
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
-DEBIAN_ALL := clang valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
+DEBIAN_ALL := $(DEBIAN_FUZZ) valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
 DEBIAN_BENCH := python3-numpy
 # FULL: also runs what `make check` leaves out to be short.
 do-check-all: export FULL := 1
 do-check-all: do-check
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
 	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
+	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz do-replay # its sanitizer tells of offsets to null pointers, gcc's does not
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist do-check-deb
 

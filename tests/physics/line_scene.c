@@ -168,8 +168,9 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
     double at = end * (line_chance(r, 0.1) ? 0 : line_uniform(r, 0, 0.9));
     if (line_chance(r, 0.1)) /* on a vertex */
         at = s->x[(size_t)line_uniform(r, 0, (double)scene->slope.vertices - 1)];
-    line_scene_release(s, at, line_chance(r, 0.3) ? 0 : line_log_uniform(r, 1e-3, 20), random_speed(r),
-                       random_speed(r) - 2, line_chance(r, 0.3) ? 0 : line_uniform(r, -20, 20));
+    double spin = line_chance(r, 0.3) ? 0 : line_uniform(r, -20, 20);
+    double vz = random_speed(r) - 2, vx = random_speed(r);
+    line_scene_release(s, at, line_chance(r, 0.3) ? 0 : line_log_uniform(r, 1e-3, 20), vx, vz, spin);
     s->control =
         (struct ceduo_control){.x = at + (end - at) * line_uniform(r, 0.01, 1), .accepted = NAN, .measured_speed = NAN};
     scene->controls_count = 1;

@@ -237,7 +237,8 @@ static void flights_land_as_without_blocks(void **state)
     struct line_random r = {.state = 7};
     uint64_t far = 0;
     for (size_t n = 0; n < 40; n++) {
-        struct ceduo_slope slope = rough_slope((size_t)line_log_uniform(&r, 17, 20000), line_log_uniform(&r, 1e-3, 1), n);
+        double spacing = line_log_uniform(&r, 1e-3, 1);
+        struct ceduo_slope slope = rough_slope((size_t)line_log_uniform(&r, 17, 20000), spacing, n);
         struct ground g;
         assert_true(ceduo_ground_init(&g, &slope, CEDUO_GRAVITY, .34, false));
         EXPECT(g.top, >, 0);

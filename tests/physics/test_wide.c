@@ -285,7 +285,7 @@ static void compare_random_scenes(uint64_t count, bool arm)
         contacts += expect_same(name, &w.def, w.first, w.rocks);
         scenes++;
     }
-    print_message("%ju scenes, %ju contacts, of which %ju lie behind the last control and cell\n", (uintmax_t)scenes,
+    print_message("%ju scenes, %ju contacts; ways that end behind the last control and cell save %ju\n", (uintmax_t)scenes,
                   (uintmax_t)contacts, (uintmax_t)saved);
     EXPECT(saved, >, contacts / 100);
     EXPECT(scenes, >, count * 9 / 10);
