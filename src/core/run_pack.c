@@ -106,33 +106,64 @@ static bool good_ends(const uint64_t ends[CEDUO_ENDS], uint64_t rocks)
     return sum == rocks;
 }
 
+/* What numbers were added to 0 one after the other give: never -0, of which the sign would get lost in the next sum. */
+static bool is_sum(double value)
+{
+    return isfinite(value) && (value != 0 || !signbit(value));
+}
+
 static bool good_weights(const double weights[CEDUO_ENDS])
 {
     for (int e = 0; e < CEDUO_ENDS; e++)
-        if (!(weights[e] >= 0) || !isfinite(weights[e]))
+        if (!(weights[e] >= 0) || !is_sum(weights[e]))
             return false;
     return true;
 }
 
 static bool good_sum(const struct weighted_sum *s)
 {
-    return s->t >= 0 && s->tt >= 0 && s->tw >= 0 && isfinite(s->t) && isfinite(s->tt) && isfinite(s->tw);
+    return s->t >= 0 && s->tt >= 0 && s->tw >= 0 && is_sum(s->t) && is_sum(s->tt) && is_sum(s->tw);
+}
+
+static bool good_variates(struct variate_sums *s)
+{
+    for (size_t i = 0; i < VARIATES; i++) {
+        if (!is_sum(*variate_sum(s, i)))
+            return false;
+        for (size_t j = 0; j <= i; j++)
+            if (!is_sum(*variate_product(s, i, j)))
+                return false;
+    }
+    return true;
+}
+
+static bool good_varied(const struct varied_sums *s)
+{
+    for (size_t i = 0; i < VARIATES; i++) {
+        for (size_t k = 0; k < VARIED_ENDED; k++)
+            if (!is_sum(s->with[i][k]))
+                return false;
+        for (size_t e = 0; e < CEDUO_ENDS; e++)
+            if (!is_sum(s->ended[e][i]))
+                return false;
+    }
+    return true;
 }
 
 /* Whether the counts of a block agree with each other: of so many rocks, and so many that hit stems where there are. */
-static bool good_block(const struct ceduo_run *run, const struct block *block, uint64_t rocks)
+static bool good_block(const struct ceduo_run *run, struct block *block, uint64_t rocks)
 {
     uint64_t stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
     if (block->uphill > block->ends[CEDUO_LEFT_SLOPE] || block->early > block->ends[CEDUO_STOPPED_BY_STEMS] ||
         !good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) ||
-        !good_weights(block->ended))
+        !good_weights(block->ended) || !good_variates(&block->variates))
         return false;
     for (size_t c = 0; c < run->controls; c++) {
         const struct sums *s = &block->controls[c];
         uint64_t reached = s->of[SPEED].n;
         if (reached > rocks || !good_ends(s->ended, rocks - reached) || s->exceeded > reached ||
             !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached) ||
-            !good_weights(s->missed) || !good_sum(&s->hits))
+            !good_weights(s->missed) || !good_sum(&s->hits) || !good_varied(&s->varied))
             return false;
         for (int q = 0; q < QUANTITIES; q++)
             if (!good_moments(&s->of[q], reached))

@@ -220,10 +220,13 @@ static void put_count(struct saved *s, size_t at, uint64_t value)
         s->bytes[at + i] = (unsigned char)(value >> 8 * i);
 }
 
-/* Behind the head its first block: contacts, ends, two counts of them and stems, then moments of four numbers each, of the stops, and at the
- * control of four quantities and of the stems hit before. */
+/* Behind the head its first block: contacts, ends, two counts of them and stems, then moments of four numbers each, of the
+ * stops, and at the control of four quantities and of the stems hit before; then how many exceed, ends, sums with variates, and
+ * sums of these. */
 enum { AT_END = 8, AT_UPHILL = 8 * 8 + 8 * (1 + CEDUO_ENDS), AT_STOPS = AT_UPHILL + 8 * (2 + 3), AT_CONTROL = AT_STOPS + 4 * 8,
-       AT_HITS = AT_CONTROL + 4 * 4 * 8 };
+       AT_HITS = AT_CONTROL + 4 * 4 * 8, AT_VARIED = AT_HITS + 4 * 8 + 8 + 8 * CEDUO_ENDS,
+       AT_VARIATES = AT_VARIED + 8 * VARIATES * (VARIED_ENDED + CEDUO_ENDS),
+       AT_NEXT = AT_VARIATES + 8 * (VARIATES + VARIATES * (VARIATES + 1) / 2) };
 
 static void figures_that_are_none_are_refused(void **state)
 {
@@ -238,7 +241,10 @@ static void figures_that_are_none_are_refused(void **state)
     } rows[] = {{AT_CONTROL + 8, NAN},       {AT_CONTROL + 8, INFINITY}, {AT_CONTROL + 16, NAN},
                 {AT_CONTROL + 16, INFINITY}, {AT_CONTROL + 16, -1},      {AT_CONTROL + 24, NAN},
                 {AT_CONTROL + 24, INFINITY}, {AT_STOPS + 24, NAN}, /* without forest none is hit: plain zeros */
-                {AT_HITS + 8, -0.},          {AT_HITS + 16, 1},          {AT_HITS + 24, -0.}};
+                {AT_HITS + 8, -0.},          {AT_HITS + 16, 1},          {AT_HITS + 24, -0.},
+                /* sums of which a zero has no sign: it would get lost in the next sum */
+                {AT_VARIED, NAN},            {AT_VARIED + 8 * VARIED_ENDED, -0.}, {AT_VARIATES - 8, INFINITY},
+                {AT_VARIATES, NAN},          {AT_VARIATES + 8, -0.},     {AT_NEXT - 8, INFINITY}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         unsigned char was[8];
         memcpy(was, first.bytes + rows[i].at, 8);
@@ -281,7 +287,7 @@ static void weights_that_are_none_are_refused(void **state)
     struct saved first = part_of(def, 1, 2, 1);
     struct ceduo_run *run = run_of(def, 0);
     const size_t places[] = {AT_ENDED, AT_ENDED + 8 * (CEDUO_ENDS - 1), AT_MISSED, AT_SUMS - 8, AT_SUMS, AT_SUMS + 8, AT_SUMS + 16};
-    const double none[] = {-1, NAN, INFINITY};
+    const double none[] = {-1, NAN, INFINITY, -0.};
     for (size_t i = 0; i < LENGTH(places); i++)
         for (size_t k = 0; k < LENGTH(none); k++) {
             unsigned char was[8];
