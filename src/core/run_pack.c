@@ -9,6 +9,18 @@
 
 #include "run_state.h"
 
+static bool is_plain_zero(double value)
+{
+    return value == 0 && !signbit(value);
+}
+
+/* What numbers added to 0 one after the other give: finite, and never -0, of which the sign would get lost in the next sum. */
+static void pack_added(struct bytes *b, double *sum)
+{
+    ceduo_bytes_number(b, sum);
+    b->bad |= b->reads && (!isfinite(*sum) || (*sum == 0 && !is_plain_zero(*sum)));
+}
+
 static void pack_moments(struct bytes *b, struct ceduo_moments *m)
 {
     ceduo_bytes_count(b, &m->n);
@@ -20,22 +32,22 @@ static void pack_moments(struct bytes *b, struct ceduo_moments *m)
 static void pack_weights(struct bytes *b, double weights[CEDUO_ENDS])
 {
     for (int e = 0; e < CEDUO_ENDS; e++)
-        ceduo_bytes_number(b, &weights[e]);
+        pack_added(b, &weights[e]);
 }
 
 static void pack_sum(struct bytes *b, struct weighted_sum *s)
 {
-    ceduo_bytes_number(b, &s->t);
-    ceduo_bytes_number(b, &s->tt);
-    ceduo_bytes_number(b, &s->tw);
+    pack_added(b, &s->t);
+    pack_added(b, &s->tt);
+    pack_added(b, &s->tw);
 }
 
 static void pack_variates(struct bytes *b, struct variate_sums *s)
 {
     for (size_t i = 0; i < VARIATES; i++) {
-        ceduo_bytes_number(b, variate_sum(s, i));
+        pack_added(b, variate_sum(s, i));
         for (size_t j = 0; j <= i; j++)
-            ceduo_bytes_number(b, variate_product(s, i, j));
+            pack_added(b, variate_product(s, i, j));
     }
 }
 
@@ -43,9 +55,9 @@ static void pack_varied(struct bytes *b, struct varied_sums *s)
 {
     for (size_t i = 0; i < VARIATES; i++) {
         for (size_t k = 0; k < VARIED_ENDED; k++)
-            ceduo_bytes_number(b, &s->with[i][k]);
+            pack_added(b, &s->with[i][k]);
         for (size_t e = 0; e < CEDUO_ENDS; e++)
-            ceduo_bytes_number(b, &s->ended[e][i]);
+            pack_added(b, &s->ended[e][i]);
     }
 }
 
@@ -81,11 +93,6 @@ static void pack_block(const struct ceduo_run *run, struct bytes *b, struct bloc
         pack_variates(b, &block->variates);
 }
 
-static bool is_plain_zero(double value)
-{
-    return value == 0 && !signbit(value);
-}
-
 /* Of nothing they are 0: anything else would get lost where they are merged. */
 static bool good_moments(const struct ceduo_moments *m, uint64_t n)
 {
@@ -106,64 +113,33 @@ static bool good_ends(const uint64_t ends[CEDUO_ENDS], uint64_t rocks)
     return sum == rocks;
 }
 
-/* What numbers were added to 0 one after the other give: never -0, of which the sign would get lost in the next sum. */
-static bool is_sum(double value)
-{
-    return isfinite(value) && (value != 0 || !signbit(value));
-}
-
 static bool good_weights(const double weights[CEDUO_ENDS])
 {
     for (int e = 0; e < CEDUO_ENDS; e++)
-        if (!(weights[e] >= 0) || !is_sum(weights[e]))
+        if (!(weights[e] >= 0))
             return false;
     return true;
 }
 
 static bool good_sum(const struct weighted_sum *s)
 {
-    return s->t >= 0 && s->tt >= 0 && s->tw >= 0 && is_sum(s->t) && is_sum(s->tt) && is_sum(s->tw);
-}
-
-static bool good_variates(struct variate_sums *s)
-{
-    for (size_t i = 0; i < VARIATES; i++) {
-        if (!is_sum(*variate_sum(s, i)))
-            return false;
-        for (size_t j = 0; j <= i; j++)
-            if (!is_sum(*variate_product(s, i, j)))
-                return false;
-    }
-    return true;
-}
-
-static bool good_varied(const struct varied_sums *s)
-{
-    for (size_t i = 0; i < VARIATES; i++) {
-        for (size_t k = 0; k < VARIED_ENDED; k++)
-            if (!is_sum(s->with[i][k]))
-                return false;
-        for (size_t e = 0; e < CEDUO_ENDS; e++)
-            if (!is_sum(s->ended[e][i]))
-                return false;
-    }
-    return true;
+    return s->t >= 0 && s->tt >= 0 && s->tw >= 0;
 }
 
 /* Whether the counts of a block agree with each other: of so many rocks, and so many that hit stems where there are. */
-static bool good_block(const struct ceduo_run *run, struct block *block, uint64_t rocks)
+static bool good_block(const struct ceduo_run *run, const struct block *block, uint64_t rocks)
 {
     uint64_t stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
     if (block->uphill > block->ends[CEDUO_LEFT_SLOPE] || block->early > block->ends[CEDUO_STOPPED_BY_STEMS] ||
         !good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) ||
-        !good_weights(block->ended) || !good_variates(&block->variates))
+        !good_weights(block->ended))
         return false;
     for (size_t c = 0; c < run->controls; c++) {
         const struct sums *s = &block->controls[c];
         uint64_t reached = s->of[SPEED].n;
         if (reached > rocks || !good_ends(s->ended, rocks - reached) || s->exceeded > reached ||
             !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached) ||
-            !good_weights(s->missed) || !good_sum(&s->hits) || !good_varied(&s->varied))
+            !good_weights(s->missed) || !good_sum(&s->hits))
             return false;
         for (int q = 0; q < QUANTITIES; q++)
             if (!good_moments(&s->of[q], reached))
