@@ -78,7 +78,9 @@ enum ceduo_survey_heights_from {
 struct ceduo_survey_heights {
     size_t given, missing;
     enum ceduo_survey_heights_from from;
-    struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE */
+    struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE; then also: */
+    size_t beyond;              /* of those that are missing: stems thicker than any that was measured */
+    double tallest, at_dbh;     /* m, the tallest of those on the curve, and its dbh */
     double mean;                /* m, of those given; NaN: none is */
 };
 

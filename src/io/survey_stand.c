@@ -83,10 +83,13 @@ static void remark_heights(struct writer *w, const char *name, const struct cedu
         return;
     ceduo_text_format(w->out, "# heights of %s: %zu measured; %zu ", name, h->given, h->missing);
     if (h->from == CEDUO_HEIGHTS_CURVE)
-        ceduo_text_format(w->out, "by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, residual %.2g m\n",
+        ceduo_text_format(w->out, "by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, residual %.2g m",
                           h->curve.a, h->curve.b, h->curve.rmse);
     else
-        ceduo_text_format(w->out, "are the mean of these, %.3g m: assumed\n", h->mean);
+        ceduo_text_format(w->out, "are the mean of these, %.3g m: assumed", h->mean);
+    if (h->beyond > 0)
+        ceduo_text_format(w->out, "; thicker than any of the measured: %zu", h->beyond);
+    ceduo_text_char(w->out, '\n');
 }
 
 static void remark_volumes(struct writer *w)
@@ -357,6 +360,18 @@ static bool check_densities(const struct writer *w, struct problems *problems)
     return true;
 }
 
+/* A curve that still rises steeply where the measured heights end goes to the sky beyond. */
+static bool check_curve(const struct writer *w, const struct ceduo_survey_heights *h, struct problems *problems)
+{
+    double most = ceduo_schema_at("forest[0].stand.trees[0].height_m")->hi;
+    if (!(h->tallest > most))
+        return true;
+    ceduo_problem(problems, &(struct source){.name = w->file->name}, 0, 0,
+                  _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick stems, too"),
+                  h->at_dbh * 100, h->tallest, most);
+    return false;
+}
+
 bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems)
 {
     struct ceduo_survey_answer answer;
@@ -365,7 +380,8 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
         ceduo_problem_memory(problems);
         return false;
     }
-    bool good = check_densities(&w, problems);
+    bool good = check_densities(&w, problems) && check_curve(&w, &answer.shoots, problems) &&
+                check_curve(&w, &answer.trees, problems);
     if (good) {
         remark(&w);
         put_stand(&w);

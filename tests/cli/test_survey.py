@@ -121,6 +121,22 @@ def test_heights():
         expect_equal(text.count("kind: assumed"), 4, text)  # each class of trees
 
 
+def test_beyond_the_heights():
+    """Stems thicker than any measured one are counted; a curve that makes one taller than a stand takes is refused, not written"""
+    with Folder() as f:
+        def steep(d):
+            return 1.3 + (d / (2.9 + 0.01 * d)) ** 2
+        rows = [f"1,500,,,tree,,{d},{steep(d)}" for d in (5, 6, 7, 8, 9)]
+        head = "plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m"
+        text = survey(f, "\n".join([head, *rows, "1,,,,tree,,9,", "1,,,,tree,,31,", "1,,,,tree,,35,"])).out
+        expect_in("thicker than any of the measured: 2\n", text)
+        expect_in(f"dbh_m: 0.31, height_m: {steep(31):.6g},", text)
+        stand_of(f, text)
+        r = survey(f, "\n".join([head, *rows, "1,,,,tree,,9,", "1,,,,tree,,41,"]))
+        expect_equal((r.status, r.out), (INPUT, ""), r.err)
+        expect_in(f"makes a stem of 41 cm {steep(41):.0f} m tall, more than 150; measure the heights of thick stems, too", r.err)
+
+
 def test_what_is_assumed():
     """A spacing that nobody measured, volumes outside an equation, one plot alone: each is named and marked"""
     with Folder() as f:
