@@ -71,6 +71,7 @@ static char restore_string[128];
 static size_t restore_length;
 static volatile sig_atomic_t ending;   /* SIGTERM or SIGHUP */
 static volatile sig_atomic_t interrupted; /* Ctrl-C */
+static volatile sig_atomic_t suspended; /* Ctrl-Z */
 static int wake[2] = {-1, -1};
 
 /* What brings the terminal back, made before it is needed: a handler may only write it. */
@@ -99,11 +100,13 @@ static void on_crash(int number)
     raise(number);
 }
 
-static void on_end(int number)
+static void on_signal(int number)
 {
     int kept = errno;
     if (number == SIGINT)
         interrupted = 1;
+    else if (number == SIGTSTP)
+        suspended = 1;
     else
         ending = number;
     ssize_t unused = write(wake[1], "", 1);
@@ -111,14 +114,19 @@ static void on_end(int number)
     errno = kept;
 }
 
+/* Comes before curses opens the terminal, so that curses leaves SIGTSTP alone: otherwise it ignores it while it draws, and
+ * Ctrl-Z is lost now and then. */
 static void set_handlers(void)
 {
-    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, ends[] = {SIGTERM, SIGHUP, SIGINT};
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT};
     for (size_t i = 0; i < 5; i++)
         sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)},
                   NULL);
     for (size_t i = 0; i < 3; i++)
-        sigaction(ends[i], &(struct sigaction){.sa_handler = on_end}, NULL);
+        sigaction(others[i], &(struct sigaction){.sa_handler = on_signal}, NULL);
+    struct sigaction now;
+    if (sigaction(SIGTSTP, NULL, &now) == 0 && now.sa_handler != SIG_IGN) /* a shell without jobs has switched it off */
+        sigaction(SIGTSTP, &(struct sigaction){.sa_handler = on_signal}, NULL);
     signal(SIGPIPE, SIG_IGN);
 }
 
@@ -224,6 +232,17 @@ static void drain_wake(void)
         ;
 }
 
+/* Gives the terminal back and stops, until the shell lets the program go on. */
+static void suspend(struct app *app)
+{
+    suspended = 0;
+    endwin();
+    signal(SIGTSTP, SIG_DFL);
+    raise(SIGTSTP);
+    sigaction(SIGTSTP, &(struct sigaction){.sa_handler = on_signal}, NULL);
+    app->redraw = true;
+}
+
 static void loop(struct app *app, bool colours)
 {
     show(app, colours);
@@ -241,9 +260,11 @@ static void loop(struct app *app, bool colours)
             interrupted = 0;
             ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
+        if (suspended)
+            suspend(app);
         bool changed = take_keys(app); /* also where a signal told of a new size */
         changed |= ceduo_program_news(app);
-        if (changed || n < 0 || app->width != COLS || app->height != LINES)
+        if (changed || app->redraw || n < 0 || app->width != COLS || app->height != LINES)
             show(app, colours);
     }
 }
@@ -285,6 +306,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     if (!getenv("ESCDELAY"))
         set_escdelay(25);
     tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
+    set_handlers();
     FILE *keys = open_keys();
     SCREEN *screen = newterm(NULL, stdout, keys ? keys : stdin);
     if (!screen) {
@@ -302,7 +324,6 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     curs_set(0);
     mouseinterval(0);
     mousemask(BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED, NULL);
-    set_handlers();
     loop(app, colours_wanted());
     endwin();
     delscreen(screen);

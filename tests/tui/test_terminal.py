@@ -480,6 +480,67 @@ def test_closed_window():
         expect(left_behind(place), "the work is lost")
 
 
+# ---- stopping while it draws ----
+
+def job_that_goes_on(arguments, env):
+    """What a shell does, without asking: starts the program as a job, and lets it go on whenever it stops."""
+    signal.signal(signal.SIGTTOU, signal.SIG_IGN)
+    job = os.fork()
+    if job == 0:
+        os.setpgid(0, 0)
+        os.tcsetpgrp(0, os.getpid())
+        signal.signal(signal.SIGTTOU, signal.SIG_DFL)
+        os.execve(CEDUO, [CEDUO, *arguments], env)
+    while True:
+        _, status = os.waitpid(job, os.WUNTRACED)
+        if not os.WIFSTOPPED(status):
+            os._exit(os.waitstatus_to_exitcode(status))
+        os.killpg(job, signal.SIGCONT)
+
+
+def stop_again_and_again(fd):
+    """On the terminal of a job that goes on: a key, Ctrl-Z a moment later, and what must come on the screen then."""
+    fcntl.ioctl(fd, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    os.set_blocking(fd, False)
+    written = [b""]
+
+    def writes(part):
+        try:
+            written[0] += os.read(fd, 65536)
+        except BlockingIOError:
+            pass
+        return part in written[0]
+
+    until("the first screen", lambda: writes(b"1 slope"))
+    for i in range(400):
+        os.write(fd, b"24"[i % 2:i % 2 + 1])
+        time.sleep(i % 50 * 4e-5)
+        written[0] = b""
+        os.write(fd, b"\x1a")
+        until(f"the terminal is given back at the Ctrl-Z of round {i}", lambda: writes(b"\x1b[?1049l"))
+        written[0] = written[0].split(b"\x1b[?1049l", 1)[1]
+        until(f"the screen comes back in round {i}", lambda: writes(b"1 slope"))
+    os.write(fd, b"q")
+
+
+def test_stop_while_drawing():
+    """Ctrl-Z is never lost, whatever the program is doing: 400 times, each at another moment of drawing a screen."""
+    with Place() as place:
+        pid, fd = pty.fork()
+        if pid == 0:
+            try:
+                os.chdir(place.path)
+                job_that_goes_on(("fast.yaml",), {**home(place.path), "TERM": "xterm"})
+            finally:
+                os._exit(127)
+        try:
+            stop_again_and_again(fd)
+            _, status = os.waitpid(pid, 0)
+            expect_equal(os.waitstatus_to_exitcode(status), 0, "the status in the end")
+        finally:
+            os.close(fd)
+
+
 # ---- terminals that cannot show it ----
 
 def in_pty(*arguments, env, cwd, patience=PATIENCE):
