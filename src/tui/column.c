@@ -42,11 +42,11 @@ static void put_scene(struct pen *pen)
     if (!isnan(rock.mass))
         line(pen, CEDUO_ROLE_TEXT, _("Rock  %.3g m  %.4g kg%s"), rock.mean_diameter, rock.mass,
              ceduo_notes_assume(pen->app->document.file.notes, "rock") ? "*" : "");
-    line(pen, CEDUO_ROLE_TEXT, _("Wood  %s%s"),
-         s->options_count > 1 ? o->name
-         : o->belts_count     ? o->belts[0].name
-                              : _("none"),
-         o->belts_count > 1 && s->options_count < 2 ? " \xc2\xb7 \xe2\x80\xa6" : "");
+    if (s->options_count < 2 && o->belts_count == 0)
+        line(pen, CEDUO_ROLE_TEXT, "%s", _("Wood  none"));
+    else
+        line(pen, CEDUO_ROLE_TEXT, _("Wood  %s%s"), s->options_count > 1 ? o->name : o->belts[0].name,
+             o->belts_count > 1 && s->options_count < 2 ? " \xc2\xb7 \xe2\x80\xa6" : "");
 }
 
 /* Of 1000: "832 (831-834)" where there is room, otherwise "832±2"; without an interval where lo = hi. */
