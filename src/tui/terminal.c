@@ -72,6 +72,7 @@ static size_t restore_length;
 static volatile sig_atomic_t ending;   /* SIGTERM or SIGHUP */
 static volatile sig_atomic_t interrupted; /* Ctrl-C */
 static volatile sig_atomic_t suspended; /* Ctrl-Z */
+static volatile sig_atomic_t continued; /* after it, or after what stopped the program unasked */
 static int wake[2] = {-1, -1};
 
 /* What brings the terminal back, made before it is needed: a handler may only write it. */
@@ -107,6 +108,8 @@ static void on_signal(int number)
         interrupted = 1;
     else if (number == SIGTSTP)
         suspended = 1;
+    else if (number == SIGCONT)
+        continued = 1;
     else
         ending = number;
     ssize_t unused = write(wake[1], "", 1);
@@ -118,11 +121,11 @@ static void on_signal(int number)
  * Ctrl-Z is lost now and then. */
 static void set_handlers(void)
 {
-    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT};
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
     for (size_t i = 0; i < 5; i++)
         sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)},
                   NULL);
-    for (size_t i = 0; i < 3; i++)
+    for (size_t i = 0; i < 4; i++)
         sigaction(others[i], &(struct sigaction){.sa_handler = on_signal}, NULL);
     struct sigaction now;
     if (sigaction(SIGTSTP, NULL, &now) == 0 && now.sa_handler != SIG_IGN) /* a shell without jobs has switched it off */
@@ -233,14 +236,14 @@ static void drain_wake(void)
 }
 
 /* Gives the terminal back and stops, until the shell lets the program go on. */
-static void suspend(struct app *app)
+static void suspend(void)
 {
     suspended = 0;
     endwin();
     signal(SIGTSTP, SIG_DFL);
     raise(SIGTSTP);
     sigaction(SIGTSTP, &(struct sigaction){.sa_handler = on_signal}, NULL);
-    app->redraw = true;
+    continued = 1; /* that signal may come to another thread, a moment later */
 }
 
 static void loop(struct app *app, bool colours)
@@ -261,7 +264,12 @@ static void loop(struct app *app, bool colours)
             ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
         if (suspended)
-            suspend(app);
+            suspend();
+        if (continued) {
+            continued = 0;
+            reset_prog_mode();
+            app->redraw = true;
+        }
         bool changed = take_keys(app); /* also where a signal told of a new size */
         changed |= ceduo_program_news(app);
         if (changed || app->redraw || n < 0 || app->width != COLS || app->height != LINES)

@@ -275,6 +275,22 @@ def test_stop():
         after_ending(t, before, "Ctrl-Z, fg and quitting")
 
 
+def test_stopped_unasked():
+    """Stopped by a signal that cannot be caught, fg brings the screen back whole, and keys work."""
+    with Place() as place, Tmux(place) as t:
+        before = mode(t)
+        pid = t.start("fast.yaml")
+        os.kill(pid, signal.SIGSTOP)
+        t.sees("READY>")
+        t.text("stty sane; fg")
+        t.keys("C-j")
+        t.sees("1 slope", "? help", lacks=("READY>", "stty"))
+        t.keys("2")
+        t.sees("stools per ha")
+        t.keys("q")
+        after_ending(t, before, "SIGSTOP, fg and quitting")
+
+
 def test_interrupt():
     """Ctrl-C asks like q: at once where nothing is unsaved, otherwise first."""
     with Place() as place, Tmux(place) as t:
