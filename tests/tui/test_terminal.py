@@ -281,7 +281,7 @@ def test_stopped_unasked():
         before = mode(t)
         pid = t.start("fast.yaml")
         os.kill(pid, signal.SIGSTOP)
-        t.sees("READY>")
+        until("it stands still", lambda: Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "T")
         t.text("stty sane; fg")
         t.keys("C-j")
         t.sees("1 slope", "? help", lacks=("READY>", "stty"))
