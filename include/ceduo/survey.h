@@ -80,7 +80,7 @@ struct ceduo_survey_heights {
     enum ceduo_survey_heights_from from;
     struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE; then also: */
     size_t beyond;              /* of those that are missing: stems thicker than any that was measured */
-    double tallest, at_dbh;     /* m, the tallest of those on the curve, and its dbh */
+    double thickest;            /* m, the largest dbh of those on the curve, which is of the tallest, too */
     double mean;                /* m, of those given; NaN: none is */
 };
 

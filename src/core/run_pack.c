@@ -9,16 +9,11 @@
 
 #include "run_state.h"
 
-static bool is_plain_zero(double value)
-{
-    return value == 0 && !signbit(value);
-}
-
 /* What numbers added to 0 one after the other give: finite, and never -0, of which the sign would get lost in the next sum. */
 static void pack_added(struct bytes *b, double *sum)
 {
     ceduo_bytes_number(b, sum);
-    b->bad |= b->reads && (!isfinite(*sum) || (*sum == 0 && !is_plain_zero(*sum)));
+    b->bad |= b->reads && (!isfinite(*sum) || (*sum == 0 && signbit(*sum)));
 }
 
 static void pack_moments(struct bytes *b, struct ceduo_moments *m)
@@ -91,6 +86,11 @@ static void pack_block(const struct ceduo_run *run, struct bytes *b, struct bloc
     }
     if (!run->sized)
         pack_variates(b, &block->variates);
+}
+
+static bool is_plain_zero(double value)
+{
+    return value == 0 && !signbit(value);
 }
 
 /* Of nothing they are 0: anything else would get lost where they are merged. */

@@ -364,11 +364,12 @@ static bool check_densities(const struct writer *w, struct problems *problems)
 static bool check_curve(const struct writer *w, const struct ceduo_survey_heights *h, struct problems *problems)
 {
     double most = ceduo_schema_at("forest[0].stand.trees[0].height_m")->hi;
-    if (!(h->tallest > most))
+    double tallest = h->from == CEDUO_HEIGHTS_CURVE ? ceduo_naslund_height(&h->curve, h->thickest) : 0;
+    if (tallest <= most)
         return true;
     ceduo_problem(problems, &(struct source){.name = w->file->name}, 0, 0,
                   _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick stems, too"),
-                  h->at_dbh * 100, h->tallest, most);
+                  h->thickest * 100, tallest, most);
     return false;
 }
 

@@ -120,22 +120,10 @@ static bool is_among(const struct ceduo_survey_stem *stem, bool shoots)
     return stem->kind != CEDUO_SURVEY_STUMP && (stem->kind == CEDUO_SURVEY_SHOOT) == shoots;
 }
 
-/* A height of the curve, remembered if it is the tallest. */
-static double take_from_curve(struct ceduo_survey_heights *h, double dbh, double thickest)
-{
-    double height = ceduo_naslund_height(&h->curve, dbh);
-    h->beyond += dbh > thickest;
-    if (height > h->tallest) {
-        h->tallest = height;
-        h->at_dbh = dbh;
-    }
-    return height;
-}
-
 static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_survey_heights *h)
 {
     const struct ceduo_survey *survey = s->survey;
-    double *dbh = s->pairs, *height = s->pairs + survey->stems_count, sum = 0, thickest = 0;
+    double *dbh = s->pairs, *height = s->pairs + survey->stems_count, sum = 0, measured = 0;
     *h = (struct ceduo_survey_heights){0};
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
@@ -145,7 +133,7 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
             h->missing++;
             continue;
         }
-        thickest = fmax(thickest, stem->dbh);
+        measured = fmax(measured, stem->dbh);
         dbh[h->given] = stem->dbh;
         height[h->given++] = stem->height;
         sum += stem->height;
@@ -155,10 +143,15 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
     h->from = h->missing == 0 ? CEDUO_HEIGHTS_MEASURED : fitted == CEDUO_OK ? CEDUO_HEIGHTS_CURVE : CEDUO_HEIGHTS_MEAN;
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
-        if (is_among(stem, shoots))
-            s->heights[i] = !isnan(stem->height)              ? stem->height
-                            : h->from == CEDUO_HEIGHTS_CURVE ? take_from_curve(h, stem->dbh, thickest)
-                                                             : h->mean;
+        if (!is_among(stem, shoots))
+            continue;
+        if (isnan(stem->height) && h->from == CEDUO_HEIGHTS_CURVE) {
+            s->heights[i] = ceduo_naslund_height(&h->curve, stem->dbh);
+            h->beyond += stem->dbh > measured;
+            h->thickest = fmax(h->thickest, stem->dbh);
+        } else {
+            s->heights[i] = isnan(stem->height) ? h->mean : stem->height;
+        }
     }
     return fitted != CEDUO_NO_MEMORY;
 }

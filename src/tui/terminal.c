@@ -117,6 +117,11 @@ static void on_signal(int number)
     errno = kept;
 }
 
+static void catch_signal(int number)
+{
+    sigaction(number, &(struct sigaction){.sa_handler = on_signal}, NULL);
+}
+
 /* Comes before curses opens the terminal, so that curses leaves SIGTSTP alone: otherwise it ignores it while it draws, and
  * Ctrl-Z is lost now and then. */
 static void set_handlers(void)
@@ -126,10 +131,10 @@ static void set_handlers(void)
         sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)},
                   NULL);
     for (size_t i = 0; i < 4; i++)
-        sigaction(others[i], &(struct sigaction){.sa_handler = on_signal}, NULL);
+        catch_signal(others[i]);
     struct sigaction now;
     if (sigaction(SIGTSTP, NULL, &now) == 0 && now.sa_handler != SIG_IGN) /* a shell without jobs has switched it off */
-        sigaction(SIGTSTP, &(struct sigaction){.sa_handler = on_signal}, NULL);
+        catch_signal(SIGTSTP);
     signal(SIGPIPE, SIG_IGN);
 }
 
@@ -242,7 +247,7 @@ static void suspend(void)
     endwin();
     signal(SIGTSTP, SIG_DFL);
     raise(SIGTSTP);
-    sigaction(SIGTSTP, &(struct sigaction){.sa_handler = on_signal}, NULL);
+    catch_signal(SIGTSTP);
     continued = 1; /* that signal may come to another thread, a moment later */
 }
 
