@@ -208,7 +208,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
     while (at->vx != 0) {
         double x = side == 0 ? w->stem_ahead : w->stem_behind;
         size_t j = at->segment;
-        bool near = side == 0 ? x <= g->x[j + 1] : x >= g->x[j];
+        bool near = side == 0 ? x <= g->at[j + 1].x : x >= g->at[j].x;
         if (!knows_landing && !near) {
             *l = next_landing(g, at);
             knows_landing = true;

@@ -79,19 +79,26 @@ static double size_of(const struct ceduo_slope *slope)
     return size;
 }
 
+static void keep_vertex(struct ground *g, size_t n, double x, double z)
+{
+    g->at[n] = (struct ground_vertex){x, z};
+    g->x[n] = x;
+}
+
 /* Sets n and the vertices, and what ground each segment is given. */
 static void keep_vertices(struct ground *g, const struct ceduo_slope *slope, double size)
 {
     size_t n = 0, i = 0;
     while (i + 1 < slope->vertices) {
-        g->x[n] = slope->x[i];
-        g->z[n] = slope->z[i];
+        keep_vertex(g, n, slope->x[i], slope->z[i]);
         g->given[n++] = &slope->segments[i];
         i = end_of_line(slope, i, ON_LINE * size);
     }
-    g->x[n] = slope->x[i];
-    g->z[n] = slope->z[i];
+    keep_vertex(g, n, slope->x[i], slope->z[i]);
     g->n = n;
+    g->at[-1] = (struct ground_vertex){g->at[0].x - 1, INFINITY};
+    for (size_t behind = 1; behind <= GROUND_BEHIND; behind++)
+        g->at[n + behind] = (struct ground_vertex){g->at[n].x + 1, INFINITY};
 }
 
 /* ---- segments ---- */
@@ -100,7 +107,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
 {
     const struct ceduo_segment *from = g->given[j];
     struct ground_segment *to = &g->segments[j];
-    double dx = g->x[j + 1] - g->x[j], dz = g->z[j + 1] - g->z[j];
+    double dx = g->at[j + 1].x - g->at[j].x, dz = g->at[j + 1].z - g->at[j].z;
     /* a length of few bits would make c and s longer than 1 together, and a contact would give energy */
     double shortest = DBL_MIN / DBL_EPSILON, scale = fabs(dx) < shortest && fabs(dz) < shortest ? 0x1p600 : 1;
     double length = ceduo_length(dx * scale, dz * scale);
@@ -131,8 +138,8 @@ static void bound_block(const struct ground *g, int level, size_t i)
     block->rise = 0;
     for (size_t j = first; j < last; j++) {
         bool fine = level == 1;
-        double x0 = fine ? g->x[j] : below[j].x, z0 = fine ? g->z[j] : below[j].z;
-        double x1 = fine ? g->x[j + 1] : below[j + 1].x, z1 = fine ? g->z[j + 1] : below[j + 1].z;
+        double x0 = fine ? g->at[j].x : below[j].x, z0 = fine ? g->at[j].z : below[j].z;
+        double x1 = fine ? g->at[j + 1].x : below[j + 1].x, z1 = fine ? g->at[j + 1].z : below[j + 1].z;
         double above0 = z0 - (block->z + block->m * (x0 - block->x)), above1 = z1 - (block->z + block->m * (x1 - block->x));
         double rise = (above0 > above1 ? above0 : above1) + (fine ? 0 : below[j].rise);
         block->rise = rise > block->rise ? rise : block->rise;
@@ -150,7 +157,7 @@ static bool build_levels(struct ground *g, double margin)
         g->top = level;
         for (size_t i = 0; i <= blocks; i++) {
             size_t vertex = i << (GROUND_BITS * level);
-            to[i] = (struct ground_block){.x = g->x[vertex], .z = g->z[vertex]};
+            to[i] = (struct ground_block){.x = g->at[vertex].x, .z = g->at[vertex].z};
         }
         for (size_t i = 0; i < blocks; i++) {
             to[i].m = (to[i + 1].z - to[i].z) / (to[i + 1].x - to[i].x);
@@ -159,6 +166,15 @@ static bool build_levels(struct ground *g, double margin)
         }
     }
     return true;
+}
+
+static bool allocate_vertices(struct ground *g, size_t most)
+{
+    struct ground_vertex *room = malloc((1 + most + GROUND_BEHIND) * sizeof *room);
+    g->at = room ? room + 1 : NULL;
+    g->x = malloc(most * sizeof *g->x);
+    g->given = malloc(most * sizeof *g->given);
+    return g->at && g->x && g->given;
 }
 
 static bool allocate_segments(struct ground *g)
@@ -179,10 +195,7 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
     ground->facets = slope->facets;
     ground->gravity = gravity;
     ground->half_g = gravity / 2;
-    ground->x = malloc(slope->vertices * sizeof(double));
-    ground->z = malloc(slope->vertices * sizeof(double));
-    ground->given = malloc(slope->vertices * sizeof *ground->given);
-    if (!ground->x || !ground->z || !ground->given)
+    if (!allocate_vertices(ground, slope->vertices))
         goto fail;
     double size = size_of(slope);
     keep_vertices(ground, slope, size);
@@ -208,8 +221,9 @@ size_t ceduo_ground_segment(const struct ground *ground, double x)
 
 void ceduo_ground_release(struct ground *ground)
 {
+    if (ground->at)
+        free(ground->at - 1);
     free(ground->x);
-    free(ground->z);
     free(ground->along);
     if (ground->segments)
         free(ground->segments - 1);
@@ -229,7 +243,7 @@ double ceduo_ground_between(const struct ground *g, size_t j, double x0, double 
         return ground_length(&g->segments[j], x0, z0, x1, z1);
     if (j > k)
         return ceduo_ground_between(g, k, x1, z1, j, x0, z0);
-    double before = ground_length(&g->segments[j], x0, z0, g->x[j + 1], g->z[j + 1]);
-    double after = ground_length(&g->segments[k], g->x[k], g->z[k], x1, z1);
+    double before = ground_length(&g->segments[j], x0, z0, g->at[j + 1].x, g->at[j + 1].z);
+    double after = ground_length(&g->segments[k], g->at[k].x, g->at[k].z, x1, z1);
     return before + (g->along[k] - g->along[j + 1]) + after;
 }

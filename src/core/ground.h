@@ -11,8 +11,12 @@
 #define HOT static inline __attribute__((always_inline))
 #define SELDOM static __attribute__((noinline))
 
-/* A slope made ready for many rocks: what the walk needs at each segment, in one line of the cache, and in pairs as the
- * wide walk looks them up. */
+/* A slope made ready for many rocks: what the walk needs at each vertex and segment, in pairs as the wide walk looks them
+ * up, a segment in one line of the cache. */
+struct ground_vertex {
+    double x, z;
+};
+
 struct ground_segment {
     double m;            /* dz/dx */
     double theta;        /* largest facet angle, for the radius of the mean rock */
@@ -26,6 +30,7 @@ struct ground_segment {
 #endif
 #define GROUND_LEVELS 16
 #define GROUND_GROUP  (GROUND_BITS > 3 ? 1 << GROUND_BITS : 8) /* so many are read at once, be they there or not */
+#define GROUND_BEHIND (1 + GROUND_GROUP)
 
 /* Some neighbouring segments: their first vertex, the slope of the chord to the first of the next block, and how high
  * the ground rises above that chord, with a margin for rounding. A parabola that is as high above the chord at two places
@@ -55,7 +60,9 @@ struct ground_roll {
 /* Neighbours on one line with the same ground are one segment here, so its numbers are not those of the slope. */
 struct ground {
     size_t n; /* segments */
-    double *x, *z, *along; /* n + 1; along: metres of ground from the first vertex */
+    struct ground_vertex *at; /* n + 1; with one before and GROUND_BEHIND behind: walls without top, so that a flight over
+                               * the profile's end is one that strikes a wall */
+    double *x, *along; /* n + 1; x once more, for searches; along: metres of ground from the first vertex */
     struct ground_segment *segments; /* n; with an empty one before and two behind, which lanes beyond a wall read */
     const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
     enum ceduo_facets facets;
@@ -89,9 +96,9 @@ HOT bool ground_is_steep(const struct ground_segment *s)
 /* Height of the ground at x on segment j. */
 HOT double ground_height(const struct ground *g, size_t j, double x)
 {
-    if (x >= g->x[j + 1])
-        return g->z[j + 1];
-    return g->z[j] + g->segments[j].m * (x - g->x[j]);
+    if (x >= g->at[j + 1].x)
+        return g->at[j + 1].z;
+    return g->at[j].z + g->segments[j].m * (x - g->at[j].x);
 }
 
 /* Metres of ground between two points of one segment. */

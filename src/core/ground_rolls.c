@@ -26,7 +26,7 @@ static double surely_below(const struct ground *g, int dir, size_t v, size_t far
         return INFINITY;
     if (!(fabs(g->along[far] - g->along[v]) > g->reach / 4))
         return -1;
-    double dx = fabs(g->x[far] - g->x[v]), over = dir * a->s * dx - a->c * (g->z[far] - g->z[v]);
+    double dx = fabs(g->at[far].x - g->at[v].x), over = dir * a->s * dx - a->c * (g->at[far].z - g->at[v].z);
     double low = 2 * g->reach * b->c / (turn * turn), under = over > 0 ? dx * dx / (2 * a->c * over) : INFINITY;
     return (low < under ? low : under) * (1 - ROLL_MARGIN);
 }
@@ -73,7 +73,7 @@ static double smaller(double a, double b)
 static struct ground_roll over_one(const struct ground *g, int side, size_t j)
 {
     const struct ground_corner *c = &g->corners[side == 0 ? j + 1 : j];
-    double falls = g->z[j] - g->z[j + 1], drag = g->corners[j].friction * (g->x[j + 1] - g->x[j]);
+    double falls = g->at[j].z - g->at[j + 1].z, drag = g->corners[j].friction * (g->at[j + 1].x - g->at[j].x);
     double gained = (side == 0 ? falls : -falls) - drag;
     return (struct ground_roll){.kept = c->kept,
                                 .gained = c->kept * gained,

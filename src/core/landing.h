@@ -40,7 +40,7 @@ HOT double clamp(double v, double a, double b)
  * from those. */
 HOT double slope_of(const struct ground *g, size_t j, bool blocks)
 {
-    return blocks ? (g->z[j + 1] - g->z[j]) / (g->x[j + 1] - g->x[j]) : g->segments[j].m;
+    return blocks ? (g->at[j + 1].z - g->at[j].z) / (g->at[j + 1].x - g->at[j].x) : g->segments[j].m;
 }
 
 /* Puts a landing at time t on segment j of slope m. Steeper than 45 degrees z is kept and x follows, elsewhere the
@@ -49,11 +49,11 @@ HOT struct landing land_at(const struct ground *g, const struct flight *f, size_
 {
     struct landing l = {.t = t, .segment = j, .left = false};
     if (fabs(m) > 1) {
-        l.z = clamp(f->z + (f->vz - g->half_g * t) * t, g->z[j], g->z[j + 1]);
-        l.x = l.z == g->z[j + 1] ? g->x[j + 1] : clamp(g->x[j] + (l.z - g->z[j]) / m, g->x[j], g->x[j + 1]);
+        l.z = clamp(f->z + (f->vz - g->half_g * t) * t, g->at[j].z, g->at[j + 1].z);
+        l.x = l.z == g->at[j + 1].z ? g->at[j + 1].x : clamp(g->at[j].x + (l.z - g->at[j].z) / m, g->at[j].x, g->at[j + 1].x);
     } else {
-        l.x = clamp(f->x + f->vx * t, g->x[j], g->x[j + 1]);
-        l.z = l.x >= g->x[j + 1] ? g->z[j + 1] : g->z[j] + m * (l.x - g->x[j]);
+        l.x = clamp(f->x + f->vx * t, g->at[j].x, g->at[j + 1].x);
+        l.z = l.x >= g->at[j + 1].x ? g->at[j + 1].z : g->at[j].z + m * (l.x - g->at[j].x);
     }
     return l;
 }
@@ -64,7 +64,7 @@ HOT struct landing land_on(const struct ground *g, const struct flight *f, size_
     if (blocks)
         __builtin_prefetch(&g->segments[j]);
     double m = slope_of(g, j, blocks);
-    double c = f->on_ground && j == f->segment ? 0 : f->z - (g->z[j] + m * (f->x - g->x[j]));
+    double c = f->on_ground && j == f->segment ? 0 : f->z - (g->at[j].z + m * (f->x - g->at[j].x));
     double t = later_root(c, f->vz - m * f->vx, g->gravity);
     return land_at(g, f, j, m, t > t_most ? t_most : t); /* t_most may be NaN where vx is hardly more than 0 */
 }
@@ -82,9 +82,9 @@ HOT struct landing land_straight(const struct ground *g, const struct flight *f)
 HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, int dir, double inv)
 {
     size_t p = dir > 0 ? g->n : 0;
-    double t = (g->x[p] - f->x) * inv;
+    double t = (g->at[p].x - f->x) * inv;
     return (struct landing){.t = t,
-                            .x = g->x[p],
+                            .x = g->at[p].x,
                             .z = f->z + (f->vz - g->half_g * t) * t,
                             .segment = dir > 0 ? p - 1 : p,
                             .left = true};
@@ -98,8 +98,8 @@ HOT struct landing land_beyond(const struct ground *g, const struct flight *f, s
     size_t last = dir > 0 ? g->n : 0;
     while (p != last) {
         size_t q = dir > 0 ? p + 1 : p - 1;
-        double t = (g->x[q] - f->x) * inv;
-        if (!((f->z + (f->vz - g->half_g * t) * t) - g->z[q] >= 0))
+        double t = (g->at[q].x - f->x) * inv;
+        if (!((f->z + (f->vz - g->half_g * t) * t) - g->at[q].z >= 0))
             return land_on(g, f, dir > 0 ? p : q, t, false);
         p = q;
     }
@@ -113,7 +113,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
 {
     size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
     int level = 0, most = g->top;
-    double xp = g->x[p], zp = g->z[p]; /* kept, for a vertex far away is not at hand */
+    double xp = g->at[p].x, zp = g->at[p].z; /* kept, for a vertex far away is not at hand */
     while (p != last) {
         if (p == barrier)
             most = g->top;
@@ -133,8 +133,8 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
                 x = b[dir > 0].x;
                 z = b[dir > 0].z;
             } else {
-                x = g->x[q];
-                z = g->z[q];
+                x = g->at[q].x;
+                z = g->at[q].z;
             }
             double t = (x - f->x) * inv;
             double above = (f->z + (f->vz - g->half_g * t) * t) - z;
@@ -158,12 +158,12 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
 {
     double inv = 1 / f->vx;
     size_t j = f->segment, q = dir > 0 ? j + 1 : j;
-    double t = (g->x[q] - f->x) * inv;
+    double t = (g->at[q].x - f->x) * inv;
     /* c is exactly 0 on the ground: compare slopes, not heights, which may be beyond all numbers where vx is next to
      * none */
     if (f->on_ground && !(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
         return land_on(g, f, j, t, blocks);
-    double h = (f->z + (f->vz - g->half_g * t) * t) - g->z[q];
+    double h = (f->z + (f->vz - g->half_g * t) * t) - g->at[q].z;
     if (!f->on_ground && !(h >= 0))
         return land_on(g, f, j, t, blocks);
     return blocks ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);

@@ -51,13 +51,13 @@ static inline void roll_point(const struct walker *w, int dir, double ds, bool t
     size_t j = w->at.segment;
     const struct ground_segment *s = &g->segments[j];
     if (to_end) {
-        *x = g->x[dir > 0 ? j + 1 : j];
-        *z = g->z[dir > 0 ? j + 1 : j];
+        *x = g->at[dir > 0 ? j + 1 : j].x;
+        *z = g->at[dir > 0 ? j + 1 : j].z;
     } else if (ground_is_steep(s)) {
-        *z = clamp(w->at.z + dir * s->s * ds, g->z[j], g->z[j + 1]);
-        *x = clamp(g->x[j] + (*z - g->z[j]) / s->m, g->x[j], g->x[j + 1]);
+        *z = clamp(w->at.z + dir * s->s * ds, g->at[j].z, g->at[j + 1].z);
+        *x = clamp(g->at[j].x + (*z - g->at[j].z) / s->m, g->at[j].x, g->at[j + 1].x);
     } else {
-        *x = clamp(w->at.x + dir * s->c * ds, g->x[j], g->x[j + 1]);
+        *x = clamp(w->at.x + dir * s->c * ds, g->at[j].x, g->at[j + 1].x);
         *z = ground_height(g, j, *x);
     }
 }
@@ -205,7 +205,7 @@ HOT bool pass_block(const struct ground *g, int dir, int level, double next_x, s
     const struct ground_roll *b = dir > 0 ? &g->rolls[0][level][i] : &g->rolls[1][level][i - 1];
     double way = dir * (g->along[to] - g->along[p->vertex]);
     if (!(way < p->left && p->u2 > p->pull * b->above && p->u2 < g->gravity * b->below) ||
-        (dir > 0 && next_x <= g->x[to]))
+        (dir > 0 && next_x <= g->at[to].x))
         return false;
     p->u2 = b->kept * p->u2 + p->pull * b->gained;
     p->left -= way;
@@ -217,10 +217,10 @@ HOT bool pass_block(const struct ground *g, int dir, int level, double next_x, s
 HOT bool pass_vertex(const struct ground *g, int dir, double next_x, struct pass *p)
 {
     size_t to = dir > 0 ? p->vertex + 1 : p->vertex - 1, j = dir > 0 ? p->vertex : to;
-    double way = g->along[j + 1] - g->along[j], falls = dir * (g->z[j] - g->z[j + 1]);
-    double u2 = p->u2 + p->pull * (falls - g->corners[j].friction * (g->x[j + 1] - g->x[j]));
+    double way = g->along[j + 1] - g->along[j], falls = dir * (g->at[j].z - g->at[j + 1].z);
+    double u2 = p->u2 + p->pull * (falls - g->corners[j].friction * (g->at[j + 1].x - g->at[j].x));
     if (!(way < p->left && u2 > 0 && u2 < g->gravity * g->corners[to].surely[dir > 0 ? 0 : 1]) ||
-        (dir > 0 && next_x <= g->x[to]))
+        (dir > 0 && next_x <= g->at[to].x))
         return false;
     p->u2 = u2 * g->corners[to].kept;
     p->left -= way;
@@ -256,8 +256,8 @@ static void roll_over_segments(struct walker *w, struct roll *r)
         return;
     r->u2 = p.u2;
     r->left = p.left;
-    w->at.x = g->x[p.vertex];
-    w->at.z = g->z[p.vertex];
+    w->at.x = g->at[p.vertex].x;
+    w->at.z = g->at[p.vertex].z;
     w->at.segment = r->dir > 0 ? p.vertex : p.vertex - 1;
 }
 
@@ -270,7 +270,7 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
     for (;;) {
         size_t j = w->at.segment, v = r.dir > 0 ? j + 1 : j;
         const struct ground_segment *s = &g->segments[j];
-        double to_end = ground_length(s, w->at.x, w->at.z, g->x[v], g->z[v]);
+        double to_end = ground_length(s, w->at.x, w->at.z, g->at[v].x, g->at[v].z);
         double ds = to_end < r.left ? to_end : r.left;
         double rate = 2 * g->gravity * (-r.dir * s->s - s->friction * s->c) / (1 + w->k);
         double u2 = r.u2 + rate * ds;
@@ -317,7 +317,7 @@ static inline double roll_speed(const struct walker *w, double along)
 static bool rises_to(const struct ground *g, size_t j, int dir, double z)
 {
     for (;;) {
-        if (g->z[dir > 0 ? j + 1 : j] >= z)
+        if (g->at[dir > 0 ? j + 1 : j].z >= z)
             return true;
         if (dir > 0 ? j + 1 == g->n : j == 0)
             return false;
@@ -353,7 +353,7 @@ static bool in_pit(const struct ground *g, const struct walker *w)
         const struct ground_segment *side = &g->segments[j];
         size_t v = dir > 0 ? j + 1 : j;
         double level;
-        way += ground_length(side, x, z, g->x[v], g->z[v]);
+        way += ground_length(side, x, z, g->at[v].x, g->at[v].z);
         if (!(way < r) || !past_level(g, &j, dir, &level) || !(level < r))
             return false;
         const struct ground_segment *next = &g->segments[j];
@@ -361,8 +361,8 @@ static bool in_pit(const struct ground *g, const struct walker *w)
             return fabs(side->m) > side->friction && fabs(next->m) > next->friction && rises_to(g, j, dir, w->at.z);
         if (level > 0) /* a terrace, no pit */
             return false;
-        x = g->x[v];
-        z = g->z[v];
+        x = g->at[v].x;
+        z = g->at[v].z;
     }
 }
 

@@ -130,8 +130,8 @@ void ceduo_run_free(struct ceduo_run *run)
     free(run->pairs);
     free(run->varied);
     free(run->cells);
+    free(run->wide);
     ceduo_prepared_release(&run->ready);
-    ceduo_wide_ground_free(run->wide);
     free(run);
 }
 

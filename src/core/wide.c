@@ -1,30 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "wide.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "kernel.h"
 
 #define SEGMENT_SHIFT 2
+_Static_assert(sizeof(struct ground_vertex) == 16, "a vertex is a pair of numbers");
 _Static_assert(sizeof(struct ground_segment) == (size_t)16 << SEGMENT_SHIFT, "a segment is pairs of numbers");
-
-static void set_place(struct wide_ground *wide, size_t i, double x, double z)
-{
-    wide->room[i][0] = x;
-    wide->room[i][1] = z;
-}
-
-/* The places, and some behind the last wall that are read but not used. */
-static void set_places(struct wide_ground *wide, const struct ground *g)
-{
-    size_t n = g->n;
-    set_place(wide, 0, g->x[0] - 1, INFINITY);
-    for (size_t i = 0; i <= n; i++)
-        set_place(wide, i + 1, g->x[i], g->z[i]);
-    for (size_t i = n + 2; i < n + 3 + GROUND_GROUP; i++)
-        set_place(wide, i, g->x[n] + 1, INFINITY);
-}
 
 /* A table of `entries` pairs that begin at `first`, `1 << shift` pairs from one to the next. */
 static void set_table(struct wide_table *t, const void *first, int shift, size_t entries)
@@ -45,27 +28,13 @@ struct wide_ground *ceduo_wide_ground_create(const struct ground *g)
     *wide = (struct wide_ground){0};
     size_t entries = g->n + 3;
     wide->small = entries <= TABLE_SMALL;
-    wide->room = aligned_alloc(64, ((entries + GROUND_GROUP) * sizeof *wide->room + 63) / 64 * 64);
-    if (!wide->room) {
-        free(wide);
-        return NULL;
-    }
-    set_places(wide, g);
     const struct ground_segment *before = g->segments - 1;
-    set_table(&wide->place, wide->room, 0, entries);
+    set_table(&wide->place, g->at - 1, 0, entries);
     set_table(&wide->slope, &before->m, SEGMENT_SHIFT, entries);
     set_table(&wide->tilt, &before->c, SEGMENT_SHIFT, entries);
     set_table(&wide->share, &before->rn, SEGMENT_SHIFT, entries);
     set_table(&wide->grip, &before->mu, SEGMENT_SHIFT, entries);
     return wide;
-}
-
-void ceduo_wide_ground_free(struct wide_ground *wide)
-{
-    if (!wide)
-        return;
-    free(wide->room);
-    free(wide);
 }
 
 wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)

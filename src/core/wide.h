@@ -17,8 +17,7 @@ struct wide_table {
     int shift;
 };
 
-/* The ground in tables. Before and behind stand walls without top, so that a flight over the profile's end is one that
- * strikes a wall. */
+/* The ground in tables, which are read where it has them. */
 struct wide_ground {
     struct wide_table place; /* x, z of a vertex */
     struct wide_table slope; /* m, largest facet angle */
@@ -26,12 +25,10 @@ struct wide_ground {
     struct wide_table share; /* rn, rt */
     struct wide_table grip;  /* mu, friction */
     bool small;              /* all fit TABLE_SMALL */
-    double (*room)[2];       /* of the places; all else is read where the ground has it */
 };
 
-/* NULL without memory. */
+/* To be freed before the ground is released; NULL without memory. */
 struct wide_ground *ceduo_wide_ground_create(const struct ground *g);
-void ceduo_wide_ground_free(struct wide_ground *wide);
 
 /* The wide walk of a kind of registers, or NULL where this machine has none of the kind; how many rocks at once. */
 struct wide_job;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search for landings on a long slope, of flights along +x: what land_far() of landing.h finds. The lanes take turns,
  * so that one works while what another needs is fetched, and each looks at all vertices of a block at once, or at all
- * blocks of the next larger one. */
+ * blocks of the next larger one. Those that look at blocks of one size follow each other, so that no branch depends on it. */
 #ifndef CEDUO_WIDE_FAR_H
 #define CEDUO_WIDE_FAR_H
 
@@ -14,7 +14,6 @@
 struct quest {
     double x, z, vz, inv;
     uint64_t vertex;
-    int level;
 };
 
 LANE double above_one(const struct wide *k, const struct quest *f, double x, double z)
@@ -61,49 +60,62 @@ LANE bool quest_vertices(const struct wide *k, struct quest *f)
     unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST);
     unsigned under = vertices_under(k, f, k->ground->place.pairs + f->vertex + 2) & ((1u << count) - 1);
     f->vertex += under ? (unsigned)__builtin_ctz(under) : count;
-    f->level = 1;
     return under;
 }
 
-/* Looks at the blocks up to the end of the larger one which they are part of. */
-LANE void quest_blocks(const struct wide *k, struct quest *f)
+/* Looks at the blocks up to the end of the larger one which they are part of; the level to go on at. */
+LANE int quest_blocks(const struct wide *k, struct quest *f, int level)
 {
-    int shift = GROUND_BITS * f->level;
+    int shift = GROUND_BITS * level;
     uint64_t i = f->vertex >> shift, there = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
     count = count < there ? count : there;
-    unsigned under = blocks_under(k, f, k->g->levels[f->level] + i) & ((1u << count) - 1);
+    unsigned under = blocks_under(k, f, k->g->levels[level] + i) & ((1u << count) - 1);
     uint64_t clear = under ? (unsigned)__builtin_ctz(under) : count;
-    bool larger = !under && count > 0 && ((i + count) & GROUP_LAST) == 0 && f->level < k->g->top;
+    bool larger = !under && count > 0 && ((i + count) & GROUP_LAST) == 0 && level < k->g->top;
     bool down = under || count == there;
     f->vertex = (i + clear) << shift;
-    f->level += larger ? 1 : down ? -1 : 0;
+    return level + (larger ? 1 : down ? -1 : 0);
 }
 
 /* What the flight looks at when it is its turn again, and a little more of vertices. */
-LANE void fetch_for(const struct wide *k, const struct quest *f)
+LANE void fetch_for(const struct wide *k, const struct quest *f, int level)
 {
-    const char *from = f->level == 0 ? (const char *)(k->ground->place.pairs + f->vertex + 2)
-                                     : (const char *)(k->g->levels[f->level] + (f->vertex >> GROUND_BITS * f->level));
+    const char *from = level == 0 ? (const char *)(k->ground->place.pairs + f->vertex + 2)
+                                  : (const char *)(k->g->levels[level] + (f->vertex >> GROUND_BITS * level));
     for (size_t line = 0; line < sizeof(struct ground_block[8]) / 64; line++)
         __builtin_prefetch(from + 64 * line);
 }
 
-/* Follows those of `lanes`, each from vertex p (from 1) that it clears, to the last that it clears. */
+/* One look of each flight that is at a level; at[l]: those of level l. Returns those that have come to where they land. */
+LANE unsigned look_at_level(const struct wide *k, struct quest *quests, int level, unsigned at[GROUND_LEVELS])
+{
+    unsigned left = at[level], landed = 0;
+    at[level] = 0;
+    for (; left; left &= left - 1) {
+        size_t i = (size_t)__builtin_ctz(left);
+        struct quest *f = &quests[i];
+        if (level == 0 && quest_vertices(k, f)) {
+            landed |= 1u << i;
+            __builtin_prefetch(&k->g->segments[f->vertex]); /* where it lands */
+            continue;
+        }
+        int next = level == 0 ? 1 : quest_blocks(k, f, level);
+        at[next] |= 1u << i;
+        fetch_for(k, f, next);
+    }
+    return landed;
+}
+
+/* Follows those of `lanes`, each from vertex p (from 1) that it clears, to the last that it clears: up to larger blocks
+ * and down again, all flights of a level at a time. */
 static __attribute__((noinline)) void search_far(const struct wide *k, unsigned lanes, struct quest *quests)
 {
+    unsigned at[GROUND_LEVELS] = {lanes};
     while (lanes) {
-        for (unsigned left = lanes; left; left &= left - 1) {
-            size_t i = (size_t)__builtin_ctz(left);
-            struct quest *f = &quests[i];
-            if (f->level > 0) {
-                quest_blocks(k, f);
-            } else if (quest_vertices(k, f)) {
-                lanes &= ~(1u << i);
-                __builtin_prefetch(&k->g->segments[f->vertex]); /* where it lands */
-                continue;
-            }
-            fetch_for(k, f);
-        }
+        for (int level = 0; level <= k->g->top; level++)
+            lanes &= ~look_at_level(k, quests, level, at);
+        for (int level = k->g->top; level >= 0; level--)
+            lanes &= ~look_at_level(k, quests, level, at);
     }
 }
 
@@ -119,9 +131,9 @@ LANE ints search_far_lanes(const struct wide *k, const struct rocks *r, reals in
     store(inverse, inv);
     store_ints(vertex, p);
     for (size_t i = 0; i < LANES; i++) {
-        quests[i] = (struct quest){x[i], z[i], vz[i], inverse[i], vertex[i] - 1, 0};
+        quests[i] = (struct quest){x[i], z[i], vz[i], inverse[i], vertex[i] - 1};
         if (lanes >> i & 1)
-            fetch_for(k, &quests[i]);
+            fetch_for(k, &quests[i], 0);
     }
     search_far(k, lanes, quests);
     for (size_t i = 0; i < LANES; i++)

@@ -46,12 +46,12 @@ static double uniform(uint64_t *state) /* splitmix64 */
 static double height(const struct ground *g, double x, double z, size_t *segment)
 {
     size_t j = *segment;
-    while (j + 1 < g->n && x >= g->x[j + 1])
+    while (j + 1 < g->n && x >= g->at[j + 1].x)
         j++;
-    while (j > 0 && x < g->x[j])
+    while (j > 0 && x < g->at[j].x)
         j--;
     *segment = j;
-    return z - (g->z[j] + g->segments[j].m * (x - g->x[j]));
+    return z - (g->at[j].z + g->segments[j].m * (x - g->at[j].x));
 }
 
 static double by_quadratic(const struct ground *g, const struct launch *l, double step)
