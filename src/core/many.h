@@ -43,28 +43,54 @@ MANY_INLINE void many_of_integers(const many_bits *p, many_reals *result)
     *result = (many_reals)(*p | 0x4330000000000000) - 0x1p52;
 }
 
-/* Of *first and *second those whose lane of *which is all ones go to a and b, in their order, without gaps; behind
- * them there is room for MANY. Returns how many. */
+/* Puts those of *from whose lane of *which is all ones at *to, in their order, without gaps; there is room for MANY. A
+ * lane of *which that is not all ones is 0. */
 #if defined MANY_AVX512
-MANY_INLINE unsigned many_keep(const many_bits *which, const many_reals *first, const many_reals *second, double *a,
-                               double *b)
+MANY_INLINE void many_keep(const many_bits *which, const many_bits *from, void *to)
 {
-    __mmask8 kept = _mm512_movepi64_mask((__m512i)*which);
-    _mm512_storeu_pd(a, _mm512_maskz_compress_pd(kept, (__m512d)*first));
-    _mm512_storeu_pd(b, _mm512_maskz_compress_pd(kept, (__m512d)*second));
-    return (unsigned)__builtin_popcount(kept);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi64(_mm512_movepi64_mask((__m512i)*which), (__m512i)*from));
 }
-#else
-MANY_INLINE unsigned many_keep(const many_bits *which, const many_reals *first, const many_reals *second, double *a,
-                               double *b)
+
+MANY_INLINE unsigned many_count(const many_bits *which)
 {
-    unsigned n = 0;
+    return (unsigned)__builtin_popcount(_mm512_movepi64_mask((__m512i)*which));
+}
+#elif defined MANY_AVX2
+#define HALVES(lane) ((uint64_t)(2 * (lane) + 1) << 32 | 2 * (lane))
+#define KEPT(a, b, c, d) {HALVES(a), HALVES(b), HALVES(c), HALVES(d)}
+MANY_INLINE void many_keep(const many_bits *which, const many_bits *from, void *to)
+{
+    static const many_bits kept[] = {
+        KEPT(0, 0, 0, 0), KEPT(0, 0, 0, 0), KEPT(1, 0, 0, 0), KEPT(0, 1, 0, 0), KEPT(2, 0, 0, 0), KEPT(0, 2, 0, 0),
+        KEPT(1, 2, 0, 0), KEPT(0, 1, 2, 0), KEPT(3, 0, 0, 0), KEPT(0, 3, 0, 0), KEPT(1, 3, 0, 0), KEPT(0, 1, 3, 0),
+        KEPT(2, 3, 0, 0), KEPT(0, 2, 3, 0), KEPT(1, 2, 3, 0), KEPT(0, 1, 2, 3)};
+    int mask = _mm256_movemask_pd((__m256d)*which);
+    _mm256_storeu_si256(to, _mm256_permutevar8x32_epi32((__m256i)*from, (__m256i)kept[mask]));
+}
+
+MANY_INLINE unsigned many_count(const many_bits *which)
+{
+    return (unsigned)__builtin_popcount((unsigned)_mm256_movemask_pd((__m256d)*which));
+}
+#undef KEPT
+#undef HALVES
+#else
+MANY_INLINE void many_keep(const many_bits *which, const many_bits *from, void *to)
+{
+    char *at = to;
     for (int i = 0; i < MANY; i++) {
-        a[n] = (*first)[i];
-        b[n] = (*second)[i];
-        n += (*which)[i] & 1;
+        uint64_t one = (*from)[i];
+        memcpy(at, &one, sizeof one);
+        at += (*which)[i] & sizeof one;
     }
-    return n;
+}
+
+MANY_INLINE unsigned many_count(const many_bits *which)
+{
+    uint64_t n = 0;
+    for (int i = 0; i < MANY; i++)
+        n += (*which)[i] & 1;
+    return (unsigned)n;
 }
 #endif
 

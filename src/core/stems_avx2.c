@@ -13,6 +13,7 @@
 #endif
 
 #define MANY 4
+#define MANY_AVX2
 #include "stems_fill.h"
 #include "variates_add.h"
 

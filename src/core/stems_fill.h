@@ -230,7 +230,7 @@ static inline bool is_plain_stool(const struct stems *s, int side)
 
 #define ROW_SHOOTS 6 /* of so many a stool is made by itself; only speed depends on it */
 
-/* Shoots to be put in order: the last bits of `along` tell them apart. */
+/* Shoots to be put in order. */
 struct shoots {
     _Alignas(64) double along[SHOOTS_AT_ONCE + MANY];
     double y[SHOOTS_AT_ONCE + MANY];
@@ -240,13 +240,24 @@ struct shoots {
     unsigned n;
 };
 
+/* Adds those shoots that `can` be hit, of one kind and stool in each lane; there is room for MANY. */
+static inline void add_shoots(struct shoots *to, const many_bits *can, const many_reals *along, const many_reals *y,
+                              const many_bits *kind, const many_bits *stool)
+{
+    const many_bits along_bits = (many_bits)*along, y_bits = (many_bits)*y;
+    many_keep(can, &along_bits, &to->along[to->n]);
+    many_keep(can, &y_bits, &to->y[to->n]);
+    many_keep(can, kind, &to->kind[to->n]);
+    many_keep(can, stool, &to->stool[to->n]);
+    to->n += many_count(can);
+}
+
 /* The shoots of a stool of one kind that the rock can hit: for stools of many. */
 static inline void add_row(const struct stems *s, const struct stool *t, struct shoots *to)
 {
     const struct wood_kind *kind = t->stools->kinds;
     double most = (s->b + kind->dbh) / 2;
     many_bits kinds = (many_bits){0} + (uint64_t)(kind - s->wood->kinds), events = (many_bits){0} + t->event, shoot;
-    unsigned n = to->n;
     for (unsigned i = 0; i < t->n; i += MANY) {
         many_reals c, q;
         memcpy(&c, &t->ring[i], sizeof c);
@@ -255,21 +266,9 @@ static inline void add_row(const struct stems *s, const struct stool *t, struct 
         many_reals off = (many_reals)((many_bits)y & INT64_MAX);
         many_from(i, 1, &shoot);
         many_bits can = (many_bits)(off <= most) & (many_bits)(shoot < t->n);
-        memcpy(&to->kind[n], &kinds, sizeof kinds);
-        memcpy(&to->stool[n], &events, sizeof events);
-        n += many_keep(&can, &along, &y, &to->along[n], &to->y[n]);
+        add_shoots(to, &can, &along, &y, &kinds, &events);
     }
-    to->n = n;
 }
-
-/* Shoots of some stools in a row, by their number on the ring. */
-struct columns {
-    struct {
-        many_reals along, y;
-        many_bits kind, can; /* can: 1 where the rock can hit it */
-    } of[4 * COHORT_GROUPS];
-    unsigned count; /* shoots of a stool, at the most */
-};
 
 /* The kinds of shoot i of stools from place k on. */
 static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k,
@@ -289,77 +288,100 @@ static inline void choose_kinds(const struct points *p, const struct wood_stools
     }
 }
 
-/* The shoots of stools from place k on, all of one belt. */
-static inline void make_columns(const struct stems *s, const struct points *p, unsigned k, const struct wood_stools *t,
-                                struct columns *to)
+/* The shoots of the stools from place k on to before the next, MANY of them at the most and all of one belt, by their number
+ * on the ring. */
+static inline void add_columns(const struct stems *s, const struct points *p, unsigned k, const struct wood_stools *t,
+                               uint64_t event, struct shoots *to)
 {
     const double *ring = t->ring[0], *other = t->ring[t->more > 0];
+    const many_reals zero = {0};
     many_reals at, centre, sine, cosine;
-    many_bits more;
+    many_bits more, place, events;
     memcpy(&at, &p->at[k], sizeof at);
     memcpy(&centre, &p->centre[k], sizeof centre);
     memcpy(&sine, &p->sine[k], sizeof sine);
     memcpy(&cosine, &p->cosine[k], sizeof cosine);
     memcpy(&more, &p->more[k], sizeof more);
-    many_bits n = more + t->n, is_more = -more;
-    to->count = t->n + (t->more > 0);
-    for (unsigned i = 0; i < to->count; i++) {
-        const many_reals zero = {0};
+    many_from(k, 1, &place);
+    many_from(event, 2, &events);
+    many_bits n = (more + t->n) & (many_bits)(place < p->next), is_more = -more;
+    for (unsigned i = 0; i < t->n + (t->more > 0); i++) {
         many_reals c = CHOOSE(is_more, zero + other[i], zero + ring[i]);
         many_reals q = CHOOSE(is_more, zero + other[t->ring_room + i], zero + ring[t->ring_room + i]);
-        many_reals y = centre + (c * sine + q * cosine), dbh = zero + t->kinds->dbh;
+        many_reals along = at + (c * cosine - q * sine), y = centre + (c * sine + q * cosine), dbh = zero + t->kinds->dbh;
         many_bits kind = (many_bits){0} + (uint64_t)(t->kinds - s->wood->kinds);
         if (t->cohorts > 1)
             choose_kinds(p, t, i, k, &kind, &dbh);
         many_reals off = (many_reals)((many_bits)y & INT64_MAX);
-        to->of[i].along = at + (c * cosine - q * sine);
-        to->of[i].y = y;
-        to->of[i].kind = kind;
-        to->of[i].can = (many_bits)(off <= (s->b + dbh) / 2) & (many_bits)(n > i) & 1;
+        many_bits can = (many_bits)(off <= (s->b + dbh) / 2) & (many_bits)(n > i);
+        add_shoots(to, &can, &along, &y, &kind, &events);
     }
 }
 
-/* The shoots of the next stools, all of one belt, stool by stool until there are enough. Whether the rock can hit one
- * is as likely as not, so that no branch depends on it. */
-static inline void add_columns(struct stems *s, int side, const struct wood_stools *t, struct shoots *to)
+#define STOOLS_AT_ONCE 8 /* at the most */
+
+/* How many stools are made at once: about so many that there are enough shoots, if the rock can hit half of them. */
+static inline unsigned stools_at_once(const struct points *p, const struct wood_stools *t, const struct shoots *to)
+{
+    unsigned each = t->n + (t->more > 0), count = end_of_belt(p, p->next) - p->next;
+    unsigned wanted = 2 * (STOP_SHOOTS - to->n) / each + 1, room = (SHOOTS_AT_ONCE - to->n) / each;
+    count = count < STOOLS_AT_ONCE ? count : STOOLS_AT_ONCE;
+    count = count < wanted ? count : wanted;
+    return count < room ? count : room;
+}
+
+/* The shoots of the next stools, all of one belt. */
+static inline void make_columns(struct stems *s, int side, const struct wood_stools *t, struct shoots *to)
 {
     struct points *p = &s->side[side].streams[STREAM_STOOLS];
-    struct columns columns;
-    unsigned n = to->n, k = p->next, end = end_of_belt(p, k), begin = k;
-    uint64_t event = stem_event(STREAM_STOOLS, side, p->drawn - p->count + k), drawn = 0;
-    end = end < k + MANY ? end : k + MANY;
-    make_columns(s, p, k, t, &columns);
-    for (; k < end && n < STOP_SHOOTS; k++, event += 2) {
-        for (unsigned i = 0; i < columns.count; i++) {
-            to->along[n] = columns.of[i].along[k - begin];
-            to->y[n] = columns.of[i].y[k - begin];
-            to->kind[n] = columns.of[i].kind[k - begin];
-            to->stool[n] = event;
-            n += (unsigned)columns.of[i].can[k - begin];
-        }
-        drawn += t->n + p->more[k];
-    }
+    unsigned k = p->next, count = stools_at_once(p, t, to);
+    uint64_t drawn = 0;
+    p->next = k + count;
+    for (unsigned i = k; i < p->next; i++)
+        drawn += t->n + p->more[i];
     s->drawn += drawn;
-    s->effort += drawn + (k - begin);
-    p->next = k;
-    to->n = n;
+    s->effort += drawn + count;
+    for (; k < p->next; k += MANY)
+        add_columns(s, p, k, t, stem_event(STREAM_STOOLS, side, p->drawn - p->count + k), to);
 }
 
-/* The place of each among all. */
-static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
+/* The place of each among all; `equal`: some may stand at one place, and of those the stool that was drawn first comes first,
+ * and its first shoot. Returns the sum of the places. */
+static inline uint64_t rank_among(const struct shoots *t, bool equal, uint64_t rank[SHOOTS_AT_ONCE])
 {
-    for (unsigned i = 0; i < t->n; i++) {
-        uint64_t bits = (elementary_bits(t->along[i]) & ~(uint64_t)(SHOOTS_AT_ONCE - 1)) | i;
-        t->along[i] = elementary_real(bits);
-    }
+    many_bits all = {0};
     for (unsigned i = 0; i < t->n; i += MANY) {
         many_reals along;
-        many_bits before = {0};
+        many_bits before = {0}, stool, own;
         memcpy(&along, &t->along[i], sizeof along);
-        for (unsigned j = 0; j < t->n; j++)
+        memcpy(&stool, &t->stool[i], sizeof stool);
+        many_from(i, 1, &own);
+        for (unsigned j = 0; j < t->n; j++) {
             before -= (many_bits)(along > t->along[j]);
+            if (equal)
+                before -= (many_bits)(along == t->along[j]) &
+                          ((many_bits)(stool > t->stool[j]) | ((many_bits)(stool == t->stool[j]) & (many_bits)(own > j)));
+        }
         memcpy(&rank[i], &before, sizeof before);
+        all += before;
     }
+    uint64_t sum = 0;
+    for (unsigned lane = 0; lane < MANY; lane++)
+        sum += all[lane];
+    return sum;
+}
+
+static __attribute__((noinline)) void rank_equal_shoots(const struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
+{
+    rank_among(t, true, rank);
+}
+
+static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
+{
+    const many_reals zero = {0}, nowhere = zero - (double)INFINITY;
+    memcpy(&t->along[t->n], &nowhere, sizeof nowhere); /* of place 0 */
+    if (rank_among(t, false, rank) != (uint64_t)t->n * (t->n - 1) / 2)
+        rank_equal_shoots(t, rank);
 }
 
 /* Those that wait already are put in order once more. */
@@ -387,7 +409,7 @@ static void make_stools(struct stems *s, int i_side)
     do {
         const struct wood_stools *stools = s->wood->along[i_side][p->belt[p->next]].stools;
         if (stools->cohorts > 1 || stools->n < ROW_SHOOTS) {
-            add_columns(s, i_side, stools, &t);
+            make_columns(s, i_side, stools, &t);
         } else {
             struct stool stool = next_stool(s, i_side);
             add_row(s, &stool, &t);

@@ -344,6 +344,32 @@ static void diameters_without_spread_change_nothing(void **state)
     }
 }
 
+/* Stools whose shoots all stand at their middle: the shoots come one by one in the order in which they are drawn, as they
+ * do where each is put among the others by itself. */
+static void shoots_at_one_place_are_met_in_their_order(void **state)
+{
+    (void)state;
+    static struct ceduo_stem_passed plain[STEMS_MOST];
+    for (uint64_t rock = 0; rock < 200; rock++) {
+        clear_plane(520);
+        struct ceduo_belt *few = plant_belt(10, 260, 800, 0), *many = plant_belt(260, 510, 800, 0);
+        plant_shoots(few, 2400, .05);
+        plant_shoots(few, 1000, .08);
+        plant_shoots(many, 8000, .06);
+        sweep_one(rock);
+        size_t n = sweep.count;
+        assert_true(n > 100);
+        memcpy(plain, sweep.stems, n * sizeof *plain);
+        plane.shoots[0][0].dbh_sd = plane.shoots[0][1].dbh_sd = plane.shoots[1][0].dbh_sd = 1e-9;
+        sweep_one(rock);
+        assert_int_equal(n, sweep.count);
+        for (size_t i = 0; i < n; i++)
+            if (fabs(plain[i].x - sweep.stems[i].x) > 1e-3 || plain[i].stool != sweep.stems[i].stool ||
+                fabs(plain[i].dbh - sweep.stems[i].dbh) > 1e-7)
+                fail_msg("stem %zu of rock %d is another", i, (int)rock);
+    }
+}
+
 /* ---- extremes ---- */
 
 static void expect_stems_per_metre(const char *what, double expected, uint64_t rocks, double metres)
@@ -385,6 +411,7 @@ int main(void)
         cmocka_unit_test(clumping_changes_the_spread_but_not_the_mean),
         cmocka_unit_test(thick_stems_are_met_more_often),
         cmocka_unit_test(diameters_without_spread_change_nothing),
+        cmocka_unit_test(shoots_at_one_place_are_met_in_their_order),
         cmocka_unit_test(extreme_stands_are_met_as_they_should_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
