@@ -110,8 +110,8 @@ static void let_wait(struct stems *s, int i_side, const struct stem *stem)
     bool behind = i_side == 0 && stem->along < s->start;
     struct stems_side *to = behind ? &s->side[1] : side;
     double along = behind ? -stem->along : stem->along;
-    if (!stem->shoot)
-        to->trees_to = fmax(to->trees_to, along);
+    if (!stem->shoot || stem->kind->shape > 0)
+        to->other_to = fmax(to->other_to, along);
     if (behind)
         turn_behind(s, *stem);
     else
@@ -184,8 +184,8 @@ static void make_stool(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
     const struct points *p = &side->streams[STREAM_STOOLS];
-    bool trees = side->first < side->end && side->trees_to >= side->waiting[side->first].along;
-    bool plain = is_plain_stool(s, i_side) && side->end - side->first < STOP_SHOOTS && !trees;
+    bool others = side->first < side->end && side->other_to >= side->waiting[side->first].along;
+    bool plain = is_plain_stool(s, i_side) && side->end - side->first < STOP_SHOOTS && !others;
     size_t n = plain ? SHOOTS_AT_ONCE : s->wood->along[i_side][p->belt[p->next]].stools->n + 1;
     if (!make_room(s, side, n))
         return;
@@ -380,7 +380,7 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->pause = PAUSE_STEMS;
     for (int i = 0; i < 2; i++) {
         s->side[i].first = s->side[i].end = 0;
-        s->side[i].trees_to = -INFINITY;
+        s->side[i].other_to = -INFINITY;
     }
     memset(s->met, 0, (s->wood->places + 1) * sizeof *s->met);
     start_side(s, 0, x, 1);

@@ -50,7 +50,7 @@ struct points {
 struct stems_side {
     struct points streams[STREAM_GROUPS];
     struct points *groups;  /* the third stream; NULL: there are none */
-    double trees_to;        /* m along the strip: behind that no tree of a group waits */
+    double other_to;        /* m along the strip: behind that none waits but shoots as thick as all of their kind */
     struct stem single;     /* the next of its stream; `along` infinite: none */
     struct stem *waiting;   /* shoots of drawn stools, and trees of drawn groups, that the rock can hit, from `first` to before `end`, the nearest first; room for one more */
     size_t first, end, room;

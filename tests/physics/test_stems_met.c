@@ -344,6 +344,26 @@ static void diameters_without_spread_change_nothing(void **state)
     }
 }
 
+/* Of a belt whose shoots spread in diameter none is met with the mean, also where it ends and others begin that do not. */
+static void shoots_keep_their_diameters_beside_others(void **state)
+{
+    (void)state;
+    size_t near = 0;
+    for (uint64_t rock = 0; rock < 300; rock++) {
+        clear_plane(60);
+        plant_shoots(plant_belt(10, 30, 2000, .5), 12000, .1)->dbh_sd = .04;
+        plant_shoots(plant_belt(30, 50, 2000, .5), 8000, .05);
+        sweep_one(rock);
+        for (size_t i = 0; i < sweep.count; i++) {
+            const struct ceduo_stem_passed *p = &sweep.stems[i];
+            if (p->dbh == .1)
+                fail_msg("a stem at %g m of rock %d has the mean diameter", p->x, (int)rock);
+            near += p->x > 29 && p->dbh != .05;
+        }
+    }
+    assert_in_range(near, 200, 100000);
+}
+
 /* Stools whose shoots all stand at their middle: the shoots come one by one in the order in which they are drawn, as they
  * do where each is put among the others by itself. */
 static void shoots_at_one_place_are_met_in_their_order(void **state)
@@ -411,6 +431,7 @@ int main(void)
         cmocka_unit_test(clumping_changes_the_spread_but_not_the_mean),
         cmocka_unit_test(thick_stems_are_met_more_often),
         cmocka_unit_test(diameters_without_spread_change_nothing),
+        cmocka_unit_test(shoots_keep_their_diameters_beside_others),
         cmocka_unit_test(shoots_at_one_place_are_met_in_their_order),
         cmocka_unit_test(extreme_stands_are_met_as_they_should_be),
     };
