@@ -164,10 +164,11 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
         ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
 }
 
-/* Takes whole sentences off the end until the rest has room. */
+/* Takes whole sentences off the end until the rest has room, and a sign of more. */
 static void keep_fitting(struct app *app, struct text *text, int width, int lines)
 {
-    while (ceduo_app_text_lines(app, ceduo_text_string(text), width) > lines) {
+    bool whole = true;
+    for (; ceduo_app_text_lines(app, ceduo_text_string(text), width) > lines; whole = false) {
         char *end = NULL;
         for (char *p = text->bytes; p + 2 < text->bytes + text->length; p++)
             if (p[0] == '.' && (p[1] == ' ' || p[1] == '\n'))
@@ -177,6 +178,8 @@ static void keep_fitting(struct app *app, struct text *text, int width, int line
         *end = '\0';
         text->length = (size_t)(end - text->bytes);
     }
+    if (!whole)
+        ceduo_text_put(text, " \xe2\x80\xa6");
 }
 
 #define PICTURE_LEAST     9 /* lines of the picture with one strip */
