@@ -29,11 +29,15 @@ static bool same_number(struct ceduo_number a, struct ceduo_number b)
     return a.mean == b.mean && a.spread == b.spread && (a.kind == b.kind || a.spread == 0);
 }
 
+static bool same_roughness(const struct ceduo_segment *a, const struct ceduo_segment *b)
+{
+    return isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
+                                 : a->roughness_m == b->roughness_m;
+}
+
 static bool same_ground(const struct ceduo_segment *a, const struct ceduo_segment *b)
 {
-    bool rough = isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
-                                       : a->roughness_m == b->roughness_m;
-    return rough && a->friction == b->friction && a->mu == b->mu &&
+    return same_roughness(a, b) && a->friction == b->friction && a->mu == b->mu &&
            same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
 }
 
@@ -55,10 +59,12 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
     const double *x = slope->x, *z = slope->z;
     struct lines l = {-INFINITY, INFINITY};
     size_t end = j + 1;
-    for (; end + 1 < slope->vertices && same_ground(&slope->segments[j], &slope->segments[end]); end++) {
+    for (; end + 1 < slope->vertices; end++) {
         double m = (z[end] - z[end - 1]) / (x[end] - x[end - 1]), next = (z[end + 1] - z[end]) / (x[end + 1] - x[end]);
         double turn = NO_BREAK * (1 + m * m);
         if (!(fabs(next - m) <= 2 * turn)) /* by far the most of a rough profile */
+            break;
+        if (!same_ground(&slope->segments[j], &slope->segments[end]))
             break;
         double dx = x[end] - x[j], far = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / far;
         narrow(&l, m, turn);
@@ -118,7 +124,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     to->mu = from->mu;
     to->rn = from->rn.mean;
     to->rt = from->rt.mean;
-    if (j > 0 && same_ground(from, g->given[j - 1]))
+    if (j > 0 && same_roughness(from, g->given[j - 1]))
         to->theta = g->segments[j - 1].theta;
     else
         to->theta = isnan(from->roughness_m) ? from->roughness_rad : ceduo_atan(from->roughness_m / radius);
