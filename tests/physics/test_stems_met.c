@@ -390,6 +390,112 @@ static void shoots_at_one_place_are_met_in_their_order(void **state)
     }
 }
 
+/* ---- belts of all kinds beside each other ---- */
+
+/* Heights, by which a stem tells of what it is one: 1000 m and one more for each kind that is planted. */
+static struct planted {
+    const struct ceduo_belt *belt;
+    const struct ceduo_stems *stems;
+    bool shoots;
+} planted[4 * KINDS_MOST];
+static size_t planted_count;
+
+static void plant_random(struct line_random *r, struct ceduo_belt *belt, bool shoots)
+{
+    double dbh = line_uniform(r, .03, .3);
+    double per_ha = shoots ? belt->stand.stools_per_ha * line_uniform(r, .6, 9) : line_log_uniform(r, 10, 2000);
+    struct ceduo_stems *s = shoots ? plant_shoots(belt, per_ha, dbh) : plant_trees(belt, per_ha, dbh);
+    s->height = 1000 + (double)planted_count;
+    s->dbh_sd = line_chance(r, .4) ? dbh * line_uniform(r, .05, .9) : 0;
+    if (!shoots && line_chance(r, .4)) {
+        s->group = (unsigned)line_uniform(r, 2, 12);
+        s->group_radius = line_uniform(r, .1, 4);
+    }
+    planted[planted_count++] = (struct planted){belt, s, shoots};
+}
+
+static void plant_belts_at_random(struct line_random *r)
+{
+    double border = line_uniform(r, 20, 40);
+    planted_count = 0;
+    for (int i = 0; i < 2; i++) {
+        double stools = line_chance(r, .8) ? line_log_uniform(r, 100, 6000) : 0;
+        double spacing = line_chance(r, .2) ? 0 : line_log_uniform(r, .02, 3);
+        struct ceduo_belt *belt = plant_belt(i == 0 ? 5 : border, i == 0 ? border : 60, stools, spacing);
+        for (double n = stools > 0 ? line_uniform(r, 1, 3.9) : 0; n >= 1; n--)
+            plant_random(r, belt, true);
+        for (double n = line_uniform(r, 0, 2.9); n >= 1; n--)
+            plant_random(r, belt, false);
+    }
+}
+
+static double per_stool(const struct ceduo_stand *stand)
+{
+    return ceduo_stand_shoots(stand) / stand->stools_per_ha;
+}
+
+/* How far from its middle a shoot of such a stool may stand. */
+static double ring_reach(const struct ceduo_stand *stand)
+{
+    unsigned n = (unsigned)floor(per_stool(stand));
+    return fmax(ceduo_stool_radius(n, stand->spacing), ceduo_stool_radius(n + 1, stand->spacing));
+}
+
+static void expect_one_of_those_planted(const struct ceduo_stem_passed *stem)
+{
+    size_t k = (size_t)(stem->height - 1000);
+    assert_true(k < planted_count);
+    const struct planted *of = &planted[k];
+    assert_int_equal(stem->shoot, of->shoots);
+    if ((stem->dbh == of->stems->dbh) != (of->stems->dbh_sd == 0))
+        fail_msg("a stem of %g m where %g ± %g m were planted", stem->dbh, of->stems->dbh, of->stems->dbh_sd);
+    assert_true(fabs(stem->y) <= (B + stem->dbh) / 2);
+    double reach = stem->shoot ? ring_reach(&of->belt->stand) * (1 + 1e-12) + 1e-12 : 0;
+    assert_true(stem->x >= of->belt->from - reach && stem->x <= of->belt->to + reach);
+}
+
+/* Of each stool no more shoots than it has, all of one belt, and no two trees of one number. */
+static void expect_whole_stools(void)
+{
+    for (size_t i = 0; i < sweep.count; i++) {
+        const struct ceduo_stem_passed *p = &sweep.stems[i];
+        const struct planted *of = &planted[(size_t)(p->height - 1000)];
+        size_t same = 0;
+        for (size_t j = 0; j < sweep.count; j++)
+            if (sweep.stems[j].stool == p->stool) {
+                assert_ptr_equal(planted[(size_t)(sweep.stems[j].height - 1000)].belt, of->belt);
+                same++;
+            }
+        assert_in_range(same, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
+    }
+}
+
+static void stems_of_random_belts_are_some_that_were_planted(void **state)
+{
+    (void)state;
+    struct line_random r = {.state = 17};
+    size_t all = 0;
+    for (unsigned i = 0; i < 300; i++) {
+        clear_plane(70);
+        plane.line.scene.simulation.seed = i;
+        plant_belts_at_random(&r);
+        if (line_chance(&r, .3)) /* among them */
+            line_scene_release(&plane.line, line_uniform(&r, 0, 50), 1, 5000, 0, 0);
+        sweep_begin();
+        for (uint64_t rock = 0; rock < 5; rock++) {
+            sweep_rock(rock);
+            all += sweep.count;
+            for (size_t k = 0; k < sweep.count; k++) {
+                expect_one_of_those_planted(&sweep.stems[k]);
+                assert_true(k == 0 || sweep.stems[k].x >= sweep.stems[k - 1].x);
+            }
+            expect_whole_stools();
+        }
+        sweep_end();
+    }
+    assert_in_range(all, 20000, 1000000);
+}
+
 /* ---- extremes ---- */
 
 static void expect_stems_per_metre(const char *what, double expected, uint64_t rocks, double metres)
@@ -433,6 +539,7 @@ int main(void)
         cmocka_unit_test(diameters_without_spread_change_nothing),
         cmocka_unit_test(shoots_keep_their_diameters_beside_others),
         cmocka_unit_test(shoots_at_one_place_are_met_in_their_order),
+        cmocka_unit_test(stems_of_random_belts_are_some_that_were_planted),
         cmocka_unit_test(extreme_stands_are_met_as_they_should_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
