@@ -414,11 +414,26 @@ static bool drop_word(struct text *text)
     return true;
 }
 
+void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines)
+{
+    for (bool fits = false; !fits;) {
+        size_t end = text->length;
+        ceduo_text_put(text, " ..."); /* as wide as the sign is in ASCII */
+        if (text->failed)
+            return;
+        fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
+        text->length = end;
+        text->bytes[end] = '\0';
+        if (!fits && !drop_word(text))
+            return;
+    }
+    ceduo_text_put(text, " \xe2\x80\xa6");
+}
+
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 {
-    while (!text->failed && text->length > 0 && ceduo_app_text_lines(app, text->bytes, width) > lines && drop_word(text))
-        if (drop_word(text)) /* the sign takes the place of a word */
-            ceduo_text_put(text, " \xe2\x80\xa6");
+    if (text->length > 0 && ceduo_app_text_lines(app, text->bytes, width) > lines)
+        ceduo_app_end_in_more(app, text, width, lines);
 }
 
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)

@@ -178,6 +178,9 @@ int ceduo_app_text_lines(struct app *app, const char *text, int width);
 /* A text that fills no more than so many lines: what is too long ends in a sign of more. */
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines);
 
+/* Puts that sign behind a text of so many lines, in the place of its last words where there is no room otherwise. */
+void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines);
+
 /* Draws a text, shortened to its area, and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)

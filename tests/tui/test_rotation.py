@@ -219,7 +219,8 @@ def test_no_stems():
     """Where no stem stands view 6 says so instead of a distance between hits, and view 4 of a belt; 100 % is whole"""
     with Place() as place:
         place.write("bare.yaml", INDEX[:INDEX.index("forest:")] + "forest: [{from_m: 2, to_m: 38, stand: {system: bare}}]\n")
-        years, belts = place.play("wait idle\nkey 6\nwait idle\nresize 80 24\ndump\nkey 4 End\ndump", "bare.yaml")
+        years, belts = place.play("wait idle\nkey 6\nwait idle\nresize 80 24\nkey Tab\ndump\nkey Tab 4 End\ndump",
+                                  "bare.yaml")
     expect(re.search(r"Year 0: .*; no stems\.", flat(years)), years)
     expect_in("bare: no stems", belts.body)
     expect(re.search(r"Free run FAILS 100 %$", years.now, re.M), years)
