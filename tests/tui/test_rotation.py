@@ -155,6 +155,8 @@ def test_strips():
         expect_in(f"Years that fail: energy {fails['E']}, contact {fails['C']}, free run {fails['F']} of 13.", flat(alone))
     expect_equal(strips(screens[0]), [False, True], "80x24 with the form: one strip")
     expect_equal(strips(screens[2]), [True, True], "200x50 with the form: both")
+    expect_in("ha and year. …", flat(screens[0]), "80x24: a sign of more in the place of what is said of the year")
+    expect("…" not in flat(screens[3]) and "Year 0:" in flat(screens[1]), "words without room", screens[1], screens[3])
 
 
 def test_window():
