@@ -211,7 +211,8 @@ static void tell(void *context, const struct ceduo_calibration_state *state)
 }
 
 /* A fit of one value to where one rock stops, its chains of one round. */
-static enum ceduo_status fit_of_one_round(unsigned threads, void (*meanwhile)(void), enum ceduo_calibration_stage stage, int at)
+static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void (*meanwhile)(void),
+                                          enum ceduo_calibration_stage stage, int at)
 {
     static const char *const place = "release.vx_m_s";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
@@ -226,7 +227,7 @@ static enum ceduo_status fit_of_one_round(unsigned threads, void (*meanwhile)(vo
     told.at = at;
     told.most_inside = told.times = 0;
     enum ceduo_status status = ceduo_calibrate(&(struct ceduo_calibration_def){.scenes_count = 1, .scenes = &scene, .parameters_count = 1,
-                                                                               .rocks = 1, .seed = 1, .threads = threads,
+                                                                               .rocks = rocks, .seed = 1, .threads = threads,
                                                                                .steps_most = 1, .progress = tell},
                                                &a);
     if (status == CEDUO_OK) {
@@ -242,11 +243,12 @@ static void others_go_on(void)
     wait_for_others(500);
 }
 
-/* Who is told how far it is holds up nobody, and is not told meanwhile. */
+/* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
+ * before it looks up again. */
 static void one_is_told_at_a_time(void **state)
 {
     (void)state;
-    assert_int_equal(fit_of_one_round(2, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
+    assert_int_equal(fit_of_one_round(2, 4000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }
@@ -255,7 +257,7 @@ static void one_is_told_at_a_time(void **state)
 static void one_thread_ends_all(void **state)
 {
     (void)state;
-    assert_int_equal(fit_of_one_round(2, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
+    assert_int_equal(fit_of_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
@@ -268,7 +270,7 @@ static void fail_to_grow(void)
 
 static bool fit_that_cannot_grow(void)
 {
-    return is_done(fit_of_one_round(1, fail_to_grow, CEDUO_REFINE, 3));
+    return is_done(fit_of_one_round(1, 1, fail_to_grow, CEDUO_REFINE, 3));
 }
 
 /* What chains have tried, and what is learned of it and of all points before, has no room. */
