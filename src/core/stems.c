@@ -135,11 +135,6 @@ static inline double next_place(struct stems *s, int i_side, enum stem_stream st
     return p->next < p->count ? p->at[p->next] : draw_places(s, i_side, stream);
 }
 
-static uint64_t event_of_next(const struct points *p, enum stem_stream stream, int side)
-{
-    return stem_event(stream, side, p->drawn - p->count + p->next);
-}
-
 /* The kind of a shoot by its 32 bits. */
 static inline const struct wood_kind *cohort_at(const struct wood_stools *stools, uint64_t bits)
 {
@@ -248,7 +243,7 @@ static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
 {
     struct points *p = points_of(&s->side[i_side], STREAM_GROUPS);
     unsigned k = p->next;
-    uint64_t event = event_of_next(p, STREAM_GROUPS, i_side);
+    uint64_t event = event_of(p, STREAM_GROUPS, i_side, k);
     double u;
     const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
     const struct wood_stratum *t = stratum_at(s, i_side, belt, p->belt[k], STREAM_GROUPS, p->mark[k], &u);
@@ -276,7 +271,7 @@ static void make_single(struct stems *s, int i_side)
     if (!(side->single.along < INFINITY))
         return;
     unsigned k = p->next;
-    uint64_t event = event_of_next(p, STREAM_SINGLE, i_side);
+    uint64_t event = event_of(p, STREAM_SINGLE, i_side, k);
     double u;
     const struct wood_belt *belt = &s->wood->along[i_side][p->belt[k]];
     const struct wood_kind *kind = stratum_at(s, i_side, belt, p->belt[k], STREAM_SINGLE, p->mark[k], &u)->kind;

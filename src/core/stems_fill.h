@@ -24,6 +24,12 @@ static inline uint64_t stem_event(enum stem_stream stream, int side, uint64_t n)
     return (uint64_t)stream << 41 | (n + 1) << 1 | (uint64_t)side;
 }
 
+/* That of place k of those at hand. */
+static inline uint64_t event_of(const struct points *p, enum stem_stream stream, int side, unsigned k)
+{
+    return stem_event(stream, side, p->drawn - p->count + k);
+}
+
 /* What belongs to shoot i of a stool, or to its i-th draw. */
 static inline uint64_t shoot_draw(enum random_kind kind, unsigned i)
 {
@@ -207,7 +213,7 @@ static inline struct stool next_stool(struct stems *s, int side)
                           .ring = ring,
                           .sines = ring + stools->ring_room,
                           .n = n,
-                          .event = stem_event(STREAM_STOOLS, side, p->drawn - p->count + k)};
+                          .event = event_of(p, STREAM_STOOLS, side, k)};
 }
 
 /* Where shoot i of a stool stands. */
@@ -342,7 +348,7 @@ static inline void make_columns(struct stems *s, int side, const struct wood_sto
     s->drawn += drawn;
     s->effort += drawn + count;
     for (; k < p->next; k += MANY)
-        add_columns(s, p, k, t, stem_event(STREAM_STOOLS, side, p->drawn - p->count + k), to);
+        add_columns(s, p, k, t, event_of(p, STREAM_STOOLS, side, k), to);
 }
 
 /* The place of each among all; `equal`: some may stand at one place, and of those the stool that was drawn first comes first,

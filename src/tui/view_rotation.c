@@ -167,8 +167,8 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
 /* Takes whole sentences off the end until the rest has room, and a sign of more. */
 static void keep_fitting(struct app *app, struct text *text, int width, int lines)
 {
-    bool whole = true;
-    for (; ceduo_app_text_lines(app, ceduo_text_string(text), width) > lines; whole = false) {
+    size_t whole = text->length;
+    while (ceduo_app_text_lines(app, ceduo_text_string(text), width) > lines) {
         char *end = NULL;
         for (char *p = text->bytes; p + 2 < text->bytes + text->length; p++)
             if (p[0] == '.' && (p[1] == ' ' || p[1] == '\n'))
@@ -178,7 +178,7 @@ static void keep_fitting(struct app *app, struct text *text, int width, int line
         *end = '\0';
         text->length = (size_t)(end - text->bytes);
     }
-    if (!whole)
+    if (text->length < whole)
         ceduo_app_end_in_more(app, text, width, lines);
 }
 

@@ -441,11 +441,16 @@ static double ring_reach(const struct ceduo_stand *stand)
     return fmax(ceduo_stool_radius(n, stand->spacing), ceduo_stool_radius(n + 1, stand->spacing));
 }
 
-static void expect_one_of_those_planted(const struct ceduo_stem_passed *stem)
+static const struct planted *planted_as(const struct ceduo_stem_passed *stem)
 {
     size_t k = (size_t)(stem->height - 1000);
     assert_true(k < planted_count);
-    const struct planted *of = &planted[k];
+    return &planted[k];
+}
+
+static void expect_one_of_those_planted(const struct ceduo_stem_passed *stem)
+{
+    const struct planted *of = planted_as(stem);
     assert_int_equal(stem->shoot, of->shoots);
     if ((stem->dbh == of->stems->dbh) != (of->stems->dbh_sd == 0))
         fail_msg("a stem of %g m where %g ± %g m were planted", stem->dbh, of->stems->dbh, of->stems->dbh_sd);
@@ -459,11 +464,11 @@ static void expect_whole_stools(void)
 {
     for (size_t i = 0; i < sweep.count; i++) {
         const struct ceduo_stem_passed *p = &sweep.stems[i];
-        const struct planted *of = &planted[(size_t)(p->height - 1000)];
+        const struct planted *of = planted_as(p);
         size_t same = 0;
         for (size_t j = 0; j < sweep.count; j++)
             if (sweep.stems[j].stool == p->stool) {
-                assert_ptr_equal(planted[(size_t)(sweep.stems[j].height - 1000)].belt, of->belt);
+                assert_ptr_equal(planted_as(&sweep.stems[j])->belt, of->belt);
                 same++;
             }
         assert_in_range(same, 1, p->shoot ? (size_t)ceil(per_stool(&of->belt->stand)) : 1);
