@@ -147,12 +147,14 @@ double ceduo_histogram_value(const struct histogram *h, uint64_t rank)
     return NAN;
 }
 
-static double value_of_rank(void *context, size_t rank)
+static void values_of_ranks(void *context, const size_t *ranks, size_t count, double *values)
 {
-    return ceduo_histogram_value(*(const struct histogram *const *)context, rank);
+    const struct histogram *h = *(const struct histogram *const *)context;
+    for (size_t i = 0; i < count; i++)
+        values[i] = ceduo_histogram_value(h, ranks[i]);
 }
 
 struct ceduo_distribution ceduo_distribution_binned(const struct histogram *h, const struct ceduo_moments *m)
 {
-    return ceduo_distribution_by(value_of_rank, &h, (size_t)h->n, m);
+    return ceduo_distribution_by(values_of_ranks, &h, (size_t)h->n, m);
 }

@@ -5,6 +5,7 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
 {
@@ -111,7 +112,9 @@ static int by_rank(const void *a, const void *b)
     return (x->rank > y->rank) - (x->rank < y->rank);
 }
 
-struct ceduo_distribution ceduo_distribution_by(double (*value)(void *context, size_t rank), void *context, size_t n,
+#define RANKS 9 /* three percentiles, each with its interval */
+
+struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *context, size_t n,
                                                 const struct ceduo_moments *m)
 {
     struct ceduo_distribution d = ceduo_distribution_none();
@@ -123,39 +126,97 @@ struct ceduo_distribution ceduo_distribution_by(double (*value)(void *context, s
     d.max = m->max;
     const struct {
         double p, *at, *lo, *hi;
-    } percentiles[] = {{0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi},
-                       {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
-    struct wanted wanted[9];
-    for (size_t i = 0; i < 3; i++) {
-        size_t lo, hi;
+    } percentiles[RANKS / 3] = {{0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi},
+                                {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
+    struct wanted wanted[RANKS];
+    size_t count = 0, ranks[RANKS];
+    double values[RANKS];
+    for (size_t i = 0; i < RANKS / 3; i++) {
+        size_t lo, hi, at = ceduo_quantile_rank(n, percentiles[i].p);
         ceduo_quantile_interval(n, percentiles[i].p, &lo, &hi);
-        wanted[3 * i] = (struct wanted){ceduo_quantile_rank(n, percentiles[i].p), percentiles[i].at};
-        wanted[3 * i + 1] = (struct wanted){lo, percentiles[i].lo};
-        wanted[3 * i + 2] = (struct wanted){hi, percentiles[i].hi};
+        wanted[count++] = (struct wanted){at, percentiles[i].at};
+        if (lo > 0)
+            wanted[count++] = (struct wanted){lo, percentiles[i].lo};
+        if (hi <= n)
+            wanted[count++] = (struct wanted){hi, percentiles[i].hi};
     }
-    qsort(wanted, 9, sizeof wanted[0], by_rank);
-    for (size_t i = 0; i < 9; i++)
-        if (wanted[i].rank > 0 && wanted[i].rank <= n)
-            *wanted[i].to = fmin(m->max, value(context, wanted[i].rank));
+    qsort(wanted, count, sizeof wanted[0], by_rank);
+    for (size_t i = 0; i < count; i++)
+        ranks[i] = wanted[i].rank;
+    of_ranks(context, ranks, count, values);
+    for (size_t i = 0; i < count; i++)
+        *wanted[i].to = fmin(m->max, values[i]);
     return d;
 }
 
-/* Values that are sorted as far as ranks were asked for. */
-struct selection {
-    double *values;
-    size_t n, from; /* what lies before rank `from` is smaller than what comes */
+/* ---- values of ranks ---- */
+
+#define BUCKETS      4096
+#define BUCKETS_FROM ((size_t)8 * BUCKETS) /* values: fewer are found sooner without */
+
+struct values {
+    double *of;
+    size_t n;
 };
 
-static double select_rank(void *context, size_t rank)
+/* One after the other, each among those that are not smaller than the one before. */
+static void select_ranks(double *values, size_t n, const size_t *ranks, size_t count, double *to)
 {
-    struct selection *s = context;
-    size_t skip = s->from > 0 ? s->from - 1 : 0;
-    s->from = rank;
-    return gsl_stats_select(s->values + skip, 1, s->n - skip, rank - 1 - skip);
+    for (size_t i = 0, from = 0; i < count; i++) {
+        to[i] = gsl_stats_select(values + from, 1, n - from, ranks[i] - 1 - from);
+        from = ranks[i] - 1;
+    }
+}
+
+/* Which of equally wide ranges of values from `lo` on a value is in. */
+static inline size_t bucket_of(double value, double lo, double per_unit)
+{
+    return (size_t)((value - lo) * per_unit);
+}
+
+/* Puts the values in front that share a bucket with one of these ranks; returns their number. The ranks are then those
+ * among them. */
+static size_t keep_buckets(const struct values *v, double lo, double per_unit, size_t *ranks, size_t count)
+{
+    uint64_t held[BUCKETS + 1] = {0};
+    bool wanted[BUCKETS + 1] = {false};
+    for (size_t i = 0; i < v->n; i++)
+        held[bucket_of(v->of[i], lo, per_unit)]++;
+    size_t below = 0, left_out = 0;
+    for (size_t bucket = 0, i = 0; i < count; bucket++) {
+        size_t through = below + held[bucket];
+        wanted[bucket] = ranks[i] <= through;
+        for (; i < count && ranks[i] <= through; i++)
+            ranks[i] -= left_out;
+        left_out += wanted[bucket] ? 0 : held[bucket];
+        below = through;
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < v->n; i++) { /* no branch depends on a value */
+        double value = v->of[i];
+        v->of[i] = v->of[kept];
+        v->of[kept] = value;
+        kept += wanted[bucket_of(value, lo, per_unit)];
+    }
+    return kept;
+}
+
+static void exact_ranks(void *context, const size_t *ranks, size_t count, double *to)
+{
+    struct values *v = context;
+    double lo = 0, hi = 0;
+    size_t n = v->n, among[RANKS];
+    memcpy(among, ranks, count * sizeof *ranks);
+    if (n >= BUCKETS_FROM)
+        gsl_stats_minmax(&lo, &hi, v->of, 1, n);
+    double per_unit = BUCKETS / (hi - lo);
+    if (n >= BUCKETS_FROM && isnormal(per_unit))
+        n = keep_buckets(v, lo, per_unit, among, count);
+    select_ranks(v->of, n, among, count, to);
 }
 
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
 {
-    struct selection selection = {.values = values, .n = n};
-    return ceduo_distribution_by(select_rank, &selection, n, m);
+    struct values v = {.of = values, .n = n};
+    return ceduo_distribution_by(exact_ranks, &v, n, m);
 }

@@ -709,6 +709,62 @@ static void a_distribution_of_exact_values(void **state)
     assert_true(isnan(none.max));
 }
 
+/* Some shapes of many values, up to those that no range of numbers divides evenly. */
+static double many_valued(size_t shape, size_t i, struct line_random *r)
+{
+    switch (shape) {
+    case 0:
+        return line_uniform(r, -3, 5);
+    case 1:
+        return line_log_uniform(r, 1e-300, 1e300);
+    case 2: /* one far from all others */
+        return i == 777 ? 1e9 : line_uniform(r, 20, 21);
+    case 3:
+        return i % 2 == 0 ? 7 : 8;
+    case 4: /* the last bit of some of them differs */
+        return i % 3 == 0 ? nextafter(1, 2) : 1;
+    case 5:
+        return (double)(i % 5) * 0x1p-1074;
+    case 6:
+        return i % 4 == 0 ? -1.7e308 : 1.7e308;
+    default:
+        return 42;
+    }
+}
+
+/* Of many values percentiles are looked for among those near them alone; they are the same as of sorted ones, and no value is
+ * lost. */
+static void percentiles_of_many_values(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {32767, 32768, 100003};
+    static double values[100003], sorted[100003];
+    struct line_random r = {.state = 11};
+    for (size_t shape = 0; shape < 8; shape++)
+        for (size_t s = 0; s < (shape == 0 ? 40 : LENGTH(sizes)); s++) { /* each rank comes to where ranges end */
+            size_t n = s < LENGTH(sizes) ? sizes[s] : 32768 + 101 * s;
+            struct ceduo_moments m = {0};
+            for (size_t i = 0; i < n; i++) {
+                values[i] = sorted[i] = many_valued(shape, i, &r);
+                ceduo_moments_add(&m, values[i]);
+            }
+            qsort(sorted, n, sizeof *sorted, by_value);
+            struct ceduo_distribution d = ceduo_distribution_exact(values, n, &m);
+            const struct {
+                double p, at, lo, hi;
+            } percentiles[] = {{.5, d.p50, d.p50_lo, d.p50_hi}, {.95, d.p95, d.p95_lo, d.p95_hi}, {.99, d.p99, d.p99_lo, d.p99_hi}};
+            for (size_t i = 0; i < 3; i++) {
+                size_t lo, hi;
+                ceduo_quantile_interval(n, percentiles[i].p, &lo, &hi);
+                EXPECT(percentiles[i].at, ==, sorted[ceduo_quantile_rank(n, percentiles[i].p) - 1]);
+                EXPECT(percentiles[i].lo, ==, sorted[lo - 1]);
+                EXPECT(percentiles[i].hi, ==, sorted[hi - 1]);
+            }
+            qsort(values, n, sizeof *values, by_value);
+            assert_memory_equal(values, sorted, n * sizeof *values);
+        }
+}
+
 static void moments_added_and_merged(void **state)
 {
     (void)state;
@@ -899,6 +955,7 @@ int main(void)
         cmocka_unit_test(ranks_of_quantiles),
         cmocka_unit_test(intervals_of_quantiles),
         cmocka_unit_test(a_distribution_of_exact_values),
+        cmocka_unit_test(percentiles_of_many_values),
         cmocka_unit_test(moments_added_and_merged),
         cmocka_unit_test(a_normal_spread_is_cut),
         cmocka_unit_test(a_uniform_spread),
