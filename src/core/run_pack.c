@@ -179,11 +179,12 @@ static uint64_t pairs_of(const struct ceduo_run *run, uint64_t first, uint64_t e
     return to > first ? to - first : 0;
 }
 
-/* The variates of single rocks, two to a word. */
+/* The variates of single rocks, two to a word; false where one is no number. */
 _Static_assert(VARIATES % 2 == 0 && sizeof(float) == 4, "two to a word");
-static void pack_single_variates(const struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end)
+static bool pack_single_variates(const struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end)
 {
     uint64_t last = end < run->varied_most ? end : run->varied_most;
+    bool finite = true;
     for (uint64_t r = first; r < last; r++)
         for (float *x = varied_of(run, r), *behind = x + VARIATES; x < behind; x += 2) {
             uint32_t bits[2];
@@ -193,7 +194,9 @@ static void pack_single_variates(const struct ceduo_run *run, struct bytes *b, u
             bits[0] = (uint32_t)word;
             bits[1] = (uint32_t)(word >> 32);
             memcpy(x, bits, sizeof bits);
+            finite &= isfinite(x[0]) && isfinite(x[1]);
         }
+    return !b->bad && (finite || !b->reads);
 }
 
 /* The samples of rocks first…end - 1, or the histograms, in `bins`. `reached[control]`, then the stops: how many there
@@ -221,8 +224,7 @@ static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first,
         if (!ceduo_bytes_column(b, &run->pairs[c * run->pairs_room + first], n, &there) ||
             (b->reads && there > reached[c]))
             return false;
-    pack_single_variates(run, b, first, end);
-    return !b->bad;
+    return pack_single_variates(run, b, first, end);
 }
 
 /* The blocks of a part: those that are kept, and the one that is not full. */

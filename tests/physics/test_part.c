@@ -252,6 +252,14 @@ static void figures_that_are_none_are_refused(void **state)
         assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
         memcpy(first.bytes + rows[i].at, was, 8);
     }
+    for (size_t i = 0; i < 2; i++) { /* the variates of the last rock, of four bytes each */
+        const float none = i == 0 ? NAN : INFINITY;
+        unsigned char *last = first.bytes + first.n - (1 + i) * sizeof none, was[sizeof none];
+        memcpy(was, last, sizeof was);
+        memcpy(last, &none, sizeof none);
+        assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
+        memcpy(last, was, sizeof was);
+    }
     for (size_t i = 0; i < 2; i++) { /* more that leave uphill than leave, more that are stopped early than are stopped */
         put_count(&first, AT_UPHILL + 8 * i, ROCKS);
         assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
