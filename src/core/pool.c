@@ -15,6 +15,7 @@ struct pooled {
     uint64_t key;
     uint64_t asked; /* when it was asked for last */
     bool beside;    /* of the other energy law alone: it goes with the scene, and no tolerance waits for it */
+    bool needed;    /* by the scene, as mark_needed() found */
     struct ceduo_run *run;
 };
 
@@ -116,12 +117,20 @@ enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_opt
     return status == CEDUO_OK ? ceduo_run_extend(*run, rocks) : status;
 }
 
-static bool is_needed(const struct ceduo_pool *pool, const struct pooled *p)
+/* Marks the runs that the scene needs; returns how many it does not. */
+static size_t mark_needed(struct ceduo_pool *pool)
 {
-    for (size_t i = 0; i < pool->scene.options_count && !p->beside; i++)
-        if (ceduo_option_key(&pool->scene, &pool->scene.options[i]) == p->key)
-            return true;
-    return p->beside || p->key == 0;
+    size_t spare = 0;
+    for (size_t i = 0; i < pool->count; i++)
+        pool->runs[i].needed = pool->runs[i].beside || pool->runs[i].key == 0;
+    for (size_t i = 0; i < pool->scene.options_count; i++) {
+        struct pooled *p = find(pool, ceduo_option_key(&pool->scene, &pool->scene.options[i]));
+        if (p)
+            p->needed = true;
+    }
+    for (size_t i = 0; i < pool->count; i++)
+        spare += !pool->runs[i].needed;
+    return spare;
 }
 
 static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
@@ -139,8 +148,7 @@ static void drop_oldest(struct ceduo_pool *pool)
 {
     size_t oldest = SIZE_MAX;
     for (size_t i = 0; i < pool->count; i++)
-        if (!is_needed(pool, &pool->runs[i]) &&
-            (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
+        if (!pool->runs[i].needed && (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
             oldest = i;
     add_work(&pool->dropped, pool->runs[oldest].run);
     pool->dropped.runs++;
@@ -148,20 +156,12 @@ static void drop_oldest(struct ceduo_pool *pool)
     pool->runs[oldest] = pool->runs[--pool->count];
 }
 
-static size_t spare_runs(const struct ceduo_pool *pool)
-{
-    size_t spare = 0;
-    for (size_t i = 0; i < pool->count; i++)
-        spare += !is_needed(pool, &pool->runs[i]);
-    return spare;
-}
-
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
 {
     pool->scene = *scene;
     for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_INDEX; i++)
         pool->filled &= ceduo_pool_find(pool, &scene->options[i]) != NULL;
-    for (size_t spare = spare_runs(pool); spare > CEDUO_POOL_SPARE; spare--)
+    for (size_t spare = mark_needed(pool); spare > CEDUO_POOL_SPARE; spare--)
         drop_oldest(pool);
 }
 
@@ -175,7 +175,7 @@ static size_t sample_bytes(const struct ceduo_pool *pool)
 
 void ceduo_pool_trim(struct ceduo_pool *pool)
 {
-    for (size_t spare = spare_runs(pool); spare > 0 && sample_bytes(pool) > CEDUO_EXACT_BYTES; spare--)
+    for (size_t spare = mark_needed(pool); spare > 0 && sample_bytes(pool) > CEDUO_EXACT_BYTES; spare--)
         drop_oldest(pool);
 }
 
