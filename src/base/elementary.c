@@ -29,26 +29,14 @@ static double power_of_two(int k)
     return elementary_real((uint64_t)(k + 1023) << 52);
 }
 
-/* (e^r - 1 - r)/r2 for |r| <= log(2)/2, by the series, whose terms are added in pairs: none waits for all before it. */
-static double exp_rest(double r)
-{
-    double r2 = r * r, r4 = r2 * r2;
-    double low = (1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
-    double middle = (1.0 / 720 + r * (1.0 / 5040)) + r2 * (1.0 / 40320 + r * (1.0 / 362880));
-    double high = (1.0 / 3628800 + r * (1.0 / 39916800)) + r2 * (1.0 / 479001600 + r * (1.0 / 6227020800));
-    return low + r4 * (middle + r4 * high);
-}
-
-/* e^x = 2^k e^r */
 double ceduo_exp(double x)
 {
-    const double ln2_hi = 0x1.62e42feep-1, ln2_lo = 0x1.a39ef35793c76p-33;
     if (!(x > -746))
         return isnan(x) ? x : 0;
     if (x > 710)
         return INFINITY;
-    double whole = (x * 1.4426950408889634 + 0x1.8p52) - 0x1.8p52; /* so large a number has no fraction */
-    double r = (x - whole * ln2_hi) - whole * ln2_lo, e = 1 + (r + r * r * exp_rest(r));
+    double e, whole;
+    elementary_exp_parts(&x, &e, &whole);
     int k = (int)whole, half = k / 2; /* 2^k may be no normal number where the result is */
     return e * power_of_two(half) * power_of_two(k - half);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Logarithm, sine and cosine by their power series: the same bits with any libm, any optimisation and in any lane.
+/* Logarithm, exponential, sine and cosine by their power series: the same bits with any libm, optimisation and lane.
  * This is the text of each; whoever includes it has said for which numbers: REAL, a double or a vector of doubles;
  * BITS, as many uint64_t; AS_BITS(p) and AS_REAL(p), the one read as the other; PICK(m, p, q), p where m holds, and q
  * elsewhere; ELEMENTARY(name), what the function is called. It forgets them at the end. */
@@ -23,6 +23,28 @@ static inline void ELEMENTARY(log)(const REAL *x, REAL *result)
     even = even * w + 2.0 / 5;
     REAL series = odd * q + even * w, half = f * f * 0.5;
     *result = k * ln2_hi - ((half - (s * (half + series) + k * ln2_lo)) - f);
+}
+
+/* e^x = *e 2^*whole for |x| <= 746, *e near 1, within an ulp. With r = x - whole log(2), (e^r - 1 - r)/r2 by the series,
+ * whose terms are added in pairs: none waits for all before it. */
+static inline void ELEMENTARY(exp_parts)(const REAL *x, REAL *e, REAL *whole)
+{
+    const double ln2_hi = 0x1.62e42feep-1, ln2_lo = 0x1.a39ef35793c76p-33;
+    REAL k = (*x * 1.4426950408889634 + 0x1.8p52) - 0x1.8p52; /* so large a number has no fraction */
+    REAL r = (*x - k * ln2_hi) - k * ln2_lo, r2 = r * r, r4 = r2 * r2;
+    REAL low = (1.0 / 2 + r * (1.0 / 6)) + r2 * (1.0 / 24 + r * (1.0 / 120));
+    REAL middle = (1.0 / 720 + r * (1.0 / 5040)) + r2 * (1.0 / 40320 + r * (1.0 / 362880));
+    REAL high = (1.0 / 3628800 + r * (1.0 / 39916800)) + r2 * (1.0 / 479001600 + r * (1.0 / 6227020800));
+    *e = 1.0 + (r + r2 * (low + r4 * (middle + r4 * high)));
+    *whole = k;
+}
+
+/* e^x for |x| <= 700, where it is a normal number. */
+static inline void ELEMENTARY(exp)(const REAL *x, REAL *result)
+{
+    REAL e, k;
+    ELEMENTARY(exp_parts)(x, &e, &k);
+    *result = e * AS_REAL((AS_BITS(k + 0x1.8p52) + 1023) << 52); /* the last bits of that are the integer's */
 }
 
 /* Sine and cosine of an angle in [-pi/2, pi/2], within 2e-16. */

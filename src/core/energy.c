@@ -5,8 +5,6 @@
 
 #include "base/elementary.h"
 
-static const double ln10 = 2.302585092994046;
-
 double ceduo_dorren_energy(double dbh, double fracture_ratio)
 {
     return fracture_ratio * 38.7 * ceduo_pow(dbh * 100, 2.31);
@@ -14,7 +12,7 @@ double ceduo_dorren_energy(double dbh, double fracture_ratio)
 
 double ceduo_dorren_share(double u)
 {
-    double share = -0.046 + 1.026 / (1 + ceduo_exp(ln10 * ((0.58 - u) * -8.007)));
+    double share = DORREN_SHARE_OF(ceduo_exp(DORREN_EXPONENT(u)));
     return 0.5 * (share + fabs(share)); /* 0 where it is negative: a quarter of all hits, which no processor guesses */
 }
 
@@ -22,11 +20,11 @@ double ceduo_dorren_share(double u)
  * antiderivative is elementary; it is 0 from u0 on, where y = 1.026/0.046 - 1. */
 double ceduo_dorren_mean_share(void)
 {
-    const double rate = 8.007 * ln10, low = -0.046, span = 1.026, centre = 0.58;
-    double u0 = centre + ceduo_log(span / -low - 1) / rate;
+    const double rate = DORREN_STEEPNESS * LN10, centre = DORREN_CENTRE;
+    double u0 = centre + ceduo_log(DORREN_SPAN / -DORREN_LOW - 1) / rate;
     double end = fmin(1, u0);
     double inner = (ceduo_log1p(ceduo_exp(-rate * (0 - centre))) - ceduo_log1p(ceduo_exp(-rate * (end - centre)))) / rate;
-    return low * end + span * inner;
+    return DORREN_LOW * end + DORREN_SPAN * inner;
 }
 
 double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

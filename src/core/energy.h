@@ -12,11 +12,12 @@
  *     struct energy_NAME                            what it keeps of stand and stems: doubles alone, which are hashed
  *     energy_NAME(stand, stems)                     makes that
  *     NAME_mean(energy)                             J: the mean stem, over all places where it can be hit
- *     NAME_hit(energy, dbh, eccentricity)           J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle
+ *     NAME_hit(energy, dbh, share)                  J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle,
+ *                                                   of which ceduo_dorren_share() is `share`
  *     NAME_mean_share(energy, mass)                 the share of its energy that a rock of `mass` kg loses: as _mean; 0: of a
  *                                                   law that takes an amount
- *     NAME_share(energy, mass, dbh, eccentricity)   as _hit: of its energy the share that is lost at the most
- *     NAME_alike(energy)                            whether hits of stems of one diameter all take the same
+ *     NAME_share(energy, mass, dbh, eccentricity)   of its energy the share that is lost at the most
+ *     NAME_by_eccentricity(energy)                  whether _hit depends on `share`
  *     NAME_warnings(stand, stems)                   bits of enum ceduo_warning */
 struct stem_energy {
     enum ceduo_energy_model model;
@@ -69,31 +70,34 @@ static inline double stem_energy_mean(const struct stem_energy *e)
     return 0;
 }
 
-static inline double stem_energy_hit(const struct stem_energy *e, double dbh, double eccentricity)
+static inline double stem_energy_hit(const struct stem_energy *e, double dbh, double share)
 {
     switch (e->model) {
 #define X(NAME, name)  \
     case CEDUO_##NAME: \
-        return name##_hit(&e->by.name, dbh, eccentricity);
+        return name##_hit(&e->by.name, dbh, share);
         CEDUO_ENERGY_MODELS(X)
 #undef X
     }
     return 0;
 }
 
-/* Whether all hits of stems of one diameter take the same of any rock. */
-static inline bool stem_energy_alike(const struct stem_energy *e)
+static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
 {
-    if (e->glancing > 0)
-        return false;
     switch (e->model) {
 #define X(NAME, name)  \
     case CEDUO_##NAME: \
-        return name##_alike(&e->by.name);
+        return name##_by_eccentricity(&e->by.name);
         CEDUO_ENERGY_MODELS(X)
 #undef X
     }
     return false;
+}
+
+/* Whether all hits of stems of one diameter take the same of any rock. */
+static inline bool stem_energy_alike(const struct stem_energy *e)
+{
+    return !(e->glancing > 0) && !stem_energy_by_eccentricity(e);
 }
 
 static inline double stem_energy_mean_share(const struct stem_energy *e, double mass)

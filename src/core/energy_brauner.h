@@ -27,10 +27,10 @@ static inline double brauner_mean(const struct energy_brauner *e)
     return e->by_eccentricity > 0 ? ceduo_dorren_mean_share() * whole : whole;
 }
 
-static inline double brauner_hit(const struct energy_brauner *e, double dbh, double eccentricity)
+static inline double brauner_hit(const struct energy_brauner *e, double dbh, double share)
 {
     double whole = stem_volume_one(&e->volume, dbh) * e->u;
-    return e->by_eccentricity > 0 ? ceduo_dorren_share(eccentricity) * whole : whole;
+    return e->by_eccentricity > 0 ? share * whole : whole;
 }
 
 static inline double brauner_mean_share(const struct energy_brauner *e, double mass)
@@ -45,9 +45,9 @@ static inline double brauner_share(const struct energy_brauner *e, double mass, 
     return 1;
 }
 
-static inline bool brauner_alike(const struct energy_brauner *e)
+static inline bool brauner_by_eccentricity(const struct energy_brauner *e)
 {
-    return !(e->by_eccentricity > 0);
+    return e->by_eccentricity > 0;
 }
 
 static inline unsigned brauner_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

@@ -12,6 +12,16 @@ struct energy_dorren {
 
 #define DORREN_DBH_LEAST 0.1 /* m: thinner stems lie outside the data */
 
+/* The share of that at eccentricity u, not yet cut: LOW + SPAN/(1 + 10^(STEEPNESS (u - CENTRE))), by a power of e, for one
+ * or many. */
+#define DORREN_LOW             (-0.046)
+#define DORREN_SPAN            1.026
+#define DORREN_CENTRE          0.58
+#define DORREN_STEEPNESS       8.007
+#define LN10                   2.302585092994046
+#define DORREN_EXPONENT(u)     (LN10 * ((DORREN_CENTRE - (u)) * -DORREN_STEEPNESS))
+#define DORREN_SHARE_OF(power) (DORREN_LOW + DORREN_SPAN / (1.0 + (power)))
+
 static inline struct energy_dorren energy_dorren(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     double ratio = ceduo_stand_fracture_ratio(stand);
@@ -23,10 +33,10 @@ static inline double dorren_mean(const struct energy_dorren *e)
     return ceduo_dorren_mean_share() * e->whole;
 }
 
-static inline double dorren_hit(const struct energy_dorren *e, double dbh, double eccentricity)
+static inline double dorren_hit(const struct energy_dorren *e, double dbh, double share)
 {
     double whole = dbh == e->dbh ? e->whole : ceduo_dorren_energy(dbh, e->fracture_ratio);
-    return ceduo_dorren_share(eccentricity) * whole;
+    return share * whole;
 }
 
 static inline double dorren_mean_share(const struct energy_dorren *e, double mass)
@@ -41,10 +51,10 @@ static inline double dorren_share(const struct energy_dorren *e, double mass, do
     return 1;
 }
 
-static inline bool dorren_alike(const struct energy_dorren *e)
+static inline bool dorren_by_eccentricity(const struct energy_dorren *e)
 {
     (void)e;
-    return false;
+    return true;
 }
 
 static inline unsigned dorren_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

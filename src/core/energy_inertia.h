@@ -29,9 +29,9 @@ static inline double inertia_mean(const struct energy_inertia *e)
     return NAN;
 }
 
-static inline double inertia_hit(const struct energy_inertia *e, double dbh, double eccentricity)
+static inline double inertia_hit(const struct energy_inertia *e, double dbh, double share)
 {
-    (void)e, (void)dbh, (void)eccentricity;
+    (void)e, (void)dbh, (void)share;
     return INFINITY;
 }
 
@@ -55,7 +55,7 @@ static inline struct energy_inertia inertia_of_contact(double share, double mass
     return (struct energy_inertia){.moved = mass * part / (1 - part)};
 }
 
-static inline bool inertia_alike(const struct energy_inertia *e)
+static inline bool inertia_by_eccentricity(const struct energy_inertia *e)
 {
     (void)e;
     return false;

@@ -181,7 +181,7 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
     struct hit hit = {.energy = energy,
-                      .cost = ceduo_stem_energy(stem, w->rock.mean_diameter),
+                      .cost = stem->energy,
                       .part = ceduo_stem_part(w->stems, stem, &w->rock)};
     count_hit(w, stem);
     double share = speed_kept(hit);

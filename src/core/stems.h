@@ -92,12 +92,4 @@ static inline double ceduo_stem_part(const struct stems *stems, const struct ste
                             ceduo_stem_eccentricity(stem, rock->mean_diameter));
 }
 
-/* Energy (J) that a hit of this stem takes from a rock of diameter b that has as much. */
-static inline double ceduo_stem_energy(const struct stem *stem, double b)
-{
-    const struct wood_kind *kind = stem->kind;
-    return isnan(kind->energy) ? stem_energy_hit(&kind->by_hit, stem->dbh, ceduo_stem_eccentricity(stem, b))
-                               : kind->energy;
-}
-
 #endif

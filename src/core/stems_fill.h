@@ -390,6 +390,31 @@ static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
         rank_equal_shoots(t, rank);
 }
 
+/* What those shoots take of which it depends on the eccentricity, with ceduo_dorren_share() of many at once. */
+static __attribute__((noinline)) void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank,
+                                                   struct stem *waiting)
+{
+    const many_reals middle = {0};
+    double dbh[SHOOTS_AT_ONCE + MANY], share[SHOOTS_AT_ONCE + MANY];
+    memcpy(&t->y[t->n], &middle, sizeof middle); /* those behind the last are of no stem */
+    for (unsigned i = 0; i < t->n + MANY; i++)
+        dbh[i] = s->wood->kinds[i < t->n ? t->kind[i] : t->kind[0]].dbh;
+    for (unsigned i = 0; i < t->n; i += MANY) {
+        many_reals y, d, power;
+        memcpy(&y, &t->y[i], sizeof y);
+        memcpy(&d, &dbh[i], sizeof d);
+        many_reals off = (many_reals)((many_bits)y & INT64_MAX), exponent = DORREN_EXPONENT(2 * off / (s->b + d));
+        many_exp(&exponent, &power);
+        many_reals whole = DORREN_SHARE_OF(power);
+        whole = 0.5 * (whole + (many_reals)((many_bits)whole & INT64_MAX));
+        memcpy(&share[i], &whole, sizeof whole);
+    }
+    for (unsigned i = 0; i < t->n; i++) {
+        const struct wood_kind *kind = &s->wood->kinds[t->kind[i]];
+        waiting[rank[i]].energy = kind->by_eccentricity ? share[i] * kind->whole : kind->whole;
+    }
+}
+
 /* Those that wait already are put in order once more. */
 static inline void add_waiting(const struct stems *s, const struct stems_side *side, struct shoots *to)
 {
@@ -425,6 +450,8 @@ static void make_stools(struct stems *s, int i_side)
     for (unsigned i = 0; i < t.n; i++) {
         const struct wood_kind *kind = &s->wood->kinds[t.kind[i]];
         side->waiting[rank[i]] = (struct stem){.along = t.along[i],
+                                               .energy = kind->whole,
+                                               .height = kind->height,
                                                .y = t.y[i],
                                                .dbh = kind->dbh,
                                                .kind = kind,
@@ -432,6 +459,8 @@ static void make_stools(struct stems *s, int i_side)
                                                .shoot = true,
                                                .met = t.met[i]};
     }
+    if (s->wood->by_eccentricity && t.n > 0)
+        set_energies(s, &t, rank, side->waiting);
     side->first = 0;
     side->end = t.n;
 }

@@ -11,6 +11,8 @@
 
 struct stem {
     double along;     /* m: place along the strip */
+    double energy;    /* J that it takes of a rock as large as this one that has as much */
+    double height;    /* m, of its kind */
     uint64_t stool;   /* which stool or tree it is, or belongs to; the last bit is the side that it was drawn for */
     const struct wood_kind *kind;
     double y;         /* m: offset from the middle of the strip */

@@ -138,8 +138,8 @@ static void load_section(struct wide *k, size_t i)
 LANE void load_hit(struct wide *k, size_t i, const struct stem *stem)
 {
     const struct walker *w = &k->job->walkers[i];
-    k->stem.height[i] = stem->kind->height;
-    k->stem.cost[i] = ceduo_stem_energy(stem, w->rock.mean_diameter);
+    k->stem.height[i] = stem->height;
+    k->stem.cost[i] = stem->energy;
     k->stem.part[i] = ceduo_stem_part(w->stems, stem, &w->rock);
 }
 

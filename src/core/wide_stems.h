@@ -113,13 +113,12 @@ LANE const struct stem *last_below(const struct wide *k, size_t i)
 }
 
 /* Takes the stem that is before each of `lanes`, where the one behind it waits and is next; of those that are `above`
- * all, more of them. No branch depends on what is hit. Returns those of which the law asks more than the kind of stem.
- * */
-LANE unsigned take_waiting(struct wide *k, unsigned lanes, unsigned hit, unsigned above)
+ * all, more of them. No branch depends on what is hit. */
+LANE void take_waiting(struct wide *k, unsigned lanes, unsigned hit, unsigned above)
 {
     const struct wood *wood = k->job->walkers[0].stems->wood;
     uint64_t places = wood->places;
-    unsigned ask = wood->shares ? lanes : 0;
+    unsigned shares = wood->shares ? lanes : 0;
     for (above &= lanes; above; above &= above - 1) {
         size_t i = (size_t)__builtin_ctz(above);
         k->stem.next[i] = last_below(k, i);
@@ -135,11 +134,13 @@ LANE unsigned take_waiting(struct wide *k, unsigned lanes, unsigned hit, unsigne
         k->stem.next[i] = ++stem;
         k->stem.after[i] = stem[1].along;
         k->stem_ahead[i] = stem->along;
-        k->stem.height[i] = stem->kind->height;
-        k->stem.cost[i] = stem->kind->energy;
-        ask |= (unsigned)isnan(stem->kind->energy) << i;
+        k->stem.height[i] = stem->height;
+        k->stem.cost[i] = stem->energy;
     }
-    return ask;
+    for (; shares; shares &= shares - 1) {
+        size_t i = (size_t)__builtin_ctz(shares);
+        load_hit(k, i, k->stem.next[i]);
+    }
 }
 
 /* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
@@ -150,10 +151,7 @@ LANE void take_stems(struct wide *k, struct passing *p, unsigned hit, unsigned a
     unsigned marks = hit & bits_of(at_least(to, load(k->next_x)));
     unsigned waits = bits_of(but(less(load(k->stem.after), load(k->stem.sure)), at_least(load(k->stem.around), to)));
     unsigned alone = p->under_way & ~marks & ~waits;
-    for (unsigned ask = take_waiting(k, p->under_way & ~marks & waits, hit, above); ask; ask &= ask - 1) {
-        size_t i = (size_t)__builtin_ctz(ask);
-        load_hit(k, i, k->stem.next[i]);
-    }
+    take_waiting(k, p->under_way & ~marks & waits, hit, above);
     if (alone)
         take_stems_alone(k, p, alone, hit);
     if (marks)

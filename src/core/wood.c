@@ -228,6 +228,14 @@ static size_t places_for(const struct wood *w, double b)
     return places - 1;
 }
 
+static void finish_kind(struct wood *wood, struct wood_kind *k)
+{
+    bool depends = isnan(k->energy);
+    k->whole = depends ? stem_energy_hit(&k->by_hit, k->dbh, 1) : k->energy;
+    k->by_eccentricity = depends && stem_energy_by_eccentricity(&k->by_hit);
+    wood->by_eccentricity |= k->by_eccentricity;
+}
+
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
                      const struct ceduo_rock *mean)
 {
@@ -261,6 +269,8 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         wood->along[1][i].to = -ahead->from;
     }
     wood->places = places_for(wood, b);
+    for (size_t i = 0; i < used; i++)
+        finish_kind(wood, &wood->kinds[i]);
     return true;
 fail:
     ceduo_wood_release(wood);

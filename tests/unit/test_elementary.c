@@ -69,7 +69,7 @@ static void many_at_once(void **context)
     (void)context;
     for (uint64_t n = 0; n < PLACES / MANY; n++) {
         many_bits events, kinds;
-        many_reals u, angle, log, sine, cosine;
+        many_reals u, angle, exponent, log, sine, cosine, power;
         many_from(3 * n, 5, &events);
         many_from(n % 7, 0, &kinds);
         many_threefry(11, n, &events, &kinds);
@@ -77,7 +77,9 @@ static void many_at_once(void **context)
         many_of_integers(&high, &u);
         u = u * 0x1p-52 + 0x1p-53;
         angle = (u - 0.5) * 3.14159;
+        exponent = (u - 0.5) * 1400.0;
         many_log(&u, &log);
+        many_exp(&exponent, &power);
         many_sincos(&angle, &sine, &cosine);
         for (unsigned i = 0; i < MANY; i++) {
             double one = u[i], turn = angle[i], l, s, c;
@@ -88,6 +90,7 @@ static void many_at_once(void **context)
             elementary_log(&one, &l);
             elementary_sincos(&turn, &s, &c);
             assert_true(l == log[i] && s == sine[i] && c == cosine[i]);
+            assert_true(ceduo_exp(exponent[i]) == power[i]);
         }
     }
 }
