@@ -9,8 +9,9 @@
 #include "wide.h"
 
 /* Many numbers at once, one for each lane. A file that includes this has set its target to AVX2, or to AVX-512 with DQ
- * and then WIDE_AVX512 too, and has 16 or 32 lanes: four registers, so that one works while another waits. Every
- * operation is that of plain C, rounded the same, in each lane by itself. */
+ * and then WIDE_AVX512 too, and has 8 or 32 lanes: two or four registers, so that one works while another waits. Of the 16
+ * registers of AVX2 more than two at a time would mostly be kept in memory. Every operation is that of plain C, rounded the
+ * same, in each lane by itself. */
 
 #ifdef WIDE_AVX512
 #define LOOK_UP_WRAPS true /* a small table is looked up at i modulo 16, whatever i is */
@@ -107,27 +108,38 @@ LANE part_reals part_of_ints(part_ints p)
 
 /* ---- all lanes ---- */
 
-#define LANES (4 * PART)
+/* `macro` with each part, its first lane, and more. */
+#ifdef WIDE_AVX512
+#define PARTS      4
+#define PART_NAMES a, b, c, d
+#define OF_EACH(macro, ...)                                                                                     \
+    macro(a, 0, __VA_ARGS__) macro(b, PART, __VA_ARGS__) macro(c, 2 * PART, __VA_ARGS__) macro(d, 3 * PART, __VA_ARGS__)
+#else
+#define PARTS      2
+#define PART_NAMES a, b
+#define OF_EACH(macro, ...) macro(a, 0, __VA_ARGS__) macro(b, PART, __VA_ARGS__)
+#endif
+
+#define LANES (PARTS * PART)
 #define ALL_LANES ((unsigned)(((uint64_t)1 << LANES) - 1))
 
 typedef struct {
-    part_reals a, b, c, d;
+    part_reals PART_NAMES;
 } reals;
 typedef struct {
-    part_ints a, b, c, d;
+    part_ints PART_NAMES;
 } ints;
 typedef struct {
-    part_flags a, b, c, d;
+    part_flags PART_NAMES;
 } flags;
 
 /* Defines a function that does the same with each part: EACH(result, name, (parameters), what with part P of each). */
-#define EACH(result, name, parameters, ...)                                                                         \
-    LANE result name parameters                                                                                     \
-    {                                                                                                               \
-        return (result){EACH_AS(a, 0, __VA_ARGS__), EACH_AS(b, PART, __VA_ARGS__), EACH_AS(c, 2 * PART, __VA_ARGS__), \
-                        EACH_AS(d, 3 * PART, __VA_ARGS__)};                                                         \
+#define EACH(result, name, parameters, ...)             \
+    LANE result name parameters                         \
+    {                                                   \
+        return (result){OF_EACH(ONE_OF, __VA_ARGS__)};  \
     }
-#define EACH_AS(part, first, macro, ...) macro(part, first, __VA_ARGS__)
+#define ONE_OF(part, first, macro, ...) macro(part, first, __VA_ARGS__),
 
 /* What a macro makes of part `x`, whose first lane is lane `at`. */
 #define OF_ONE(x, at, op)      op(p.x)
@@ -145,20 +157,16 @@ EACH(ints, all_ints, (uint64_t s), OF_SCALAR, PART_ALL_INTS)
 EACH(reals, load, (const double *from), OF_PLACE, PART_LOAD)
 EACH(ints, load_ints, (const uint64_t *from), OF_PLACE, PART_LOAD_INTS)
 
+#define STORE_ONE(x, at, op) op(to + (at), p.x);
+
 LANE void store(double *to, reals p)
 {
-    PART_STORE(to, p.a);
-    PART_STORE(to + PART, p.b);
-    PART_STORE(to + 2 * PART, p.c);
-    PART_STORE(to + 3 * PART, p.d);
+    OF_EACH(STORE_ONE, PART_STORE)
 }
 
 LANE void store_ints(uint64_t *to, ints p)
 {
-    PART_STORE_INTS(to, p.a);
-    PART_STORE_INTS(to + PART, p.b);
-    PART_STORE_INTS(to + 2 * PART, p.c);
-    PART_STORE_INTS(to + 3 * PART, p.d);
+    OF_EACH(STORE_ONE, PART_STORE_INTS)
 }
 
 EACH(reals, add, (reals p, reals q), OF_SIGN, +)
@@ -188,7 +196,8 @@ EACH(flags, but, (flags p, flags q), OF_TWO, PART_BUT) /* p and not q */
 /* Bit i is lane i. */
 LANE unsigned bits_of(flags p)
 {
-    return PART_BITS(p.a) | PART_BITS(p.b) << PART | PART_BITS(p.c) << 2 * PART | PART_BITS(p.d) << 3 * PART;
+#define BITS_OF_ONE(x, at, op) | op(p.x) << (at)
+    return 0 OF_EACH(BITS_OF_ONE, PART_BITS);
 }
 
 /* Whether there is a lane of which it holds. */
@@ -358,10 +367,8 @@ LANE void look_up(const struct wide_table *table, ints i, bool small, reals *fir
     _Alignas(64) uint64_t at[LANES];
     store_ints(at, shift_left(i, table->shift));
     const double(*pairs)[2] = table->pairs;
-    part_pair(pairs, at, &first->a, &second->a);
-    part_pair(pairs, at + PART, &first->b, &second->b);
-    part_pair(pairs, at + 2 * PART, &first->c, &second->c);
-    part_pair(pairs, at + 3 * PART, &first->d, &second->d);
+#define LOOK_UP_ONE(x, from, op) op(pairs, at + (from), &first->x, &second->x);
+    OF_EACH(LOOK_UP_ONE, part_pair)
 }
 
 #endif

@@ -46,7 +46,7 @@ wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes)
         return ceduo_wide_walk_avx512;
     }
     if (kernel == CEDUO_KERNEL_AVX2) {
-        *lanes = 16;
+        *lanes = 8;
         return ceduo_wide_walk_avx2;
     }
 #else
