@@ -204,14 +204,15 @@ static size_t keep_buckets(const struct values *v, double lo, double per_unit, s
 static void exact_ranks(void *context, const size_t *ranks, size_t count, double *to)
 {
     struct values *v = context;
-    double lo = 0, hi = 0;
     size_t n = v->n, among[RANKS];
     memcpy(among, ranks, count * sizeof *ranks);
-    if (n >= BUCKETS_FROM)
+    if (n >= BUCKETS_FROM) {
+        double lo, hi;
         gsl_stats_minmax(&lo, &hi, v->of, 1, n);
-    double per_unit = BUCKETS / (hi - lo);
-    if (n >= BUCKETS_FROM && isnormal(per_unit))
-        n = keep_buckets(v, lo, per_unit, among, count);
+        double per_unit = BUCKETS / (hi - lo);
+        if (isnormal(per_unit))
+            n = keep_buckets(v, lo, per_unit, among, count);
+    }
     select_ranks(v->of, n, among, count, to);
 }
 
