@@ -137,10 +137,10 @@ SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x,
     struct ceduo_stem_passed p = {.x = x,
                                   .y = stem->y,
                                   .dbh = stem->dbh,
-                                  .height = stem->kind->height,
+                                  .height = stem->height,
                                   .shoot = stem->shoot,
                                   .stool = stem->stool,
-                                  .hit = clearance < stem->kind->height,
+                                  .hit = clearance < stem->height,
                                   .clearance = clearance,
                                   .before = before,
                                   .taken = taken};
@@ -232,7 +232,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             continue;
         }
         clearance = clearance > 0 ? clearance : 0;
-        if (!(clearance < stem.kind->height)) {
+        if (!(clearance < stem.height)) {
             if (w->watch && w->watch->stem)
                 show_stem(w, &stem, x, clearance, 0, 0);
             continue;

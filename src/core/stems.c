@@ -58,12 +58,13 @@ static double draw_dbh(const struct stems *s, const struct wood_kind *k, uint64_
     }
 }
 
-/* What a stem takes of this rock. */
-static double energy_of(const struct stems *s, const struct stem *stem)
+/* What a stem of this kind, diameter and offset takes of this rock, and how tall it is. */
+static void set_hit(const struct stems *s, struct stem *stem)
 {
     const struct wood_kind *kind = stem->kind;
     double share = kind->by_eccentricity ? ceduo_dorren_share(ceduo_stem_eccentricity(stem, s->b)) : 1;
-    return kind->shape > 0 ? stem_energy_hit(&kind->by_hit, stem->dbh, share) : share * kind->whole;
+    stem->energy = kind->shape > 0 ? stem_energy_hit(&kind->by_hit, stem->dbh, share) : share * kind->whole;
+    stem->height = kind->height;
 }
 
 /* ---- stools ---- */
@@ -114,8 +115,7 @@ static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem s
 /* Puts a stem that was drawn for a side among those waiting; there is room. */
 static void let_wait(struct stems *s, int i_side, struct stem *stem)
 {
-    stem->energy = energy_of(s, stem);
-    stem->height = stem->kind->height;
+    set_hit(s, stem);
     struct stems_side *side = &s->side[i_side];
     bool behind = i_side == 0 && stem->along < s->start;
     struct stems_side *to = behind ? &s->side[1] : side;
@@ -293,8 +293,7 @@ static void make_single(struct stems *s, int i_side)
                                  .dbh = d,
                                  .kind = kind,
                                  .stool = event};
-    side->single.energy = energy_of(s, &side->single);
-    side->single.height = kind->height;
+    set_hit(s, &side->single);
     p->next++;
 }
 

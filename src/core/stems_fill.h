@@ -405,9 +405,8 @@ static __attribute__((noinline)) void set_energies(const struct stems *s, struct
         memcpy(&d, &dbh[i], sizeof d);
         many_reals off = (many_reals)((many_bits)y & INT64_MAX), exponent = DORREN_EXPONENT(2 * off / (s->b + d));
         many_exp(&exponent, &power);
-        many_reals whole = DORREN_SHARE_OF(power);
-        whole = 0.5 * (whole + (many_reals)((many_bits)whole & INT64_MAX));
-        memcpy(&share[i], &whole, sizeof whole);
+        many_reals of = DORREN_SHARE_OF(power), cut = 0.5 * (of + (many_reals)((many_bits)of & INT64_MAX));
+        memcpy(&share[i], &cut, sizeof cut);
     }
     for (unsigned i = 0; i < t->n; i++) {
         const struct wood_kind *kind = &s->wood->kinds[t->kind[i]];

@@ -20,8 +20,8 @@ struct wood_kind {
     double most; /* m: no stem is thicker */
     struct stem_energy by_hit;
     /* Made from those. */
-    double whole;         /* J that a hit of the mean stem takes, */
-    bool by_eccentricity; /* or so much as ceduo_dorren_share() says */
+    double whole;         /* J that a hit of the mean stem takes; */
+    bool by_eccentricity; /* of that the share that ceduo_dorren_share() says */
 };
 
 /* What is met at random places along x: so many per metre for a rock of diameter b: still + per_b·b. */
@@ -58,7 +58,7 @@ struct wood_belt {
 
 struct wood {
     bool bare; /* nothing to be met */
-    bool by_eccentricity; /* of some kinds */
+    bool by_eccentricity; /* what stems of some kinds take depends on where they are hit */
     bool shares; /* there is more to a hit than the amount that its stem takes, see stem_energy_part() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
