@@ -131,7 +131,7 @@ deps:
 
 # With `make -j deps check`, nothing may start before the packages are installed: these goals wait for deps if it is
 # requested, and do their work in a make of their own.
-GOALS := run check check-all bench stress fuzz lint coverage net
+GOALS := run check check-brief check-all bench stress fuzz lint coverage net
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -156,6 +156,15 @@ SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
 SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
+
+# A short part of them that has to do with languages; .ci/run runs it where others than English are spoken.
+TAPS_BRIEF := $(addprefix $(T)/,$(addsuffix .tap,unit/test_language unit/test_texts unit/test_typed cli/test_csv.py cli/test_language.py \
+	cli/test_lists.py cli/test_locale.py cli/test_options.py cli/test_table.py tui/test_italian.py tui/test_typing.py))
+do-check-brief:
+	@+$(MAKE) --no-print-directory -j$(CORES) all
+	@rm -f $(TAPS_BRIEF)
+	@+$(MAKE) --no-print-directory -j$(JOBS) $(TAPS_BRIEF)
+	@tests/summary $(TAPS_BRIEF)
 
 # The last line is: N passed, N failed.
 do-check:

@@ -117,6 +117,11 @@ static void put_range(FILE *out, const struct range *r)
     fputs(" (", out);
     put(out, r->source);
     fputs(").\n", out);
+    if (r->measured) {
+        fputs("What measures it: ", out);
+        put(out, r->measured);
+        fputs(".\n", out);
+    }
 }
 
 static void put_ranges(FILE *out)

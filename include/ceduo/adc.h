@@ -19,7 +19,8 @@ enum ceduo_rule {
 #undef X
 };
 
-/* Metres between contacts in each form; infinite in a stand without stems. */
+/* Metres between contacts in each form, counting stems from stand->counted_from on; infinite where there are none. A stool
+ * counts with its shoots that do. */
 struct ceduo_adc {
     double gsteiger_stools, gsteiger_stems, interception, crofton;
 };

@@ -46,8 +46,7 @@ struct ceduo_calibration_def {
     uint64_t seed;
     unsigned threads;
     size_t steps_most;         /* of each chain; 0: as many as is usual */
-    const atomic_bool *cancel; /* may be NULL; where it is set what is known so far is the answer, */
-    bool whole;                /* or nothing is: CEDUO_CANCELLED, at once */
+    const atomic_bool *cancel; /* may be NULL */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
     void *context;
 };
@@ -76,7 +75,6 @@ struct ceduo_calibration {
     struct ceduo_predicted *predicted; /* of all scenes */
     bool misfit;     /* of something that was to be fitted */
     bool refuted;    /* something that was to check the fit is not as predicted */
-    bool complete;   /* not ended before */
     bool settled;    /* the chains agree and are long enough */
     uint64_t evaluations;
     double rhat, effective_size;
@@ -94,7 +92,7 @@ bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, si
 enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
                                              const atomic_bool *cancel, struct ceduo_predicted *to);
 
-/* CEDUO_NO_MEMORY, CEDUO_CANCELLED (before anything is known), or what ceduo_scene_check() says; then nothing is to be freed. */
+/* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), or what ceduo_scene_check() says; then nothing is to be freed. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);
 void ceduo_calibration_free(struct ceduo_calibration *answer);
 

@@ -15,6 +15,7 @@ enum ceduo_input_kind {
     CEDUO_INPUT_RANGE,  /* uniform between lo and hi */
     CEDUO_INPUT_FACTOR, /* its value in the scene times a factor, uniform between lo and hi */
     CEDUO_INPUT_NORMAL, /* normal, cut at three standard deviations: lo and hi */
+    CEDUO_INPUT_GAMMA,  /* gamma, cut where a normal one would be: of what cannot be below 0 and has an error above a third of it */
     CEDUO_INPUT_WORDS,  /* one of several words, each as likely */
     CEDUO_INPUT_DRAWS   /* one of several rows, each with a value for each place: what a calibration left open */
 };
@@ -24,14 +25,19 @@ struct ceduo_input {
     const char *path; /* of its first place, or what its places have in common */
     enum ceduo_input_kind kind;
     double lo, hi;   /* in the unit of the file */
-    double mean, sd; /* CEDUO_INPUT_NORMAL */
+    double mean, sd; /* CEDUO_INPUT_NORMAL, CEDUO_INPUT_GAMMA: sd at most CEDUO_GAMMA_MOST of the mean */
     size_t words_count;
     const int *words; /* values of the choice */
     size_t places_count;
     size_t draws_count;
-    const double *const *draws; /* CEDUO_INPUT_DRAWS: of each place its values, row by row */
+    const double *const *draws; /* CEDUO_INPUT_DRAWS: of each place its values, row by row; the places are sorted by their names */
     const char *const *places; /* paths, each with its place in brackets: forest[0].stand.trees[0].per_ha */
 };
+
+#define CEDUO_GAMMA_MOST 2.0
+
+/* The quantile u (0…1) of an input that is a range, normal or gamma. */
+double ceduo_input_quantile(const struct ceduo_input *input, double u);
 
 /* What is asked for at the last control, of the rocks through the forest (without forest where the contact model is
  * index). */
@@ -57,7 +63,6 @@ struct ceduo_doubt_def {
     size_t first;   /* base points of a first look that ranks more inputs than can have an index, >= 2; 0: CEDUO_DOUBT_FIRST */
     uint64_t rocks; /* of each evaluation, >= 2 */
     unsigned threads;
-    bool plain;    /* what the scene says as it is, as counted; what the doubt does to it is always found so */
     const atomic_bool *cancel; /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
     void *context;
@@ -72,13 +77,14 @@ struct ceduo_doubt_figure {
     double p5, p50, p95;                    /* over what may be true */
     struct ceduo_indices indices;
     double at[CEDUO_SENSITIVITY_GROUPS][2]; /* with one input at its lower, at its upper end, all others as they are */
-    double left[CEDUO_SENSITIVITY_GROUPS];  /* p95 - p5 that would be left, on the mean, if this input were known */
+    double left[CEDUO_SENSITIVITY_GROUPS];  /* p95 - p5 that would be left, on the mean, if this input were known; NaN: of several */
 };
 
-/* Of two neighbours in rank: how probable the order is in what may be true. */
+/* Of two neighbours in rank: in how much of what may be true the one is better, worse, and neither by more than the noise of
+ * the rocks. They add to 1. */
 struct ceduo_doubt_order {
     size_t better, than; /* options */
-    double probability;
+    double probability, equal, worse;
 };
 
 struct ceduo_doubt_answer {
@@ -86,7 +92,6 @@ struct ceduo_doubt_answer {
     size_t input[CEDUO_SENSITIVITY_GROUPS];    /* its input; of the last of several together: their number */
     size_t together;                           /* inputs that move as one, the last of `groups`; 0: none */
     size_t *moved;                             /* those inputs */
-    size_t order[CEDUO_SENSITIVITY_GROUPS];    /* groups by the total index of the main figure, largest first */
     size_t figures_count;
     struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
     enum ceduo_doubt_kind main;         /* too much energy where that is known, otherwise energy */
@@ -116,8 +121,8 @@ enum ceduo_status ceduo_doubt_join(const struct ceduo_doubt_def *def, const stru
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
 
-/* Groups by the total index that they have for the main figure of one option, largest first: answer->groups of them. */
-void ceduo_doubt_order_of(const struct ceduo_doubt_answer *answer, size_t option, size_t *order);
+/* Groups by what is left of the doubt of a figure if they are known, least first: answer->groups of them. */
+void ceduo_doubt_order_of(const struct ceduo_doubt_answer *answer, const struct ceduo_doubt_figure *figure, size_t *order);
 
 /* Whether a light of the last control changes within the 90 % band of doubt: contact, free run, or energy
  * (CEDUO_DOUBT_EXCEED). Returns how many groups it depends on above all, 1 or 2, the heaviest first; 0: it does not change. */

@@ -29,8 +29,8 @@
  * Stumps are there for growth.stump_years after a cut (0: never); before the first cut counted from the age of the youngest
  * shoots. Logs stay. Trees that a cut leaves stand in groups as the first class of the inventory that does.
  *
- * In computed years (all but year 0 as filed) the shoots, and only they, are thinned by one factor to
- * growth.sdi_most, never below one a stool. Trees are not: a stand of many large trees stays above it. */
+ * Trees and shoots share the growing space (assumed): in computed years (all but year 0 as filed) the shoots, and only
+ * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_space_of_trees()), never below one a stool. */
 
 /* Year of a cut that never comes. */
 #define CEDUO_NEVER UINT_MAX
@@ -70,8 +70,12 @@ unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut);
 /* Whether a cut falls in `year`: the first one or one that is whole rotations later. */
 bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsigned year);
 
-/* Stand density index of all stems, N(dq/25.4)^1.605, N per ha, dq the quadratic mean dbh in cm (Reineke 1933); 0
+/* Stand density index of n kinds of stems, N(dq/25.4)^1.605, N per ha, dq the quadratic mean dbh in cm (Reineke 1933); 0
  * without stems. */
-double ceduo_stand_sdi(const struct ceduo_stand *stand);
+double ceduo_stems_sdi(const struct ceduo_stems *stems, size_t n);
+
+/* The share of the growing space that the trees of a grown stand take: their density index over growth.trees_sdi_most. Above
+ * 1 they are more than the ground bears; 0 without sdi_most. */
+double ceduo_space_of_trees(const struct ceduo_growth *growth, const struct ceduo_stand *grown);
 
 #endif

@@ -31,7 +31,6 @@ struct ceduo_run_def {
     const double *cell_x;            /* rising, on the slope */
     bool arrivals_only;              /* trajectories stop behind the last control or cell: their ends are not known */
     size_t exact_bytes;              /* beyond this percentiles come from a histogram */
-    bool plain;                      /* means and shares as counted; otherwise adjusted by control variates */
     bool other_energy;               /* of a pool: each forest under the other energy law as well, see other.h */
     bool part;                       /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
     uint64_t first;                  /* a multiple of CEDUO_BLOCK_ROCKS */
@@ -72,13 +71,13 @@ struct ceduo_arrivals {
     double missed[CEDUO_ENDS];                        /* shares of the same */
     double reach_probability, reach_lo, reach_hi;     /* hi counts the unfinished as reached */
     double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
-    double reach_se, exceed_se;                       /* standard errors of both */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     double energy_per_released, energy_per_released_se;           /* J */
+    double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
+                     * diameter; NaN where the scene asks for no design values, or sizes differ and samples are not kept */
     double contacts, contacts_se;                                 /* with stems, of those that reached; NaN: bare run */
     struct ceduo_hazard hazard;                                   /* where the scene has blocks */
     bool exact;                                                   /* percentiles from every sample */
-    bool adjusted;                                                /* means and shares are not as counted */
 };
 
 /* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */
@@ -96,9 +95,6 @@ struct ceduo_brief {
 struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control);
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
-struct ceduo_paired {
-    double mean, se; /* NaN where it does not exist */
-};
 struct ceduo_difference {
     struct ceduo_paired reach_probability, exceed_probability;
     struct ceduo_paired energy_per_released; /* J */
@@ -111,6 +107,9 @@ struct ceduo_difference {
 #define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control);
+
+/* Between two that are the same: 0, without an error. `accepted` NaN: what exceeds it is not known. */
+struct ceduo_difference ceduo_no_difference(double accepted);
 
 /* Adds 1 to the mark of each rock that reaches a control with more than is accepted there, or reaches it where that
  * is not said. Returns how many rocks were looked at, at most `most`: fewer than all where samples are kept of the

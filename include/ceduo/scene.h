@@ -73,7 +73,7 @@ struct ceduo_simulation {
     enum ceduo_contact_model contact_model;
     enum ceduo_rule rule;
     double threshold; /* m */
-    double contact_dbh; /* m: the lights of contact and free run count stems from this dbh on */
+    double contact_dbh; /* m: ADC, free run and index count stems from this dbh on */
     double gravity;   /* m/s2 */
     bool scale_rn;    /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
 };

@@ -11,7 +11,7 @@
 /* Global sensitivity: which inputs make a figure uncertain. Base points A and B are rows of Sobol' points in the unit
  * cube; each input in turn is taken from B and all others from A (Saltelli et al. 2010). A figure is asked for at every
  * such point. From its values come the first-order index S of each input (the share of the variance that this input alone
- * explains; Saltelli et al. 2010, Table 2 b) and its total index S_T (the share that is lost if it is known; Jansen 1999).
+ * explains; Saltelli et al. 2010, Table 2 b) and its total index S_T (the share that it causes alone or with others; Jansen 1999).
  *
  * A figure that is itself computed from random rocks has noise. So each is given twice, from the first and the second half
  * of the rocks: products of two halves, whose noise is independent, carry none of it on the mean. */

@@ -77,8 +77,13 @@ struct ceduo_growth {
     struct ceduo_curve shoots, trees;
     double shoots_young, shoots_old; /* shoots on a stool just after a cut, and in the end: >= shoots_old >= 1 */
     double sdi_most;                 /* stand density index that the shoots are thinned to, > 0; 0: they are not */
+    double trees_sdi_most; /* that of the trees at which they take all growing space; 0: CEDUO_TREES_SPACE of sdi_most */
     unsigned stump_years;            /* so long the stumps stay after a cut */
 };
+
+/* Trees whose crowns grow in the open occupy a site fully from about 35 % of the greatest density on (Long 1985); that this
+ * holds for standards above a coppice is assumed. */
+#define CEDUO_TREES_SPACE 0.35
 
 /* How it is cut. */
 struct ceduo_cutting {
@@ -104,8 +109,8 @@ struct ceduo_stand {
     double fracture_ratio; /* dorren; NaN: the species' */
     double green_density;  /* kg/m3, inertia */
     enum ceduo_energy_offset offset; /* brauner */
-    int glancing;     /* 0 or 1; -1: not said, see ceduo_stand_glances() */
-    double hit_below; /* m: a hit higher on a stem takes nothing; 0: every hit takes */
+    double hit_below; /* m: a hit takes nothing where the rock's centre is higher above the ground; 0: every hit takes */
+    double counted_from; /* m: the forms of the ADC count stems from this dbh on (adc.h); rocks meet all */
     struct ceduo_growth growth;
     struct ceduo_cutting cutting;
 };
@@ -141,7 +146,8 @@ int ceduo_species_find(const char *name);
 enum ceduo_volume_from { CEDUO_VOLUME_GIVEN, CEDUO_VOLUME_EQUATION, CEDUO_VOLUME_FORM_FACTOR };
 
 /* Volume (m3) of one of `stems`, and where it comes from: as given; by the species' equation inside its rectangle of
- * dbh and height; otherwise form factor 0.5 × basal area × height. */
+ * dbh and height; beyond it with the form factor that the equation has at the nearest point of the rectangle (assumed);
+ * without a species form factor 0.5 × basal area × height. */
 double ceduo_stem_volume(const struct ceduo_stand *stand, const struct ceduo_stems *stems, enum ceduo_volume_from *from);
 
 /* Work of breaking (J/m3) that brauner takes: the stand's own, else its species', else that of beech. */
@@ -149,11 +155,6 @@ double ceduo_stand_u(const struct ceduo_stand *stand);
 
 /* Strength of the wood relative to silver fir that dorren takes: the stand's own, else its species', else 1 (assumed). */
 double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand);
-
-/* Whether a hit takes at most the share 1 - u2 of the rock's energy, u = |offset|/((B + d)/2): what lies in the part of its
- * velocity that is normal to the stem, so that a stem that is grazed cannot stop a rock dead (assumed). Where the stand
- * does not say: with dorren, and with brauner by eccentricity. */
-bool ceduo_stand_glances(const struct ceduo_stand *stand);
 
 /* Energy (J) that a contact with one of `stems` takes. brauner: V·U (Eq. 3 of Ciabocco et al. 2009). dorren: the mean
  * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). inertia: NaN, it takes a share. */

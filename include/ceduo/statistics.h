@@ -2,6 +2,7 @@
 #ifndef CEDUO_STATISTICS_H
 #define CEDUO_STATISTICS_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -29,8 +30,12 @@ double ceduo_moments_sd(const struct ceduo_moments *m);
 double ceduo_moments_se(const struct ceduo_moments *m);
 
 /* Half the width of the 95 % interval of a mean of n values, by Student's law with n - 1 degrees of freedom, from its standard
- * error in any unit; NaN for n < 2. */
+ * error in any unit; NaN for n < CEDUO_FEW, of which it would say too little. */
+#define CEDUO_FEW 10
 double ceduo_half_width(double se, uint64_t n);
+
+/* The standard error of a share of n. */
+double ceduo_share_se(double share, double n);
 
 /* The same of a share of n rocks, by the normal law; of none or all of them what Wilson's interval leaves, as their standard
  * error is 0. Also of the difference of two such shares that are alike. */
@@ -40,6 +45,16 @@ double ceduo_half_width_of_share(double share, double se, uint64_t n);
 void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi);
 /* The same of a share that is as sure as one of `n`, which need not be whole. */
 void ceduo_wilson_share(double share, double n, double *lo, double *hi);
+
+/* The mean of differences between pairs: the same rocks under two conditions. */
+struct ceduo_paired {
+    double mean, se; /* NaN where it does not exist; se: or where no pair differs */
+    double below;    /* shares: where no pair differs, the share of pairs that may differ all the same (Wilson, 95 %); otherwise 0 */
+};
+#define CEDUO_NOT_PAIRED ((struct ceduo_paired){NAN, NAN, 0})
+
+/* `mean` of `rocks` pairs, with the spread of those in `m`. */
+struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks);
 
 /* Order statistics of n sorted or unsorted values: the rank (1…n) of quantile p, the smallest k with k >= pn; and the
  * ranks between which the true quantile lies with 95 % (binomial law); 0 or n + 1 where no value bounds it. */

@@ -87,6 +87,7 @@ struct ceduo_survey_heights {
 struct ceduo_survey_answer {
     struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;
     struct ceduo_estimate spacing; /* m, over the stools where it was measured; its mean is NaN where it was not */
+    size_t stools_measured;        /* those stools */
     int species;                   /* that has most basal area; -1: none is said */
     struct ceduo_survey_heights shoots, trees;
     size_t classes_count; /* by kind, then by dbh */

@@ -84,6 +84,7 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
 struct ceduo_years_summary {
     size_t years, flown;
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
+    size_t thick_contact, thick_free_run; /* and where only stems from CEDUO_THICK_DBH on count */
     struct ceduo_paired reach, exceed; /* of the released */
     struct ceduo_paired energy_per_released; /* J */
     unsigned worst_year;               /* with the largest share that exceeds, or where that is not said arrives; by the

@@ -23,6 +23,8 @@ struct ceduo_yield {
     double died_per_year;     /* likewise */
     double standing;          /* m3/ha: the mean of that rotation's years */
     double volume_today;      /* m3/ha as filed; NaN without a forest */
+    double space;             /* the largest share of the growing space that trees take before a cut; above 1 the ground
+                               * does not bear so many: their growth, and so the yield, is not known */
     size_t fellings_count;
     struct ceduo_felling *fellings; /* by year, then by belt */
 };

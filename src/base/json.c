@@ -6,6 +6,16 @@
 
 #include "utf8.h"
 
+/* Beyond 16 bits JSON escapes the two halves of UTF-16. */
+static void put_escape(struct text *text, uint32_t code)
+{
+    if (code <= 0xffff)
+        ceduo_text_format(text, "\\u%04x", (unsigned)code);
+    else
+        ceduo_text_format(text, "\\u%04x\\u%04x", (unsigned)(0xd7c0 + (code >> 10)),
+                          (unsigned)(0xdc00 + (code & 0x3ff)));
+}
+
 static void put_string(struct text *text, const char *string)
 {
     size_t n = strlen(string);
@@ -20,7 +30,7 @@ static void put_string(struct text *text, const char *string)
             ceduo_text_char(text, '\\');
             ceduo_text_char(text, (char)code);
         } else if (!ceduo_utf8_printable(code)) {
-            ceduo_text_format(text, "\\u%04x", (unsigned)code);
+            put_escape(text, code);
         } else {
             ceduo_text_add(text, string + i, length);
         }

@@ -12,7 +12,8 @@
 /* Bytes of the character at p (1…4), 0 where there is none within n bytes; `*code` is its code point. */
 size_t ceduo_utf8_decode(const char *p, size_t n, uint32_t *code);
 
-/* Whether a terminal only shows a character: no control, and nothing that breaks lines or turns the order of the text. */
+/* Whether a character is only shown: no control, nothing that breaks lines or turns the order of the text, and none of those that
+ * Unicode keeps for no character, which no page may hold. */
 bool ceduo_utf8_printable(uint32_t code);
 
 /* Writes a code point as UTF-8; the number of bytes. */

@@ -28,7 +28,6 @@ struct arguments {
     const char *output; /* NULL: standard output */
     int stands;         /* CSV rows are stands */
     bool quiet;
-    bool plain;         /* means and shares as counted */
     uint64_t rocks;     /* 0: the scene's */
     double tolerance;   /* 0: none */
     unsigned threads;

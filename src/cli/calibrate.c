@@ -47,15 +47,6 @@ static enum exit_status check_range(const struct job *j, size_t i)
     return status;
 }
 
-static bool shares_a_place(const struct ceduo_input *a, const struct ceduo_input *b)
-{
-    for (size_t i = 0; i < a->places_count; i++)
-        for (size_t k = 0; k < b->places_count; k++)
-            if (strcmp(a->places[i], b->places[k]) == 0)
-                return true;
-    return false;
-}
-
 /* mu acts through the shape of the rock, in one law. */
 static enum exit_status check_mu(const struct job *j, size_t i)
 {
@@ -96,7 +87,7 @@ static enum exit_status find_value(struct job *j, size_t i)
         input->hi = j->hi[i];
         places += input->places_count;
         for (size_t k = 0; k < i; k++)
-            if (shares_a_place(input, &j->inputs[s * j->parameters_count + k]))
+            if (ceduo_input_shares(input, &j->inputs[s * j->parameters_count + k]))
                 return ceduo_usage("calibrate", _("'%s' and '%s' are the same value"), j->paths[k], path);
     }
     if (places == 0)
@@ -239,9 +230,8 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
     struct problems problems = {0};
     bool anew;
     ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
-    enum exit_status status = r->answer->draws_count > 0 ? write_draws(j, r->answer, ceduo_text_string(&path)) : EXIT_DONE;
-    const char *draws = r->answer->draws_count > 0 ? ceduo_text_string(&path) : NULL;
-    bool edited = status == EXIT_DONE && edit_scene(j, r, draws, &document, &problems);
+    enum exit_status status = write_draws(j, r->answer, ceduo_text_string(&path));
+    bool edited = status == EXIT_DONE && edit_scene(j, r, ceduo_text_string(&path), &document, &problems);
     if (edited && !ceduo_document_save(&document, output, &anew)) {
         ceduo_say_why(output, strerror(errno));
         status = EXIT_OUTPUT;
@@ -293,7 +283,8 @@ static enum exit_status compute(struct job *j)
                                               .answer = &answer};
     put(j, &report, &out);
     ceduo_say_plainly(&out);
-    enum exit_status written = print_answer(j, &out);
+    bool ended = atomic_load(ceduo_interrupt_flag()); /* from here on all is written */
+    enum exit_status written = ended ? EXIT_RUN : print_answer(j, &out);
     if (written == EXIT_DONE && writes_scene(a))
         written = write_scene(j, &report);
     ceduo_text_free(&out);

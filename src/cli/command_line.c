@@ -152,8 +152,8 @@ static enum exit_status check_arguments(struct arguments *a)
                                    "or --calibrate"));
     if (a->mode == MODE_SENSITIVITY && ((a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_DOUBT) || a->years || a->tolerance > 0 || a->stands))
         return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
-    if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0 || a->plain))
-        return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows, --option or --plain"));
+    if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))
+        return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows or --option"));
     if (wants_scene && a->scenes_count == 0)
         return ceduo_usage(NULL,
                            _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
@@ -166,7 +166,7 @@ static enum exit_status check_arguments(struct arguments *a)
     if (a->mode < MODE_HELP && check_unused(a) != EXIT_DONE)
         return EXIT_USAGE;
     bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets.n > 0 || a->options.n > 0 || a->output ||
-                      a->format != CEDUO_TABLE || a->stands || a->plain;
+                      a->format != CEDUO_TABLE || a->stands;
     if (a->mode == MODE_TERMINAL && batch_only)
         return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
     if (a->mode == MODE_TERMINAL && a->scenes_count > 1)
@@ -239,6 +239,9 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
             return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
         if (letter == '?' && optopt && optopt < 256)
             return ceduo_usage(NULL, _("unknown option '-%c'"), optopt);
+        const char *instead = letter == '?' ? ceduo_option_gone(word) : NULL;
+        if (instead)
+            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, instead);
         if (letter == '?')
             return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), word);
         size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;

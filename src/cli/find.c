@@ -53,7 +53,6 @@ static enum exit_status look(const struct arguments *a, struct scene_file *file,
                                    .rotation = a->years,
                                    .rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks},
                         .threads = a->threads,
-                        .plain = a->plain,
                         .cancel = ceduo_interrupt_flag()};
     struct ceduo_found found;
     struct problems problems = {0};

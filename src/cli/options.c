@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/language.h"
 #include "ceduo/calibrate.h"
@@ -69,13 +70,6 @@ static enum exit_status set_quiet(struct arguments *a, const struct option_row *
 {
     (void)row, (void)value;
     a->quiet = true;
-    return EXIT_DONE;
-}
-
-static enum exit_status set_plain(struct arguments *a, const struct option_row *row, char *value)
-{
-    (void)row, (void)value;
-    a->plain = true;
     return EXIT_DONE;
 }
 
@@ -234,11 +228,16 @@ static enum exit_status set_sensitivity(struct arguments *a, const struct option
     return status;
 }
 
-/* The file is the output; standard output is where it goes without one. */
+/* The file is the output; standard output is where it goes without one. Where it was forgotten, the first scene stands in its
+ * place, and must not be written over. */
 static enum exit_status set_report(struct arguments *a, const struct option_row *row, char *value)
 {
-    (void)row;
-    a->output = strcmp(value, "-") == 0 ? NULL : value;
+    const char *dot = strrchr(value, '.');
+    bool standard = strcmp(value, "-") == 0;
+    if (!standard && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0)))
+        return ceduo_usage(row->name, _("'%s' does not end in .html or .htm; name the page, or - for standard output, then the "
+                                        "scenes: --report page.html scene.yaml"), value);
+    a->output = standard ? NULL : value;
     return EXIT_DONE;
 }
 
@@ -297,8 +296,6 @@ static const struct option_row rows[] = {
      N_("number of rocks; with --tolerance the maximum")},
     {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, NOT_PART | NOT_CHECK,
      N_("simulate until the 95 % error of each mean energy is below REL of it")},
-    {"plain", 0, NULL, set_plain, 0, MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
-     N_("print means and shares as counted, not adjusted by control variates")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
      N_("what each row of CSV describes (controls)")},
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},
@@ -345,6 +342,22 @@ static const struct option_row rows[] = {
 
 #define ROWS (sizeof rows / sizeof rows[0])
 _Static_assert(ROWS <= OPTIONS_MOST, "a bit for each");
+
+/* Options of earlier versions, and what to do instead. */
+static const struct {
+    const char *name, *instead;
+} gone[] = {
+    {"plain", N_("shares and means are always as counted; leave it out")},
+};
+
+const char *ceduo_option_gone(const char *word)
+{
+    size_t length = strcspn(word, "=");
+    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
+        if (length > 2 && strlen(gone[i].name) == length - 2 && strncmp(gone[i].name, word + 2, length - 2) == 0)
+            return _(gone[i].instead);
+    return NULL;
+}
 
 const struct option_row *ceduo_option_rows(size_t *n)
 {

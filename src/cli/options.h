@@ -24,6 +24,9 @@ enum { NOT_SHARD = 1, NOT_MERGE = 2, NOT_CHECK = 4 };
 
 const struct option_row *ceduo_option_rows(size_t *n);
 
+/* What to do instead of an option that an earlier version had, such as "--plain"; NULL: it had none of this name. */
+const char *ceduo_option_gone(const char *word);
+
 /* Whether the option of this name stands on the command line. */
 bool ceduo_option_given(const struct arguments *arguments, const char *name);
 

@@ -122,7 +122,6 @@ static enum ceduo_status ask_doubt(const struct arguments *a, struct scene_file 
                                         .points = ceduo_option_given(a, "sensitivity") ? a->points : DOUBT_POINTS,
                                         .rocks = rocks < DOUBT_ROCKS ? rocks : DOUBT_ROCKS,
                                         .threads = a->threads,
-                                        .plain = a->plain,
                                         .cancel = ceduo_interrupt_flag(),
                                         .progress = ceduo_progress_steps,
                                         .context = progress};

@@ -146,7 +146,6 @@ struct ceduo_question ceduo_batch_question(const struct arguments *a, const stru
     q.rocks = q.run.rocks_most = rocks_wanted(a, file);
     q.tolerance = a->tolerance;
     q.run.threads = a->threads;
-    q.run.plain = a->plain;
     q.run.other_energy = true;
     q.run.cancel = ceduo_interrupt_flag();
     q.run.progress = progress ? ceduo_progress_show : NULL;

@@ -45,7 +45,6 @@ static struct ceduo_doubt_def def_of(const struct arguments *a, const struct sce
                                     .points = a->points > 0 ? a->points : CEDUO_DOUBT_POINTS,
                                     .rocks = ceduo_sensitivity_rocks(a),
                                     .threads = a->threads,
-                                    .plain = a->plain,
                                     .cancel = ceduo_interrupt_flag(),
                                     .progress = ceduo_progress_steps,
                                     .context = progress};

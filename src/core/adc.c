@@ -7,27 +7,55 @@
 #include "energy.h"
 #include "strata.h"
 
-/* Mean dbh over some kinds of stem; 0 where no stem is of them. */
-static double mean_dbh_of(const struct ceduo_stems *stems, size_t n, const struct ceduo_stems *more, size_t m)
+/* ---- stems that count ---- */
+
+static bool counts(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    return stems->per_ha > 0 && stems->dbh >= stand->counted_from;
+}
+
+/* Per hectare; `dbh`: their mean, 0 of none. */
+static double sum_of(const struct ceduo_stand *stand, bool trees_too, double *dbh)
 {
     double count = 0, sum = 0;
-    for (size_t i = 0; i < n + m; i++) {
-        const struct ceduo_stems *s = i < n ? &stems[i] : &more[i - n];
+    for (size_t i = 0; i < stand->shoots_count + (trees_too ? stand->trees_count : 0); i++) {
+        const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+        if (!counts(stand, s))
+            continue;
         count += s->per_ha;
         sum += s->per_ha * s->dbh;
     }
-    return count > 0 ? sum / count : 0;
+    *dbh = count > 0 ? sum / count : 0;
+    return count;
 }
 
 static double mean_shoot_dbh(const struct ceduo_stand *stand)
 {
-    return mean_dbh_of(stand->shoots, stand->shoots_count, NULL, 0);
+    double dbh;
+    sum_of(stand, false, &dbh);
+    return dbh;
 }
 
 static double mean_dbh(const struct ceduo_stand *stand)
 {
-    return mean_dbh_of(stand->shoots, stand->shoots_count, stand->trees, stand->trees_count);
+    double dbh;
+    sum_of(stand, true, &dbh);
+    return dbh;
 }
+
+static double shoots(const struct ceduo_stand *stand)
+{
+    double dbh;
+    return stand->stools_per_ha > 0 ? sum_of(stand, false, &dbh) : 0;
+}
+
+/* A stool has one shoot at least. */
+static double stools(const struct ceduo_stand *stand)
+{
+    return fmin(stand->stools_per_ha, shoots(stand));
+}
+
+/* ---- geometry ---- */
 
 double ceduo_stool_radius(unsigned n, double s)
 {
@@ -62,7 +90,7 @@ static double stool_width(const struct ceduo_stand *stand, enum ceduo_rule rule)
         return mean_shoot_dbh(stand) + stand->spacing;
     default:
         return mean_shoot_dbh(stand) +
-               ceduo_stool_perimeter(ceduo_stand_shoots(stand) / stand->stools_per_ha, stand->spacing) / M_PI;
+               ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
     }
 }
 
@@ -70,17 +98,19 @@ static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_
 {
     double count = 0, energy = 0, share = 0;
     for (size_t i = 0; i < stand->shoots_count; i++) {
+        if (!counts(stand, &stand->shoots[i]))
+            continue;
         count += stand->shoots[i].per_ha;
         energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
         share += stand->shoots[i].per_ha * ceduo_contact_share(stand, &stand->shoots[i], mass);
     }
-    return (struct stratum){stand->stools_per_ha, stool_width(stand, rule), energy / count, share / count};
+    return (struct stratum){stools(stand), stool_width(stand, rule), energy / count, share / count};
 }
 
 /* How many strata the shoots make. */
 static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : ceduo_stand_has_shoots(stand);
+    return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : shoots(stand) > 0;
 }
 
 static size_t stem_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
@@ -110,14 +140,14 @@ static struct stratum low_stratum(const struct ceduo_stand *stand, size_t i)
 
 struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass)
 {
-    size_t shoots = shoot_strata(stand, rule);
-    if (i < shoots && rule != CEDUO_GSTEIGER_STEMS)
+    size_t n = shoot_strata(stand, rule);
+    if (i < n && rule != CEDUO_GSTEIGER_STEMS)
         return stools_as_one(stand, rule, mass);
-    if (i >= shoots + stand->trees_count)
-        return low_stratum(stand, i - shoots - stand->trees_count);
-    const struct ceduo_stems *s = i < shoots ? &stand->shoots[i] : &stand->trees[i - shoots];
+    if (i >= n + stand->trees_count)
+        return low_stratum(stand, i - n - stand->trees_count);
+    const struct ceduo_stems *s = i < n ? &stand->shoots[i] : &stand->trees[i - n];
     double width = rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : s->dbh;
-    return (struct stratum){s->per_ha, width, ceduo_contact_energy(stand, s), ceduo_contact_share(stand, s, mass)};
+    return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s), ceduo_contact_share(stand, s, mass)};
 }
 
 /* The form's denominator for a rock of diameter b, m per ha: A/ADC. */
@@ -143,7 +173,7 @@ enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum c
 {
     if (rule != CEDUO_RULE_AUTO)
         return rule;
-    return !ceduo_stand_has_shoots(stand) || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
+    return !(shoots(stand) > 0) || b < stand->spacing ? CEDUO_GSTEIGER_STEMS : CEDUO_INTERCEPTION;
 }
 
 double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
@@ -186,7 +216,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
     unsigned warnings = stems_warnings(stand, stand->shoots, stand->shoots_count) |
                         stems_warnings(stand, stand->trees, stand->trees_count) |
                         (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0);
-    if (!ceduo_stand_has_shoots(stand))
+    if (!(shoots(stand) > 0))
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);
     if (adc.interception < adc.gsteiger_stems)

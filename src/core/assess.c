@@ -8,59 +8,29 @@
 
 /* ---- stems that count ---- */
 
-/* Stems of a stand from some dbh on. Every form of the ADC depends on numbers and mean diameters alone, so shoots and
- * trees may be one kind each. */
-struct counted {
-    struct ceduo_stand stand;
-    struct ceduo_stems shoots, trees;
-};
-
-static size_t merge_thick(const struct ceduo_stems *stems, size_t n, double dbh, struct ceduo_stems *one)
+static struct ceduo_stand from_dbh(const struct ceduo_stand *stand, double dbh)
 {
-    double per_ha = 0, width = 0;
-    for (size_t i = 0; i < n; i++)
-        if (stems[i].dbh >= dbh) {
-            per_ha += stems[i].per_ha;
-            width += stems[i].per_ha * stems[i].dbh;
-        }
-    *one = (struct ceduo_stems){.per_ha = per_ha, .dbh = width / per_ha};
-    return per_ha > 0;
+    struct ceduo_stand counted = *stand;
+    counted.counted_from = dbh;
+    return counted;
 }
 
-static bool all_count(const struct ceduo_stems *stems, size_t n, double dbh)
+/* For the lights, what lies low does not count: a rock flies over it. */
+static struct ceduo_stand standing(const struct ceduo_stand *stand, double dbh)
 {
-    for (size_t i = 0; i < n; i++)
-        if (!(stems[i].dbh >= dbh))
-            return false;
-    return true;
-}
-
-/* What lies low does not count: a rock flies over it. */
-static const struct ceduo_stand *count(const struct ceduo_stand *stand, double dbh, struct counted *c)
-{
-    bool thick = all_count(stand->shoots, stand->shoots_count, dbh) && all_count(stand->trees, stand->trees_count, dbh);
-    if (thick && !(stand->stumps.per_ha > 0) && !(stand->logs.per_ha > 0))
-        return stand;
-    c->stand = *stand;
-    c->stand.stumps.per_ha = c->stand.logs.per_ha = 0;
-    if (thick)
-        return &c->stand;
-    c->stand.shoots = &c->shoots;
-    c->stand.trees = &c->trees;
-    c->stand.shoots_count = merge_thick(stand->shoots, stand->shoots_count, dbh, &c->shoots);
-    c->stand.trees_count = merge_thick(stand->trees, stand->trees_count, dbh, &c->trees);
-    c->stand.stools_per_ha = fmin(stand->stools_per_ha, c->shoots.per_ha); /* a stool has one shoot at least */
-    return &c->stand;
+    struct ceduo_stand counted = from_dbh(stand, dbh);
+    counted.stumps.per_ha = counted.logs.per_ha = 0;
+    return counted;
 }
 
 /* Trees of a group are met together, so that a way without any is likelier than by crofton, which has them one by one: by
  * this in the exponent. `within`: no tree stands on `length` m; otherwise none of the groups that have their centre there is met. */
-static double less_by_groups(const struct ceduo_stand *stand, double dbh, double b, double length, bool within)
+static double less_by_groups(const struct ceduo_stand *stand, double b, double length, bool within)
 {
     double more = 0;
     for (size_t i = 0; i < stand->trees_count; i++) {
         const struct ceduo_stems *t = &stand->trees[i];
-        if (!ceduo_stems_are_grouped(t) || !(t->dbh >= dbh))
+        if (!ceduo_stems_are_grouped(t) || !(t->dbh >= stand->counted_from))
             continue;
         struct group_shape shape = {.n = t->group, .radius = t->group_radius, .width = b + t->dbh};
         double met = within ? ceduo_groups_met_within(&shape, length) : ceduo_groups_met_along(&shape, length);
@@ -79,39 +49,30 @@ struct met {
     double adc, free_run;
 };
 
-/* `counted`: of the stand, from `dbh` on. */
-static struct met meet_counted(const struct ceduo_scene *scene, const struct ceduo_stand *stand,
-                               const struct ceduo_stand *counted, double dbh)
+static struct met meet_counted(const struct ceduo_scene *scene, const struct ceduo_stand *counted)
 {
     double b = ceduo_rock_mean(&scene->rock).mean_diameter, threshold = scene->simulation.threshold;
-    if (ceduo_stand_is_bare(counted))
-        return (struct met){INFINITY, 1};
     struct ceduo_adc adc = ceduo_adc(counted, b);
+    if (isinf(adc.crofton))
+        return (struct met){INFINITY, 1};
     return (struct met){ceduo_adc_value(&adc, ceduo_adc_rule(counted, b, scene->simulation.rule)),
-                        chance_of_none(threshold / adc.crofton, less_by_groups(stand, dbh, b, threshold, true))};
+                        chance_of_none(threshold / adc.crofton, less_by_groups(counted, b, threshold, true))};
 }
 
-/* The chance that `length` m of a belt, of those whose centres lie there, have no stem in the rock's way. */
+/* The chance that `length` m of a belt, of those whose centres lie there, have no stem that counts in the rock's way. */
 static double meet_nothing(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length)
 {
-    struct counted c;
     double b = ceduo_rock_mean(&scene->rock).mean_diameter;
-    const struct ceduo_stand *standing = count(stand, 0, &c);
-    if (ceduo_stand_is_bare(standing))
-        return 1;
-    return chance_of_none(length / ceduo_adc(standing, b).crofton, less_by_groups(stand, 0, b, length, false));
+    const struct ceduo_stand counted = standing(stand, scene->simulation.contact_dbh);
+    return chance_of_none(length / ceduo_adc(&counted, b).crofton, less_by_groups(&counted, b, length, false));
 }
 
 /* Fewer stems are not met more often, though their mean diameter may make a form say so. */
 static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
 {
-    struct counted c;
-    const struct ceduo_stand *thick = count(stand, dbh, &c);
-    struct met all = meet_counted(scene, stand, stand, 0);
-    if (thick == stand)
-        return all;
-    struct met met = meet_counted(scene, stand, thick, dbh);
-    return (struct met){fmax(met.adc, all.adc), fmax(met.free_run, all.free_run)};
+    const struct ceduo_stand all = standing(stand, scene->simulation.contact_dbh), thick = standing(stand, dbh);
+    struct met met = meet_counted(scene, &all), fewer = meet_counted(scene, &thick);
+    return (struct met){fmax(met.adc, fewer.adc), fmax(met.free_run, fewer.free_run)};
 }
 
 static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh,
@@ -147,9 +108,10 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
                                                    double length)
 {
     double b = ceduo_rock_mean(&scene->rock).mean_diameter;
-    bool bare = ceduo_stand_is_bare(stand);
-    enum ceduo_rule rule = ceduo_adc_rule(stand, b, scene->simulation.rule);
-    struct ceduo_adc adc = bare ? (struct ceduo_adc){INFINITY, INFINITY, INFINITY, INFINITY} : ceduo_adc(stand, b);
+    const struct ceduo_stand counted = from_dbh(stand, scene->simulation.contact_dbh);
+    enum ceduo_rule rule = ceduo_adc_rule(&counted, b, scene->simulation.rule);
+    struct ceduo_adc adc = ceduo_adc(&counted, b);
+    double adc_m = ceduo_adc_value(&adc, rule);
     struct met met = meet(scene, stand, scene->simulation.contact_dbh);
     double trees = ceduo_stand_trees(stand);
     struct ceduo_stand_result r = {.length = length,
@@ -157,18 +119,18 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
                                    .stools_per_ha = ceduo_stand_has_shoots(stand) ? stand->stools_per_ha : 0,
                                    .trees_per_ha = trees,
                                    .basal_area = ceduo_stand_basal_area(stand),
-                                   .bare = bare,
+                                   .bare = ceduo_stand_is_bare(stand),
                                    .rule = rule,
                                    .adc = adc,
-                                   .adc_m = bare ? INFINITY : ceduo_adc_value(&adc, rule)};
+                                   .adc_m = adc_m};
     r.passes_threshold = met.adc < scene->simulation.threshold;
     r.free_run_probability = met.free_run;
     r.contacts = length / r.adc_m;
-    r.dissipated = bare ? 0 : length * ceduo_energy_per_metre(stand, b, rule);
+    r.dissipated = isinf(adc_m) ? 0 : length * ceduo_energy_per_metre(&counted, b, rule);
     r.per_100m = r.dissipated / length * 100;
-    r.energy_per_contact = bare ? NAN : ceduo_energy_per_metre(stand, b, rule) * r.adc_m;
+    r.energy_per_contact = isinf(adc_m) ? NAN : ceduo_energy_per_metre(&counted, b, rule) * adc_m;
     r.rules = ceduo_regulation_check(&scene->rules, stand);
-    r.warnings = ceduo_stand_warnings(stand, b, scene->simulation.rule);
+    r.warnings = ceduo_stand_warnings(&counted, b, scene->simulation.rule);
     for (size_t i = 0; i < stand->trees_count; i++)
         r.grouped_per_ha += ceduo_stems_are_grouped(&stand->trees[i]) ? stand->trees[i].per_ha : 0;
     r.stumps_per_ha = stand->stumps.per_ha;
@@ -203,10 +165,11 @@ struct left {
 static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double energy)
 {
     struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
-    enum ceduo_rule rule = ceduo_adc_rule(stand, rock.mean_diameter, scene->simulation.rule);
+    const struct ceduo_stand counted = from_dbh(stand, scene->simulation.contact_dbh);
+    enum ceduo_rule rule = ceduo_adc_rule(&counted, rock.mean_diameter, scene->simulation.rule);
     double rate = 0, amount = 0;
-    for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
-        struct stratum s = ceduo_stratum(stand, rule, i, rock.mass);
+    for (size_t i = 0, n = ceduo_strata_count(&counted, rule); i < n; i++) {
+        struct stratum s = ceduo_stratum(&counted, rule, i, rock.mass);
         double contacts = s.per_ha * (rock.mean_diameter + s.width) / HECTARE;
         rate -= contacts * log1p(-s.share);
         amount += s.share > 0 ? 0 : contacts * s.energy;

@@ -21,7 +21,6 @@
  *     NAME_warnings(stand, stems)                   bits of enum ceduo_warning */
 struct stem_energy {
     enum ceduo_energy_model model;
-    double glancing; /* 0 or 1, see ceduo_stand_glances() */
     union {
 #define X(NAME, name) struct energy_##name name;
         CEDUO_ENERGY_MODELS(X)
@@ -31,7 +30,7 @@ struct stem_energy {
 
 static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    struct stem_energy e = {.model = stand->energy, .glancing = ceduo_stand_glances(stand)};
+    struct stem_energy e = {.model = stand->energy};
     switch (stand->energy) {
 #define X(NAME, name)                                 \
     case CEDUO_##NAME:                                \
@@ -47,7 +46,6 @@ static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand,
 static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
-    hash_double(hash, e->glancing);
     switch (e->model) {
 #define X(NAME, name)                                                                          \
     case CEDUO_##NAME:                                                                         \
@@ -94,12 +92,6 @@ static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
     return false;
 }
 
-/* Whether all hits of stems of one diameter take the same of any rock. */
-static inline bool stem_energy_alike(const struct stem_energy *e)
-{
-    return !(e->glancing > 0) && !stem_energy_by_eccentricity(e);
-}
-
 static inline double stem_energy_mean_share(const struct stem_energy *e, double mass)
 {
     switch (e->model) {
@@ -112,6 +104,7 @@ static inline double stem_energy_mean_share(const struct stem_energy *e, double 
     return 0;
 }
 
+/* The share of the energy of a rock of `mass` kg that a hit takes at the most. */
 static inline double stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
 {
     switch (e->model) {
@@ -122,13 +115,6 @@ static inline double stem_energy_share(const struct stem_energy *e, double mass,
 #undef X
     }
     return 1;
-}
-
-/* The share of the energy of a rock of `mass` kg that a hit takes at the most. */
-static inline double stem_energy_part(const struct stem_energy *e, double mass, double dbh, double eccentricity)
-{
-    double share = stem_energy_share(e, mass, dbh, eccentricity);
-    return e->glancing > 0 ? fmin(share, 1 - eccentricity * eccentricity) : share;
 }
 
 static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

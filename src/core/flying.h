@@ -8,11 +8,11 @@
 
 #include "one_lane.h"
 /* after the lane */
+#include "base/cancel.h"
 #include "hit.h"
 #include "law_arm.h"
 #include "law_crsp.h"
 #include "law_lumped.h"
-#include "vary.h"
 #include "walker.h"
 
 #ifndef PAUSE
@@ -31,8 +31,7 @@ static inline void set_next_stems(struct walker *w)
 /* Whether nobody waits for the rock any more. */
 static bool is_cancelled(const struct walker *w)
 {
-    return (w->cancel && atomic_load_explicit(w->cancel, memory_order_relaxed)) ||
-           (w->watch && w->watch->enough && w->watch->enough(w->watch->context));
+    return ceduo_cancelled(w->cancel) || (w->watch && w->watch->enough && w->watch->enough(w->watch->context));
 }
 
 /* The contacts of the next pause: so near that the work up to there is done in a few milliseconds. */
@@ -341,20 +340,12 @@ HOT void strike_facet(struct walker *w, size_t j, struct velocity v, struct face
     }
 }
 
-/* What the facet that was turned for this contact adds to the variates. */
-HOT void vary_rock(struct walker *w, const struct flight *at, double along, const struct facet *f)
-{
-    double mean = w->g->facets == CEDUO_AGAINST ? largest_facet(w, at->segment) * 0.5 : 0;
-    vary(w->variates, 1, f->angle - mean, along, (at->x - w->marks->from) * w->marks->per_metre);
-}
-
 /* A contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly. */
 HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet, enum ceduo_law law)
 {
     const struct ground_segment *s = &w->g->segments[at->segment];
     double sine, cosine;
     strike_facet(w, at->segment, *v, facet, &sine, &cosine);
-    vary_rock(w, at, v->along, facet);
     struct ground_point point = ground_point(w, at->segment);
     if (law == CEDUO_LAW_ARM)
         turn_section(w, &point.sine, &point.cosine);

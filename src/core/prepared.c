@@ -5,8 +5,7 @@
 #include <stdlib.h>
 
 #include "envelope.h"
-
-#define LENGTH_LEAST 1.0 /* m of a way, so that places on it are no huge numbers */
+#include "random.h"
 
 static int by_x(const void *a, const void *b)
 {
@@ -40,12 +39,7 @@ static bool make_marks(struct marks *marks, const struct ceduo_scene *scene)
     for (size_t i = 0; i < n; i++)
         at[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
     qsort(at, n, sizeof *at, by_x);
-    double from = scene->release.x.mean, last = from + LENGTH_LEAST;
-    for (size_t i = 0; i < n; i++)
-        last = scene->controls[i].x > last ? scene->controls[i].x : last;
     marks->n = n;
-    marks->from = from;
-    marks->per_metre = 1 / (last - from);
     return true;
 }
 
@@ -62,6 +56,22 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
+enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t number, struct ceduo_rock *rock)
+{
+    const struct ceduo_rock_def *def = &ready->scene.rock;
+    enum ceduo_status status = CEDUO_OK;
+    *rock = ready->mean;
+    if (ceduo_rock_varies(def)) {
+        double u[8];
+        for (uint64_t i = 0; i < 8; i++)
+            u[i] = random_open(ready->scene.simulation.seed, number, i, RANDOM_ROCK);
+        status = ceduo_rock_draw(def, u, rock);
+    }
+    if (ready->sizes.n > 0)
+        ceduo_rock_resize(rock, ceduo_size_of(&ready->sizes, number).volume);
+    return status;
 }
 
 void ceduo_prepared_release(struct prepared *p)

@@ -19,7 +19,6 @@ struct marks {
     struct mark *at;         /* rising along x */
     double *cell_x, *cell_z; /* likewise; behind the last NaN, as many as a vector reads: compare with isless() and its like,
                               * which raise no exception */
-    double from, per_metre; /* of the way to the last control: places on it are 0 at the mean release, 1 at that control */
 };
 
 /* A scene made ready to simulate rocks through one forest: what a walker reads. */
@@ -37,5 +36,8 @@ struct prepared {
 enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene,
                                       const struct ceduo_option *option, size_t cells, const double *cell_x);
 void ceduo_prepared_release(struct prepared *p);
+
+/* Rock `number` of a run, of its own size. What ceduo_rock_draw() says. */
+enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t number, struct ceduo_rock *rock);
 
 #endif

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/cancel.h"
 #include "base/grow.h"
 
 /* Sums along a stretch; they become means at the end. */
@@ -190,7 +191,7 @@ static void on_stem(void *context, const struct ceduo_stem_passed *stem)
 static bool is_cancelled(void *context)
 {
     const struct recorder *r = context;
-    return r->no_memory || (r->def->cancel && atomic_load_explicit(r->def->cancel, memory_order_relaxed));
+    return r->no_memory || ceduo_cancelled(r->def->cancel);
 }
 
 static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *follower, uint64_t rock)

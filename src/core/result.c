@@ -74,32 +74,6 @@ void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 
-/* Where nothing stands before a control the flights to it are those without forest; stems behind it would weigh its rocks
- * otherwise. */
-static void take_bare(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
-                      struct ceduo_flown *wooded)
-{
-    bool alike = wooded->rocks > 0 && wooded->rocks == bare->rocks; /* of none nothing is read yet */
-    for (size_t c = 0; c < scene->controls_count && alike; c++) {
-        struct ceduo_arrivals *a = &wooded->arrivals[c];
-        if (!a->adjusted || a->contacts != 0 || ceduo_option_stems_from(option) < scene->controls[c].x)
-            continue;
-        double contacts_se = a->contacts_se;
-        *a = bare->arrivals[c];
-        a->contacts = 0;
-        a->contacts_se = contacts_se;
-    }
-}
-
-/* Between the same flights. */
-static struct ceduo_difference no_difference(double accepted)
-{
-    struct ceduo_difference d = {{0, 0}, {0, 0}, {0, 0}};
-    if (isnan(accepted))
-        d.exceed_probability = (struct ceduo_paired){NAN, NAN};
-    return d;
-}
-
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option,
                        const struct ceduo_flown *bare, const struct ceduo_flown *wooded,
                        struct ceduo_stand_result *stands, struct ceduo_index *controls)
@@ -152,11 +126,9 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
             ceduo_flown_meets_nothing(&o->wooded);
         else
             status = copy(&r->bare, &o->wooded);
-        if (status == CEDUO_OK)
-            take_bare(scene, &scene->options[i], &r->bare, &o->wooded);
         ceduo_flown_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count && !r->wooded; c++)
-            o->differences[c] = no_difference(scene->controls[c].accepted);
+            o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
     if (status == CEDUO_OK)

@@ -46,17 +46,22 @@ static double shoots_on_stool(const struct ceduo_growth *growth, double age)
 
 /* ---- density ---- */
 
-static double sdi(double per_ha, double basal_area)
+double ceduo_stems_sdi(const struct ceduo_stems *stems, size_t n)
 {
-    if (!(per_ha > 0))
-        return 0;
-    double dq_cm = 100 * sqrt(basal_area / per_ha * 4 / M_PI);
-    return per_ha * ceduo_pow(dq_cm / 25.4, 1.605);
+    double per_ha = 0, squares = 0;
+    for (size_t i = 0; i < n; i++) {
+        per_ha += stems[i].per_ha;
+        squares += stems[i].per_ha * (stems[i].dbh * stems[i].dbh + stems[i].dbh_sd * stems[i].dbh_sd);
+    }
+    return per_ha > 0 ? per_ha * ceduo_pow(100 * sqrt(squares / per_ha) / 25.4, 1.605) : 0;
 }
 
-double ceduo_stand_sdi(const struct ceduo_stand *stand)
+double ceduo_space_of_trees(const struct ceduo_growth *growth, const struct ceduo_stand *grown)
 {
-    return sdi(ceduo_stand_shoots(stand) + ceduo_stand_trees(stand), ceduo_stand_basal_area(stand));
+    if (!(growth->sdi_most > 0))
+        return 0;
+    double all = growth->trees_sdi_most > 0 ? growth->trees_sdi_most : growth->sdi_most * CEDUO_TREES_SPACE;
+    return ceduo_stems_sdi(grown->trees, grown->trees_count) / all;
 }
 
 static void multiply_shoots(struct ceduo_stand *stand, double factor)
@@ -72,29 +77,13 @@ static void keep_shoots(struct ceduo_stand *stand, double least)
         multiply_shoots(stand, least / sum * (1 + DBL_EPSILON));
 }
 
-/* The largest share of the shoots, from `least` on, with which the stand is no denser than `most`; the index rises with
- * every stem. */
-static double share_to_stay(const struct ceduo_stand *stand, double most, double least)
+/* The shoots are thinned to the growing space that the trees leave, but `least` of them stay. */
+static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth, double least)
 {
-    struct ceduo_stand without = *stand;
-    without.shoots_count = 0;
-    double trees = ceduo_stand_trees(stand), shoots = ceduo_stand_shoots(stand);
-    double area_of_trees = ceduo_stand_basal_area(&without), area = ceduo_stand_basal_area(stand) - area_of_trees;
-    double lo = least, hi = 1;
-    for (double mid; (mid = lo + (hi - lo) / 2) > lo && mid < hi;) {
-        if (sdi(trees + mid * shoots, area_of_trees + mid * area) <= most)
-            lo = mid;
-        else
-            hi = mid;
-    }
-    return lo;
-}
-
-static void thin(struct ceduo_stand *stand, double most, double least)
-{
-    if (!(most > 0) || !ceduo_stand_has_shoots(stand) || ceduo_stand_sdi(stand) <= most)
-        return;
-    multiply_shoots(stand, share_to_stay(stand, most, fmin(1, least / ceduo_stand_shoots(stand))));
+    double most = growth->sdi_most * fmax(0, 1 - ceduo_space_of_trees(growth, stand));
+    double sdi = ceduo_stems_sdi(stand->shoots, stand->shoots_count);
+    if (growth->sdi_most > 0 && sdi > most) /* the index goes with their number */
+        multiply_shoots(stand, fmax(most / sdi, fmin(1, least / ceduo_stand_shoots(stand))));
     keep_shoots(stand, least);
 }
 
@@ -266,7 +255,7 @@ static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *gr
         grow_stems(s, &growth->shoots, age, years);
     }
     keep_shoots(stand, least);
-    thin(stand, growth->sdi_most, least);
+    share_space(stand, growth, least);
 }
 
 static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned year, struct ceduo_grown_stand *out)
@@ -323,7 +312,7 @@ static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned sin
     if (count == 0)
         out->stand.stools_per_ha = 0;
     keep_shoots(&out->stand, out->stand.stools_per_ha);
-    thin(&out->stand, g->sdi_most, out->stand.stools_per_ha);
+    share_space(&out->stand, g, out->stand.stools_per_ha);
     return CEDUO_OK;
 }
 

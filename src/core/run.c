@@ -6,7 +6,6 @@
 #include "run_state.h"
 #include "walk.h"
 
-#define VARIED_BYTES  ((size_t)8 * 1024 * 1024) /* for the variates of single rocks */
 #define CHUNK_SECONDS 0.5 /* about so long a chunk takes: somebody waits for a sign of progress */
 
 struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
@@ -58,12 +57,6 @@ static bool begin_part(struct ceduo_run *run)
     return ceduo_run_samples_fit(run, run->def.rocks_most) || ceduo_run_samples_bin(run);
 }
 
-static void choose_kernel(struct ceduo_run *run)
-{
-    run->wide_walk = ceduo_wide_walk(run->def.kernel, &run->lanes);
-    run->variates = ceduo_variates_kernel(run->def.kernel);
-}
-
 static bool allocate(struct ceduo_run *run)
 {
     const struct ceduo_run_def *def = &run->def;
@@ -75,7 +68,7 @@ static bool allocate(struct ceduo_run *run)
     if (def->cells > 0)
         ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
     ok = ok && ceduo_prepared_init(&run->ready, def->scene, def->option, def->cells, def->cell_x) == CEDUO_OK;
-    choose_kernel(run);
+    run->wide_walk = ceduo_wide_walk(def->kernel, &run->lanes);
     return ok && (!run->wide_walk || (run->wide = ceduo_wide_ground_create(&run->ready.ground)));
 }
 
@@ -102,7 +95,6 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->columns = run->controls * (size_t)run->kept + 1;
     uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
-    run->varied_most = run->sized || run->controls == 0 ? 0 : VARIED_BYTES / (VARIATES * sizeof(float));
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
     if (!allocate(run) || (def->part && !begin_part(run))) {
         ceduo_run_free(run);
@@ -128,7 +120,6 @@ void ceduo_run_free(struct ceduo_run *run)
     ceduo_histograms_free(run->bins, run->columns);
     ceduo_run_samples_free(run);
     free(run->pairs);
-    free(run->varied);
     free(run->cells);
     free(run->wide);
     ceduo_prepared_release(&run->ready);
@@ -144,8 +135,7 @@ uint64_t ceduo_run_rocks(const struct ceduo_run *run)
 
 size_t ceduo_run_sample_bytes(const struct ceduo_run *run)
 {
-    return (size_t)(run->room * run->columns + run->pairs_room * run->controls) * sizeof(double) +
-           (size_t)run->varied_room * VARIATES * sizeof(float);
+    return (size_t)(run->room * run->columns + run->pairs_room * run->controls) * sizeof(double);
 }
 
 uint64_t ceduo_run_contacts(const struct ceduo_run *run)

@@ -7,20 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cancel.h"
 #include "run_state.h"
 #include "walk.h"
 
-/* What a rock brings to a control, zeros where it does not arrive. */
+/* What a rock brings to a control; all 0 where it does not arrive. */
 struct arrival {
-    _Alignas(64) double brings[VARIED_ENDED]; /* by enum varied; the quantities in their order */
-    double stems_hit;
+    double of[QUANTITIES], stems_hit;
+    bool arrives, exceeds; /* exceeds: with more than is accepted */
 };
-_Static_assert(sizeof(struct arrival) == VARIED_ROW * sizeof(double), "rows, as the variates'");
-
-static bool arrives(const struct arrival *a)
-{
-    return a->brings[VARIED_REACHED] > 0;
-}
 
 /* One thread's work on a chunk. The rocks of a block may end in any order: what they bring is kept, and summed when all
  * have ended. */
@@ -32,12 +27,10 @@ struct worker {
     struct block *block;
     uint64_t from, next, to;         /* rocks of the block: the first, the next to begin, behind the last */
     struct arrival *arrivals;        /* [control][CEDUO_BLOCK_ROCKS] */
-    struct variate_row *variates;    /* of each rock, up to the last control or to its end */
     double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
     struct histogram *bins;
     struct envelopes cells;
-    bool varies; /* the variates are summed */
     bool no_memory;
     struct chunk *chunk;
 };
@@ -57,13 +50,6 @@ static bool is_shown(const struct ceduo_run *run, uint64_t rock)
     return !run->sized || ceduo_size_is_typical(&run->ready.sizes, run->ready.scene.simulation.seed, rock);
 }
 
-static void keep_variates(struct worker *w, const struct walker *walker)
-{
-    double *to = w->variates[walker->number - w->from].x;
-    for (size_t v = 0; v < VARIATES; v++)
-        to[v] = walker->lane_variates ? walker->lane_variates[v * walker->lanes] : walker->variates[v];
-}
-
 static struct arrival *arrival_of(const struct worker *w, size_t control, uint64_t rock)
 {
     return &w->arrivals[control * CEDUO_BLOCK_ROCKS + (rock - w->from)];
@@ -79,9 +65,10 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
     bool exceeds = energy > w->run->ready.scene.controls[control].accepted; /* never, where that is NaN */
     *arrival_of(w, control, walker->number) = (struct arrival){
-        .brings = {1, exceeds, speed, c->height, energy, translation}, .stems_hit = (double)c->stems_hit};
-    if (w->varies && control == w->run->last_control)
-        keep_variates(w, walker);
+        .of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
+        .stems_hit = (double)c->stems_hit,
+        .arrives = true,
+        .exceeds = exceeds};
 }
 
 /* A rock counts at each control that it did not reach. */
@@ -90,8 +77,6 @@ static void note_missed(struct worker *w, const struct walker *walker, enum cedu
     const struct marks *marks = &w->run->ready.marks;
     for (size_t m = walker->next_mark; m < marks->n; m++)
         w->block->controls[marks->at[m].what].ended[end]++;
-    if (w->varies && !arrives(arrival_of(w, w->run->last_control, walker->number)))
-        keep_variates(w, walker);
 }
 
 /* At its release, and at its end: a rock that the pictures show has a row of cells. */
@@ -135,15 +120,10 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
 
 /* ---- many rocks ---- */
 
-static bool cancelled(const struct ceduo_run *run)
-{
-    return run->def.cancel && atomic_load_explicit(run->def.cancel, memory_order_relaxed);
-}
-
 /* Whether to go on with the next rock. */
 static bool goes_on(struct worker *w)
 {
-    if (cancelled(w->run) || w->no_memory)
+    if (ceduo_cancelled(w->run->def.cancel) || w->no_memory)
         atomic_store(&w->chunk->stop, true);
     return !atomic_load_explicit(&w->chunk->stop, memory_order_relaxed);
 }
@@ -162,9 +142,8 @@ static enum ceduo_status release(struct worker *w, struct walker *walker, uint64
 }
 
 /* A rock that cannot be drawn has no trajectory: it is unfinished before every control. */
-static void note_undrawn(struct worker *w, uint64_t rock)
+static void note_undrawn(struct worker *w)
 {
-    memset(w->variates[rock - w->from].x, 0, VARIATES * sizeof(double));
     w->block->ends[CEDUO_UNFINISHED]++;
     for (size_t c = 0; c < w->run->controls; c++)
         w->block->controls[c].ended[CEDUO_UNFINISHED]++;
@@ -180,7 +159,7 @@ static bool next_rock(void *context, size_t lane)
             begin_row(w, lane);
             return true;
         }
-        note_undrawn(w, number);
+        note_undrawn(w);
     }
     return false;
 }
@@ -202,34 +181,22 @@ static void sum_arrivals(struct worker *w, size_t control)
                          translation = to->of[TRANSLATION];
     bool spins = w->run->kept == QUANTITIES; /* otherwise all energy is translation */
     for (uint64_t i = 0; i < w->to - w->from; i++) {
-        const double *brings = arrivals[i].brings;
-        if (!arrives(&arrivals[i])) {
-            if (w->varies)
-                ceduo_variates_add_ended(&to->varied, w->ends[i], &w->variates[i]);
+        const double *of = arrivals[i].of;
+        if (!arrivals[i].arrives)
             continue;
-        }
-        ceduo_moments_add(&speed, brings[VARIED_SPEED]);
-        ceduo_moments_add(&height, brings[VARIED_HEIGHT]);
-        ceduo_moments_add(&energy, brings[VARIED_ENERGY]);
+        ceduo_moments_add(&speed, of[SPEED]);
+        ceduo_moments_add(&height, of[HEIGHT]);
+        ceduo_moments_add(&energy, of[ENERGY]);
         if (spins)
-            ceduo_moments_add(&translation, brings[VARIED_TRANSLATION]);
+            ceduo_moments_add(&translation, of[TRANSLATION]);
         if (w->stems)
             ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
-        to->exceeded += brings[VARIED_EXCEEDED] > 0;
+        to->exceeded += arrivals[i].exceeds;
     }
     to->of[SPEED] = speed;
     to->of[HEIGHT] = height;
     to->of[ENERGY] = energy;
     to->of[TRANSLATION] = spins ? translation : energy;
-}
-
-static void sum_variates(struct worker *w)
-{
-    const struct variates_kernel *kernel = w->run->variates;
-    size_t n = (size_t)(w->to - w->from);
-    kernel->add(&w->block->variates, w->variates, n);
-    for (size_t c = 0; c < w->run->controls; c++)
-        kernel->add_with(&w->block->controls[c].varied, w->arrivals[c * CEDUO_BLOCK_ROCKS].brings, w->variates, n);
 }
 
 /* The samples of a column; NaN where a rock has none. False without memory. */
@@ -250,13 +217,12 @@ static bool keep_arrivals(struct worker *w, size_t control)
     for (int q = 0; q < run->kept; q++) {
         double block[CEDUO_BLOCK_ROCKS], *column = run->exact ? samples_of(run, control, q) + from : block;
         for (size_t i = 0; i < n; i++)
-            column[i] = arrives(&arrivals[i]) ? arrivals[i].brings[VARIED_SPEED + q] : NAN;
+            column[i] = arrivals[i].arrives ? arrivals[i].of[q] : NAN;
         if (!run->exact && !bin_column(bins_of(w->bins, run, control, q), column, n))
             return false;
     }
     for (size_t i = 0; i < n && w->from + i < run->pairs_room; i++)
-        run->pairs[control * run->pairs_room + w->from + i] =
-            arrives(&arrivals[i]) ? arrivals[i].brings[VARIED_ENERGY] : NAN;
+        run->pairs[control * run->pairs_room + w->from + i] = arrivals[i].arrives ? arrivals[i].of[ENERGY] : NAN;
     return true;
 }
 
@@ -270,15 +236,6 @@ static bool keep_stops(struct worker *w)
     return true;
 }
 
-/* For the errors of differences. */
-static void keep_single_variates(const struct worker *w)
-{
-    uint64_t behind = w->run->first + varied_rocks(w->run, w->to);
-    for (uint64_t rock = w->from; rock < w->to && rock < behind; rock++)
-        for (size_t v = 0; v < VARIATES; v++)
-            varied_of(w->run, rock)[v] = (float)w->variates[rock - w->from].x[v];
-}
-
 /* How the rocks of a block ended, by their weights. */
 static void weigh_ends(struct worker *w)
 {
@@ -288,7 +245,7 @@ static void weigh_ends(struct worker *w)
         w->block->ended[w->ends[i]] += weights[i];
         for (size_t c = 0; c < run->controls; c++) {
             const struct arrival *a = &w->arrivals[c * CEDUO_BLOCK_ROCKS + i];
-            if (arrives(a))
+            if (a->arrives)
                 weighted_sum_add(&w->block->controls[c].hits, weights[i], a->stems_hit);
             else
                 w->block->controls[c].missed[w->ends[i]] += weights[i];
@@ -306,9 +263,6 @@ static void sum_block(struct worker *w)
         kept = kept && keep_arrivals(w, c);
     }
     w->no_memory |= !kept;
-    if (w->varies)
-        sum_variates(w);
-    keep_single_variates(w);
     for (uint64_t i = 0; i < w->to - w->from; i++)
         if (!isnan(w->stops[i]))
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);
@@ -374,14 +328,11 @@ static bool init_stems(struct worker *w)
 
 static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *chunk)
 {
-    *w = (struct worker){.run = run, .chunk = chunk, .varies = !run->sized && run->controls > 0};
+    *w = (struct worker){.run = run, .chunk = chunk};
     w->walkers = calloc(run->lanes, sizeof *w->walkers);
-    w->arrivals = aligned_alloc(64, (run->controls + 1) * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
-    w->variates = aligned_alloc(64, CEDUO_BLOCK_ROCKS * sizeof *w->variates);
-    if (!w->walkers || !w->arrivals || !w->variates)
+    w->arrivals = malloc((run->controls + 1) * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
+    if (!w->walkers || !w->arrivals)
         return false;
-    for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
-        w->variates[i] = (struct variate_row){.x = {[VARIATES] = 1}};
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
@@ -401,7 +352,6 @@ static void worker_release(struct worker *w)
     free(w->stems);
     free(w->walkers);
     free(w->arrivals);
-    free(w->variates);
 }
 
 static void worker_merge(struct worker *w)

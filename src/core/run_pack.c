@@ -37,25 +37,6 @@ static void pack_sum(struct bytes *b, struct weighted_sum *s)
     pack_added(b, &s->tw);
 }
 
-static void pack_variates(struct bytes *b, struct variate_sums *s)
-{
-    for (size_t i = 0; i < VARIATES; i++) {
-        pack_added(b, variate_sum(s, i));
-        for (size_t j = 0; j <= i; j++)
-            pack_added(b, variate_product(s, i, j));
-    }
-}
-
-static void pack_varied(struct bytes *b, struct varied_sums *s)
-{
-    for (size_t i = 0; i < VARIATES; i++) {
-        for (size_t k = 0; k < VARIED_ENDED; k++)
-            pack_added(b, &s->with[i][k]);
-        for (size_t e = 0; e < CEDUO_ENDS; e++)
-            pack_added(b, &s->ended[e][i]);
-    }
-}
-
 static void pack_block(const struct ceduo_run *run, struct bytes *b, struct block *block)
 {
     ceduo_bytes_count(b, &block->contacts);
@@ -77,15 +58,11 @@ static void pack_block(const struct ceduo_run *run, struct bytes *b, struct bloc
         ceduo_bytes_count(b, &s->exceeded);
         for (int e = 0; e < CEDUO_ENDS; e++)
             ceduo_bytes_count(b, &s->ended[e]);
-        if (!run->sized) {
-            pack_varied(b, &s->varied);
+        if (!run->sized)
             continue;
-        }
         pack_weights(b, s->missed);
         pack_sum(b, &s->hits);
     }
-    if (!run->sized)
-        pack_variates(b, &block->variates);
 }
 
 static bool is_plain_zero(double value)
@@ -179,26 +156,6 @@ static uint64_t pairs_of(const struct ceduo_run *run, uint64_t first, uint64_t e
     return to > first ? to - first : 0;
 }
 
-/* The variates of single rocks, two to a word; false where one is no number. */
-_Static_assert(VARIATES % 2 == 0 && sizeof(float) == 4, "two to a word");
-static bool pack_single_variates(const struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end)
-{
-    uint64_t last = end < run->varied_most ? end : run->varied_most;
-    bool finite = true;
-    for (uint64_t r = first; r < last; r++)
-        for (float *x = varied_of(run, r), *behind = x + VARIATES; x < behind; x += 2) {
-            uint32_t bits[2];
-            memcpy(bits, x, sizeof bits);
-            uint64_t word = bits[0] | (uint64_t)bits[1] << 32;
-            ceduo_bytes_count(b, &word);
-            bits[0] = (uint32_t)word;
-            bits[1] = (uint32_t)(word >> 32);
-            memcpy(x, bits, sizeof bits);
-            finite &= isfinite(x[0]) && isfinite(x[1]);
-        }
-    return !b->bad && (finite || !b->reads);
-}
-
 /* The samples of rocks first…end - 1, or the histograms, in `bins`. `reached[control]`, then the stops: how many there
  * are; where they are read, how many there must be. False: not those, or no memory. */
 static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first, uint64_t end, struct histogram *bins,
@@ -224,7 +181,7 @@ static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first,
         if (!ceduo_bytes_column(b, &run->pairs[c * run->pairs_room + first], n, &there) ||
             (b->reads && there > reached[c]))
             return false;
-    return pack_single_variates(run, b, first, end);
+    return true;
 }
 
 /* The blocks of a part: those that are kept, and the one that is not full. */

@@ -5,8 +5,6 @@
 
 #include "run_state.h"
 
-#define SHARE_LEAST 50 /* rocks */
-
 /* ---- arrivals ---- */
 
 /* The values of a column that are there, in the order of the rocks. */
@@ -61,66 +59,33 @@ static void per_released(const struct ceduo_moments *m, uint64_t released, doubl
     *se = released < 2 ? NAN : sqrt(m2 / (n - 1) / n);
 }
 
-/* ---- adjusted means ---- */
-
-/* The 95 % interval of an adjusted share: Wilson's, of as many rocks as would give its error. Of few that count, or few that
- * do not, the error is not known well enough: then it is that of the rocks there are. */
-static void adjusted_interval(const struct adjusted *a, double share, double se, double count, double unfinished,
-                              double *lo, double *hi)
-{
-    double unused, n = a->fit.n;
-    bool knows_error = fmin(count, n - count) >= SHARE_LEAST && se > 0;
-    double rocks = knows_error ? share * (1 - share) / (se * se) : n;
-    double from = knows_error ? share : count / n;
-    ceduo_wilson_share(from, rocks, lo, &unused);
-    ceduo_wilson_share(fmin(1, from + unfinished / n), rocks, &unused, hi);
-    *lo = fmin(*lo, share);
-    *hi = fmax(*hi, share);
-}
-
-static void adjust_mean(const struct adjusted *a, enum varied which, const struct ceduo_moments *m,
-                        struct ceduo_distribution *d)
-{
-    struct ceduo_paired mean = ceduo_run_adjusted_mean(a, which, m);
-    d->mean = mean.mean;
-    d->se = mean.se;
-}
-
-static void adjust(const struct ceduo_run *run, const struct sums *s, struct ceduo_arrivals *to)
-{
-    struct adjusted a;
-    to->adjusted = ceduo_run_adjust(run, s, &a);
-    if (!to->adjusted)
-        return;
-    double unfinished = (double)to->unfinished;
-    to->reach_probability = ceduo_run_adjusted_share(&a, VARIED_REACHED);
-    to->reach_se = ceduo_run_adjusted_share_se(&a, VARIED_REACHED);
-    adjusted_interval(&a, to->reach_probability, to->reach_se, (double)to->reached, unfinished, &to->reach_lo,
-                      &to->reach_hi);
-    if (!isnan(to->exceed_probability)) {
-        to->exceed_probability = ceduo_run_adjusted_share(&a, VARIED_EXCEEDED);
-        to->exceed_se = ceduo_run_adjusted_share_se(&a, VARIED_EXCEEDED);
-        adjusted_interval(&a, to->exceed_probability, to->exceed_se, (double)to->exceeded, unfinished, &to->exceed_lo,
-                          &to->exceed_hi);
-        to->exceed_lo = fmin(to->exceed_lo, to->reach_lo); /* none exceeds that does not arrive */
-        to->exceed_hi = fmin(to->exceed_hi, to->reach_hi);
-    }
-    for (int e = 0; e < CEDUO_ENDS; e++)
-        to->missed[e] = ceduo_run_adjusted_share(&a, (enum varied)(VARIED_ENDED + e));
-    struct ceduo_paired released = ceduo_run_adjusted_per_released(&a, &s->of[ENERGY]);
-    to->energy_per_released = released.mean;
-    to->energy_per_released_se = released.se;
-    adjust_mean(&a, VARIED_SPEED, &s->of[SPEED], &to->speed);
-    adjust_mean(&a, VARIED_HEIGHT, &s->of[HEIGHT], &to->height);
-    adjust_mean(&a, VARIED_ENERGY, &s->of[ENERGY], &to->energy);
-    adjust_mean(&a, VARIED_TRANSLATION, &s->of[TRANSLATION], &to->translation);
-}
-
 /* ---- what is read ---- */
 
-static double share_se(double share, uint64_t n)
+/* The heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
+static size_t gather_tops(const struct ceduo_run *run, size_t control, double *to, struct ceduo_moments *m)
 {
-    return sqrt(share * (1 - share) / (double)n);
+    const double *height = samples_of(run, control, HEIGHT);
+    size_t n = 0;
+    for (uint64_t r = 0; r < run->rocks; r++) {
+        struct ceduo_rock rock;
+        if (isnan(height[r]) || ceduo_prepared_rock(&run->ready, r, &rock) != CEDUO_OK)
+            continue;
+        to[n] = height[r] + rock.mean_diameter;
+        ceduo_moments_add(m, to[n++]);
+    }
+    return n;
+}
+
+static double top_of(const struct ceduo_run *run, size_t control, double height_p95, double *scratch)
+{
+    const struct ceduo_scene *scene = &run->ready.scene;
+    struct ceduo_moments m = {0};
+    if (scene->design.survey < 0 || scene->design.blocks < 0)
+        return NAN;
+    if (!ceduo_scene_rock_varies(scene))
+        return height_p95 + run->ready.mean.mean_diameter;
+    size_t n = run->exact && run->room > 0 ? gather_tops(run, control, scratch, &m) : 0;
+    return n > 0 ? ceduo_distribution_exact(scratch, n, &m).p95 : NAN;
 }
 
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
@@ -141,8 +106,6 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
     if (!isnan(run->ready.scene.controls[control].accepted))
         a->exceed_probability = share(a->exceeded, a->unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
-    a->reach_se = share_se(a->reach_probability, run->rocks);
-    a->exceed_se = share_se(a->exceed_probability, run->rocks);
     per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
     a->contacts = !run->ready.wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
     a->contacts_se = run->ready.wood.bare ? NAN : ceduo_moments_se(&s.contacts);
@@ -157,8 +120,8 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     } else {
         a->energy = a->translation = energy_from_speed(&a->speed, run->ready.mean.mass, &s.of[ENERGY]);
     }
+    a->top_p95 = top_of(run, control, a->height.p95, scratch);
     free(scratch);
-    adjust(run, &s, a);
     return CEDUO_OK;
 }
 
@@ -171,13 +134,6 @@ struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
     bool accepts = !isnan(run->ready.scene.controls[control].accepted);
     double n = (double)run->rocks, per_rock, se;
     per_released(energy, run->rocks, &per_rock, &se);
-    struct adjusted a;
-    if (ceduo_run_adjust(run, &s, &a))
-        return (struct ceduo_brief){
-            .reach_probability = ceduo_run_adjusted_share(&a, VARIED_REACHED),
-            .exceed_probability = accepts ? ceduo_run_adjusted_share(&a, VARIED_EXCEEDED) : NAN,
-            .energy = ceduo_run_adjusted_mean(&a, VARIED_ENERGY, energy).mean,
-            .energy_per_released = ceduo_run_adjusted_per_released(&a, energy).mean};
     return (struct ceduo_brief){.reach_probability = (double)energy->n / n,
                                 .exceed_probability = accepts ? (double)s.exceeded / n : NAN,
                                 .energy = energy->n > 0 ? energy->mean : NAN,
@@ -194,12 +150,6 @@ void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *rea
     *reached = s.of[ENERGY].n;
     *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
     *se = ceduo_moments_se(&s.of[ENERGY]);
-    struct adjusted a;
-    if (!ceduo_run_adjust(run, &s, &a))
-        return;
-    struct ceduo_paired adjusted = ceduo_run_adjusted_mean(&a, VARIED_ENERGY, &s.of[ENERGY]);
-    *mean = adjusted.mean;
-    *se = adjusted.se;
 }
 
 /* ---- differences ---- */
@@ -215,27 +165,18 @@ static double paired_energy(const struct ceduo_run *run, size_t control, uint64_
     return run->exact ? ceduo_run_sample_energy(run, control, rock) : run->pairs[control * run->pairs_room + rock];
 }
 
-/* A mean of all rocks with the spread of those that are paired. */
-static struct ceduo_paired paired(double mean, const struct ceduo_moments *m, uint64_t rocks)
-{
-    return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks)};
-}
-
 /* The rocks that both runs have, moments of their differences. */
 struct pairs {
     uint64_t rocks;
     struct ceduo_moments reach, exceed, energy;
 };
 
-/* `same`: they do not differ up to the control. */
-static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control, bool same)
+static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
 {
     double accepted = run->ready.scene.controls[control].accepted;
     uint64_t a = paired_rocks(run), b = paired_rocks(baseline);
     struct pairs p = {.rocks = a < b ? a : b};
-    if (same)
-        p.reach = p.exceed = p.energy = (struct ceduo_moments){.n = p.rocks};
-    for (uint64_t r = 0; r < p.rocks && !same; r++) {
+    for (uint64_t r = 0; r < p.rocks; r++) {
         double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
         ceduo_moments_add(&p.reach, (double)!isnan(e) - (double)!isnan(f));
         ceduo_moments_add(&p.exceed, (double)(e > accepted) - (double)(f > accepted));
@@ -244,111 +185,37 @@ static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *ba
     return p;
 }
 
-/* One run of a difference: its adjusted shares and mean, and what its rocks' variates tell of them; nothing where they are
- * as counted. */
-enum { PAIRED_REACH, PAIRED_EXCEED, PAIRED_ENERGY, PAIRED };
-struct paired_run {
-    double mean[PAIRED], slopes[PAIRED][VARIATES];
-    double used, chance; /* of its fit: variates, and by how much more its errors are */
-};
-
-static struct paired_run read_paired(const struct ceduo_run *run, const struct sums *s, bool *adjusted)
+struct ceduo_difference ceduo_no_difference(double accepted)
 {
-    const enum varied which[PAIRED] = {VARIED_REACHED, VARIED_EXCEEDED, VARIED_ENERGY};
-    const struct ceduo_moments *energy = &s->of[ENERGY];
-    double n = (double)run->rocks;
-    struct paired_run p = {.mean = {(double)energy->n / n, (double)s->exceeded / n, energy->mean * (double)energy->n / n}};
-    struct adjusted a;
-    if (!ceduo_run_adjust(run, s, &a))
-        return p;
-    *adjusted = true;
-    p.used = a.fit.used;
-    p.chance = n * a.fit.chance_square;
-    for (int k = 0; k < PAIRED; k++)
-        ceduo_varied_slopes(&a.fit, &a.sums[which[k]], p.slopes[k]);
-    p.mean[PAIRED_REACH] = ceduo_run_adjusted_share(&a, VARIED_REACHED);
-    p.mean[PAIRED_EXCEED] = ceduo_run_adjusted_share(&a, VARIED_EXCEEDED);
-    p.mean[PAIRED_ENERGY] = ceduo_varied_mean(&a.fit, &a.sums[VARIED_ENERGY]);
-    return p;
-}
-
-/* What a rock brings beyond what its variates tell. */
-static void beyond_variates(const struct ceduo_run *run, const struct paired_run *p, size_t control, uint64_t rock,
-                            double to[PAIRED])
-{
-    double e = paired_energy(run, control, rock);
-    const float *x = varied_of(run, rock);
-    to[PAIRED_REACH] = !isnan(e);
-    to[PAIRED_EXCEED] = e > run->ready.scene.controls[control].accepted;
-    to[PAIRED_ENERGY] = isnan(e) ? 0 : e;
-    for (int k = 0; k < PAIRED; k++)
-        for (size_t v = 0; v < VARIATES; v++)
-            to[k] -= p->slopes[k][v] * (double)x[v];
-}
-
-/* Moments of the differences of what rocks bring beyond their variates, of the first rocks. */
-static void pair_beyond(const struct ceduo_run *run, const struct paired_run *a, const struct ceduo_run *baseline,
-                        const struct paired_run *b, size_t control, uint64_t rocks, struct ceduo_moments m[PAIRED])
-{
-    for (uint64_t r = 0; r < rocks; r++) {
-        double one[PAIRED], other[PAIRED];
-        beyond_variates(run, a, control, r, one);
-        beyond_variates(baseline, b, control, r, other);
-        for (int k = 0; k < PAIRED; k++)
-            ceduo_moments_add(&m[k], one[k] - other[k]);
-    }
-}
-
-/* Makes it the difference of adjusted figures, unless both are as counted. Where no variates of single rocks are kept, its error
- * stays that of the difference as counted, which is larger. */
-static void adjust_difference(const struct ceduo_run *run, const struct sums *s, const struct ceduo_run *baseline,
-                              const struct sums *t, size_t control, struct ceduo_difference *d)
-{
-    bool adjusted = false;
-    struct paired_run a = read_paired(run, s, &adjusted), b = read_paired(baseline, t, &adjusted);
-    uint64_t rocks = paired_rocks(run), others = paired_rocks(baseline);
-    rocks = varied_rocks(run, rocks < others ? rocks : others);
-    if (!adjusted)
-        return;
-    struct ceduo_moments m[PAIRED] = {{0}};
-    pair_beyond(run, &a, baseline, &b, control, rocks, m);
-    double n = (double)run->rocks, used = fmax(a.used, b.used);
-    double more = (n - 1) / (n - 1 - used) * (1 + fmax(a.chance, b.chance));
-    struct ceduo_paired *to[PAIRED] = {&d->reach_probability, &d->exceed_probability, &d->energy_per_released};
-    for (int k = 0; k < PAIRED; k++) {
-        struct ceduo_paired found = paired(a.mean[k] - b.mean[k], &m[k], run->rocks);
-        to[k]->mean = found.mean;
-        if (rocks >= 2)
-            to[k]->se = found.se * sqrt(more);
-    }
+    const struct ceduo_paired none = {0, 0, 0};
+    return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NOT_PAIRED : none, none};
 }
 
 struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                              size_t control)
 {
-    const struct ceduo_paired unknown = {NAN, NAN};
     bool alike = run && baseline && run->rocks == baseline->rocks;
-    if (!alike && !(run && baseline && run->exact && baseline->exact && run->rocks > 0 && baseline->rocks > 0))
-        return (struct ceduo_difference){unknown, unknown, unknown};
+    if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || (!alike && !(run->exact && baseline->exact)))
+        return (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+    const struct ceduo_control *at = &run->ready.scene.controls[control];
+    if (alike && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
+        return ceduo_no_difference(at->accepted);
     if (run->sized)
         return ceduo_run_sized_difference(run, baseline, control);
-    double n = (double)run->rocks, x = run->ready.scene.controls[control].x;
-    bool same = alike && (run == baseline || (run->stems_from >= x && baseline->stems_from >= x));
-    struct pairs p = pair(run, baseline, control, same);
-    struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
-    const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
-    struct ceduo_difference d = {.reach_probability = paired(p.reach.mean, &p.reach, p.rocks),
-                                 .exceed_probability = paired(p.exceed.mean, &p.exceed, p.rocks),
-                                 .energy_per_released = paired(p.energy.mean, &p.energy, p.rocks)};
-    if (alike)
-        d = (struct ceduo_difference){
-            .reach_probability = paired(((double)e->n - (double)f->n) / n, &p.reach, run->rocks),
-            .exceed_probability = paired(((double)s.exceeded - (double)t.exceeded) / n, &p.exceed, run->rocks),
-            .energy_per_released = paired((e->mean * (double)e->n - f->mean * (double)f->n) / n, &p.energy, run->rocks)};
-    if (alike && !same)
-        adjust_difference(run, &s, baseline, &t, control, &d);
-    if (isnan(run->ready.scene.controls[control].accepted))
-        d.exceed_probability = unknown;
+    struct pairs p = pair(run, baseline, control);
+    double n = (double)run->rocks, reach = p.reach.mean, exceed = p.exceed.mean, energy = p.energy.mean;
+    if (alike) { /* of all rocks, where only the first are paired */
+        struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
+        const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
+        reach = ((double)e->n - (double)f->n) / n;
+        exceed = ((double)s.exceeded - (double)t.exceeded) / n;
+        energy = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
+    }
+    uint64_t rocks = alike ? run->rocks : p.rocks;
+    struct ceduo_difference d = {ceduo_paired_of(reach, &p.reach, rocks), ceduo_paired_of(exceed, &p.exceed, rocks),
+                                 ceduo_paired_of(energy, &p.energy, rocks)};
+    if (isnan(at->accepted))
+        d.exceed_probability = CEDUO_NOT_PAIRED;
     return d;
 }
 
@@ -366,21 +233,6 @@ uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *m
 
 /* ---- ends, envelopes, energies ---- */
 
-/* Shares of the whole profile that agree with those at the last control: of the rocks that arrive there, as many end in each way
- * as were counted. */
-static void adjust_ends(const struct ceduo_run *run, double share[CEDUO_ENDS], const uint64_t count[CEDUO_ENDS])
-{
-    if (run->controls == 0 || run->rocks == 0)
-        return;
-    struct adjusted a;
-    struct sums s = ceduo_run_sums_at(run, run->last_control);
-    if (!ceduo_run_adjust(run, &s, &a))
-        return;
-    double each = ceduo_run_adjusted_share(&a, VARIED_REACHED) / (double)s.of[SPEED].n;
-    for (int e = 0; e < CEDUO_ENDS; e++)
-        share[e] = ceduo_run_adjusted_share(&a, (enum varied)(VARIED_ENDED + e)) + each * (double)(count[e] - s.ended[e]);
-}
-
 enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends *ends)
 {
     *ends = (struct ceduo_ends){.stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
@@ -393,7 +245,6 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
         ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
         ends->share[e] = (double)ends->count[e] / (double)run->rocks;
     }
-    adjust_ends(run, ends->share, ends->count);
     if (run->sized && run->rocks > 0 && ceduo_run_sized_ends(run, ends) != CEDUO_OK)
         return CEDUO_NO_MEMORY;
     ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);

@@ -29,7 +29,6 @@ static void merge_sums(struct sums *into, const struct sums *from)
     into->hits.t += from->hits.t;
     into->hits.tt += from->hits.tt;
     into->hits.tw += from->hits.tw;
-    ceduo_varied_merge(&into->varied, &from->varied);
     for (int e = 0; e < CEDUO_ENDS; e++) {
         into->ended[e] += from->ended[e];
         into->missed[e] += from->missed[e];
@@ -49,7 +48,6 @@ void ceduo_run_block_merge(struct block *into, const struct block *from, size_t 
         into->ended[e] += from->ended[e];
     }
     ceduo_moments_merge(&into->stop_x, &from->stop_x);
-    ceduo_variates_merge(&into->variates, &from->variates);
     for (size_t c = 0; c < controls; c++)
         merge_sums(&into->controls[c], &from->controls[c]);
 }
@@ -163,24 +161,8 @@ bool ceduo_run_samples_bin(struct ceduo_run *run)
     return true;
 }
 
-static bool grow_varied(struct ceduo_run *run, uint64_t rocks)
-{
-    uint64_t wanted = varied_rocks(run, rocks), all = varied_rocks(run, run->varied_most), room = 2 * run->varied_room;
-    if (wanted <= run->varied_room)
-        return true;
-    room = room < wanted ? wanted : room > all ? all : room;
-    float *grown = realloc(run->varied, (size_t)room * VARIATES * sizeof *grown);
-    if (!grown)
-        return false;
-    run->varied = grown;
-    run->varied_room = room;
-    return true;
-}
-
 bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks)
 {
-    if (!grow_varied(run, rocks))
-        return false;
     if (!run->exact)
         return true;
     return ceduo_run_samples_fit(run, rocks) ? grow_samples(run, rocks) : ceduo_run_samples_bin(run);

@@ -104,6 +104,19 @@ static void read_contacts(const struct released *all, const struct weighted *arr
     a->contacts_se = n > 1 ? ceduo_weighted_se(all, &about) * all->w / ones.t : NAN;
 }
 
+static double top_of(const struct ceduo_run *run, size_t control, struct weighted *values)
+{
+    const double *height = samples_of(run, control, HEIGHT);
+    size_t n = 0;
+    for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
+        struct ceduo_rock rock;
+        if (!isnan(height[r]) && ceduo_prepared_rock(&run->ready, r, &rock) == CEDUO_OK)
+            values[n++] = (struct weighted){height[r] + rock.mean_diameter, run->weights[r]};
+    }
+    ceduo_weighted_sort(values, n);
+    return n > 0 ? ceduo_weighted_quantile(values, n, 0.95) : NAN;
+}
+
 enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
     struct sums s = ceduo_run_sums_at(run, control);
@@ -128,6 +141,7 @@ enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t c
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     for (int q = 0; q < QUANTITIES; q++)
         *to[q] = ceduo_weighted_distribution(&all, values, gather(run, samples_of(run, control, q), values));
+    a->top_p95 = top_of(run, control, values);
     size_t n = gather(run, samples_of(run, control, ENERGY), values);
     bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard);
     read_shares(&all, values, n, accepted, a);
@@ -172,11 +186,10 @@ struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, 
         weighted_sum_add(&exceed, w, (double)(a[r] > accepted) - (double)(b[r] > accepted));
         weighted_sum_add(&energy, w, (isnan(a[r]) ? 0 : a[r]) - (isnan(b[r]) ? 0 : b[r]));
     }
-    struct ceduo_difference d = {{reach.t / all.w, ceduo_weighted_se(&all, &reach)},
-                                 {exceed.t / all.w, ceduo_weighted_se(&all, &exceed)},
-                                 {energy.t / all.w, ceduo_weighted_se(&all, &energy)}};
+    struct ceduo_difference d = {ceduo_weighted_paired(&all, &reach), ceduo_weighted_paired(&all, &exceed),
+                                 ceduo_weighted_paired(&all, &energy)};
     if (isnan(accepted))
-        d.exceed_probability = (struct ceduo_paired){NAN, NAN};
+        d.exceed_probability = CEDUO_NOT_PAIRED;
     return d;
 }
 

@@ -6,7 +6,6 @@
 #include "envelope.h"
 #include "histogram.h"
 #include "prepared.h"
-#include "variates.h"
 #include "weighted.h"
 #include "wide.h"
 
@@ -16,7 +15,6 @@
  *     run_fly.c      simulates the rocks of one chunk on several threads
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
- *     run_adjust.c   means and shares with what chance did taken out
  *     run_read.c     arrivals, differences and ends, read from sums and samples
  *     run_sized.c    the same where rocks have weights, read from samples alone
  *     run_pack.c     parts as bytes, and back */
@@ -33,7 +31,6 @@ struct sums {
     uint64_t exceeded, ended[CEDUO_ENDS]; /* ended: rocks that did not arrive, by how they ended */
     double missed[CEDUO_ENDS];            /* the same by their weights, where rocks have any */
     struct weighted_sum hits;             /* contacts by them */
-    struct varied_sums varied;            /* where rocks have none */
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
@@ -43,7 +40,6 @@ struct block {
     double ended[CEDUO_ENDS]; /* ends by the weights of the rocks, where they have any */
     struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;
-    struct variate_sums variates; /* where rocks have no weights */
     struct sums *controls;
 };
 
@@ -52,7 +48,6 @@ struct ceduo_run {
     struct prepared ready;
     struct wide_ground *wide;
     wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
-    const struct variates_kernel *variates;
     size_t lanes;            /* rocks that a thread simulates at once */
     size_t controls, last_control;
     double stems_from;     /* as ceduo_option_stems_from(): the option may be gone when the run is read */
@@ -76,9 +71,6 @@ struct ceduo_run {
                             * it did not stop */
     uint64_t pairs_room;   /* where samples are not kept: the first rocks' energies, for differences */
     double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
-    uint64_t varied_most;  /* of so many rocks the variates are kept, for the errors of differences, */
-    uint64_t varied_room;
-    float *varied;         /* [rock][VARIATES] */
     struct histogram *bins; /* [control][quantity], then one of the stops */
     struct envelope_cell *cells;
 };
@@ -97,19 +89,6 @@ static inline double *stops_of(const struct ceduo_run *run)
 static inline struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
 {
     return &bins[control * (size_t)run->kept + (size_t)quantity];
-}
-
-/* The variates of a rock, of those that are kept. */
-static inline float *varied_of(const struct ceduo_run *run, uint64_t rock)
-{
-    return &run->varied[(size_t)(rock - run->first) * VARIATES];
-}
-
-/* How many of the first `rocks` rocks have them kept, without those before a part. */
-static inline uint64_t varied_rocks(const struct ceduo_run *run, uint64_t rocks)
-{
-    uint64_t end = rocks < run->varied_most ? rocks : run->varied_most;
-    return end > run->first ? end - run->first : 0;
 }
 
 /* ---- sums ---- */
@@ -139,21 +118,6 @@ enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t c
 enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
 struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                                    size_t control);
-
-/* ---- adjusted means ---- */
-
-struct adjusted {
-    struct variate_fit fit;
-    struct varied_sum sums[VARIED];
-};
-
-/* False where they are to stay plain: nothing varies, too few rocks. */
-bool ceduo_run_adjust(const struct ceduo_run *run, const struct sums *s, struct adjusted *a);
-double ceduo_run_adjusted_share(const struct adjusted *a, enum varied which);
-double ceduo_run_adjusted_share_se(const struct adjusted *a, enum varied which);
-/* Of those that arrive, and of all released. */
-struct ceduo_paired ceduo_run_adjusted_mean(const struct adjusted *a, enum varied which, const struct ceduo_moments *m);
-struct ceduo_paired ceduo_run_adjusted_per_released(const struct adjusted *a, const struct ceduo_moments *energy);
 
 /* ---- flying ---- */
 

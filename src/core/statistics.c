@@ -37,15 +37,8 @@ void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi)
 {
     *lo = 0;
     *hi = 1;
-    if (n == 0)
-        return;
-    double z2 = CEDUO_Z95 * CEDUO_Z95, count = (double)n, p = (double)hits / count;
-    double centre = p + z2 / (2 * count), scale = 1 + z2 / count;
-    double half = CEDUO_Z95 * sqrt(p * (1 - p) / count + z2 / (4 * count * count));
-    if (hits > 0)
-        *lo = fmax(0, (centre - half) / scale);
-    if (hits < n)
-        *hi = fmin(1, (centre + half) / scale);
+    if (n > 0)
+        ceduo_wilson_share((double)hits / (double)n, (double)n, lo, hi);
 }
 
 void ceduo_wilson_share(double share, double n, double *lo, double *hi)
@@ -58,7 +51,7 @@ void ceduo_wilson_share(double share, double n, double *lo, double *hi)
 
 double ceduo_half_width(double se, uint64_t n)
 {
-    return n < 2 ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
+    return n < CEDUO_FEW ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
 }
 
 double ceduo_half_width_of_share(double share, double se, uint64_t n)
@@ -68,6 +61,20 @@ double ceduo_half_width_of_share(double share, double se, uint64_t n)
         return CEDUO_Z95 * se;
     ceduo_wilson(share > 0 ? n : 0, n, &lo, &hi);
     return hi - lo;
+}
+
+double ceduo_share_se(double share, double n)
+{
+    return sqrt(share * (1 - share) / n);
+}
+
+struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks)
+{
+    double unused, below = 0;
+    if (m->n == 0 || m->mean != 0 || m->m2 > 0)
+        return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks), 0};
+    ceduo_wilson(0, m->n, &unused, &below);
+    return (struct ceduo_paired){mean, NAN, below};
 }
 
 size_t ceduo_quantile_rank(size_t n, double p)

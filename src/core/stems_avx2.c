@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The drawing of stems and the sums of variates on AVX2: see wide_avx2.c. */
+/* The drawing of stems on AVX2: see wide_avx2.c. */
 #include "stems_state.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -15,10 +15,8 @@
 #define MANY 4
 #define MANY_AVX2
 #include "stems_fill.h"
-#include "variates_add.h"
 
 const struct stems_kernel ceduo_stems_avx2 = {fill_points, make_stools};
-const struct variates_kernel ceduo_variates_avx2 = {add_variates, add_varied};
 
 #ifdef __clang__
 #pragma clang attribute pop

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The drawing of stems and the sums of variates on AVX-512 (F and DQ): see wide_avx512.c. */
+/* The drawing of stems on AVX-512 (F and DQ): see wide_avx512.c. */
 #include "stems_state.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -15,10 +15,8 @@
 #define MANY 8
 #define MANY_AVX512
 #include "stems_fill.h"
-#include "variates_add.h"
 
 const struct stems_kernel ceduo_stems_avx512 = {fill_points, make_stools};
-const struct variates_kernel ceduo_variates_avx512 = {add_variates, add_varied};
 
 #ifdef __clang__
 #pragma clang attribute pop

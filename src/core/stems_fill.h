@@ -450,7 +450,7 @@ static void make_stools(struct stems *s, int i_side)
         const struct wood_kind *kind = &s->wood->kinds[t.kind[i]];
         side->waiting[rank[i]] = (struct stem){.along = t.along[i],
                                                .energy = kind->whole,
-                                               .height = kind->height,
+                                               .height = height_hit(s, kind),
                                                .y = t.y[i],
                                                .dbh = kind->dbh,
                                                .kind = kind,

@@ -105,6 +105,13 @@ struct stems {
     uint64_t pause;        /* effort at which the drawing stops for a moment: the rock may be waited for no longer */
 };
 
+/* So high a stem can be hit by this rock: up to its top, or to where its underside is when its centre is too high. */
+static inline double height_hit(const struct stems *s, const struct wood_kind *kind)
+{
+    double below = kind->below - 0.5 * s->b;
+    return kind->height < below ? kind->height : below;
+}
+
 static inline struct points *points_of(struct stems_side *side, enum stem_stream stream)
 {
     return stream == STREAM_GROUPS ? side->groups : &side->streams[stream];

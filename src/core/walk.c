@@ -4,27 +4,9 @@
  * the same for many rocks and hands over to this one what is rare. */
 #include "walk.h"
 
-#include <string.h>
-
 #include "rolling.h"
 
 /* ---- release ---- */
-
-static enum ceduo_status draw_rock(struct walker *w, const struct prepared *ready)
-{
-    const struct ceduo_rock_def *def = &ready->scene.rock;
-    enum ceduo_status status = CEDUO_OK;
-    w->rock = ready->mean;
-    if (ceduo_rock_varies(def)) {
-        double u[8];
-        for (uint64_t i = 0; i < 8; i++)
-            u[i] = random_open(w->seed, w->number, i, RANDOM_ROCK);
-        status = ceduo_rock_draw(def, u, &w->rock);
-    }
-    if (ready->sizes.n > 0)
-        ceduo_rock_resize(&w->rock, ceduo_size_of(&ready->sizes, w->number).volume);
-    return status;
-}
 
 static double draw_release(const struct walker *w, struct ceduo_number n, uint64_t event)
 {
@@ -51,7 +33,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->seed = scene->simulation.seed;
     w->number = number;
     w->scale_rn = scene->simulation.scale_rn;
-    enum ceduo_status status = draw_rock(w, ready);
+    enum ceduo_status status = ceduo_prepared_rock(ready, number, &w->rock);
     if (status != CEDUO_OK)
         return status;
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
@@ -71,7 +53,6 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
                             .segment = segment,
                             .on_ground = !(height > 0)};
     w->contacts = 0;
-    memset(w->variates, 0, sizeof w->variates);
     w->pause = next_pause(w);
     w->stems_pause = PAUSE;
     w->cancelled = w->gives_up = false;
@@ -104,7 +85,6 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->spin = first->spin;
     w->at = first->at;
     w->contacts = 0;
-    memset(w->variates, 0, sizeof w->variates);
     w->pause = first->pause;
     w->cancelled = false;
     w->facets_of = w->turns_of = UINT64_MAX;

@@ -14,7 +14,6 @@
 #include "random.h"
 #include "section.h"
 #include "stems.h"
-#include "variate_sums.h"
 
 /* One rock on its trajectory. */
 struct walker {
@@ -40,9 +39,6 @@ struct walker {
     struct stems *stems;       /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
-    double variates[VARIATES]; /* of its contacts so far */
-    const double *lane_variates; /* where they are as long as it is in a lane, `lanes` apart; NULL: it is in none */
-    size_t lanes;
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     uint64_t turns_of;

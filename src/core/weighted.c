@@ -20,13 +20,12 @@ double ceduo_weighted_se(const struct released *all, const struct weighted_sum *
     return all->n < 2 ? NAN : sqrt(variance(all, s) / (all->n - 1)) * all->n / all->w;
 }
 
-/* Wilson's interval of a share of n, which need not be whole. */
+/* Of a share of n, which need not be whole. */
 static struct ceduo_rate wilson(double p, double n)
 {
-    double z2 = CEDUO_Z95 * CEDUO_Z95, centre = p + z2 / (2 * n), scale = 1 + z2 / n;
-    double half = CEDUO_Z95 * sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-    return (struct ceduo_rate){p, p > 0 ? fmax(0, (centre - half) / scale) : 0,
-                               p < 1 ? fmin(1, (centre + half) / scale) : 1};
+    struct ceduo_rate share = {.rate = p};
+    ceduo_wilson_share(p, n, &share.lo, &share.hi);
+    return share;
 }
 
 /* So many equal rocks would have the same error. */
@@ -46,6 +45,13 @@ struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct 
     if (all->missing > 0)
         share.hi = wilson(fmin(1, p + all->missing / all->w), n).hi;
     return share;
+}
+
+struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *s)
+{
+    if (s->tt > 0)
+        return (struct ceduo_paired){s->t / all->w, ceduo_weighted_se(all, s), 0};
+    return (struct ceduo_paired){0, NAN, wilson(0, all->w * all->w / all->ww).hi};
 }
 
 /* ---- distributions ---- */

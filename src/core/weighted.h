@@ -38,6 +38,9 @@ static inline void weighted_sum_add(struct weighted_sum *s, double weight, doubl
 /* The standard error of such a sum over the sum of all weights. */
 double ceduo_weighted_se(const struct released *all, const struct weighted_sum *sum);
 
+/* The same of a sum of differences between pairs, as in ceduo_paired_of(). */
+struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *sum);
+
 /* The share of those that a rock is one of which it holds 1, with its 95 % interval by Wilson at the number of equal rocks
  * that would have the same error. `last`: a weight that such a rock would have, for where there is none. The upper end
  * counts the unfinished in. */

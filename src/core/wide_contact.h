@@ -9,7 +9,6 @@
 #include "wide_lane.h"
 /* after the lanes */
 #include "arm_blow.h"
-#include "vary.h"
 
 /* ---- random numbers ---- */
 
@@ -130,15 +129,6 @@ LANE reals turn_lanes(const struct wide *k, reals u, reals largest)
     if (!k->against)
         u = sub(mul(all(2), u), all(1));
     return pick(less(zero, largest), mul(largest, u), zero);
-}
-
-/* As vary_rock(); those in the air strike nothing. */
-LANE void vary_lanes(struct form form, struct wide *k, reals x, reals along, reals angle, reals largest)
-{
-    reals turn = sub(angle, k->against ? mul(largest, all(0.5)) : all(0));
-    if (in_the_air(form, k))
-        turn = pick(flags_of(in_the_air(form, k)), all(0), turn);
-    vary(k->variates[0], LANES, turn, along, mul(sub(x, all(k->from)), all(k->per_metre)));
 }
 
 /* The facet that each rock strikes, as strike_facet(). */
@@ -291,8 +281,7 @@ LANE void strike_lanes(struct form form, struct wide *k, struct rocks *r, struct
     } else {
         look_up(&k->ground->share, r->segment, form.small, &rn, &rt);
     }
-    reals largest = load(k->theta), angle = turn_lanes(k, next_draw(form, k, k->draw), largest);
-    vary_lanes(form, k, r->x, v->along, angle, largest);
+    reals angle = turn_lanes(k, next_draw(form, k, k->draw), load(k->theta));
     facet_lanes(k, angle, v->along, v->off, &sine, &cosine);
     reals inward = sub(mul(v->along, sine), mul(v->off, cosine));
     struct impact_lanes in = {.vn = pick(less(zero, inward), inward, zero),

@@ -56,8 +56,6 @@ struct wide {
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
-    double variates[VARIATES][LANES];
-    double from, per_metre; /* as in struct marks */
     double tallest;         /* m: all stems that may wait are less tall */
 
     /* bit i is lane i */
@@ -75,7 +73,7 @@ struct wide {
     struct course start;
 };
 
-_Static_assert(offsetof(struct wide, variates) % 64 == 0 && offsetof(struct wide, contacts) % 64 == 0,
+_Static_assert(offsetof(struct wide, contacts) % 64 == 0,
                "what is for lanes is loaded from whole lines of the cache");
 
 /* Lanes that come to no contact in this step. */
@@ -114,15 +112,6 @@ static inline void show_stems_met(const struct wide *k, size_t i)
     struct stems_side *side = &w->stems->side[0];
     side->first = (size_t)(k->stem.next[i] - side->waiting);
     w->stem_ahead = side->next = k->stem_ahead[i];
-}
-
-/* A rock goes on by itself, with its variates. */
-static void leave_lane(const struct wide *k, size_t i)
-{
-    struct walker *w = &k->job->walkers[i];
-    w->lane_variates = NULL;
-    for (size_t v = 0; v < VARIATES; v++)
-        w->variates[v] = k->variates[v][i];
 }
 
 static void load_section(struct wide *k, size_t i)
@@ -258,8 +247,6 @@ static void refill(struct wide *k, size_t i)
     k->left &= ~bit;
     k->rolls &= ~bit;
     k->there |= bit;
-    for (size_t v = 0; v < VARIATES; v++)
-        k->variates[v][i] = 0;
     while (job->next(job->context, i)) {
         enum ceduo_end end;
         double mark = w->next_x;

@@ -116,7 +116,6 @@ static void finish_alone(struct wide *k)
             c.v = (struct velocity){.along = c.at.vx * s->c + c.at.vz * s->s, .off = c.at.vz * s->c - c.at.vx * s->s};
         }
         enum ceduo_end end;
-        leave_lane(k, i);
         if (!c.aloft || ceduo_walk_come_down(w, &c, &end))
             end = ceduo_walk_on(w, &c, k->job->law);
         k->job->ended(k->job->context, i, end);
@@ -156,8 +155,6 @@ static void wide_walk(const struct wide_job *job)
     struct wide k = {.job = job, .ground = job->ground, .live = ALL_LANES};
     for (size_t i = 0; i < LANES; i++) {
         k.radius[i] = 1;
-        job->walkers[i].lane_variates = &k.variates[0][i];
-        job->walkers[i].lanes = LANES;
         refill(&k, i);
     }
     if (!k.live)
@@ -169,8 +166,6 @@ static void wide_walk(const struct wide_job *job)
     k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
-    k.from = w->marks->from;
-    k.per_metre = w->marks->per_metre;
     k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* more than rounding can make of a height */
     if (w->stems)
         walk_among(job->law, small, true, &k);

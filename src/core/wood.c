@@ -38,7 +38,8 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
 {
     struct wood_kind k = {.dbh = stems->dbh,
                           .most = stems->dbh,
-                          .height = stand->hit_below > 0 ? fmin(stems->height, stand->hit_below) : stems->height,
+                          .height = stems->height,
+                          .below = stand->hit_below > 0 ? stand->hit_below : INFINITY,
                           .energy = NAN,
                           .by_hit = stem_energy_of(stand, stems)};
     if (stems->dbh_sd > LEAST_SPREAD * stems->dbh) {
@@ -46,7 +47,7 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
         k.shape = ratio * ratio;
         k.scale = stems->dbh_sd / ratio;
         k.most = thickest(k.shape, k.scale);
-    } else if (stem_energy_alike(&k.by_hit)) {
+    } else if (!stem_energy_by_eccentricity(&k.by_hit)) {
         k.energy = stem_energy_mean(&k.by_hit);
     }
     return k;
@@ -82,8 +83,9 @@ static struct wood_stratum stump_stratum(const struct ceduo_stand *stand, struct
     *kind = (struct wood_kind){.dbh = s->diameter,
                                .most = s->diameter,
                                .height = s->height,
+                               .below = INFINITY,
                                .energy = s->energy,
-                               .by_hit = {.model = CEDUO_BRAUNER, .glancing = ceduo_stand_glances(stand)}};
+                               .by_hit = {.model = CEDUO_BRAUNER}};
     return (struct wood_stratum){per_m2 * s->diameter, per_m2, kind, 0, 0};
 }
 
@@ -92,7 +94,7 @@ static struct wood_stratum log_stratum(const struct ceduo_stand *stand, struct w
 {
     const struct ceduo_logs *l = &stand->logs;
     double per_m2 = l->per_ha / HECTARE;
-    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .energy = l->energy};
+    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .below = INFINITY, .energy = l->energy};
     return (struct wood_stratum){per_m2 * ceduo_log_width(l->length), per_m2, kind, 0, 0};
 }
 
@@ -102,7 +104,7 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
                                            struct wood_kind *kind)
 {
     struct stratum s = ceduo_stratum(stand, rule, i, mass);
-    *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .energy = s.energy};
+    *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .below = INFINITY, .energy = s.energy};
     if (s.share > 0)
         kind->by_hit =
             (struct stem_energy){.model = CEDUO_INERTIA, .by.inertia = inertia_of_contact(s.share, mass)};
@@ -253,8 +255,7 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
         wood->bare = false;
-        wood->shares |= ceduo_stand_takes_share(&belt->stand) ||
-                        (simulation->contact_model == CEDUO_STEMS && ceduo_stand_glances(&belt->stand));
+        wood->shares |= ceduo_stand_takes_share(&belt->stand);
         if (simulation->contact_model == CEDUO_POISSON)
             make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), mean->mass,
                           &wood->kinds[used], &wood->strata_room[used], to);
@@ -318,7 +319,7 @@ static void hash_low(uint64_t *hash, const struct ceduo_stand *stand)
     struct wood_stratum stratum;
     if (stand->stumps.per_ha > 0) {
         stratum = stump_stratum(stand, &kind);
-        hash_count(hash, kind.by_hit.glancing > 0 ? 2 : 1);
+        hash_count(hash, 1);
         hash_stratum(hash, &stratum);
     }
     if (stand->logs.per_ha > 0) {

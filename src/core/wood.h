@@ -13,6 +13,7 @@ struct wood_kind {
     /* Doubles that decide what a rock meets: they go into the key of the forest as they stand. */
     double dbh;          /* m, mean; NaN: a contact of a Poisson process */
     double height;       /* m; infinite where height does not matter */
+    double below;        /* m: a hit takes nothing where the rock's centre is higher; infinite: any takes */
     double energy;       /* J that every hit takes; NaN: it depends on diameter or eccentricity, by_hit */
     double shape, scale; /* of the gamma law of diameters; shape 0: all alike */
     double share_to;     /* of shoots: the share of all that this cohort and those before it make up */
@@ -59,7 +60,7 @@ struct wood_belt {
 struct wood {
     bool bare; /* nothing to be met */
     bool by_eccentricity; /* what stems of some kinds take depends on where they are hit */
-    bool shares; /* there is more to a hit than the amount that its stem takes, see stem_energy_part() */
+    bool shares; /* a hit takes a share of the energy, see stem_energy_share() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */

@@ -209,11 +209,6 @@ enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *
 
 /* ---- all years together ---- */
 
-static double share_se(double p, double n)
-{
-    return sqrt(p * (1 - p) / n);
-}
-
 /* Of the years the share in which a rock is marked. */
 static double share_of_years(const struct ceduo_years *years, uint64_t rock)
 {
@@ -231,7 +226,7 @@ static struct ceduo_paired weighted_difference(const struct ceduo_years *years, 
         all.ww += w * w;
         weighted_sum_add(&sum, w, share_of_years(years, r) - (less ? share_of_years(less, r) : 0));
     }
-    return (struct ceduo_paired){sum.t / all.w, ceduo_weighted_se(&all, &sum)};
+    return ceduo_weighted_paired(&all, &sum);
 }
 
 /* Every rock goes through all years, so its own mean is one sample. */
@@ -251,9 +246,9 @@ static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a
     bool says = !isnan(a->exceed_probability);
     s->flown++;
     s->reach.mean += a->reach_probability;
-    s->reach.se += a->adjusted ? a->reach_se : share_se(a->reach_probability, n);
+    s->reach.se += ceduo_share_se(a->reach_probability, n);
     s->exceed.mean += a->exceed_probability;
-    s->exceed.se += a->adjusted ? a->exceed_se : share_se(a->exceed_probability, n);
+    s->exceed.se += ceduo_share_se(a->exceed_probability, n);
     s->energy_per_released.mean += a->energy_per_released;
     s->energy_per_released.se += a->energy_per_released_se;
     double share = says ? a->exceed_probability : a->reach_probability;
@@ -265,7 +260,8 @@ static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a
 
 static void divide(struct ceduo_paired *p, size_t n)
 {
-    *p = n > 0 ? (struct ceduo_paired){p->mean / (double)n, p->se / (double)n} : (struct ceduo_paired){NAN, NAN};
+    p->mean /= (double)n; /* of none NaN */
+    p->se /= (double)n;
 }
 
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
@@ -277,6 +273,8 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         const struct ceduo_index *index = &y->controls[control];
         s.unprotected_contact += index->contact == CEDUO_FAIL;
         s.unprotected_free_run += index->free_run == CEDUO_FAIL;
+        s.thick_contact += index->thick.contact == CEDUO_FAIL;
+        s.thick_free_run += index->thick.free_run == CEDUO_FAIL;
         s.unprotected_energy += index->energy == CEDUO_FAIL;
         if (y->wooded.rocks > 0) {
             add_flown(y, &y->wooded.arrivals[control], &s);
@@ -295,30 +293,17 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     return s;
 }
 
-/* The mean of what is compared, as it is shown; `*adjusted` where it is not as counted in a year. */
-static double mean_over_years(const struct ceduo_years *years, bool *adjusted)
-{
-    struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
-    for (size_t i = 0; i < years->count; i++)
-        *adjusted |= years->years[i].wooded.arrivals[years->last_control].adjusted;
-    return isnan(s.exceed.mean) ? s.reach.mean : s.exceed.mean;
-}
-
-/* Of adjusted shares the marks give an error that is not too small, and the shares the mean. */
 struct ceduo_paired ceduo_years_difference(const struct ceduo_years *years, const struct ceduo_years *less)
 {
     if (years->rocks == 0 || less->rocks == 0 || years->scene.controls_count == 0)
-        return (struct ceduo_paired){NAN, NAN};
+        return CEDUO_NOT_PAIRED;
     uint64_t rocks = less->marked < years->marked ? less->marked : years->marked;
     if (years->weights)
         return weighted_difference(years, less, rocks);
     struct ceduo_moments m = {0};
     for (uint64_t r = 0; r < rocks; r++)
         ceduo_moments_add(&m, share_of_years(years, r) - share_of_years(less, r));
-    bool adjusted = false;
-    double mean = mean_over_years(years, &adjusted) - mean_over_years(less, &adjusted);
-    adjusted &= years->rocks == less->rocks;
-    return (struct ceduo_paired){adjusted ? mean : m.mean, ceduo_moments_se(&m)};
+    return ceduo_paired_of(m.mean, &m, rocks);
 }
 
 double ceduo_years_felled(const struct ceduo_years *years)

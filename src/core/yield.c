@@ -34,6 +34,7 @@ static double volume_died(const struct ceduo_stand *now, const struct ceduo_stan
 /* A stand over one rotation from its first cut on, m3/ha. */
 struct rotation_sum {
     double felled, died, standing; /* standing: summed over the years */
+    double space;                  /* that the trees take before a cut */
 };
 
 static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned first, struct rotation_sum *sum)
@@ -56,6 +57,7 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
         }
     }
     sum->felled = ceduo_stand_volume(&now.stand) - after_cut;
+    sum->space = ceduo_space_of_trees(&stand->growth, &now.stand);
     ceduo_grown_stand_release(&now);
     return status;
 }
@@ -130,7 +132,8 @@ static enum ceduo_status sum_belts(const struct ceduo_option *option, struct ced
         enum ceduo_status status = first == CEDUO_NEVER ? CEDUO_OK : sum_rotation(belt, first, &sum);
         if (status != CEDUO_OK)
             return status;
-        double known = first == CEDUO_NEVER ? NAN : metres / rotation;
+        double known = first == CEDUO_NEVER || sum.space > 1 ? NAN : metres / rotation;
+        yield->space = fmax(yield->space, sum.space);
         length += metres;
         felled += known * sum.felled;
         died += known * sum.died;

@@ -29,13 +29,9 @@ __attribute__((format(printf, 5, 0))) static void report_v(struct problems *prob
                                                            bool at_key, const char *path, const char *format,
                                                            va_list args)
 {
-    struct text message = {0};
-    ceduo_text_vformat(&message, format, args);
     bool key = at_key && node->key_line > 0;
-    ceduo_problem(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
-                  "%s%s%s", path ? path : "", path && path[0] ? ": " : "", ceduo_text_string(&message));
-    problems->memory |= message.failed;
-    ceduo_text_free(&message);
+    ceduo_problem_v(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
+                    path, format, args);
 }
 
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
@@ -117,13 +113,16 @@ static void leave(struct binder *b, size_t before)
 
 static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
 {
+    const char *instead = ceduo_schema_gone(object, entry->key);
     const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++)
         words[n++] = object->fields[i].key;
     const char *near = ceduo_text_nearest(entry->key, words, n);
     size_t before = enter(b, entry->key);
-    if (near) {
+    if (instead) {
+        report_key(b, entry, "%s", _(instead));
+    } else if (near) {
         report_key(b, entry, _("unknown key; did you mean '%s'?"), near);
     } else {
         struct text list = {0};
@@ -146,12 +145,18 @@ static const char *kind_name(const struct node *node)
     return node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
 }
 
+static void report_kind(struct binder *b, const struct node *node, const char *wanted)
+{
+    ceduo_problem_own(b->problems, node->source, node->line, node->column, path_here(b), _("expected %s, not %s"),
+                      wanted, kind_name(node));
+    note_bad(b);
+}
+
 static bool want_scalar(struct binder *b, const struct node *node, const char *what)
 {
-    if (node->kind == NODE_SCALAR)
-        return true;
-    report(b, node, _("expected %s, not %s"), what, kind_name(node));
-    return false;
+    if (node->kind != NODE_SCALAR)
+        report_kind(b, node, what);
+    return node->kind == NODE_SCALAR;
 }
 
 static bool read_number(struct binder *b, const struct node *node, double *value)
@@ -322,10 +327,9 @@ static void bind_spreads(struct binder *b, const struct field *f, const struct n
 
 static bool want_list(struct binder *b, const struct node *node)
 {
-    if (node->kind == NODE_LIST)
-        return true;
-    report(b, node, _("expected a list, not %s"), kind_name(node));
-    return false;
+    if (node->kind != NODE_LIST)
+        report_kind(b, node, _("a list"));
+    return node->kind == NODE_LIST;
 }
 
 void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems)
@@ -575,16 +579,16 @@ static void report_missing(struct binder *b, const struct object *object, const 
         bool told = is_bad(b);
         note_bad(b);
         leave(b, before);
-        if (!told)
-            ceduo_node_problem(b->problems, node, path_here(b), _("'%s' is missing: %s"), f->key,
-                               f->type == FIELD_TAG ? f->value : _(f->meaning)); /* the mapping itself is good */
+        if (!told) /* the mapping itself is good */
+            ceduo_problem_own(b->problems, node->source, node->line, node->column, path_here(b), _("'%s' is missing: %s"),
+                              f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
 }
 
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
 {
     if (node->kind != NODE_MAP) {
-        report(b, node, _("expected a mapping, not %s"), kind_name(node));
+        report_kind(b, node, _("a mapping"));
         return;
     }
     bool partial = b->partial;

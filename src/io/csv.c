@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 #include "file.h"
 
 static bool next_line(const struct source *s, size_t *at, struct csv_span *line)
@@ -58,7 +59,7 @@ bool ceduo_csv_is(struct csv_span f, const char *word)
 
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems)
 {
-    *csv = (struct csv){.source = ceduo_file_read(arena, path, CSV_BYTES_MOST, problems)};
+    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems)};
     if (!csv->source)
         return false;
     csv->at = ceduo_source_mark(csv->source);
@@ -94,6 +95,11 @@ size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
         f = trim(f);
         ceduo_text_put(names, n > 0 ? ", " : "");
         ceduo_text_safe_n(names, f.p, f.n);
+    }
+    size_t shown = csv->source->foreign ? ceduo_utf8_cut(ceduo_text_string(names), CEDUO_FOREIGN_MOST) : names->length;
+    if (shown < names->length) {
+        names->length = shown;
+        ceduo_text_put(names, "\xe2\x80\xa6");
     }
     return n;
 }
@@ -145,15 +151,10 @@ bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *fiel
 
 void ceduo_csv_complain(const struct csv *csv, struct csv_span field, struct problems *problems, const char *format, ...)
 {
-    struct text message = {0};
     va_list args;
     va_start(args, format);
-    ceduo_text_vformat(&message, format, args);
+    ceduo_problem_v(problems, csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL, format, args);
     va_end(args);
-    ceduo_problem(problems, csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, "%s",
-                  ceduo_text_string(&message));
-    problems->memory |= message.failed;
-    ceduo_text_free(&message);
 }
 
 /* Where commas do not separate they may stand for the decimals, in all numbers of a file or in none: a dot beside them

@@ -16,7 +16,7 @@ struct csv_span {
 };
 
 struct csv {
-    const struct source *source;
+    struct source *source;
     size_t at, number;     /* bytes read; number of the present line, from 1 */
     struct csv_span line;  /* the present line */
     struct csv_span header;
@@ -24,7 +24,7 @@ struct csv {
     char decimal; /* ',' or '.', once a number has shown it; '\0' before */
 };
 
-/* Reads a file and its header. False where that fails, which is told. */
+/* Reads a file and its header. False where that fails, which is told. The file is foreign until a column is known. */
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems);
 
 #define CEDUO_CSV_NONE  SIZE_MAX
@@ -34,7 +34,7 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
  * CEDUO_CSV_NONE: it has none; CEDUO_CSV_TWICE: it has that name twice. */
 size_t ceduo_csv_column(const struct csv *csv, const char *const *names);
 
-/* How many columns the header has, and the names of all, with a comma between them. */
+/* How many columns the header has, and the names of all, with a comma between them; of a foreign file the beginning of that. */
 size_t ceduo_csv_columns(const struct csv *csv, struct text *names);
 
 /* The next row that is not blank; false at the end. */

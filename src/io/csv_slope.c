@@ -12,10 +12,11 @@ struct columns {
     size_t x, z;
 };
 
-static bool find_columns(const struct csv *csv, struct columns *c, struct problems *problems)
+static bool find_columns(struct csv *csv, struct columns *c, struct problems *problems)
 {
     c->x = ceduo_csv_column(csv, distances);
     c->z = ceduo_csv_column(csv, elevations);
+    csv->source->foreign = c->x == CEDUO_CSV_NONE && c->z == CEDUO_CSV_NONE;
     if (c->x < CEDUO_CSV_TWICE && c->z < CEDUO_CSV_TWICE)
         return true;
     if (c->x == CEDUO_CSV_NONE || c->z == CEDUO_CSV_NONE)

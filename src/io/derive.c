@@ -9,16 +9,13 @@
 
 void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...)
 {
-    struct text message = {0};
-    va_list args;
-    va_start(args, format);
-    ceduo_text_vformat(&message, format, args);
-    va_end(args);
     const char *within;
     size_t used;
     const struct node *node = ceduo_resolve_walk(d->root, path, &within, &used);
-    ceduo_node_problem(d->problems, node, within, "%s", ceduo_text_string(&message));
-    ceduo_text_free(&message);
+    va_list args;
+    va_start(args, format);
+    ceduo_problem_v(d->problems, node->source, node->line, node->column, within, format, args);
+    va_end(args);
 }
 
 void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x,
@@ -26,15 +23,19 @@ void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within
 {
     char room[CEDUO_NUMBER_ROOM];
     struct text message = {0};
+    const char *in;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(d->root, ceduo_derive_text(d, "%s%s", path, within), &in, &used);
     for (; *format; format++)
         if (strncmp(format, "%s", 2) != 0) {
             ceduo_text_char(&message, *format);
         } else {
-            ceduo_text_put(&message, ceduo_number_shortest(x, room));
+            ceduo_text_put(&message, node->source->foreign ? "\xe2\x80\xa6" : ceduo_number_shortest(x, room));
             x = y;
             format++;
         }
-    ceduo_derive_complain(d, ceduo_derive_text(d, "%s%s", path, within), "%s", ceduo_text_string(&message));
+    ceduo_problem_own(d->problems, node->source, node->line, node->column, in, "%s", ceduo_text_string(&message));
+    d->problems->memory |= message.failed;
     ceduo_text_free(&message);
 }
 
@@ -207,6 +208,19 @@ static void derive_rules(struct deriver *d)
         check_item(d, "turns", i, &r->turns[i]);
 }
 
+/* From which diameter on stems count is assumed where a forest is asked about and nobody says it. */
+static void assume_counted(struct deriver *d)
+{
+    const struct ceduo_scene *scene = &d->draft.scene;
+    bool forest = false;
+    for (size_t i = 0; i < scene->options_count; i++)
+        forest |= scene->options[i].belts_count > 0;
+    if (forest && !ceduo_node_get(ceduo_node_get(d->root, "simulation"), "contact_dbh_m"))
+        ceduo_derive_assume(d, "simulation.contact_dbh_m",
+                            ceduo_derive_text(d, _("stems count from %g cm on, at which coppice is callipered"),
+                                              scene->simulation.contact_dbh * 100));
+}
+
 bool ceduo_derive(struct deriver *d)
 {
     ceduo_schema_init(ceduo_schema_scene(), &d->draft);
@@ -220,6 +234,7 @@ bool ceduo_derive(struct deriver *d)
     ceduo_derive_release(d, "release", &d->draft.scene.release);
     ceduo_derive_controls(d);
     ceduo_derive_options(d);
+    assume_counted(d);
     derive_rules(d);
     ceduo_derive_doubts(d);
     ceduo_derive_observed(d);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene and its stands say is not known: each row becomes an input, with the places that it stands for. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -178,12 +179,21 @@ static bool complain_range(struct deriver *d, const char *at, const char *key, c
 static bool read_range(struct deriver *d, const char *at, const struct doubt *row, const struct field *field,
                        struct ceduo_input *input)
 {
-    bool normal = !isnan(row->mean);
-    input->kind = normal ? CEDUO_INPUT_NORMAL : CEDUO_INPUT_RANGE;
+    bool normal = !isnan(row->mean), gamma = normal && field->lo >= 0 && row->mean > 0 && row->sd > row->mean / 3;
+    input->kind = gamma ? CEDUO_INPUT_GAMMA : normal ? CEDUO_INPUT_NORMAL : CEDUO_INPUT_RANGE;
     input->mean = row->mean;
     input->sd = row->sd;
-    input->lo = normal ? row->mean - 3 * row->sd : row->lo;
-    input->hi = normal ? row->mean + 3 * row->sd : row->hi;
+    input->lo = row->lo;
+    input->hi = row->hi;
+    if (gamma && row->sd > CEDUO_GAMMA_MOST * row->mean) {
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.sd", at), _("sd is more than %g times the mean; give lo and hi"),
+                              CEDUO_GAMMA_MOST);
+        return false;
+    }
+    if (normal) {
+        input->lo = gamma ? ceduo_input_quantile(input, 0) : row->mean - 3 * row->sd;
+        input->hi = gamma ? ceduo_input_quantile(input, 1) : row->mean + 3 * row->sd;
+    }
     if (!(input->lo < input->hi)) {
         ceduo_derive_complain(d, ceduo_derive_text(d, "%s.%s", at, normal ? "sd" : "hi"),
                               normal ? _("the range is empty; sd must be above 0") : _("the range is empty; hi must be above lo"));
@@ -249,6 +259,22 @@ static void complain_twice(struct deriver *d, const struct said *said)
     ceduo_derive_complain(d, ceduo_derive_text(d, "%s.path", said->at), _("'%s' is given twice"), said->row->path);
 }
 
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Whether an input before a row has its path, by whatever name of an item, or is draws of one of its places. */
+static bool is_said(struct deriver *d, const struct ceduo_input *before, const struct ceduo_input *row)
+{
+    if (before->kind != CEDUO_INPUT_DRAWS)
+        return strcmp(with_numbers(d, before->path), with_numbers(d, row->path)) == 0;
+    for (size_t i = 0; i < row->places_count; i++)
+        if (bsearch(&row->places[i], before->places, before->places_count, sizeof *before->places, by_name))
+            return true;
+    return false;
+}
+
 static void derive_row(struct deriver *d, size_t i, struct ceduo_input *inputs, size_t *n)
 {
     const struct said said = {&d->draft.doubts[i], ceduo_derive_text(d, "doubt[%zu]", i), ""};
@@ -256,7 +282,7 @@ static void derive_row(struct deriver *d, size_t i, struct ceduo_input *inputs, 
     if (!make_input(d, &said, &input))
         return;
     for (size_t k = 0; k < *n; k++)
-        if (strcmp(inputs[k].path, said.row->path) == 0) {
+        if (is_said(d, &inputs[k], &input)) {
             complain_twice(d, &said);
             return;
         }

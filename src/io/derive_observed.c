@@ -182,11 +182,13 @@ static const char *within(const struct seen_place *p, const char *key)
 }
 
 /* The column of a table that holds the values; CEDUO_CSV_NONE where there is none, which is told. */
-static size_t find_column(const struct seen_place *p, const struct csv *csv, const char *named, const char *key)
+static size_t find_column(const struct seen_place *p, struct csv *csv, const char *named, const char *key)
 {
     const char *const own[] = {named, NULL};
     struct text all = {0};
-    size_t n = ceduo_csv_columns(csv, &all), column = ceduo_csv_column(csv, named ? own : p->kind->columns);
+    size_t known = ceduo_csv_column(csv, p->kind->columns), column = named ? ceduo_csv_column(csv, own) : known;
+    csv->source->foreign = known == CEDUO_CSV_NONE;
+    size_t n = ceduo_csv_columns(csv, &all);
     if (column == CEDUO_CSV_NONE && !named && n == 1)
         column = 0;
     const char *at = within(p, ceduo_node_get(p->node, key) ? key : "csv");
@@ -204,7 +206,7 @@ static size_t find_column(const struct seen_place *p, const struct csv *csv, con
 
 /* The rows that are wanted: those with a word in a column; CEDUO_CSV_NONE where all are. False where it is told that this
  * makes no sense. */
-static bool find_only(const struct seen_place *p, const struct csv *csv, const char *only, size_t *column, const char **word)
+static bool find_only(const struct seen_place *p, struct csv *csv, const char *only, size_t *column, const char **word)
 {
     const char *equals = only ? strchr(only, '=') : NULL;
     *column = CEDUO_CSV_NONE;

@@ -39,12 +39,6 @@ static bool is_plain(const char *s)
     return !(s[0] == '-' && s[1] == ' ');
 }
 
-/* What no YAML holds as it is, or would read as the end of a line. */
-static bool needs_escape(uint32_t c)
-{
-    return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x2028 || c == 0x2029 || c == 0xfeff || c == 0xfffe || c == 0xffff;
-}
-
 static void put_quoted(struct text *text, const char *s)
 {
     ceduo_text_char(text, '"');
@@ -56,8 +50,8 @@ static void put_quoted(struct text *text, const char *s)
             ceduo_text_format(text, "\\%c", (int)c);
         else if (c == '\n')
             ceduo_text_put(text, "\\n");
-        else if (known && needs_escape(c))
-            ceduo_text_format(text, c < 0x100 ? "\\x%02x" : "\\u%04x", c);
+        else if (known && (!ceduo_utf8_printable(c) || c == 0xfeff)) /* a mark of byte order, which no YAML holds */
+            ceduo_text_format(text, c < 0x100 ? "\\x%02x" : c <= 0xffff ? "\\u%04x" : "\\U%08x", c);
         else
             ceduo_text_add(text, s, length);
     }

@@ -24,6 +24,7 @@
 #define ROOM_FIRST ((size_t)64 * 1024)
 #define FIFO_WAIT  3000 /* ms */
 #define PART       8192 /* bytes read or written at a time: a stack may be small */
+#define BEGINNING  4096 /* bytes of a file in which it says what it is */
 
 /* Reasons of our own, by numbers that no call here gives. */
 #define NOBODY_WRITES ETIME
@@ -307,6 +308,22 @@ const struct source *ceduo_source_keep(struct arena *arena, struct source source
     return kept;
 }
 
+/* Whether the beginning of a file says what it is: ceduo, then a kind and its number, as in "ceduo": "scene/1". */
+static bool says_kind(const char *bytes, size_t length)
+{
+    const char *p = bytes, *end = bytes + (length < BEGINNING ? length : BEGINNING);
+    while ((p = memmem(p, (size_t)(end - p), "ceduo", 5))) {
+        for (p += 5; p < end && (*p == '"' || *p == '\'' || *p == ' ' || *p == ':'); p++)
+            ;
+        const char *kind = p;
+        while (p < end && *p >= 'a' && *p <= 'z')
+            p++;
+        if (p > kind && end - p > 1 && p[0] == '/' && p[1] >= '0' && p[1] <= '9')
+            return true;
+    }
+    return false;
+}
+
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems)
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);
@@ -316,8 +333,10 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
         return NULL;
     }
     *source = (struct source){.name = name};
-    if (read_into(arena, path, most, source))
+    if (read_into(arena, path, most, source)) {
+        source->foreign = !says_kind(source->bytes, source->length);
         return source;
+    }
     int why = errno;
     if (why == ENOMEM)
         ceduo_problem_memory(problems);

@@ -47,6 +47,15 @@ static void add(struct finder *f, const char *path, const char *origin, struct r
     f->last = &found->next;
 }
 
+bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b)
+{
+    for (size_t i = 0; i < a->places_count; i++)
+        for (size_t k = 0; k < b->places_count; k++)
+            if (strcmp(a->places[i], b->places[k]) == 0)
+                return true;
+    return false;
+}
+
 /* ---- where a value comes from ---- */
 
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *s, const char *place)
@@ -91,7 +100,7 @@ static bool law_knows(const struct finder *f, const char *key)
 
 static void consider(struct finder *f, const struct field *field, const struct node *node)
 {
-    const struct range *range = ceduo_range_of(field);
+    const struct range *range = field->flags & FIELD_YEARS ? NULL : ceduo_range_of(field); /* today is in doubt, not the years */
     const char *path = range ? text_of(f, "%s", ceduo_text_string(&f->path)) : NULL;
     struct value v;
     if (!path || !law_knows(f, field->key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))

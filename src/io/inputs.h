@@ -20,6 +20,9 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
  * NULL where it is not a number of any scene; the scene may have no such place. */
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);
 
+/* Whether some place is of both. */
+bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b);
+
 /* The belt that a place is in, forest[0].stand… or options[2].forest[0].stand…; NULL: it is in none. */
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);
 

@@ -162,12 +162,22 @@ static bool take_seconds(struct cursor *c, double *value)
     return ceduo_number_read(digits, value) == CEDUO_NUMBER_GOOD && *value >= 0;
 }
 
-/* A string after its quote, with the escapes that json.c writes. */
+/* The character of an escape, as json.c writes it, after its u; 0 where it is none. */
+static uint32_t take_escape(struct cursor *c)
+{
+    uint64_t code, low;
+    if (!take_hex(c, 4, &code))
+        return 0;
+    if (code >> 10 != 0xd800 >> 10)
+        return (uint32_t)code;
+    return take(c, "\\u") && take_hex(c, 4, &low) ? (uint32_t)(((code - 0xd7c0) << 10) + (low & 0x3ff)) : 0;
+}
+
+/* A string after its quote. */
 static char *take_string(struct arena *arena, struct cursor *c)
 {
     struct text text = {0};
     bool good = true;
-    uint64_t code;
     while (good && c->at < c->end && *c->at != '"') {
         if (*c->at != '\\') {
             ceduo_text_char(&text, *c->at++);
@@ -176,7 +186,8 @@ static char *take_string(struct arena *arena, struct cursor *c)
         c->at++;
         if (take(c, "u")) {
             char bytes[4];
-            size_t n = take_hex(c, 4, &code) && code > 0 ? ceduo_utf8_encode((uint32_t)code, bytes) : 0;
+            uint32_t code = take_escape(c);
+            size_t n = code > 0 ? ceduo_utf8_encode(code, bytes) : 0;
             good = n > 0;
             ceduo_text_add(&text, bytes, n);
         } else if (c->at < c->end) {

@@ -7,7 +7,7 @@
 #include "base/language.h"
 #include "base/utf8.h"
 
-#define LINE_MOST    100 /* columns of the source line that are shown */
+#define LINE_MOST    100  /* columns of the source line that are shown */
 #define MESSAGE_MOST 1000 /* bytes: known keys take some hundred */
 #define TAIL         200
 #define COUNTED      1000
@@ -37,12 +37,14 @@ static size_t character_length(const char *p, size_t n)
     return length ? length : 1;
 }
 
+/* A part of the line, and a caret below the column where that is in it; of a foreign source only what begins it. */
 static void show_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
-    size_t from, to;
+    size_t from, to, most = s->foreign ? CEDUO_FOREIGN_MOST : LINE_MOST;
     if (!ceduo_source_line(s, line, &from, &to) || to == from)
         return;
-    size_t first = column > LINE_MOST ? column - LINE_MOST / 2 : 1;
+    size_t first = column > most && !s->foreign ? column - most / 2 : 1;
+    most = s->foreign && line > 1 ? 0 : most;
     size_t mark = from == 0 ? ceduo_source_mark(s) : 0;
     size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
@@ -51,7 +53,7 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     ceduo_text_put(out, "  ");
     ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_put(&caret, "  ");
-    for (; at < to && c < first + LINE_MOST; c++) {
+    for (; at < to && c < first + most; c++) {
         size_t before = out->length, n = character_length(s->bytes + at, to - at);
         if (s->bytes[at] == '\t')
             ceduo_text_char(out, ' ');
@@ -61,10 +63,23 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
             ceduo_text_char(&caret, ' ');
         at += n;
     }
+    if (s->foreign && at < to)
+        ceduo_text_format(out, "\xe2\x80\xa6 %s",
+                          _("(nothing says that this file is one of ceduo's: no more of it is shown)"));
     ceduo_text_char(out, '\n');
     ceduo_text_put(&caret, "^\n");
-    ceduo_text_put(out, ceduo_text_string(&caret));
+    if (!s->foreign || (line == 1 && column <= c))
+        ceduo_text_put(out, ceduo_text_string(&caret));
     ceduo_text_free(&caret);
+}
+
+/* The words of a format, which has no %%, without the values. */
+static void put_words(struct text *out, const char *format)
+{
+    for (; *format; format++) {
+        ceduo_text_put(out, *format == '%' ? "\xe2\x80\xa6" : (char[2]){*format});
+        format += *format == '%' ? strcspn(format, "cdefgsuxX") : 0;
+    }
 }
 
 /* A message may quote a word of a megabyte: its middle is left out, so that the mend at its end stays. */
@@ -93,27 +108,17 @@ static bool is_known(const struct problems *problems, uint64_t hash)
     return false;
 }
 
-void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
-                   const char *format, ...)
+static void add(struct problems *problems, const struct source *source, size_t line, size_t column,
+                const struct text *message)
 {
-    problems->usage |= source && source->is_option;
-    problems->met++;
-    if (problems->count >= COUNTED) { /* whether it is known matters no more; a million of them take no time */
-        problems->count++;
-        return;
-    }
-    struct text message = {0}, one = {0};
-    va_list args;
-    va_start(args, format);
-    ceduo_text_vformat(&message, format, args);
-    va_end(args);
+    struct text one = {0};
     if (source) {
         ceduo_text_safe(&one, source->name);
         if (line > 0)
             ceduo_text_format(&one, ":%zu:%zu", line, column);
         ceduo_text_put(&one, ": ");
     }
-    put_message(&one, ceduo_text_string(&message));
+    put_message(&one, ceduo_text_string(message));
     ceduo_text_char(&one, '\n');
     uint64_t hash = hash_bytes(ceduo_text_string(&one), one.length);
     if (!is_known(problems, hash)) {
@@ -125,8 +130,63 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
         }
         problems->count++;
     }
-    problems->memory |= message.failed || one.failed || problems->text.failed;
+    problems->memory |= message->failed || one.failed || problems->text.failed;
     ceduo_text_free(&one);
+}
+
+/* Whether it is to be told in words. Beyond a number, whether it is known matters no more: a million of them take no time. */
+static bool counts(struct problems *problems, const struct source *source)
+{
+    bool words = problems->count < COUNTED;
+    problems->usage |= source && source->is_option;
+    problems->met++;
+    problems->count += !words;
+    return words;
+}
+
+static void put_path(struct text *out, const char *path)
+{
+    if (path && path[0])
+        ceduo_text_format(out, "%s: ", path);
+}
+
+void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column,
+                     const char *path, const char *format, va_list args)
+{
+    struct text message = {0};
+    if (!counts(problems, source))
+        return;
+    if (source && source->foreign) {
+        put_words(&message, format);
+    } else {
+        put_path(&message, path);
+        ceduo_text_vformat(&message, format, args);
+    }
+    add(problems, source, line, column, &message);
+    ceduo_text_free(&message);
+}
+
+void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
+                   const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_problem_v(problems, source, line, column, NULL, format, args);
+    va_end(args);
+}
+
+void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column,
+                       const char *path, const char *format, ...)
+{
+    struct text message = {0};
+    va_list args;
+    if (!counts(problems, source))
+        return;
+    put_path(&message, path);
+    va_start(args, format);
+    ceduo_text_vformat(&message, format, args);
+    va_end(args);
+    add(problems, source, line, column, &message);
     ceduo_text_free(&message);
 }
 

@@ -13,7 +13,10 @@ struct source {
     size_t length;
     bool is_option;   /* a --set: what is wrong with it is a usage error */
     const char *beside; /* of an option: the file that its paths are looked for beside */
+    bool foreign;       /* a file that does not say that it is one of ours: it may be anything, and nobody's business */
 };
+
+#define CEDUO_FOREIGN_MOST 20 /* columns of such a file that are shown */
 
 /* Bytes of the byte order mark that it begins with; the mark takes no column. */
 static inline size_t ceduo_source_mark(const struct source *source)
@@ -36,9 +39,16 @@ struct problems {
     bool memory; /* memory ran out: the list may lack some */
 };
 
-/* Adds one. line and column count from 1; 0: no place known (the source's name alone is shown). */
+/* Adds one. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
+ * is without its values, and of its lines only the beginning of the first is shown. */
 void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
+/* The same at the path of a value in the source; NULL or "": none. */
+void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
+                     const char *format, va_list args) __attribute__((format(printf, 6, 0)));
+/* The same where path and values are none of the source's words. */
+void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
+                       const char *format, ...) __attribute__((format(printf, 6, 7)));
 
 void ceduo_problem_memory(struct problems *problems);
 

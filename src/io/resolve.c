@@ -393,6 +393,9 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     key[step->n] = '\0';
     const struct field *f = object ? ceduo_schema_field(object, key) : NULL;
     bool free_form = !object || strcmp(key, "source") == 0;
+    const char *instead = object ? ceduo_schema_gone(object, key) : NULL;
+    if (instead)
+        return fail_at(s, step, _(instead));
     if (!f && !free_form)
         return fail_at(s, step, _("unknown key (ceduo --list-parameters)"));
     const struct node *child = ceduo_node_get(map, key);
@@ -429,6 +432,20 @@ static bool is_ambiguous(struct setter *s, const struct node *list, const struct
     return n > 1;
 }
 
+/* [*]: all items. What is around the list is told unless every item has told its own source. */
+static const struct node *set_all(struct setter *s, const struct object *object, const struct node *list, size_t at)
+{
+    bool before = s->sourced, told = true;
+    for (size_t i = 0; list && i < list->n; i++) {
+        s->sourced = before;
+        const struct node *item = set_in(s, NULL, object, list->items[i], at);
+        list = item ? ceduo_node_replaced(s->arena, list, i, item) : NULL;
+        told &= s->sourced;
+    }
+    s->sourced = told;
+    return list;
+}
+
 static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
                                    const struct path_step *step, size_t at)
 {
@@ -438,6 +455,8 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
     struct resolver r = {.arena = s->arena, .problems = s->problems};
     if (object && !(list = resolve_items(&r, object, list)))
         return NULL;
+    if (ceduo_path_is(step, "*") && list->n > 0)
+        return set_all(s, object, list, at);
     if (!ceduo_resolve_item(list, step, &i))
         return fail_at(s, step, _("no such item"));
     if (is_ambiguous(s, list, step, i))

@@ -107,6 +107,7 @@ static void read_header(struct reader *r, struct text *unused)
     struct csv_span field;
     for (int c = 0; c < COLUMNS; c++) {
         r->columns[c] = ceduo_csv_column(&r->csv, names[c]);
+        r->csv.source->foreign &= r->columns[c] == CEDUO_CSV_NONE;
         if (r->columns[c] == CEDUO_CSV_TWICE)
             complain_twice(r, (enum column)c);
     }
@@ -119,8 +120,8 @@ static void read_header(struct reader *r, struct text *unused)
     static const enum column needed[] = {PLOT, KIND, DBH};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->columns[needed[i]] == CEDUO_CSV_NONE)
-            ceduo_problem(r->problems, r->csv.source, 1, 1, _("the first line must name the column '%s'"),
-                          names[needed[i]][0]);
+            ceduo_problem_own(r->problems, r->csv.source, 1, 1, NULL, _("the first line must name the column '%s'"),
+                              names[needed[i]][0]);
     if (r->columns[AREA] == CEDUO_CSV_NONE && r->columns[RADIUS] == CEDUO_CSV_NONE)
         ceduo_problem(r->problems, r->csv.source, 1, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
 }

@@ -99,7 +99,7 @@ static void remark_volumes(struct writer *w)
         if (c->form_factor > 0)
             ceduo_text_format(w->out,
                               "# volume: %zu of %zu %s of %.0f to %.0f cm lie outside the equation of their species; "
-                              "form factor %g, assumed\n",
+                              "its form factor at the nearest size, or %g without one, assumed\n",
                               c->form_factor, c->stems, kinds[c->kind], c->from * 100,
                               (c->from + CEDUO_SURVEY_CLASS) * 100, CEDUO_FORM_FACTOR);
     }
@@ -202,7 +202,7 @@ static void put_class_source(struct writer *w, const struct ceduo_survey_class *
     else if (h->from == CEDUO_HEIGHTS_CURVE)
         ceduo_text_put(&what, "; missing heights by Näslund's curve");
     if (c->form_factor > 0)
-        ceduo_text_format(&what, "; volume of %zu by form factor %g", c->form_factor, CEDUO_FORM_FACTOR);
+        ceduo_text_format(&what, "; volume of %zu by form factor", c->form_factor);
     put_source(w->out, is_assumed(w, c), &what);
 }
 
@@ -258,8 +258,11 @@ static void put_stools(struct writer *w)
     put_number(w->out, "stools: {per_ha: ", stools_of(w));
     put_number(w->out, ", spacing_m: ", measured ? spacing->mean : CEDUO_SURVEY_SPACING);
     ceduo_text_put(w->out, ",\n  ");
-    ceduo_text_format(&what, measured ? "n = %zu" : "n = %zu; the spacing of the shoots was not measured",
-                      w->file->survey.stools_count);
+    ceduo_text_format(&what, "n = %zu", w->file->survey.stools_count);
+    if (measured)
+        ceduo_text_format(&what, "; spacing on %zu of them", w->answer->stools_measured);
+    else
+        ceduo_text_put(&what, "; the spacing of the shoots was not measured");
     if (w->one_plot)
         ceduo_text_put(&what, "; one plot, no standard error");
     put_source(w->out, w->one_plot || !measured, &what);
@@ -284,7 +287,7 @@ static void put_stumps(struct writer *w)
 
 /* ---- doubt ---- */
 
-/* The standard error of a mean; where a normal distribution would reach below 0, a uniform one of the same spread. */
+/* A mean and its standard error. */
 static void put_doubt(struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
 {
     if (!(e->se > 0))
@@ -293,13 +296,8 @@ static void put_doubt(struct writer *w, size_t *n, const char *path, const struc
         ceduo_text_put(w->out, "doubt:\n");
     ceduo_text_put(w->out, "  - {path: ");
     ceduo_emit_scalar(w->out, path, true);
-    if (rounded(mean) > 3 * rounded(e->se)) {
-        put_number(w->out, ", mean: ", mean);
-        put_number(w->out, ", sd: ", e->se);
-    } else {
-        put_number(w->out, ", lo: ", fmax(mean - sqrt(3) * e->se, mean / 100));
-        put_number(w->out, ", hi: ", mean + sqrt(3) * e->se);
-    }
+    put_number(w->out, ", mean: ", mean);
+    put_number(w->out, ", sd: ", e->se);
     ceduo_text_put(w->out, "}\n");
 }
 

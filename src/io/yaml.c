@@ -36,9 +36,10 @@ static size_t column_of(const struct reader *r, yaml_mark_t mark)
     return mark.column + 1 + (mark.line == 0 ? r->skip_column : 0);
 }
 
+/* None of its values is a word of the file. */
 #define STOP(r, mark, ...)                                                                                       \
     do {                                                                                                         \
-        ceduo_problem((r)->problems, (r)->source, line_of(mark), column_of(r, mark), __VA_ARGS__);            \
+        ceduo_problem_own((r)->problems, (r)->source, line_of(mark), column_of(r, mark), NULL, __VA_ARGS__);   \
         (r)->stopped = true;                                                                                     \
     } while (0)
 
@@ -221,8 +222,9 @@ static bool key_is_new(struct reader *r, const struct pile *pile, const yaml_eve
     }
     for (size_t i = 0; i < pile->n; i++)
         if (strcmp(pile->items[i]->key, key) == 0) {
-            STOP(r, event->start_mark, _("%s: given twice, first on line %u; keep one"), key,
-                 (unsigned)pile->items[i]->key_line);
+            ceduo_problem(r->problems, r->source, line_of(event->start_mark), column_of(r, event->start_mark),
+                          _("%s: given twice, first on line %u; keep one"), key, (unsigned)pile->items[i]->key_line);
+            r->stopped = true;
             return false;
         }
     return true;

@@ -193,7 +193,6 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
                                               .seed = file->scene.simulation.seed,
                                               .threads = run->threads,
                                               .cancel = run->cancel,
-                                              .whole = true,
                                               .progress = run->progress,
                                               .context = run->context};
     enum ceduo_status status = find_places(f) ? ceduo_calibrate(&def, &f->answer) : CEDUO_NO_MEMORY;

@@ -7,6 +7,7 @@
 
 #include "base/language.h"
 #include "io/emit.h"
+#include "io/inputs.h"
 #include "scene/value.h"
 
 #define SEGMENTS "slope.segments["
@@ -127,18 +128,34 @@ static void add_source(struct changes *c, const char *place, const char *source)
     add(c, &t);
 }
 
+/* Whether a row of doubt is about a fitted value. */
+static bool is_fitted(const struct document *d, const struct fit_values *fit, const struct node *row)
+{
+    const char *path = ceduo_node_text(row, "path");
+    for (size_t i = 0; path && i < d->file.inputs_of_scene; i++)
+        for (size_t k = 0; strcmp(d->file.inputs[i].path, path) == 0 && k < fit->n; k++)
+            if (ceduo_input_shares(&d->file.inputs[i], &fit->inputs[k]))
+                return true;
+    return false;
+}
+
 /* The table of draws beside the rows of doubt that there are; what they say of fitted values no longer holds. */
-static void add_draws(struct changes *c, const struct document *d, const char *draws)
+static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit)
 {
     const struct node *doubt = ceduo_node_get(d->file.root, "doubt");
+    const struct node *rows = doubt && doubt->kind == NODE_MAP ? ceduo_node_get(doubt, "rows") : doubt;
     struct text t = {0};
+    bool some = false;
     ceduo_text_put(&t, "doubt={draws: ");
-    ceduo_emit_scalar(&t, draws, true);
-    if (doubt && doubt->kind == NODE_LIST && doubt->n > 0) {
-        ceduo_text_put(&t, ", rows: ");
-        ceduo_emit_flow(&t, doubt);
+    ceduo_emit_scalar(&t, fit->draws, true);
+    for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
+        if (is_fitted(d, fit, rows->items[i]))
+            continue;
+        ceduo_text_put(&t, some ? ", " : ", rows: [");
+        ceduo_emit_flow(&t, rows->items[i]);
+        some = true;
     }
-    ceduo_text_put(&t, "}");
+    ceduo_text_put(&t, some ? "]}" : "}");
     add(c, &t);
 }
 
@@ -159,7 +176,7 @@ bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct pro
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_source(&c, fit->inputs[i].places[k], fit->source);
     if (c.items && fit->draws)
-        add_draws(&c, d, fit->draws);
+        add_draws(&c, d, fit);
     if (c.arena.failed)
         ceduo_problem_memory(problems);
     bool good = !c.arena.failed && ceduo_document_set_all(d, c.items, c.n, _("fitted values"), problems);

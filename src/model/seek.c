@@ -72,7 +72,6 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     q.only = search->option;
     q.run.rocks_most = search->rocks;
     q.run.threads = s->seek->threads;
-    q.run.plain = s->seek->plain;
     q.run.cancel = s->seek->cancel;
     q.run.arrivals_only = true;
     q.years = search->rotation;

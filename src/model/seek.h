@@ -15,7 +15,6 @@ struct seek {
     struct scene_file *file; /* as it was read; the search leaves it at its last value */
     struct ceduo_search search;
     unsigned threads;
-    bool plain; /* of figures as counted */
     const atomic_bool *cancel; /* may be NULL */
     struct ceduo_yield yield;  /* of the option at the value that was found, or else comes nearest: without fellings; NaN
                                 * where it is not known */

@@ -3,6 +3,8 @@
  * comment in a public header and one row here. */
 #include "fields.h"
 
+#include <string.h>
+
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
@@ -280,15 +282,27 @@ static const struct field energy_fields[] = {
         AT(ceduo_stand, offset), 0, "whole",
            N_("brauner, a stem hit beside its middle: the whole energy, or the share of Dorren et al. 2006"),
            &ceduo_offset_words),
-    WORD("glancing", NAMED(N_("glancing hits"), NULL),
-        AT(ceduo_stand, glancing), 0, NULL,
-           N_("whether a hit takes no more than lies in the direction of the stem; without it as the law says, see below"),
-           &ceduo_flag_words),
     NUMBER("hit_below_m", USUAL(N_("hits below, m"), NULL, 0.5, 10),
         AT(ceduo_stand, hit_below), "m", 0, 150, ABOVE | ZERO, NULL,
-           N_("a hit higher on a stem takes nothing, as a thin stem bends away; without it every hit takes")),
+           N_("a hit takes nothing where the centre of the rock is higher, as a thin stem bends away; without it every hit takes")),
 };
 static const struct object energy_object = OBJECT(ceduo_stand, energy_fields, NULL);
+
+/* Keys of earlier versions, and what to do instead. */
+static const struct {
+    const struct object *object;
+    const char *key, *instead;
+} gone[] = {
+    {&energy_object, "glancing", N_("this key is gone: a hit takes what its law says, however slightly it touches; leave it out")},
+};
+
+const char *ceduo_schema_gone(const struct object *object, const char *key)
+{
+    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
+        if (gone[i].object == object && strcmp(gone[i].key, key) == 0)
+            return gone[i].instead;
+    return NULL;
+}
 
 static const struct field curve_fields[] = {
     NUMBER("dbh_most_m", CENTIMETRES(N_("largest diam., cm"), NULL, 0.02, 3),
@@ -317,6 +331,10 @@ static const struct field growth_fields[] = {
     NUMBER("shoots_old", NAMED(N_("shoots when old"), NULL),
         AT(ceduo_growth, shoots_old), "", 1, 1000, ZERO | YEARS, NULL,
            N_("shoots of an old stool: n(t) = old + (young - old)exp(-t/5)")),
+    NUMBER("trees_sdi_most", NAMED(N_("density of trees alone"), NULL),
+        AT(ceduo_growth, trees_sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
+           N_("density index of the trees at which they take all growing space; without it 35 % of sdi_most, an "
+              "assumption")),
     NUMBER("sdi_most", NAMED(N_("greatest density"), NULL),
         AT(ceduo_growth, sdi_most), "", 0, 1e5, ZERO | YEARS, NULL,
            N_("stand density index to which shoots thin themselves; 0 or absent: they do not")),
@@ -435,8 +453,9 @@ static const struct field simulation_fields[] = {
         AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | UNFLOWN, STRING(CEDUO_THRESHOLD_M),
            N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
     NUMBER("contact_dbh_m", CENTIMETRES(N_("stems count from, cm"), NULL, 0, 0.5),
-        AT(ceduo_simulation, contact_dbh), "m", 0, 10, UNFLOWN, "0",
-           N_("diameter from which on a stem counts for the lights of contact and free run; 0, as in the paper: every stem")),
+        AT(ceduo_simulation, contact_dbh), "m", 0, 10, UNFLOWN, "0.03",
+           N_("diameter from which on stems count for ADC, free run and index; the default, at which coppice is callipered, is an "
+              "assumption; 0: every stem")),
     NUMBER("gravity_m_s2", USUAL(N_("gravity, m/s2"), NULL, 9.7, 9.9),
         AT(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE, STRING(CEDUO_GRAVITY),
            N_("acceleration of gravity")),

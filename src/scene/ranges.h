@@ -13,6 +13,7 @@ struct range {
     double lo, hi;               /* as in struct ceduo_input; unused for words */
     const char *words[3];        /* CEDUO_INPUT_WORDS: each; NULL behind the last */
     const char *source;          /* where the range comes from; marked for translation */
+    const char *measured;        /* what would measure the value; marked for translation; NULL: nothing can */
 };
 
 /* All rows, for the manual. */

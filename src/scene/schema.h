@@ -138,6 +138,8 @@ const struct object *ceduo_schema_stand(void);
 const struct field *ceduo_schema_per_stool(void);
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
+/* What to do instead of a key that earlier versions had there, marked for translation; NULL: none had it. */
+const char *ceduo_schema_gone(const struct object *object, const char *key);
 const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step);
 
 /* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */

@@ -63,10 +63,3 @@ double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand)
         ratio = species[stand->species].fracture_ratio;
     return isnan(ratio) ? 1 : ratio;
 }
-
-bool ceduo_stand_glances(const struct ceduo_stand *stand)
-{
-    bool beside = stand->energy == CEDUO_DORREN ||
-                  (stand->energy == CEDUO_BRAUNER && stand->offset == CEDUO_OFFSET_BY_ECCENTRICITY);
-    return stand->glancing >= 0 ? stand->glancing > 0 : beside;
-}

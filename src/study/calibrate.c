@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cancel.h"
 #include "chains.h"
 #include "fitting.h"
 
@@ -93,15 +94,14 @@ static bool is_failure(enum ceduo_status status)
     return status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED;
 }
 
-enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, const atomic_bool *cancel,
-                                     struct ceduo_counterpart *to)
+enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, struct ceduo_counterpart *to)
 {
     enum ceduo_status status = CEDUO_OK;
     for (size_t s = 0; s < f->def->scenes_count && status == CEDUO_OK; s++) {
         struct input_scene *copy = &f->workers[worker].copies[s];
         const struct ceduo_observer *observer = all ? f->scenes[s].all : f->scenes[s].fit;
         ceduo_inputs_set(copy, u);
-        status = ceduo_observer_look(observer, &copy->scene, f->def->rocks, cancel, to);
+        status = ceduo_observer_look(observer, &copy->scene, f->def->rocks, f->def->cancel, to);
         to += all ? f->def->scenes[s].observations_count : f->scenes[s].fit_count;
     }
     return status;
@@ -111,7 +111,7 @@ enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const dou
 static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double *u, double *log_likelihood)
 {
     struct ceduo_counterpart *to = f->workers[worker].counterparts;
-    enum ceduo_status status = ceduo_fitting_look(f, worker, u, false, f->def->cancel, to);
+    enum ceduo_status status = ceduo_fitting_look(f, worker, u, false, to);
     *log_likelihood = status == CEDUO_OK ? 0 : -INFINITY;
     if (is_failure(status))
         return status;
@@ -300,12 +300,12 @@ static bool grow_known(struct fitting *f, size_t n)
     return known && values;
 }
 
-static bool learn(void *context, const double *y, const double *log_densities, size_t n)
+static enum ceduo_status learn(void *context, const double *y, const double *log_densities, size_t n)
 {
     struct fitting *f = context;
     size_t d = f->def->parameters_count;
     if (!grow_known(f, n))
-        return false;
+        return CEDUO_NO_MEMORY;
     memcpy(f->known, f->points, POINTS * d * sizeof *f->known);
     for (size_t i = 0; i < POINTS; i++)
         f->known_values[i] = -f->at_points[i];
@@ -317,7 +317,7 @@ static bool learn(void *context, const double *y, const double *log_densities, s
         }
         f->known_values[POINTS + i] = log_densities[i] - prior;
     }
-    return ceduo_guess_learn(&f->guess, f->known, f->known_values, POINTS + n);
+    return ceduo_guess_learn(&f->guess, f->known, f->known_values, POINTS + n, f->def->cancel);
 }
 
 static bool on_round(void *context, size_t steps, double rhat, double effective_size)
@@ -345,6 +345,7 @@ static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
                              .density = density,
                              .guess = guess_at,
                              .learn = learn,
+                             .cancel = f->def->cancel,
                              .round = on_round,
                              .context = f};
     return ceduo_chains_run(&def, chains);
@@ -477,13 +478,12 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     *a = (struct ceduo_calibration){.parameters_count = def->parameters_count};
     enum ceduo_status status = open_fitting(&f, def);
     status = status == CEDUO_OK ? fit(&f, &chains) : status;
-    a->complete = status == CEDUO_OK;
-    if (status == CEDUO_CANCELLED && !def->whole && isfinite(f.most)) /* what is known so far is the answer */
-        status = CEDUO_OK;
     if (status == CEDUO_OK && !read_draws(&f, &chains, a))
         status = CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_fitting_predict(&f, a);
+    if (status == CEDUO_OK && ceduo_cancelled(def->cancel))
+        status = CEDUO_CANCELLED;
     a->evaluations = f.evaluations;
     a->rhat = chains.rhat;
     a->effective_size = chains.effective_size;

@@ -13,6 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cancel.h"
+
 #define WANTED 0.28 /* share of accepted steps */
 #define INNER  100  /* steps that the guess decides, for one that the density decides */
 #define PLAIN  8    /* every such step goes without the guess, so that nobody is lost where it is wrong */
@@ -168,18 +170,18 @@ static void adapt(struct work *w)
 }
 
 /* The older the chains, the seldomer. */
-static bool learn(struct work *w)
+static enum ceduo_status learn(struct work *w)
 {
     const struct chains_def *def = w->def;
     bool now = w->rounds < 8 || (w->rounds & (w->rounds - 1)) == 0;
     if (!def->guess || !now)
-        return true;
-    if (!def->learn(def->context, w->chains->tried, w->chains->tried_density, w->chains->tried_count))
-        return false;
+        return CEDUO_OK;
+    enum ceduo_status status =
+        def->learn(def->context, w->chains->tried, w->chains->tried_density, w->chains->tried_count);
     w->guessing = true;
-    for (size_t c = 0; c < def->chains; c++)
+    for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++)
         w->walks[c].guess = def->guess(def->context, draw_at(w->chains, c, w->chains->steps - 1));
-    return true;
+    return status;
 }
 
 static bool grow_tried(struct chains *c, size_t room)
@@ -207,11 +209,11 @@ static bool grow(struct chains *c, size_t steps)
     return true;
 }
 
-static void diagnose(struct chains *c)
+static void diagnose(struct chains *c, const atomic_bool *cancel)
 {
     c->rhat = 1;
     c->effective_size = INFINITY;
-    for (size_t i = 0; i < c->dimensions; i++) {
+    for (size_t i = 0; i < c->dimensions && !ceduo_cancelled(cancel); i++) {
         double rhat, size;
         ceduo_chains_diagnose(c, i, &rhat, &size);
         c->rhat = rhat > c->rhat || isnan(rhat) ? rhat : c->rhat;
@@ -224,7 +226,7 @@ static bool is_done(struct work *w)
     const struct chains_def *def = w->def;
     struct chains *c = w->chains;
     if (w->rounds >= 4)
-        diagnose(c);
+        diagnose(c, def->cancel);
     c->settled = c->steps >= def->steps_least && c->rhat < def->rhat_most && c->effective_size >= def->effective_least;
     bool goes_on = !def->round || def->round(def->context, c->steps, c->rhat, c->effective_size);
     return c->settled || c->steps >= def->steps_most || !goes_on;
@@ -252,7 +254,7 @@ static enum ceduo_status begin(struct work *w)
         status = def->density(def->context, c, def->starts + c * d, &w->walks[c].density);
     }
     w->chains->steps = 1;
-    return status == CEDUO_OK && !learn(w) ? CEDUO_NO_MEMORY : status;
+    return status == CEDUO_OK ? learn(w) : status;
 }
 
 static enum ceduo_status end(struct work *w, enum ceduo_status status)
@@ -282,9 +284,8 @@ enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *
         chains->steps += CEDUO_CHAINS_ROUND;
         chains->tried_count += CEDUO_CHAINS_ROUND * def->chains;
         adapt(&w);
-        if (!learn(&w))
-            return end(&w, CEDUO_NO_MEMORY);
-        done = is_done(&w);
+        status = learn(&w);
+        done = status == CEDUO_OK && is_done(&w);
     }
     return end(&w, status);
 }

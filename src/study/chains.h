@@ -2,6 +2,7 @@
 #ifndef CEDUO_CHAINS_H
 #define CEDUO_CHAINS_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -29,7 +30,8 @@ struct chains_def {
     enum ceduo_status (*density)(void *context, size_t chain, const double *x, double *log_density);
     /* The guess, up to a constant; learns between rounds from n places, in rows, and their densities. NULL: none. */
     double (*guess)(void *context, const double *x);
-    bool (*learn)(void *context, const double *x, const double *log_densities, size_t n); /* false without memory */
+    enum ceduo_status (*learn)(void *context, const double *x, const double *log_densities, size_t n);
+    const atomic_bool *cancel; /* ends a look at all chains; `density` and `learn` look themselves. May be NULL */
     bool (*round)(void *context, size_t steps, double rhat, double effective_size); /* false ends them; may be NULL */
     void *context;
 };
@@ -43,7 +45,7 @@ struct chains {
     bool settled;
 };
 
-/* CEDUO_NO_MEMORY, or what `density` says: what was drawn before stays. Release it in any case. */
+/* CEDUO_NO_MEMORY, or what `density` or `learn` says: what was drawn before stays. Release it in any case. */
 enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *chains);
 void ceduo_chains_release(struct chains *chains);
 

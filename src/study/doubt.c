@@ -112,22 +112,35 @@ static int by_input(const void *a, const void *b)
     return (x->u > y->u) - (x->u < y->u);
 }
 
+static double width_of(double *values, size_t n)
+{
+    gsl_sort(values, 1, n);
+    return quantile_of(values, n, 0.95) - quantile_of(values, n, 0.05);
+}
+
 #define KNOWN_CLASSES 8
 
-/* p95 - p5 among samples whose input is nearly the same, on the mean over such classes. */
-static double width_if_known(struct sample *samples, size_t n, double *room)
+/* p95 - p5 within classes of samples that follow one another, on the mean. */
+static double width_of_classes(const struct sample *samples, size_t n, double *room)
 {
     size_t classes = n / 4 < KNOWN_CLASSES ? n / 4 : KNOWN_CLASSES;
     double width = 0;
-    qsort(samples, n, sizeof *samples, by_input);
     for (size_t c = 0; c < classes; c++) {
         size_t from = c * n / classes, to = (c + 1) * n / classes;
         for (size_t i = from; i < to; i++)
             room[i - from] = samples[i].y;
-        gsl_sort(room, 1, to - from);
-        width += (quantile_of(room, to - from, 0.95) - quantile_of(room, to - from, 0.05)) / (double)classes;
+        width += width_of(room, to - from) / (double)classes;
     }
     return width;
+}
+
+/* The share of p95 - p5 that is left among samples whose input is nearly the same. Classes are small, and few samples spread
+ * less than many: they are compared with classes of any samples. */
+static double left_if_known(struct sample *samples, size_t n, double *room)
+{
+    double any = width_of_classes(samples, n, room);
+    qsort(samples, n, sizeof *samples, by_input);
+    return any > 0 ? width_of_classes(samples, n, room) / any : 1;
 }
 
 /* Room for reading one figure: `points` rows of A and of B. */
@@ -170,7 +183,7 @@ static void read_spread(const struct plan *p, const size_t *input, struct readin
             size_t e = i / 2 * stride + i % 2;
             r->samples[i] = (struct sample){p->u[e * p->design.inputs + input[g]], mean_of(r->column[e])};
         }
-        f->left[g] = g < p->ends ? width_if_known(r->samples, n, r->room) : NAN;
+        f->left[g] = g < p->ends ? (f->p95 - f->p5) * left_if_known(r->samples, n, r->room) : NAN;
     }
 }
 
@@ -209,7 +222,8 @@ static void put_sampling(struct ceduo_doubt_figure *f, double value, double lo, 
 
 static void put_difference(struct ceduo_doubt_figure *f, struct ceduo_paired d)
 {
-    put_sampling(f, d.mean, d.mean - 1.96 * d.se, d.mean + 1.96 * d.se);
+    double half = d.below > 0 ? d.below : CEDUO_Z95 * d.se;
+    put_sampling(f, d.mean, d.mean - half, d.mean + half);
 }
 
 static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
@@ -221,7 +235,6 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
-    q.run.plain = def->plain;
     enum ceduo_status status = ceduo_ask(&q, NULL, &is);
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
         const struct ceduo_result *r = is.result;
@@ -229,7 +242,7 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS];
         put_sampling(&f[CEDUO_DOUBT_REACH], a->reach_probability, a->reach_lo, a->reach_hi);
         put_sampling(&f[CEDUO_DOUBT_EXCEED], a->exceed_probability, a->exceed_lo, a->exceed_hi);
-        double half = 1.96 * a->energy_per_released_se;
+        double half = ceduo_half_width(a->energy_per_released_se, a->released);
         put_sampling(&f[CEDUO_DOUBT_ENERGY], a->energy_per_released, a->energy_per_released - half,
                      a->energy_per_released + half);
         if (i == 0)
@@ -253,17 +266,33 @@ static double main_value(const struct ceduo_doubt_answer *a, size_t option)
     return a->figures[option * CEDUO_DOUBT_KINDS + a->main].value;
 }
 
-/* In how much of what may be true option `i` lets less through than option `k`; ties count half. */
-static double share_better(const struct plan *p, const struct ceduo_doubt_answer *a, size_t i, size_t k)
+/* The difference of two options at a sample of a plan, by each half of the rocks. */
+static struct ceduo_halves difference_at(const struct plan *p, const struct ceduo_doubt_answer *a, size_t s, size_t i, size_t k)
 {
-    size_t stride = p->design.groups + 2, n = 2 * p->design.points;
-    double better = 0;
+    const struct ceduo_halves *y = p->values + (s / 2 * (p->design.groups + 2) + s % 2) * a->figures_count + a->main;
+    struct ceduo_halves d;
+    for (int h = 0; h < 2; h++)
+        d.half[h] = y[i * CEDUO_DOUBT_KINDS].half[h] - y[k * CEDUO_DOUBT_KINDS].half[h];
+    return d;
+}
+
+/* How two options compare where they differ by more than the rocks alone would make them: both halves have the same rocks
+ * everywhere, so that what varies between them is noise. */
+static struct ceduo_doubt_order compare(const struct plan *p, const struct ceduo_doubt_answer *a, size_t better, size_t than)
+{
+    struct ceduo_doubt_order o = {.better = better, .than = than};
+    struct ceduo_moments apart = {0};
+    size_t n = 2 * p->design.points;
     for (size_t s = 0; s < n; s++) {
-        const struct ceduo_halves *y = p->values + (s / 2 * stride + s % 2) * a->figures_count + a->main;
-        double one = mean_of(y[i * CEDUO_DOUBT_KINDS]), other = mean_of(y[k * CEDUO_DOUBT_KINDS]);
-        better += one < other ? 1 : one == other ? 0.5 : 0;
+        struct ceduo_halves d = difference_at(p, a, s, better, than);
+        ceduo_moments_add(&apart, (d.half[0] - d.half[1]) / 2);
     }
-    return better / (double)n;
+    double noise = CEDUO_Z95 * ceduo_moments_sd(&apart);
+    for (size_t s = 0; s < n; s++) {
+        double d = mean_of(difference_at(p, a, s, better, than));
+        *(d < -noise ? &o.probability : d > noise ? &o.worse : &o.equal) += 1 / (double)n;
+    }
+    return o;
 }
 
 static enum ceduo_status read_orders(const struct ceduo_doubt_def *def, const struct plan *p, struct ceduo_doubt_answer *a)
@@ -280,43 +309,20 @@ static enum ceduo_status read_orders(const struct ceduo_doubt_def *def, const st
     qsort(ranks, n, sizeof *ranks, heavier_first);
     for (size_t i = 0; i + 1 < n; i++) {
         size_t better = ranks[i].input, than = ranks[i + 1].input;
-        a->orders[a->orders_count++] = (struct ceduo_doubt_order){better, than, share_better(p, a, better, than)};
+        a->orders[a->orders_count++] = compare(p, a, better, than);
     }
     free(ranks);
     return CEDUO_OK;
 }
 
-/* Groups by weight. */
-static void put_in_order(struct ranked *ranks, size_t n, size_t *order)
-{
-    qsort(ranks, n, sizeof *ranks, heavier_first);
-    for (size_t g = 0; g < n; g++)
-        order[g] = ranks[g].input;
-}
-
-static double total_of(const struct ceduo_doubt_answer *a, size_t option, size_t group)
-{
-    return a->figures[option * CEDUO_DOUBT_KINDS + a->main].indices.total[group].value;
-}
-
-/* By the largest total index that they have for the main figure of any option. */
-static void order_groups(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *a)
-{
-    struct ranked ranks[GROUPS];
-    for (size_t g = 0; g < a->groups; g++) {
-        ranks[g] = (struct ranked){g, 0};
-        for (size_t i = 0; i < def->scene->options_count; i++)
-            ranks[g].weight = fmax(ranks[g].weight, total_of(a, i, g));
-    }
-    put_in_order(ranks, a->groups, a->order);
-}
-
-void ceduo_doubt_order_of(const struct ceduo_doubt_answer *a, size_t option, size_t *order)
+void ceduo_doubt_order_of(const struct ceduo_doubt_answer *a, const struct ceduo_doubt_figure *f, size_t *order)
 {
     struct ranked ranks[GROUPS];
     for (size_t g = 0; g < a->groups; g++)
-        ranks[g] = (struct ranked){g, fmax(0, total_of(a, option, g))};
-    put_in_order(ranks, a->groups, order);
+        ranks[g] = (struct ranked){g, isnan(f->left[g]) ? -INFINITY : -f->left[g]};
+    qsort(ranks, a->groups, sizeof *ranks, heavier_first);
+    for (size_t g = 0; g < a->groups; g++)
+        order[g] = ranks[g].input;
 }
 
 /* ---- making a plan ---- */
@@ -387,11 +393,7 @@ static enum ceduo_status find_plan(struct inquiry *q)
 static enum ceduo_status read_plan(const struct inquiry *q)
 {
     enum ceduo_status status = read_figures(q->def, &q->plan, q->answer);
-    if (status == CEDUO_OK)
-        status = read_orders(q->def, &q->plan, q->answer);
-    if (status == CEDUO_OK)
-        order_groups(q->def, q->answer);
-    return status;
+    return status == CEDUO_OK ? read_orders(q->def, &q->plan, q->answer) : status;
 }
 
 static enum ceduo_status end(struct inquiry *q, enum ceduo_status status)

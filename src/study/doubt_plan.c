@@ -48,7 +48,6 @@ static enum ceduo_status fly(const struct ceduo_doubt_def *def, const struct ced
     run_def.option = option;
     run_def.rocks_most = def->rocks;
     run_def.arrivals_only = true;
-    run_def.plain = true; /* halves of adjusted means do not add up */
     run_def.cancel = def->cancel;
     enum ceduo_status status = ceduo_run_create(&run_def, &run);
     for (int h = 0; h < 2 && status == CEDUO_OK; h++) {

@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cancel.h"
+
 #define SEEN_MOST  128   /* bisection alone needs at most 54, the ends and the scan 10 */
 #define BRENT_MOST 12    /* values for Brent's method, then bisection has to do the rest */
 #define PROBE      0.9   /* of the tolerance: a step across the root */
@@ -56,7 +58,7 @@ static bool look(struct hunt *h, double value, double *goal)
         *goal = h->seen[i].goal;
         return true;
     }
-    if (h->status == CEDUO_OK && h->def->cancel && atomic_load(h->def->cancel))
+    if (h->status == CEDUO_OK && ceduo_cancelled(h->def->cancel))
         h->status = CEDUO_CANCELLED;
     if (h->status != CEDUO_OK || h->count == SEEN_MOST)
         return false;

@@ -45,8 +45,7 @@ enum ceduo_status ceduo_fitting_each(struct fitting *f, size_t items,
                                      enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item));
 
 /* What rocks do at a place: one counterpart for each observation, of all, or of those that are fitted. */
-enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, const atomic_bool *cancel,
-                                     struct ceduo_counterpart *to);
+enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, struct ceduo_counterpart *to);
 
 /* Fills what a calibration says of its observations, from its draws. */
 enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibration *answer);

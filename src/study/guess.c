@@ -1,13 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "guess.h"
 
+#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#define KNOWN_BY 3  /* times as many places as terms: those within reach of the best set how much a place counts */
-#define SHARP    2. /* of a log-likelihood: no place counts less for less than this */
+#include "base/cancel.h"
+
+#define KNOWN_BY 3   /* times as many places as terms: those within reach of the best set how much a place counts */
+#define SHARP    2.  /* of a log-likelihood: no place counts less for less than this */
+#define BLOCK    256 /* places that are reduced at once */
+
+struct known {
+    const double *u, *values;
+    size_t n;
+    double best, reach;
+    const atomic_bool *cancel;
+};
 
 struct guess ceduo_guess_begin(size_t d)
 {
@@ -45,51 +57,76 @@ static double reach_of(const struct guess *g, const double *values, size_t n, do
     return fmax(SHARP, (down[k] - down[0]) / 2);
 }
 
-static bool solve(struct guess *g, gsl_matrix *x, gsl_vector *w, gsl_vector *y)
+/* What is known is reduced to a triangle of as many rows as there are terms, with what is left of the values beside it: the
+ * least squares are the same. By blocks, so that many places hold up nobody who ends the work. */
+static enum ceduo_status reduce(const struct guess *g, const struct known *known, gsl_matrix *rows, gsl_vector *tau)
 {
-    gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(y->size, g->terms);
+    size_t columns = g->terms + 1, row = columns;
+    for (size_t i = 0; i < known->n; i++) {
+        if (isfinite(known->values[i])) {
+            double *to = gsl_matrix_ptr(rows, row++, 0),
+                   root = exp((known->values[i] - known->best) / known->reach / 2);
+            fill_terms(g, known->u + i * g->dimensions, to);
+            to[g->terms] = known->values[i];
+            for (size_t k = 0; k < columns; k++)
+                to[k] *= root;
+        }
+        if (row < rows->size1 && i + 1 < known->n)
+            continue;
+        if (ceduo_cancelled(known->cancel))
+            return CEDUO_CANCELLED;
+        gsl_linalg_QR_decomp(rows, tau);
+        for (row = 1; row < rows->size1; row++) /* below the triangle */
+            memset(gsl_matrix_ptr(rows, row, 0), 0, (row < columns ? row : columns) * sizeof(double));
+        row = columns;
+    }
+    return CEDUO_OK;
+}
+
+static enum ceduo_status solve(struct guess *g, gsl_matrix *rows)
+{
+    gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(g->terms, g->terms);
     gsl_vector *c = gsl_vector_alloc(g->terms);
     gsl_matrix *covariance = gsl_matrix_alloc(g->terms, g->terms);
     double chisq, *kept = malloc(g->terms * sizeof *kept);
     bool good = work && c && covariance && kept;
-    if (good && gsl_multifit_wlinear(x, w, y, c, covariance, &chisq, work) == 0) {
-        for (size_t i = 0; i < g->terms; i++)
-            kept[i] = gsl_vector_get(c, i);
-        free(g->coefficients);
-        g->coefficients = kept;
-        kept = NULL;
+    if (good) {
+        gsl_matrix_view triangle = gsl_matrix_submatrix(rows, 0, 0, g->terms, g->terms);
+        gsl_vector_view values = gsl_matrix_subcolumn(rows, g->terms, 0, g->terms);
+        if (gsl_multifit_linear(&triangle.matrix, &values.vector, c, covariance, &chisq, work) == 0) {
+            for (size_t i = 0; i < g->terms; i++)
+                kept[i] = gsl_vector_get(c, i);
+            free(g->coefficients);
+            g->coefficients = kept;
+            kept = NULL;
+        }
     }
     free(kept);
     gsl_multifit_linear_free(work);
     gsl_vector_free(c);
     gsl_matrix_free(covariance);
-    return good;
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-bool ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n)
+enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n,
+                                    const atomic_bool *cancel)
 {
-    double best = 0, reach, *down = malloc((n + 1) * sizeof *down);
+    struct known known = {u, values, n, .cancel = cancel};
+    double *down = malloc((n + 1) * sizeof *down);
     if (!down)
-        return false;
-    reach = n > 2 * g->terms ? reach_of(g, values, n, down, &best) : NAN;
+        return CEDUO_NO_MEMORY;
+    known.reach = n > 2 * g->terms ? reach_of(g, values, n, down, &known.best) : NAN;
     free(down);
-    if (isnan(reach))
-        return true;
-    gsl_matrix *x = gsl_matrix_alloc(n, g->terms);
-    gsl_vector *w = gsl_vector_calloc(n), *y = gsl_vector_calloc(n);
-    bool good = x && w && y;
-    for (size_t i = 0; good && i < n; i++) {
-        fill_terms(g, u + i * g->dimensions, gsl_matrix_ptr(x, i, 0));
-        if (!isfinite(values[i]))
-            continue;
-        gsl_vector_set(w, i, exp((values[i] - best) / reach));
-        gsl_vector_set(y, i, values[i]);
-    }
-    good = good && solve(g, x, w, y);
-    gsl_matrix_free(x);
-    gsl_vector_free(w);
-    gsl_vector_free(y);
-    return good;
+    if (isnan(known.reach))
+        return CEDUO_OK;
+    gsl_matrix *rows = gsl_matrix_calloc(g->terms + 1 + BLOCK, g->terms + 1);
+    gsl_vector *tau = gsl_vector_alloc(g->terms + 1);
+    enum ceduo_status status = rows && tau ? reduce(g, &known, rows, tau) : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        status = solve(g, rows);
+    gsl_matrix_free(rows);
+    gsl_vector_free(tau);
+    return status;
 }
 
 double ceduo_guess_at(const struct guess *g, const double *u)

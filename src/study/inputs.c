@@ -80,20 +80,27 @@ void ceduo_inputs_release(struct input_scene *copy)
 
 /* ---- setting ---- */
 
+double ceduo_input_quantile(const struct ceduo_input *input, double u)
+{
+    double least = gsl_cdf_ugaussian_P(-CUT), p = least + u * (1 - 2 * least), ratio = input->sd / input->mean;
+    if (input->kind == CEDUO_INPUT_NORMAL)
+        return input->mean + input->sd * gsl_cdf_ugaussian_Pinv(p);
+    if (input->kind == CEDUO_INPUT_GAMMA)
+        return gsl_cdf_gamma_Pinv(p, 1 / (ratio * ratio), input->mean * (ratio * ratio));
+    return input->lo + u * (input->hi - input->lo);
+}
+
 static double value_at(const struct ceduo_input *input, size_t k, const struct input_place *place, double u)
 {
-    double between = input->lo + u * (input->hi - input->lo), least = gsl_cdf_ugaussian_P(-CUT);
     switch (input->kind) {
     case CEDUO_INPUT_FACTOR:
-        return place->given * between;
-    case CEDUO_INPUT_NORMAL:
-        return input->mean + input->sd * gsl_cdf_ugaussian_Pinv(least + u * (1 - 2 * least));
+        return place->given * ceduo_input_quantile(input, u);
     case CEDUO_INPUT_WORDS:
         return input->words[(size_t)fmin(u * (double)input->words_count, (double)(input->words_count - 1))];
     case CEDUO_INPUT_DRAWS:
         return input->draws[k][(size_t)fmin(u * (double)input->draws_count, (double)(input->draws_count - 1))];
     default:
-        return between;
+        return ceduo_input_quantile(input, u);
     }
 }
 

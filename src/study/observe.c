@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/cancel.h"
 #include "ceduo/record.h"
 #include "ceduo/run.h"
 
@@ -394,6 +395,14 @@ static bool compare(const struct plan *p, const struct flown *f, const double *v
     return seen->kind != CEDUO_OBSERVED_SCARS || seen->of == 0 || compare_scars(p, f, c);
 }
 
+static enum ceduo_status look_at_one(const struct plan *p, const struct flown *f, struct ceduo_counterpart *to)
+{
+    double *values = malloc((values_most(f, p) + 1) * sizeof *values);
+    bool good = values && compare(p, f, values, take_values(f, p, values), to);
+    free(values);
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
 enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,
                                       const atomic_bool *cancel, struct ceduo_counterpart *to)
 {
@@ -401,13 +410,9 @@ enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const stru
     for (size_t s = 0; s < o->settings_count && status == CEDUO_OK; s++) {
         struct flown f;
         status = fly(&o->settings[s], scene, rocks, cancel, &f);
-        for (size_t i = 0; i < o->n && status == CEDUO_OK; i++) {
-            const struct plan *p = &o->plans[i];
-            double *values = p->setting == s ? malloc((values_most(&f, p) + 1) * sizeof *values) : NULL;
-            if (p->setting == s && (!values || !compare(p, &f, values, take_values(&f, p, values), &to[i])))
-                status = CEDUO_NO_MEMORY;
-            free(values);
-        }
+        for (size_t i = 0; i < o->n && status == CEDUO_OK; i++)
+            if (o->plans[i].setting == s)
+                status = ceduo_cancelled(cancel) ? CEDUO_CANCELLED : look_at_one(&o->plans[i], &f, &to[i]);
         land(&f);
     }
     return status;

@@ -5,6 +5,8 @@
 
 #include <math.h>
 #include <stdlib.h>
+
+#include "base/cancel.h"
 #include "base/grow.h"
 #include "ceduo/key.h"
 
@@ -25,7 +27,7 @@ struct tracer {
 static bool is_cancelled(void *context)
 {
     const struct tracer *t = context;
-    return t->cancel && atomic_load(t->cancel);
+    return ceduo_cancelled(t->cancel);
 }
 
 static bool make_room(struct tracer *t)

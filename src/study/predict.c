@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/cancel.h"
 #include "fitting.h"
 
 #define SAMPLES     20 /* for each draw; not more than CEDUO_SOME_VALUES */
@@ -20,7 +21,7 @@ static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i
 {
     struct ceduo_counterpart *to = f->drawn + i * f->all_count;
     enum ceduo_status status =
-        ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, f->def->whole ? f->def->cancel : NULL, to);
+        ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
     return status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY;
 }
 
@@ -173,7 +174,7 @@ static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *v
 {
     size_t which = 0;
     for (size_t s = 0; s < f->def->scenes_count; s++)
-        for (size_t i = 0; i < f->def->scenes[s].observations_count; i++, which++) {
+        for (size_t i = 0; i < f->def->scenes[s].observations_count && !ceduo_cancelled(f->def->cancel); i++, which++) {
             const struct ceduo_observation *o = &f->def->scenes[s].observations[i];
             struct ceduo_predicted *to = &a->predicted[which];
             to->scene = s;

@@ -11,7 +11,7 @@
 
 #include "base/hash.h"
 
-#define BLOCKS 16
+#define BLOCKS 32 /* with fewer their own spread is not well known */
 
 /* ---- the design ---- */
 
@@ -95,23 +95,20 @@ enum ceduo_status ceduo_design_fill(const struct ceduo_design *d, double *u)
 
 /* Sums over base points. */
 struct sums {
-    double mean, variance, noise;
+    double mean[2], variance, noise; /* mean: of each half */
     double first[CEDUO_SENSITIVITY_GROUPS], total[CEDUO_SENSITIVITY_GROUPS];
 };
 
-static double mean_of(struct ceduo_halves y)
-{
-    return (y.half[0] + y.half[1]) / 2;
-}
-
-/* The terms of base point `row`, as deviations from `middle`. */
-static void add_point(const struct ceduo_design *d, const struct ceduo_halves *values, size_t row, double middle,
+/* The terms of base point `row`, as deviations from `middle`. A half is of the same rocks at every point, so that the halves' means
+ * differ by a constant, which is no noise: each is taken off by itself. */
+static void add_point(const struct ceduo_design *d, const struct ceduo_halves *values, size_t row, struct ceduo_halves middle,
                       struct sums *s)
 {
     const struct ceduo_halves *a = values + row * (d->groups + 2), *b = a + 1, *mixed = a + 2;
     for (int k = 0; k < 2; k++) { /* both rows are samples of the figure */
-        double one = a[k].half[0] - middle, other = a[k].half[1] - middle;
-        s->mean += (one + other) / 4;
+        double one = a[k].half[0] - middle.half[0], other = a[k].half[1] - middle.half[1];
+        s->mean[0] += one / 2;
+        s->mean[1] += other / 2;
         s->variance += one * other / 2;
         s->noise += (one - other) * (one - other) / 8;
     }
@@ -119,7 +116,7 @@ static void add_point(const struct ceduo_design *d, const struct ceduo_halves *v
         double change[2];
         for (int h = 0; h < 2; h++)
             change[h] = mixed[g].half[h] - a->half[h];
-        s->first[g] += ((b->half[0] - middle) * change[1] + (b->half[1] - middle) * change[0]) / 2;
+        s->first[g] += ((b->half[0] - middle.half[0]) * change[1] + (b->half[1] - middle.half[1]) * change[0]) / 2;
         s->total[g] += change[0] * change[1] / 2;
     }
 }
@@ -133,8 +130,9 @@ static double whole_of(const struct sums *s, bool hidden)
 static void finish_sums(const struct ceduo_design *d, size_t points, struct sums *s)
 {
     double n = (double)points;
-    s->mean /= n;
-    s->variance = s->variance / n - s->mean * s->mean;
+    s->mean[0] /= n;
+    s->mean[1] /= n;
+    s->variance = s->variance / n - s->mean[0] * s->mean[1];
     s->noise /= n;
     for (size_t g = 0; g < d->groups; g++) {
         s->first[g] /= n;
@@ -144,8 +142,8 @@ static void finish_sums(const struct ceduo_design *d, size_t points, struct sums
 
 static void add_sums(struct sums *to, const struct sums *from)
 {
-    double *x = &to->mean;
-    const double *y = &from->mean;
+    double *x = to->mean;
+    const double *y = from->mean;
     for (size_t i = 0; i < sizeof *to / sizeof *x; i++)
         x[i] += y[i];
 }
@@ -170,12 +168,13 @@ static double deviation(const struct ceduo_design *d, const double *x, size_t n,
     return gsl_stats_sd(x, stride, n) * sqrt(blocks / (blocks - 1));
 }
 
-static double middle_of(const struct ceduo_design *d, const struct ceduo_halves *values)
+static struct ceduo_halves middle_of(const struct ceduo_design *d, const struct ceduo_halves *values)
 {
-    double middle = 0;
+    struct ceduo_halves middle = {{0, 0}};
     for (size_t row = 0; row < d->points; row++)
         for (size_t k = 0; k < 2; k++)
-            middle += mean_of(values[row * (d->groups + 2) + k]) / (2 * (double)d->points);
+            for (int h = 0; h < 2; h++)
+                middle.half[h] += values[row * (d->groups + 2) + k].half[h] / (2 * (double)d->points);
     return middle;
 }
 
@@ -196,7 +195,8 @@ static struct ceduo_share share_of(const struct ceduo_design *d, double all, dou
 enum ceduo_status ceduo_design_read(const struct ceduo_design *d, const struct ceduo_halves *values,
                                     struct ceduo_indices *indices)
 {
-    double middle = middle_of(d, values), wholes[RESAMPLES];
+    double wholes[RESAMPLES];
+    struct ceduo_halves middle = middle_of(d, values);
     struct sums all = {0}, blocks[BLOCKS] = {0}, *resamples = malloc(RESAMPLES * sizeof *resamples);
     if (!resamples)
         return CEDUO_NO_MEMORY;
@@ -212,7 +212,7 @@ enum ceduo_status ceduo_design_read(const struct ceduo_design *d, const struct c
     for (size_t i = 0; i < RESAMPLES; i++)
         wholes[i] = whole_of(&resamples[i], hidden);
     double whole = whole_of(&all, hidden);
-    *indices = (struct ceduo_indices){.mean = middle + all.mean, .variance = fmax(0, all.variance), .noise = all.noise};
+    *indices = (struct ceduo_indices){.mean = (middle.half[0] + middle.half[1]) / 2, .variance = fmax(0, all.variance), .noise = all.noise};
     for (size_t g = 0; g < d->groups; g++) {
         indices->first[g] = share_of(d, all.first[g], whole, &resamples->first[g], wholes);
         indices->total[g] = share_of(d, all.total[g], whole, &resamples->total[g], wholes);

@@ -85,6 +85,7 @@ static bool count_stools(struct surveyor *s)
         if (stools[i].measured > 0)
             spacings[n++] = stools[i].spacing / (double)stools[i].measured;
     s->answer->stools = density(s);
+    s->answer->stools_measured = n;
     s->answer->spacing = n > 0 ? estimate_of(spacings, n) : (struct ceduo_estimate){NAN, NAN, NAN, NAN};
     bool good = stools && spacings;
     free(stools);

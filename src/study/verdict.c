@@ -16,10 +16,7 @@ struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
     if (!a)
         return (struct ceduo_portion){NAN, NAN};
     double share = ceduo_share_of(a);
-    double se = isnan(a->exceed_probability) ? a->reach_se : a->exceed_se;
-    if (!a->adjusted)
-        se = sqrt(share * (1 - share) / (double)a->released);
-    double half = ceduo_half_width_of_share(share, se, a->released);
+    double half = ceduo_half_width_of_share(share, ceduo_share_se(share, (double)a->released), a->released);
     if (!isnan(a->hazard.per_year)) /* rocks have weights */
         half = (isnan(a->exceed_probability) ? a->reach_hi - a->reach_lo : a->exceed_hi - a->exceed_lo) / 2;
     return (struct ceduo_portion){share, half};
@@ -37,21 +34,11 @@ static struct ceduo_paired compared(const struct ceduo_result *r, const struct c
     return isnan(r->scene->controls[r->last_control].accepted) ? d->reach_probability : d->exceed_probability;
 }
 
-static struct ceduo_paired to_first(const struct ceduo_result *r, size_t option)
+struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *r, size_t option)
 {
     return compared(r, &r->options[option].differences[r->last_control]);
 }
 
-struct ceduo_portion ceduo_share_to_first(const struct ceduo_result *r, size_t option)
-{
-    struct ceduo_paired found = to_first(r, option);
-    const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
-    double share = ceduo_share_at(a).mean, first = ceduo_share_at(ceduo_result_wooded(r, 0, r->last_control)).mean;
-    double half = !a               ? NAN
-                  : share == first ? ceduo_half_width_of_share(share, found.se, a->released)
-                                   : CEDUO_Z95 * found.se;
-    return (struct ceduo_portion){found.mean, half};
-}
 
 /* ---- which is best ---- */
 
@@ -76,11 +63,17 @@ static void find_best(difference_of *difference, const void *context, size_t n, 
     }
 }
 
+/* One difference to the first option less another. Where no pair differs the error is not known: it is as good as 0. */
+static struct ceduo_paired beside_first(struct ceduo_paired a, struct ceduo_paired b)
+{
+    return (struct ceduo_paired){a.mean - b.mean, hypot(a.below > 0 ? 0 : a.se, b.below > 0 ? 0 : b.se), 0};
+}
+
 /* From the differences to the first option: the error of a difference of two of them is rather too large. */
 static struct ceduo_paired difference_today(const void *context, size_t option, size_t less)
 {
-    struct ceduo_paired a = to_first(context, option), b = to_first(context, less);
-    return (struct ceduo_paired){a.mean - b.mean, hypot(a.se, b.se)};
+    struct ceduo_paired a = ceduo_share_to_first(context, option), b = ceduo_share_to_first(context, less);
+    return beside_first(a, b);
 }
 
 static struct ceduo_paired difference_by_other_law(const void *context, size_t option, size_t less)
@@ -90,9 +83,8 @@ static struct ceduo_paired difference_by_other_law(const void *context, size_t o
     const struct ceduo_other_energy *two = &r->options[less].others[r->last_control];
     bool alike = one->known && two->known && (one->model == two->model || !one->stems || !two->stems);
     if (!alike)
-        return (struct ceduo_paired){NAN, NAN};
-    struct ceduo_paired a = compared(r, &one->to_first), b = compared(r, &two->to_first);
-    return (struct ceduo_paired){a.mean - b.mean, hypot(a.se, b.se)};
+        return CEDUO_NOT_PAIRED;
+    return beside_first(compared(r, &one->to_first), compared(r, &two->to_first));
 }
 
 static struct ceduo_paired difference_over_years(const void *context, size_t option, size_t less)

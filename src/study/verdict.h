@@ -27,7 +27,7 @@ struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *arrivals); /* N
 double ceduo_share_by_other_law(const struct ceduo_other_energy *other);
 
 /* The same of an option less that of the first option; NaN also where the two have not as many rocks. */
-struct ceduo_portion ceduo_share_to_first(const struct ceduo_result *result, size_t option);
+struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *result, size_t option);
 
 /* What is known of one option. */
 struct ceduo_choice {

@@ -144,6 +144,17 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
     return d != NULL;
 }
 
+static size_t doubt_levels(const struct app *app)
+{
+    return ceduo_views[app->view]->doubt ? DOUBT_LEVELS : app->doubts ? DOUBT_BEHIND : 0;
+}
+
+bool ceduo_app_doubt_is_rough(const struct app *app)
+{
+    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    return app->figures.busy && d && d->level + 1 < doubt_levels(app);
+}
+
 void ceduo_app_refresh(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
@@ -155,7 +166,7 @@ void ceduo_app_refresh(struct app *app)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_figures_follow(&app->figures, scene, app->option, view->years);
     app->doubts |= view->doubt;
-    ceduo_figures_doubt(&app->figures, &app->document.file, view->doubt ? DOUBT_LEVELS : app->doubts ? DOUBT_BEHIND : 0);
+    ceduo_figures_doubt(&app->figures, &app->document.file, doubt_levels(app));
     ceduo_figures_look(&app->figures, &app->document.file, view->seen && app->document.file.observations_count > 0 ? SIGHT_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form);

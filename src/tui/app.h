@@ -143,6 +143,9 @@ struct ceduo_report ceduo_app_report(const struct app *app);
 /* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
 
+/* Whether finer figures of it are on their way. */
+bool ceduo_app_doubt_is_rough(const struct app *app);
+
 /* Writes the path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. */
 void ceduo_app_forest(const struct app *app, char *path, size_t size);
 void ceduo_app_stand(const struct app *app, char *path, size_t size);

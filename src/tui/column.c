@@ -161,7 +161,7 @@ static bool put_doubt(struct pen *pen, bool energy)
     else
         snprintf(range, sizeof range, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
     snprintf(name, sizeof name, "  %s", P_("view", "doubt"));
-    put_pair(pen, CEDUO_ROLE_DIM, name, range, "");
+    put_pair(pen, CEDUO_ROLE_DIM, name, range, ceduo_app_doubt_is_rough(app) ? _("rough") : "");
     return true;
 }
 
@@ -196,7 +196,7 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     if (pen->area.height >= (told ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
         put_figures(pen, "  95 % kJ", wood->energy.p95 * KILO, bare->energy.p95 * KILO);
     if (pen->area.height >= HEIGHT_FOR_ALL)
-        put_figures(pen, "  95 % m", wood->height.p95, bare->height.p95);
+        put_figures(pen, _(" 95% m under"), wood->height.p95, bare->height.p95);
 }
 
 static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
@@ -354,8 +354,8 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
     struct text text = {0};
     ceduo_text_format(&text, app->figures.busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
                       (unsigned long long)a->released);
-    if (a->reached > 0 && pen->area.width >= 34)
-        ceduo_text_format(&text, ", \xc2\xb1%.2g %%", a->energy.se * CEDUO_Z95 / a->energy.mean * 100);
+    if (a->reached >= CEDUO_FEW && pen->area.width >= 34)
+        ceduo_text_format(&text, ", \xc2\xb1%.2g %%", ceduo_half_width(a->energy.se, a->reached) / a->energy.mean * 100);
     line(pen, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&text));
     ceduo_text_free(&text);
 }

@@ -69,9 +69,8 @@ static void assess(struct figures *f, const struct ceduo_scene *scene, const str
         wooded[i] = sight ? &sight->flown : NULL;
         in_order = in_order && sight == o->wooded[i];
     }
-    const struct ceduo_paired unknown = {NAN, NAN};
     for (size_t i = 0; differences && i < n * controls; i++)
-        differences[i] = in_order ? o->differences[i] : (struct ceduo_difference){unknown, unknown, unknown};
+        differences[i] = in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
     if (!wooded || !differences ||
         ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(f, scene),
                              &f->result) != CEDUO_OK)

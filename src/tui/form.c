@@ -173,6 +173,15 @@ static struct form_row *add_item(struct form *form, const char *list, size_t i)
     return row;
 }
 
+/* A number of an item that names a value of the scene, such as an end of its range, is shown and typed in that value's unit. */
+static const struct field *field_of_item(const struct object *object, const char *key, const struct node *item)
+{
+    const struct field *field = find_field(object, key);
+    const char *named = field && field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
+    const struct field *of = named ? ceduo_schema_at(named) : NULL;
+    return of && of->shown.per != 1 ? of : field;
+}
+
 void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
                       const char *const *keys, const char *title)
 {
@@ -188,7 +197,7 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
         struct form_row *row = add_item(form, list, i);
         for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
             snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", keys[k]);
-            fill_cell(&row->cells[k], d, find_field(object, keys[k]), path);
+            fill_cell(&row->cells[k], d, field_of_item(object, keys[k], node->items[i]), path);
             row->n = k + 1;
         }
     }

@@ -69,6 +69,6 @@ bool ceduo_line_key(struct line *line, int key)
         cut(line, 0, line->at);
         return true;
     default:
-        return key >= ' ' && key < K_SPECIAL && !(key >= 0x7f && key < 0xa0) && insert(line, key);
+        return key < K_SPECIAL && ceduo_utf8_printable((uint32_t)key) && insert(line, key);
     }
 }

@@ -24,6 +24,13 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
     return SCRIPT_WRONG;
 }
 
+/* The beginning of a word of what may be no script. */
+static const char *beginning(char *word)
+{
+    word[ceduo_utf8_cut(word, CEDUO_FOREIGN_MOST)] = '\0';
+    return word;
+}
+
 /* A script sees what a search found before its next key. */
 static void press_key(struct app *app, int key)
 {
@@ -37,7 +44,7 @@ static enum script_end press(struct app *app, char *names, const char *path, siz
     for (char *save, *name = strtok_r(names, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
         int key = ceduo_key_of(name);
         if (key == K_NONE)
-            return fail(path, line, _("no such key"), name);
+            return fail(path, line, _("no such key"), beginning(name));
         press_key(app, key);
     }
     return SCRIPT_DONE;
@@ -91,12 +98,12 @@ static enum script_end dump(struct app *app, const char *what, const char *name,
     return good ? SCRIPT_DONE : SCRIPT_UNWRITTEN;
 }
 
-static enum script_end resize(struct app *app, const char *rest, const char *path, size_t line)
+static enum script_end resize(struct app *app, char *rest, const char *path, size_t line)
 {
     int width, height, used = 0;
     if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
         width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
-        return fail(path, line, _("a width and a height are wanted"), rest);
+        return fail(path, line, _("a width and a height are wanted"), beginning(rest));
     ceduo_app_resize(app, width, height);
     return SCRIPT_DONE;
 }
@@ -120,7 +127,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
     else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0)
         wait_idle(app);
     else
-        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command);
+        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), beginning(command));
     return SCRIPT_DONE;
 }
 

@@ -25,7 +25,7 @@ static void build(struct app *app, struct form *form)
 /* Columns behind the names, as they stand from left to right. */
 enum column { TODAY, WORST, MEAN, MARK, FAILS, YIELD, LIGHTS, COLUMNS };
 static const int widths[COLUMNS] = {
-    [TODAY] = 8, [WORST] = 11, [MEAN] = 9, [MARK] = 6, [FAILS] = 7, [YIELD] = 8, [LIGHTS] = 5};
+    [TODAY] = 8, [WORST] = 11, [MEAN] = 9, [MARK] = 6, [FAILS] = 7, [YIELD] = 8, [LIGHTS] = 10};
 
 #define NAME_LEAST  22 /* columns that tell the names of most options apart */
 #define SPARK_LEAST 12
@@ -249,13 +249,13 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
 static void draw_head(struct app *app, const struct layout *l, struct ceduo_area area)
 {
     static const char *const simulated[COLUMNS] = {N_("today"), N_("worst year"),     N_("rotation"), "",
-                                                   N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE")};
+                                                   N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE now")};
     static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("worst"),          N_("kJ/100m"), "",
-                                                  N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE")};
+                                                  N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE now")};
     const struct ceduo_result *r = app->figures.result;
-    put_place(app, area, l->lights_left > 0 ? area.width - 5 : area.width);
+    put_place(app, area, l->lights_left > 0 ? area.width - widths[LIGHTS] : area.width);
     if (l->lights_left > 0)
-        ceduo_cells_label(app->cells, l->lights_left, area.top, CEDUO_ROLE_TITLE, _("CFE"));
+        ceduo_canvas_label_right(&app->cells->canvas, l->lights_left + 2, area.top, CEDUO_ROLE_TITLE, _("CFE now"));
     int x = l->left;
     for (int c = 0; c < COLUMNS; c++)
         if (l->has[c]) {
@@ -282,6 +282,20 @@ static void say_progress(const struct app *app, struct text *words)
         ceduo_text_put(words, _("Computing: the figures become finer.\n"));
 }
 
+/* Lights that thin shoots alone make green today. */
+static void say_thin(const struct ceduo_result *r, struct text *words)
+{
+    struct text names = {0};
+    for (size_t i = 0; i < r->options_count; i++)
+        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
+            ceduo_text_then(&names, names.length > 0 ? ", " : "", "'%s'", r->scene->options[i].name);
+    if (names.length > 0)
+        ceduo_text_format(words, _("Counting only stems from %g cm on, contact or free run fails today: %s.\n"),
+                          CEDUO_THICK_DBH * 100, ceduo_text_string(&names));
+    words->failed |= names.failed;
+    ceduo_text_free(&names);
+}
+
 static void say_verdict(struct app *app, struct text *words)
 {
     const struct ceduo_result *r = app->figures.result;
@@ -298,6 +312,7 @@ static void say_verdict(struct app *app, struct text *words)
         ceduo_words_turned(r, v, add_sentence, words);
     }
     ceduo_words_windows(r->scene, v, add_sentence, words);
+    say_thin(r, words);
     if (v->wooded && !v->accepted)
         ceduo_text_put(words, _("What the place withstands is not given (view 3): energy is not judged.\n"));
     if (!r->wooded)

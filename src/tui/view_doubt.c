@@ -28,7 +28,7 @@ static void build(struct app *app, struct form *form)
 
 static void say_state(const struct app *app, const struct doubted *d, struct text *words)
 {
-    if (d->level + 1 < DOUBT_LEVELS && app->figures.busy)
+    if (ceduo_app_doubt_is_rough(app))
         ceduo_text_format(words, _("Rough so far: %llu scenes of %llu rocks; being refined.\n"),
                           (unsigned long long)d->answer.evaluations, (unsigned long long)d->rocks);
     else
@@ -52,16 +52,16 @@ static void say_all(const struct app *app, const struct doubted *d, const struct
     before = words->length;
     ceduo_doubt_advice(words, r, app->option, 0);
     end_line(words, before);
-    for (size_t i = 0; i < 3; i++) {
-        before = words->length;
-        ceduo_doubt_light_words(words, r, app->option, lights[i]);
-        end_line(words, before);
-    }
     for (size_t i = 0; i < r->answer->orders_count; i++) {
         const struct ceduo_doubt_order *o = &r->answer->orders[i];
         before = words->length;
         if (o->better == app->option || o->than == app->option)
             ceduo_doubt_order_words(words, r, i);
+        end_line(words, before);
+    }
+    for (size_t i = 0; i < 3; i++) {
+        before = words->length;
+        ceduo_doubt_light_words(words, r, app->option, lights[i]);
         end_line(words, before);
     }
     say_state(app, d, words);
@@ -135,7 +135,7 @@ static void add(struct app *app)
         ceduo_app_say(app, "%s", d ? _("nothing here has a range") : _("not computed yet"));
         return;
     }
-    ceduo_doubt_order_of(&d->answer, app->option, order);
+    ceduo_doubt_order_of(&d->answer, ceduo_doubt_figure_of(&d->answer, app->option, d->answer.main, false), order);
     struct ceduo_doubt_report r;
     ceduo_app_doubt(app, &r);
     for (size_t i = 0; i < d->answer.groups; i++) {

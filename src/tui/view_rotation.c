@@ -17,6 +17,7 @@ static void build(struct app *app, struct form *form)
                   {"growth.shoots_young", N_("shoots that come up")},
                   {"growth.shoots_old", N_("shoots in the end")},
                   {"growth.sdi_most", N_("density index")},
+                  {"growth.trees_sdi_most", N_("density of trees alone")},
                   {"growth.shoots.dbh_most_m", N_("shoots: diam. max, cm")},
                   {"growth.shoots.dbh_rate_1_y", N_("shoots: diam. rate, 1/y")},
                   {"growth.shoots.height_most_m", N_("shoots: height max, m")},
@@ -153,6 +154,9 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     else
         ceduo_text_then(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
                         s.unprotected_free_run, s.years);
+    if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
+        ceduo_text_then(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100, s.thick_contact,
+                        s.thick_free_run);
     ceduo_text_char(text, ' ');
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
         ceduo_text_format(text, _("Expected a year: %.3g pass, %.3g with too much."), s.passes_per_year, s.exceeds_per_year);

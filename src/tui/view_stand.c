@@ -71,7 +71,6 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "energy.u_J_m3", NULL);
     ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", NULL);
     ceduo_form_field(form, d, stand, path, "energy.offset", NULL);
-    ceduo_form_field(form, d, stand, path, "energy.glancing", NULL);
     ceduo_form_field(form, d, stand, path, "energy.hit_below_m", NULL);
     ceduo_form_rest(form, d, stand, path, "energy");
     ceduo_form_heading(form, _("Stumps"));

@@ -136,12 +136,6 @@ static const char *ascii_for(uint32_t code)
     return "?";
 }
 
-/* C0 and C1. */
-static bool is_control(uint32_t code)
-{
-    return code < ' ' || (code >= 0x7f && code < 0xa0);
-}
-
 /* Walks through a text as it will be written, one cell after the other. */
 struct reader {
     enum ceduo_charset charset;
@@ -161,7 +155,7 @@ static uint32_t next_code(struct reader *reader)
     uint32_t code;
     size_t n = ceduo_utf8_decode(reader->text, strnlen(reader->text, 4), &code);
     reader->text += n > 0 ? n : 1;
-    if (n == 0 || is_control(code) || ceduo_utf8_columns(code) != 1)
+    if (n == 0 || !ceduo_utf8_printable(code) || ceduo_utf8_columns(code) != 1)
         return '?';
     if (reader->charset != CEDUO_CHARSET_ASCII || code < 0x80)
         return code;

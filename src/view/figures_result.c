@@ -180,7 +180,7 @@ VALUE(rocks_of, report, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result
 VALUE(law_of, scene, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
 VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
-VALUE(rule_of, stand_result, WORD(o->bare ? NULL : ceduo_rule_words.names[o->rule]))
+VALUE(rule_of, stand_result, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
 VALUE(region_of, compliance, WORD(o->of->name))
 #define OF_ITEM(which, value) (o->which ? (value) : NOTHING)
 VALUE(least_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->least)))
@@ -197,6 +197,7 @@ VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
+VALUE(below_of, paired, NUMBER(o->below > 0 ? o->below : NAN))
 VALUE(share_at, flown, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(missed_at, arrivals, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
@@ -214,7 +215,7 @@ VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
 /* ---- the tables ---- */
 
 #define NO_END   "too few rocks arrive to bound it"
-#define NO_STEMS "the stand has no stems"
+#define NO_STEMS "no stem of the stand counts"
 #define SHARES   "a contact takes a share of the rock's energy (inertia)"
 
 static const struct ceduo_figure distribution[] = {
@@ -235,7 +236,7 @@ static const struct ceduo_figure distribution[] = {
 
 static const struct ceduo_figure paired[] = {
     {"mean", "", "mean", AT(paired, mean), .null = "it is not known, as what exceeds without accepted_kJ"},
-    {"se", "", "its standard error", AT(paired, se), .null = "it is not known"},
+    {"se", "", "its standard error", AT(paired, se), .null = "it is not known, as where no two rocks differ"},
     END};
 
 /* Two of the means of arrivals are members side by side, as in a struct ceduo_paired. */
@@ -465,6 +466,8 @@ static const struct ceduo_figure rotation[] = {
     {"felled_m", "m", "metres of belts felled in them, each time they are", .value = felled_of},
     {"unprotected_contact", "", "years in which lights.contact fails", AT(place, sum.unprotected_contact)},
     {"unprotected_free_run", "", "years in which lights.free_run fails", AT(place, sum.unprotected_free_run)},
+    {"unprotected_contact_8cm", "", "years in which lights.contact_8cm fails", AT(place, sum.thick_contact)},
+    {"unprotected_free_run_8cm", "", "years in which lights.free_run_8cm fails", AT(place, sum.thick_free_run)},
     {"unprotected_energy", "", "years in which lights.energy fails", .value = too_much_of,
      .null = "the control has no accepted_kJ, or contact_model is index"},
     {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
@@ -492,9 +495,15 @@ static const struct ceduo_figure option[] = {
      .null = "a stand says nothing of growth or cutting"},
     END};
 
+static const struct ceduo_figure share_difference[] = {
+    {.of = paired},
+    {"below", "", "where no rock fares differently: the share that may all the same, upper end of its 95 % interval",
+     .value = below_of, .null = "rocks fare differently, or the forests are the same"},
+    END};
+
 static const struct ceduo_figure differences[] = {
-    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, paired)},
-    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, paired)},
+    {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, share_difference)},
+    {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, share_difference)},
     {"energy_per_released_kJ", "kJ", "difference of the energies over all released",
      IN(difference, energy_per_released, paired), .scale = KILO},
     END};

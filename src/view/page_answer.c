@@ -163,13 +163,10 @@ static void say_range(struct text *text, const struct subject *s, const struct c
                : _("Doubt: what is not known of the scene makes it anything from %s to %s of 1000 (90 %% of what "
                    "may be true); only measuring makes that less."),
         lo, hi);
-    const struct ceduo_doubt_order *order = answer->orders_count > 0 ? &answer->orders[0] : NULL;
-    if (!order || order->better != s->index)
+    if (answer->orders_count == 0 || answer->orders[0].better != s->index)
         return;
     ceduo_text_char(text, ' ');
-    ceduo_text_format(text, _("That '%s' is better than '%s' holds in %.0f %% of what may be true: %s."),
-                      s->result->scene->options[order->better].name, s->result->scene->options[order->than].name,
-                      100 * order->probability, ceduo_doubt_verdict(order->probability));
+    ceduo_doubt_order_words(text, s->chapter->doubt, 0);
 }
 
 static void say_doubt(struct text *text, const struct subject *s)
@@ -179,9 +176,7 @@ static void say_doubt(struct text *text, const struct subject *s)
     if (f)
         say_range(text, s, f);
     else if (doubt)
-        ceduo_text_put(
-            text, _("Doubt: nothing in this scene is marked as assumed or named by 'doubt', so its values are taken "
-                    "as they are."));
+        ceduo_text_put(text, ceduo_doubt_none(doubt));
     else
         ceduo_text_put(text,
                        _("Doubt: what is not known of the scene was not computed for this page; the command at its end "

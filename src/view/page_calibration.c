@@ -95,7 +95,7 @@ static void put_limits(struct ceduo_page *page, const struct ceduo_calibration_r
 {
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];
-        if (r->answer->draws_count > 0 && !f->determined)
+        if (!f->determined)
             put_named(page, CEDUO_PAGE_WARNING, r, i,
                       _("%s is not determined by what was seen: nearly everything within its bounds fits as well."));
         if (f->at_bound)
@@ -164,25 +164,21 @@ static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_
             put_one_misfit(page, o, _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
                                       "number of blows is taken too low."));
     }
-    if (a->draws_count > 0 && !a->misfit)
+    if (!a->misfit)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("The model can give all that it was fitted to."));
 }
 
 static void put_end(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
-    if (!a->complete)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_WARNING),
-                       a->draws_count > 0 ? _("Ended early: ranges are rough.") : _("Ended early: only the best values so far are known."));
-    else if (!a->settled)
+    if (!a->settled)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_WARNING),
                        _("The chains do not agree yet, so the ranges are rough: fit fewer values, or observe more."));
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                    _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
-    if (a->draws_count > 0)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                          _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
-                          (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                      _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
+                      (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
 }
 
 static void put_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)

@@ -10,9 +10,15 @@
 static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
     const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
-    struct ceduo_portion share = ceduo_share_at(a), to_first = ceduo_share_to_first(r, i);
+    struct ceduo_portion share = ceduo_share_at(a);
+    struct ceduo_paired to_first = ceduo_share_to_first(r, i);
     ceduo_page_per_1000(page, share.mean, share.half, false);
-    ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, to_first.half, true);
+    if (to_first.below > 0)
+        ceduo_text_format(ceduo_page_text(page), "< %.0f", ceil(to_first.below * 1000));
+    else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
+        ceduo_text_put(ceduo_page_text(page), _("the same"));
+    else
+        ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, CEDUO_Z95 * to_first.se, true);
     ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
 }
 
@@ -138,6 +144,21 @@ static void add_note(void *page, const char *sentence)
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), sentence);
 }
 
+/* What a yield leaves out. */
+static void say_yield(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
+{
+    bool known = false;
+    for (size_t i = 0; i < v->n; i++) {
+        known |= !isnan(v->choices[i].yield.cut_per_year);
+        if (v->choices[i].yield.space > 1)
+            ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                              _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
+                              r->scene->options[i].name, 100 * v->choices[i].yield.space);
+    }
+    if (known)
+        add_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the quality of the wood are not modelled."));
+}
+
 static void say_best(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     struct text best = {0};
@@ -177,8 +198,10 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (r->wooded && !isnan(c->accepted))
         say_separation(page, r, 2, _("Today all options pass the test of energy: it does not separate them."),
                        _("Today no option passes the test of energy: it does not separate them."));
-    if (v && v->choices[0].years > 0)
+    if (v && v->choices[0].years > 0) {
         add_years_table(page, r, v);
+        say_yield(page, r, v);
+    }
     if (v)
         say_best(page, r, v);
     if (!r->wooded)

@@ -28,16 +28,17 @@ static void put_section(struct ceduo_page *page, const struct ceduo_doubt_report
     struct text name = {0};
     ceduo_text_safe(&name, c->name ? c->name : "");
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
-        ceduo_text_format(t, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"), ceduo_text_string(&name),
-                          c->x_given, ceduo_words_accepted(c));
+        ceduo_text_format(t, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
+                          ceduo_text_string(&name), c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_text_format(t, _("How sure is it? %s at %g m, kJ per released rock"), ceduo_text_string(&name), c->x_given);
+        ceduo_text_format(t, _("How sure is it? %s at %g m, kJ per released rock"), ceduo_text_string(&name),
+                          c->x_given);
     t->failed |= name.failed;
     ceduo_text_free(&name);
 }
 
-static const struct ceduo_page_column option_columns[] = {{N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0},
-                                                          {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
+static const struct ceduo_page_column option_columns[] = {
+    {N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0}, {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
 
 /* Of 1000 rocks a whole number, of energies three digits. */
 static void put_value(struct text *t, double value, double scale)
@@ -86,10 +87,11 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
 {
     const struct ceduo_doubt_figure *f = main_of(r, 0);
     double scale = scale_of(r);
-    size_t rest = 0;
+    size_t rest = 0, order[CEDUO_SENSITIVITY_GROUPS];
+    ceduo_doubt_order_of(r->answer, f, order);
     ceduo_page_table(page, input_columns, 5);
     for (size_t i = 0; i < r->answer->groups; i++) {
-        size_t g = r->answer->order[i];
+        size_t g = order[i];
         if (!matters(f, g)) {
             rest++;
             continue;
@@ -108,8 +110,22 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                        _("No input stands out; more base points (--sensitivity=N) may tell."));
     else if (rest > 0)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), ngettext("%zu other input has hardly any effect.",
-                                                                         "%zu other inputs have hardly any effect.", rest), rest);
+        ceduo_text_format(
+            ceduo_page_add(page, CEDUO_PAGE_NOTE),
+            ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest), rest);
+}
+
+#define SURE   0.95
+#define LIKELY 0.8
+
+/* Of two that differ in few cases the order is not sure, but neither is it open. */
+static const char *verdict_of(const struct ceduo_doubt_order *o)
+{
+    return o->probability >= SURE              ? _("clear")
+           : o->probability >= LIKELY          ? _("likely")
+           : o->equal >= SURE                  ? _("no difference")
+           : o->probability + o->equal >= SURE ? _("hardly ever worse")
+                                               : _("undecided");
 }
 
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *r, size_t i)
@@ -119,8 +135,11 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
     struct text better = {0}, than = {0};
     ceduo_text_safe(&better, s->options[o->better].name);
     ceduo_text_safe(&than, s->options[o->than].name);
-    ceduo_text_format(text, _("%s is better than %s in %.0f %% of what may be true: %s."), ceduo_text_string(&better),
-                      ceduo_text_string(&than), o->probability * 100, ceduo_doubt_verdict(o->probability));
+    ceduo_text_format(text, _("%s is better than %s in %.0f %% of what may be true"), ceduo_text_string(&better),
+                      ceduo_text_string(&than), o->probability * 100);
+    if (o->probability < 0.995)
+        ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
+    ceduo_text_format(text, ": %s.", verdict_of(o));
     text->failed |= better.failed || than.failed;
     ceduo_text_free(&better);
     ceduo_text_free(&than);
@@ -148,7 +167,8 @@ static void put_causes(struct text *text, const struct ceduo_doubt_report *r, co
     }
 }
 
-bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
+bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option,
+                        enum ceduo_doubt_kind light)
 {
     size_t groups[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, groups);
     if (n > 0)
@@ -156,7 +176,8 @@ bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, s
     return n > 0;
 }
 
-void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option,
+                             enum ceduo_doubt_kind light)
 {
     struct text causes = {0};
     if (!ceduo_doubt_causes(&causes, r, option, light))
@@ -243,8 +264,9 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     put_value(&value, now.value, scale);
     put_range(&rocks, now.lo, now.hi, scale);
     put_range(&doubt, f->p5, f->p95, scale);
-    ceduo_text_format(text, r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
-                                                                  : _("%s kJ per released rock (rocks %s; doubt %s)"),
+    ceduo_text_format(text,
+                      r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
+                                                            : _("%s kJ per released rock (rocks %s; doubt %s)"),
                       ceduo_text_string(&value), ceduo_text_string(&rocks), ceduo_text_string(&doubt));
     text->failed |= value.failed || rocks.failed || doubt.failed;
     ceduo_text_free(&value);
@@ -266,16 +288,18 @@ bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, s
     const struct ceduo_doubt_figure *f = main_of(r, option);
     double scale = scale_of(r);
     size_t order[CEDUO_SENSITIVITY_GROUPS], told = 0;
-    ceduo_doubt_order_of(r->answer, option, order);
+    ceduo_doubt_order_of(r->answer, f, order);
     for (size_t i = 0; i < r->answer->groups; i++) {
         size_t g = order[i];
-        if (!matters(f, g) || isnan(f->left[g]) || told++ < nth)
+        const char *how = ceduo_doubt_measured(r, g);
+        if (!matters(f, g) || !how || told++ < nth)
             continue;
         struct text name = {0};
         ceduo_doubt_input_name(&name, r, g);
-        ceduo_text_format(text, nth == 0 ? _("Measure first: %s; of a doubt %.3g wide it would leave %.3g.")
-                                         : _("then: %s; of a doubt %.3g wide it would leave %.3g."),
-                          ceduo_text_string(&name), (f->p95 - f->p5) * scale, f->left[g] * scale);
+        ceduo_text_format(text,
+                          nth == 0 ? _("Measure first: %s (%s); of a doubt %.3g wide it would leave %.3g.")
+                                   : _("then: %s (%s); of a doubt %.3g wide it would leave %.3g."),
+                          ceduo_text_string(&name), _(how), (f->p95 - f->p5) * scale, f->left[g] * scale);
         text->failed |= name.failed;
         ceduo_text_free(&name);
         return true;
@@ -311,22 +335,21 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     if (extent == CEDUO_DOUBT_ALL)
         put_together(page, r);
     put_answer(page, r);
-    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                      _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
-                        "reduces it. %llu scenes were computed."),
-                      (unsigned long long)ceduo_doubt_now_of(r, 0).rocks, (unsigned long long)r->answer->evaluations);
+    ceduo_text_format(
+        ceduo_page_add(page, CEDUO_PAGE_NOTE),
+        _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
+          "reduces it. %llu scenes were computed."),
+        (unsigned long long)ceduo_doubt_now_of(r, 0).rocks, (unsigned long long)r->answer->evaluations);
 }
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)
 {
     struct ceduo_page page = {.width = 80};
-    if (!r->answer) {
-        ceduo_text_safe(text, ceduo_words_shipped(r->file->scene.title));
-        ceduo_text_put(text, _("\nNothing in this scene is marked as assumed or named by 'doubt'; nothing was computed.\n"));
-        return;
-    }
     ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(r->file->scene.title));
-    ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
+    if (r->answer)
+        ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
+    else
+        ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_NOTE), ceduo_doubt_none(r));
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }

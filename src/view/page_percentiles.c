@@ -44,7 +44,7 @@ static void add_run(struct ceduo_page *page, bool wood, const struct ceduo_arriv
                       (unsigned long long)a->reached, (unsigned long long)a->released);
     add_row(page, _("speed, m/s"), &a->speed, 1);
     add_row(page, _("energy, kJ"), &a->energy, KILO);
-    add_row(page, _("height, m"), &a->height, 1);
+    add_row(page, _("underside, m up"), &a->height, 1);
 }
 
 /* ---- design values ---- */
@@ -52,7 +52,8 @@ static void add_run(struct ceduo_page *page, bool wood, const struct ceduo_arriv
 /* The factors of speed and energy of UNI 11211-4, 1.02 where it was done well, otherwise 1.10. */
 #define FACTOR(good) ((good) ? 1.02 : 1.10)
 
-/* No factor of the height was found in a text that could be opened: it is printed without one, and that is said. */
+/* No factor of the height was found in a text that could be opened: it is printed without one, and that is said. The height is
+ * that of the blocks' tops: a work as high as their undersides would stop none. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control)
 {
     const struct ceduo_result *r = report->result;
@@ -67,19 +68,22 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     if (wooded && !isnan(wooded->speed.p95))
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
                           _("Design values of UNI 11211-4, as long as the wood stands as in this option: speed %s m/s, energy %s "
-                            "kJ, height %s m."),
+                            "kJ, height of the block's top %s m."),
                           WRITTEN(wooded->speed.p95 * way, 3), WRITTEN(wooded->energy.p95 * energy, 3),
-                          WRITTEN(wooded->height.p95, DIGITS(wooded->height.p95)));
+                          WRITTEN(wooded->top_p95, DIGITS(wooded->top_p95)));
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                      _("Design values of UNI 11211-4, without forest: speed %s m/s, energy %s kJ, height %s m."),
-                      WRITTEN(bare->speed.p95 * way, 3), WRITTEN(bare->energy.p95 * energy, 3), WRITTEN(bare->height.p95, DIGITS(bare->height.p95)));
+                      _("Design values of UNI 11211-4, without forest: speed %s m/s, energy %s kJ, height of the block's "
+                        "top %s m."),
+                      WRITTEN(bare->speed.p95 * way, 3), WRITTEN(bare->energy.p95 * energy, 3), WRITTEN(bare->top_p95, DIGITS(bare->top_p95)));
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
                       calibrated ? _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
                                      "fitted to what was seen. Energy: 95th percentile times the square of both and %.2f for "
-                                     "the survey of the blocks. Height: 95th percentile, without a factor.")
+                                     "the survey of the blocks. Height: 95th percentile of the block's top, its underside and its "
+                                     "mean diameter, without a factor.")
                                  : _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
                                      "not fitted here. Energy: 95th percentile times the square of both and %.2f for the "
-                                     "survey of the blocks. Height: 95th percentile, without a factor."),
+                                     "survey of the blocks. Height: 95th percentile of the block's top, its underside and its mean "
+                                     "diameter, without a factor."),
                       survey, model, blocks);
 }
 

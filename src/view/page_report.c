@@ -219,9 +219,6 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
                 "foot can tell.")
             : _("Shares are of rocks that come down, not of years: how often one comes down only a survey of the wall "
                 "can tell."));
-    const char *adjusted = ceduo_words_adjusted(result);
-    if (adjusted)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), adjusted);
 }
 
 /* As it would stand in its file: with what the command line changed, and the names of other files. */

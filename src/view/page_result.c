@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
+#include "scene/ranges.h"
 #include "scene/words.h"
 
 /* ---- head ---- */
@@ -102,7 +103,6 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
     }
     ceduo_page_number(page, a->energy.p95 * KILO, 3);
     ceduo_page_number(page, a->speed.mean, 3);
-    ceduo_page_number(page, a->height.p95, 2);
 }
 
 /* The two runs below one another. */
@@ -111,7 +111,7 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
 {
     static const struct ceduo_page_column columns[] = {
         {NP_("head", "of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {NP_("head", "arriving kJ"), -12, 0, 0},
-        {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0},     {NP_("head", "m up"), -5, 0, 0}};
+        {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0}};
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_page_limit(page, c, "");
     if (wooded)
@@ -301,8 +301,10 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
 static void say_doubt(struct ceduo_page *page, const struct scene_file *file)
 {
     bool assumed = file->inputs_count > 0;
-    for (const struct source_note *n = file->notes; n && !assumed; n = n->before)
-        assumed = strcmp(n->kind, "assumed") == 0;
+    for (const struct source_note *n = file->notes; n && !assumed; n = n->before) {
+        const struct field *value = ceduo_schema_at(n->path); /* a convention has no range */
+        assumed = strcmp(n->kind, "assumed") == 0 && (!value || value->object || ceduo_range_of(value));
+    }
     if (assumed)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                        _("The errors above are of the rocks alone: 'ceduo --sensitivity' shows how far what is not known may "
@@ -322,9 +324,6 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(&page, report, c, c == 0);
     ceduo_page_notes(&page, report);
-    const char *adjusted = ceduo_words_adjusted(report->result);
-    if (adjusted)
-        ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_NOTE), adjusted);
     say_doubt(&page, report->file);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);

@@ -70,6 +70,9 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     if (s.flown > 0 && says)
         ceduo_text_then(line, ", ", _("with too much energy %zu"), s.unprotected_energy);
     ceduo_text_put(line, ". ");
+    if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
+        ceduo_text_format(line, _("Counting only stems from %g cm on, contact fails in %zu and free run in %zu. "),
+                          CEDUO_THICK_DBH * 100, s.thick_contact, s.thick_free_run);
     struct ceduo_paired mean = says ? s.exceed : s.reach;
     if (s.flown > 0 && isnan(mean.se)) /* of one rock */
         ceduo_text_format(line,

@@ -127,7 +127,7 @@ static void draw_inputs(struct sure *s)
                          (f->p95 - f->p5) * s->scale);
     s->y++;
     size_t order[CEDUO_SENSITIVITY_GROUPS];
-    ceduo_doubt_order_of(s->report->answer, s->option, order);
+    ceduo_doubt_order_of(s->report->answer, f, order);
     for (size_t i = 0; i < s->report->answer->groups && s->y < s->end; i++)
         if (f->indices.total[order[i]].value >= SHOWN_LEAST)
             draw_input(s, order[i]);
@@ -140,7 +140,8 @@ const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_are
     if (!r)
         return _("not computed yet");
     if (!r->answer)
-        return _("nothing is marked as assumed or named by 'doubt'");
+        return ceduo_doubt_is_off(r) ? _("not computed: the scene says 'doubt: none'")
+                                     : _("nothing is marked as assumed or named by 'doubt'");
     if (area->width < WIDTH_LEAST || area->height < HEIGHT_LEAST)
         return _("too narrow");
     int values = area->width < FEW ? VALUES_LEAST : VALUES, rest = area->width - values;

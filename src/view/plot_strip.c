@@ -42,18 +42,18 @@ struct strip {
 /* Of heights and of energies: without forest alone; both; both where there is no room to tell four curves apart. Curves
  * through the forest are strokes, those without it dots, so that the two differ without colour. */
 static const struct content contents[2][3] = {
-    {{N_("height above the ground, m"),
+    {{N_("underside above the ground, m"),
       3,
       {{N_("max"), CEDUO_ROLE_BARE, 1, 4, false, OF(height.max)},
        {N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(height.p95)},
        {N_("p50"), CEDUO_ROLE_MEAN, 1, 1, false, OF(height.p50)}}},
-     {N_("height above ground, m"),
+     {N_("underside, m up"),
       4,
       {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, OF(height.p95)},
        {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, OF(height.p95)},
        {N_("bare p50"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p50)},
        {N_("wood p50"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p50)}}},
-     {N_("p95 of the height, m"),
+     {N_("underside p95, m"),
       2,
       {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p95)},
        {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p95)}}}},

@@ -152,7 +152,6 @@ void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_re
     ceduo_json_close(&j, ']');
     ceduo_json_flag(&j, "misfit", a->misfit);
     ceduo_json_flag(&j, "refuted", a->refuted);
-    ceduo_json_flag(&j, "complete", a->complete);
     ceduo_json_flag(&j, "settled", a->settled);
     ceduo_json_count(&j, "evaluations", a->evaluations);
     ceduo_json_number(&j, "rhat", a->rhat);

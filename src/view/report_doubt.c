@@ -9,13 +9,24 @@
 #include "base/language.h"
 #include "base/json.h"
 #include "ceduo/version.h"
+#include "scene/ranges.h"
 #include "scene/value.h"
 #include "words.h"
 
-#define SURE   0.95
-#define LIKELY 0.8
-
 static const char *const keys[CEDUO_DOUBT_SHOWN] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
+
+bool ceduo_doubt_is_off(const struct ceduo_doubt_report *r)
+{
+    return ceduo_node_text(r->file->root, "doubt") != NULL;
+}
+
+const char *ceduo_doubt_none(const struct ceduo_doubt_report *r)
+{
+    return ceduo_doubt_is_off(r)
+               ? _("Doubt: not computed, because the scene says 'doubt: none'. What is not known may change the answer more than "
+                   "chance does.")
+               : _("Doubt: nothing in this scene is marked as assumed or named by 'doubt', so its values are taken as they are.");
+}
 
 /* ---- inputs ---- */
 
@@ -117,9 +128,16 @@ void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report 
         ceduo_text_put(text, ceduo_number_shortest(strtod(WRITTEN(value * v.field->shown.per, 4), NULL), room));
 }
 
-const char *ceduo_doubt_verdict(double probability)
+const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t group)
 {
-    return probability >= SURE ? _("clear") : probability >= LIKELY ? _("likely") : _("undecided");
+    const struct ceduo_input *input = input_of(r, group);
+    struct value v;
+    if (!input || input->kind == CEDUO_INPUT_WORDS)
+        return NULL;
+    if (input->kind == CEDUO_INPUT_DRAWS)
+        return N_("more of what was seen");
+    const struct range *range = ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_of(v.field) : NULL;
+    return range ? range->measured : N_("on the ground");
 }
 
 /* ---- JSON ---- */
@@ -150,6 +168,7 @@ static void put_input(struct json *j, const struct ceduo_doubt_report *r, const 
     ceduo_json_string(j, "path", input ? input->path : ceduo_text_string(&together));
     ceduo_json_count(j, "places", input ? input->places_count : r->answer->together);
     ceduo_json_string(j, "source", input ? r->inputs->sources[r->answer->input[g]] : NULL);
+    ceduo_json_string(j, "measured_by", ceduo_doubt_measured(r, g));
     put_end(j, "lo", r, g, 0);
     put_end(j, "hi", r, g, 1);
     ceduo_json_number(j, "first", f->indices.first[g].value);
@@ -190,8 +209,10 @@ static void put_figure(struct json *j, const struct ceduo_doubt_report *r, const
     ceduo_json_number(j, "doubt_p50", f->p50 * scale);
     ceduo_json_number(j, "doubt_p95", f->p95 * scale);
     ceduo_json_open(j, "inputs", '[');
+    size_t order[CEDUO_SENSITIVITY_GROUPS];
+    ceduo_doubt_order_of(r->answer, f, order);
     for (size_t g = 0; g < r->answer->groups; g++)
-        put_input(j, r, f, r->answer->order[g]);
+        put_input(j, r, f, order[g]);
     ceduo_json_close(j, ']');
     ceduo_json_close(j, '}');
 }
@@ -221,6 +242,8 @@ void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
         ceduo_json_string(&j, "than", s->options[a->orders[i].than].name);
         ceduo_json_number(&j, "x_m", last_x(s));
         ceduo_json_number(&j, "probability", a->orders[i].probability);
+        ceduo_json_number(&j, "equal", a->orders[i].equal);
+        ceduo_json_number(&j, "worse", a->orders[i].worse);
         ceduo_json_close(&j, '}');
     }
     ceduo_json_close(&j, ']');
@@ -287,7 +310,10 @@ static void put_row(struct text *text, const struct ceduo_doubt_report *r, const
 
 void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *r)
 {
-    for (size_t i = 0; r->answer && i < r->answer->figures_count; i++)
+    for (size_t i = 0; r->answer && i < r->answer->figures_count; i++) {
+        size_t order[CEDUO_SENSITIVITY_GROUPS];
+        ceduo_doubt_order_of(r->answer, &r->answer->figures[i], order);
         for (size_t g = 0; g < r->answer->groups && r->answer->figures[i].kind < CEDUO_DOUBT_SHOWN; g++)
-            put_row(text, r, &r->answer->figures[i], r->answer->order[g]);
+            put_row(text, r, &r->answer->figures[i], order[g]);
+    }
 }

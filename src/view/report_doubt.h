@@ -16,6 +16,10 @@ struct ceduo_doubt_report {
     const struct ceduo_result *finer; /* figures of the scene as it is from more rocks; NULL: those of the answer */
 };
 
+/* Whether the scene asks for no answer; why there is none: that, or nothing is in doubt. */
+bool ceduo_doubt_is_off(const struct ceduo_doubt_report *report);
+const char *ceduo_doubt_none(const struct ceduo_doubt_report *report);
+
 /* The main figure of an option in the scene as it is, with the error of the rocks. */
 struct ceduo_doubt_now {
     double value, lo, hi;
@@ -32,8 +36,8 @@ void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r
 /* The same in the unit that people use, and short. */
 void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
 
-/* How sure an order of two options is, in a word. */
-const char *ceduo_doubt_verdict(double probability);
+/* What would measure an input, marked for translation; NULL: nothing that is known. */
+const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t group);
 
 struct ceduo_page;
 
@@ -47,10 +51,10 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report
 /* "469 (92–740)": the main figure of an option with its doubt. */
 void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
-/* What to measure first (`nth` 0), second … for an option, and what that would leave; false where there is no more. */
+/* What to measure first (`nth` 0), second … for an option, how, and what that would leave; false where there is no more. */
 bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t nth);
 
-/* In how much of what may be true an order of two options holds. */
+/* In how much of what may be true one of two options is better, equal or worse, and how sure that makes the order. */
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);
 
 /* "energy law and friction": what a light depends on above all; false where it does not change within what may be true. */

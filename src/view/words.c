@@ -114,11 +114,17 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     size_t n = r->warnings & CEDUO_WARN_FORM_FACTOR ? form_factor_stems(s, &first) : 0;
     if (n > 0)
         say_format(say, context,
-                   ngettext("%s: the volume of %zu kind of stem (%.3g cm, %.3g m high) lies outside its species' equation; "
-                            "form factor 0.5 is assumed.",
-                            "%s: the volume of %zu kinds of stem (the first %.3g cm, %.3g m high) lies outside their "
-                            "species' equation; form factor 0.5 is assumed.",
-                            n),
+                   s->species < 0
+                       ? ngettext("%s: no species is given, and no volume for %zu kind of stem (%.3g cm, %.3g m high); form "
+                                  "factor 0.5 is assumed.",
+                                  "%s: no species is given, and no volume for %zu kinds of stem (the first %.3g cm, %.3g m "
+                                  "high); form factor 0.5 is assumed.",
+                                  n)
+                       : ngettext("%s: %zu kind of stem (%.3g cm, %.3g m high) lies outside the volumes that its species' "
+                                  "equation was made from; the form factor at their edge is assumed.",
+                                  "%s: %zu kinds of stem (the first %.3g cm, %.3g m high) lie outside the volumes that their "
+                                  "species' equation was made from; the form factor at their edge is assumed.",
+                                  n),
                    belt->name, n, first->dbh * 100, first->height);
     if (r->warnings & CEDUO_WARN_U_ASSUMED)
         say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
@@ -267,7 +273,7 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
         ceduo_text_format(text, _("A gap of %.3g m has no forest; a rock reaches full speed in %g m."), s->longest_gap,
                           limit);
     else if (isinf(s->worst_adc))
-        ceduo_text_format(text, _("A belt has no stems; a rock reaches full speed in %g m."), limit);
+        ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
         ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc,
                           limit);
@@ -326,14 +332,4 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
         else if (is_close(a))
             ceduo_text_then(text, " ", _("Too close to call with so few rocks."));
     }
-}
-
-const char *ceduo_words_adjusted(const struct ceduo_result *r)
-{
-    bool adjusted = false;
-    for (size_t c = 0; c < r->scene->controls_count && r->bare.rocks > 0; c++)
-        adjusted |= r->bare.arrivals[c].adjusted;
-    return adjusted ? _("Shares and means are adjusted for what chance did to the rocks, so that they differ a little from the "
-                        "counts; --plain gives them as counted.")
-                    : NULL;
 }

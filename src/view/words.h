@@ -40,9 +40,6 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 
-/* That shares are not the counts over the rocks released; NULL where they are. */
-const char *ceduo_words_adjusted(const struct ceduo_result *result);
-
 /* What the same rocks do under the other energy law; nothing where that is not known, or no stem stands. */
 void ceduo_words_other(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 

@@ -3,12 +3,10 @@
  *
  *   bench_coverage [REPEATS [ROCKS]]        default 1000 repeats of 1000 rocks, each with a seed of its own
  *
- * Without forest, through the stems, and the differences between that wood and the same with half its stems; as counted
- * (plain), and adjusted by control variates. What is true is taken from runs of many more rocks, as counted. CSV on stdout:
- * `scatter` is the standard deviation of the figure over the repeats, `fewer` how many times fewer rocks give as small a
- * one when adjusted. Exit 1 where an interval of a mean, a probability or a difference holds what is true in fewer than 93 or
- * more than 97 of 100 (from 1000 repeats on; an interval of whole numbers, as for a percentile or a share near 1, holds it a
- * little more often; that of a few that count is the plain one when adjusted, and holds it more often). */
+ * Without forest, through the stems, and the differences between that wood and the same with half its stems. What is true is
+ * taken from runs of many more rocks. CSV on stdout: `scatter` is the standard deviation of the figure over the repeats. Exit 1
+ * where an interval of a mean, a probability or a difference holds what is true in fewer than 93 or more than 97 of 100 (from
+ * 1000 repeats on; an interval of whole numbers, as for a percentile or a share near 1, holds it a little more often). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,12 +45,11 @@ static struct figure about(double value, double se)
     return (struct figure){value, value - CEDUO_Z95 * se, value + CEDUO_Z95 * se};
 }
 
-static struct ceduo_run *fly(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks, bool plain)
+static struct ceduo_run *fly(const struct paper_site *site, const struct ceduo_option *option, uint64_t rocks)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = option;
     def.rocks_most = rocks;
-    def.plain = plain;
     struct ceduo_run *run;
     if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
         fail("the run failed");
@@ -73,11 +70,11 @@ static void read_run(const struct ceduo_run *run, struct figure *to)
         to[5] = about(a.contacts, a.contacts_se);
 }
 
-static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, bool plain, struct figure figures[FIGURES])
+static void fly_all(struct woods *w, uint64_t seed, uint64_t rocks, struct figure figures[FIGURES])
 {
     w->site.scene.simulation.seed = seed;
-    struct ceduo_run *bare = fly(&w->site, NULL, rocks, plain), *wood = fly(&w->site, &w->site.option, rocks, plain),
-                     *half = fly(&w->site, &w->half.option, rocks, plain);
+    struct ceduo_run *bare = fly(&w->site, NULL, rocks), *wood = fly(&w->site, &w->site.option, rocks),
+                     *half = fly(&w->site, &w->half.option, rocks);
     read_run(bare, &figures[BARE_MEAN]);
     read_run(wood, &figures[WOOD_MEAN]);
     struct ceduo_difference d = ceduo_run_difference(half, wood, 0);
@@ -116,15 +113,12 @@ static void note(struct found *f, const struct figure *seen, double truth)
     ceduo_moments_add(&f->value, seen->value);
 }
 
-static bool print(int k, bool plain, const struct found f[2], double truth, uint64_t rocks)
+static bool print(int k, const struct found *f, double truth, uint64_t rocks)
 {
-    const struct found *own = &f[plain];
-    double repeats = (double)own->value.n, percent = 100 * own->held / repeats;
-    double scatter[2] = {ceduo_moments_sd(&f[0].value), ceduo_moments_sd(&f[1].value)};
-    bool whole = k == BARE_P95 || k == WOOD_P95 || (k == BARE_REACH && !plain);
-    printf("%s,%s,%.6g,%.6g,%.3g,%.3g,%.3g,%.0f,%llu,%.1f\n", names[k], plain ? "plain" : "adjusted", truth,
-           own->value.mean, scatter[plain], plain ? 1 : scatter[1] * scatter[1] / (scatter[0] * scatter[0]),
-           own->width / repeats, repeats, (unsigned long long)rocks, percent);
+    double repeats = (double)f->value.n, percent = 100 * f->held / repeats;
+    bool whole = k == BARE_P95 || k == WOOD_P95 || k == BARE_REACH;
+    printf("%s,%.6g,%.6g,%.3g,%.3g,%.0f,%llu,%.1f\n", names[k], truth, f->value.mean, ceduo_moments_sd(&f->value),
+           f->width / repeats, repeats, (unsigned long long)rocks, percent);
     return repeats < 1000 || whole || (percent >= 93 && percent <= 97);
 }
 
@@ -137,18 +131,16 @@ int main(int argc, char **argv)
     static struct woods w;
     init(&w);
     struct figure truth[FIGURES], figures[FIGURES];
-    static struct found found[FIGURES][2];
-    fly_all(&w, 1u << 20, TRUE_ROCKS, true, truth);
-    for (unsigned long i = 0; i < repeats; i++)
-        for (int plain = 0; plain < 2; plain++) {
-            fly_all(&w, i + 1, rocks, plain, figures);
-            for (int k = 0; k < FIGURES; k++)
-                note(&found[k][plain], &figures[k], truth[k].value);
-        }
+    static struct found found[FIGURES];
+    fly_all(&w, 1u << 20, TRUE_ROCKS, truth);
+    for (unsigned long i = 0; i < repeats; i++) {
+        fly_all(&w, i + 1, rocks, figures);
+        for (int k = 0; k < FIGURES; k++)
+            note(&found[k], &figures[k], truth[k].value);
+    }
     bool good = true;
-    puts("figure,way,true_value,mean_value,scatter,fewer,mean_half_width,repeats,rocks,held_percent");
+    puts("figure,true_value,mean_value,scatter,mean_half_width,repeats,rocks,held_percent");
     for (int k = 0; k < FIGURES; k++)
-        for (int plain = 1; plain >= 0; plain--)
-            good &= print(k, plain, found[k], truth[k].value, rocks);
+        good &= print(k, &found[k], truth[k].value, rocks);
     return good ? 0 : 1;
 }

@@ -95,10 +95,8 @@ class Results:
         return table(["starts", "numbers", "mean", "95 %", "reach", "exceed"], out)
 
     def coverage(self):
-        return table(["figure", "way", "true value", "half width", "fewer rocks", "held, %"],
-                     [[r["figure"], r["way"], digits(r["true_value"], 4), digits(r["mean_half_width"], 2), digits(r["fewer"], 3),
-                       r["held_percent"]]
-                      for r in self.rows("bench_coverage")])
+        return table(["figure", "true value", "half width", "held, %"],
+                     [[r["figure"], digits(r["true_value"], 4), digits(r["mean_half_width"], 2), r["held_percent"]] for r in self.rows("bench_coverage")])
 
     def stepping(self):
         return table(["way", "step", "ns/flight", "error, m", "largest, m", "beyond 1 m"],

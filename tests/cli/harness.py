@@ -5,6 +5,7 @@ The program is the one that the environment's CEDUO names, or ./ceduo of this so
 """
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -94,10 +95,15 @@ def environment(**changes):
     return env
 
 
+# Control characters but line ends, what breaks lines or turns the order of text, and what Unicode keeps for no character.
+NO_TEXT = re.compile("[\0-\x09\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufdd0-\ufdef"
+                     + "".join(chr(plane << 16 | 0xfffe) + chr(plane << 16 | 0xffff) for plane in range(17)) + "]")
+
+
 def only_text(data, what):
-    """No control characters but line ends: no escape sequence can hide in it."""
-    bad = sorted({b for b in data if b < 0x20 and b != 0x0a} | ({0x7f} if 0x7f in data else set()))
-    expect(not bad, f"{what} holds control characters {bad}:", repr(data[:2000]))
+    """No escape sequence can hide in it, and any page can hold it."""
+    bad = sorted(set(NO_TEXT.findall(data.decode("utf-8", "replace"))))
+    expect(not bad, f"{what} holds control characters {ascii(bad)}:", repr(data[:2000]))
 
 
 def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, timeout=120, **options):

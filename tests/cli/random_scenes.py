@@ -107,7 +107,7 @@ USUAL = {
 }
 
 # Keys that may be left out, though the table names no default. Others are seldom left out.
-OPTIONAL = {"name", "accepted_kJ", "measured_speed_m_s", "cut_year", "system", "species", "volume_m3", "age_y", "u_J_m3", "fracture_ratio", "glancing", "hit_below_m",
+OPTIONAL = {"name", "accepted_kJ", "measured_speed_m_s", "cut_year", "system", "species", "volume_m3", "age_y", "u_J_m3", "fracture_ratio", "hit_below_m",
             "sdi_most", "stay_per_ha", "shoots_young", "shoots_old", "rocks_per_year"}
 GROUPS = {"shoots": 0.85, "trees": 0.85, "energy": 0.4, "growth": 0.4, "cutting": 0.4}  # shares of scenes that have them
 

@@ -292,29 +292,46 @@ def test_many():
 
 
 def test_design():
-    """Design values are the 95th percentiles times factors that are named; the model's is 1.02 only for a fitted ground"""
+    """Design values are the 95th percentiles times factors that are named; the model's is 1.02 only for a fitted ground; the height is
+    that of the block's top"""
     slope = {"vertices_m": [[0, 100], [150, 0], [200, 0]], "segments": [{"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25}]}
     fitted = {**slope, "segments": [{**slope["segments"][0], "source": {"kind": "calibrated", "text": "20 stops"}}]}
     with Folder() as f:
         for ground, survey, blocks in ((slope, "good", "poor"), (slope, "poor", "good"), (fitted, "good", "good")):
-            path = f.write("s.yaml", slope_site(slope=ground, design={"survey": survey, "blocks": blocks}))
+            what = slope_site(slope=ground, design={"survey": survey, "blocks": blocks})
+            path = f.write("s.yaml", {k: v for k, v in what.items() if k != "blocks"})
             page = " ".join(good("--batch", path).out.split())
-            control = good("--batch", "-f", "json", path).json()[0]["options"][0]["controls"][1]
+            run_of = good("--batch", "-f", "json", path).json()[0]
+            control, size = run_of["options"][0]["controls"][1], run_of["rock"]["mean_diameter_m"]
             factor = {"good": 1.02, "poor": 1.10}
             model = 1.02 if ground is fitted else 1.10
             way = factor[survey] * model
             for side, where in (("bare", "without forest"), ("wooded", "as long as the wood stands as in this option")):
                 expect_in(f"Design values of UNI 11211-4, {where}: speed {control[side]['speed_m_s']['p95'] * way:.1f} m/s, energy "
-                          f"{control[side]['energy_kJ']['p95'] * way ** 2 * factor[blocks]:.0f} kJ, height "
-                          f"{control[side]['height_m']['p95']:.2f} m.", page)
+                          f"{control[side]['energy_kJ']['p95'] * way ** 2 * factor[blocks]:.0f} kJ, height of "
+                          f"the block's top {control[side]['height_m']['p95'] + size:.2f} m.", page)
             expect_in(f"Speed: 95th percentile times {factor[survey]:.2f} for the survey of the ground and {model:.2f} for the model, "
                       f"{'fitted to what was seen' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
-                      f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile, without a "
-                      "factor.", page)
+                      f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile of the block's "
+                      "top, its underside and its mean diameter, without a factor.", page)
         expect("UNI 11211" not in good("--batch", f.write("t.yaml", slope_site())).out, "design values unasked")
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)
         expect_in("'blocks' is missing", r.err)
+
+
+def test_design_of_sizes():
+    """Blocks that roll are as high as they are large: uniform diameters of .3 to .7 m, and volumes by a power law, each in closed form"""
+    low, high, b = 0.02, 2, 1.1
+    volume = (0.05 * (low**-b - high**-b) + high**-b) ** (-1 / b)  # 5 of 100 are larger
+    ways = (({"rock": {"diameter_m": {"mean": 0.5, "spread": 0.2, "kind": "uniform"}}}, 0.3 + 0.95 * 0.4),
+            ({"rock": {"diameter_m": 0.5}, "blocks": {"per_year": 1, "volume_m3": [low, high], "exponent": b}}, (6 * volume / math.pi) ** (1 / 3)))
+    for what, wanted in ways:
+        with Folder() as f:
+            page = " ".join(good("--batch", f.write("s.yaml", scene(
+                **what, release={"vx_m_s": 3}, slope={"vertices_m": [[0, 10], [100, 0]], "segments": [{"rn": 0, "rt": 1, "friction": 0}]},
+                controls=[{"x_m": 50}], design={"survey": "good", "blocks": "good"}, simulation={"rocks": 20000}))).out.split())
+        expect_near(float(re.search(r"without forest: .* height of the block's top ([\d.]+) m", page)[1]), wanted, 0.01, what)
 
 
 def test_years():

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Contact models and options: what they share, and in what they differ."""
+import csv
+import io
 import math
+import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import USAGE, Folder, belt, ceduo, expect, expect_equal, result, run_all, wooded_scene
-from runs import DIFFERENCES, FOUR, MODELS, PAPER, THICK, THIN, expect_run, through, treated
+from harness import USAGE, Folder, belt, ceduo, expect, expect_equal, expect_near, good, result, run_all, wooded_scene
+from runs import DIFFERENCES, FOUR, MODELS, PAPER, THICK, THIN, expect_run, no_difference, through, treated
 
 
 def same_run(a, b):
@@ -64,7 +67,7 @@ def test_no_stems_on_the_way():
             behind = found["behind"]["controls"][1]["wooded"]
             expect(behind["contacts"]["mean"] > 1, "the belt behind the first control is met before the second", behind)
             apart = [d for d in run["differences"] if d["option"] == "behind" and d["x_m"] == found["behind"]["controls"][0]["x_m"]]
-            expect_equal([d["reach_probability"] for d in apart], [{"mean": 0, "se": 0}], f"{model}: the same flights")
+            expect_equal([d["reach_probability"] for d in apart], [no_difference("reach_probability")], f"{model}: the same flights")
             for name in ("bare", "above"):
                 expect(same_run({**found[name], "stands": [], "summary": 0, "controls": 0},
                                 {**found["none"], "stands": [], "summary": 0, "controls": 0}), f"{model}, {name}: ends")
@@ -95,7 +98,7 @@ def test_duplicate_option():
             for difference in run["differences"]:
                 if difference["option"] != "other":
                     for name in DIFFERENCES[::2] if difference["x_m"] == 60 else DIFFERENCES:
-                        expect_equal(difference[name], {"mean": 0, "se": 0}, f"{model}: {difference['option']} {name}")
+                        expect_equal(difference[name], no_difference(name), f"{model}: {difference['option']} {name}")
                 elif model != "index":
                     expect(difference["energy_per_released_kJ"]["mean"] > 0 and difference["reach_probability"]["se"] > 0,
                            "fewer trees", difference)
@@ -112,6 +115,23 @@ def test_option_subset():
                 expect_run(run, model)
                 expect_equal(run["options"], [o for n, o in whole.items() if n in names], f"{model}, {names}")
                 expect_equal({d["against"] for d in run["differences"]}, {run["options"][0]["name"]} if len(names) > 1 else set())
+
+
+def test_no_pair_differs():
+    """Where no rock fares differently through two forests, that is a bound and no error: in JSON, in CSV and on the page"""
+    with Folder() as f:
+        more = {**THICK, "trees": [{**THICK["trees"][0], "per_ha": THICK["trees"][0]["per_ha"] + 1e-9}]}
+        path = f.write("s.yaml", treated(thick=THICK, as_thick=more))
+        n, z2 = 500, 1.959963984540054 ** 2
+        for difference in result(path, "-n", n)["differences"]:
+            found = difference["exceed_probability"] if difference["x_m"] == 105 else difference["reach_probability"]
+            expect_equal((found["mean"], found["se"]), (0, None), "0 without an error")
+            expect_near(found["below"], z2 / (n + z2), 1e-12, "Wilson's upper end of 0 of n")
+        page = good("--batch", "-n", n, path).out
+        expect(re.search(r"as thick +[\d.]+ .* < 8 +(pass|FAIL)", page), "no bound on the page", page)
+        expect("+0 ±0" not in page, page)
+        row = next(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", "-n", n, "--option", "as thick", "--option", "thick", path).out)))
+        expect(set(row) >= {f"difference.reach_probability.{k}" for k in ("mean", "se", "below")}, "columns", row)
 
 
 def test_difference_errors():

@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (INPUT, OUTPUT, PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good,  # noqa: E402
-                     run_all)
+                     run_all, scene)
 
 FEW = ("-n", 60, "-s", "doubt=none", "-j", 2)
 DOUBT = ("-n", 60, "-s", "doubt=[{path: rock.density_kg_m3, lo: 2400, hi: 2750}]", "--sensitivity=2", "-j", 2)
@@ -131,7 +131,7 @@ def test_answer():
     expect_in(f"of 1000 rocks {1000 * wooded['exceed_probability']:.0f} arrive", answer)
     expect_in(f"{1000 * wooded['exceed_lo']:.0f}\u2013{1000 * wooded['exceed_hi']:.0f} of 1000 (95 %)", answer)
     expect_in("Doubt: what is not known of the scene makes it anything from ", answer)
-    for words, scene in (("nothing in this scene is marked as assumed", ("-s", "doubt=none")), ("By the index (Eq. 4 and 5)",
+    for words, scene in (("not computed, because the scene says", ("-s", "doubt=none")), ("By the index (Eq. 4 and 5)",
                          ("-s", "simulation.contact_model=index"))):
         expect_in(words, report(*scene, "paper-site")[1].text["div"], scene)
 
@@ -156,9 +156,9 @@ def test_odd_titles():
     expect(page.text["title"].startswith(ODD), page.text["title"])
     expect_in(ODD, page.text["h1"])
     expect("script" not in page.names, "a script")
-    text, page = report("-s", 'controls[0].name="]]> --> &lt; \\u0007<svg onload=x>"', "paper-site")
+    text, page = report("-s", 'controls[0].name="]]> --> &lt; \\u0007\\ufdd0\\ufffe\\U0001ffff<svg onload=x>"', "paper-site")
     check_page(text, page)
-    expect_in(html.escape("]]> --> &lt; \\x07<svg onload=x>", quote=True), text)
+    expect_in(html.escape("]]> --> &lt; \\x07\\xef\\xb7\\x90\\xef\\xbf\\xbe\\xf0\\x9f\\xbf\\xbf<svg onload=x>", quote=True), text)
 
 
 EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
@@ -214,9 +214,28 @@ def test_refused():
                       ("--find", "rock.diameter_m=1:2", "--goal", "adc"), ("--calibrate", "rock.diameter_m=1:2")):
         done = ceduo("--report", "-", *arguments, "paper-site")
         expect(done.status == USAGE and done.out == "", done)
-    expect_equal(ceduo("--report", "/dev/full", *FEW, "paper-site").status, OUTPUT)
+    with Folder() as f:
+        full = f.path / "full.html"
+        full.symlink_to("/dev/full")
+        expect_equal(ceduo("--report", full, *FEW, "paper-site").status, OUTPUT)
     expect_equal(ceduo("--report", "/dev/null/page.html", "paper-site").status, OUTPUT)
     expect_equal(ceduo("--report", "-").status, USAGE)
+
+
+def test_file_forgotten():
+    """A scene in the place of the page is not written over; a page ends in .html or .htm"""
+    with Folder() as f:
+        path, other = f.write("scene.yaml", scene()), f.write("other.yaml", scene(title="another"))
+        before = other.read_bytes()
+        for name in (other, path, "", "x", ".yaml", "page.html.yaml", "pagehtml", "page.htmlx", "/dev/stdout"):
+            done = ceduo("--report", name, path, cwd=f.path)
+            expect_equal((done.status, done.out), (USAGE, ""), done)
+            expect(done.err.startswith(f"ceduo: --report: '{name}' does not end in .html or .htm; "), done)
+            expect("--report page.html " in done.err, done)
+        expect_equal((f.names(), other.read_bytes()), (["other.yaml", "scene.yaml"], before))
+        for name in ("a.html", "b.htm", "c.HTML", "d.Htm"):
+            good("--report", f.path / name, *FEW, path)
+            expect((f.path / name).read_bytes().startswith(b"<!DOCTYPE html>"), name)
 
 
 def test_odd_scenes():

@@ -147,7 +147,7 @@ def test_stopped_at_the_release():
     with Folder() as f:
         near = f.write("near.yaml", wooded_scene(release={"x_m": 20}, forest=[belt(10, 30)]))
         far = f.write("far.yaml", wooded_scene(release={"x_m": 20}, forest=[belt(31, 95)]))
-        run = result(near, "--plain")
+        run = result(near)
         stopped = run["options"][0]["ends"]["stopped_by_stems"]
         expect(stopped > 0.01, run["options"][0]["ends"])
         sentence = said(run, "within 10 m of the release")

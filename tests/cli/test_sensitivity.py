@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--sensitivity: what is in doubt, what it does to the answer, and what is refused."""
 import csv
+import html
 import io
 import json
+import math
 import re
 
-from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, run_all, scene, stand
+from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, expect_near, run_all, scene, stand
 
 LAW = {"path": "forest[*].stand.energy.model", "one_of": ["brauner", "dorren"]}
 DENSITY = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2750}
@@ -58,8 +60,14 @@ def test_nothing():
         result = answer(what)
         expect_equal((result["figures"], result["ranking"], result["evaluations"]), ([], [], 0))
     with Folder() as f:
-        page = ceduo("--sensitivity", f.write("s.yaml", measured())).out
-        expect_in("nothing was computed", page)
+        for doubt, told in ([], "nothing in this scene is marked as assumed"), ("none", "not computed, because the scene says 'doubt: none'"):
+            path = f.write("s.yaml", measured(doubt=doubt))
+            report = f.path / "r.html"
+            expect_in(told, " ".join(ceduo("--sensitivity", path).out.split()))
+            expect_equal(ceduo("--report", report, "-n", 20, path).status, DONE)
+            words = " ".join(html.unescape(re.sub("<[^>]*>", "", report.read_text(encoding="utf-8"))).split())
+            expect_in(told, words)
+            expect_equal("nothing in this scene" in words, doubt == [], "the report")
 
 
 def test_page_of_a_run():
@@ -147,7 +155,7 @@ def test_ends_of_counts_and_ranges():
         path = f.write("s.yaml", what)
         for key, end, value in ((group["path"], "at_lo", 1), (group["path"], "at_hi", 5),
                                 ("slope.segments[0].rt", "at_hi", 0.9999999999999999)):
-            run = json.loads(good("--batch", "--plain", "-f", "json", "-n", 200, "-s", f"{key}={value}", path).out)
+            run = json.loads(good("--batch", "-f", "json", "-n", 200, "-s", f"{key}={value}", path).out)
             known = run["options"][0]["controls"][0]["wooded"]["energy_per_released_kJ"]["mean"]
             expect(abs(ends[key][end] - known) <= 1e-9 * known, f"{key}={value}: {ends[key][end]} instead of {known}")
 
@@ -172,7 +180,7 @@ def test_ends_are_runs():
         path = f.write("s.yaml", what)
         for key, values in (("forest[*].stand.energy.model", ("brauner", "dorren")), ("rock.density_kg_m3", (2400, 2750))):
             for end, value in zip(("at_lo", "at_hi"), values):
-                run = json.loads(ceduo("--batch", "--plain", "-f", "json", "-n", 200, "-s", f"{key.replace('*', '0')}={value}", path).out)
+                run = json.loads(ceduo("--batch", "-f", "json", "-n", 200, "-s", f"{key.replace('*', '0')}={value}", path).out)
                 wooded = run["options"][0]["controls"][0]["wooded"]
                 for name, known in (("reach_probability", wooded["reach_probability"]),
                                     ("exceed_probability", wooded["exceed_probability"]),
@@ -282,6 +290,42 @@ def test_no_effect():
     expect(energy["total"] > 0, "of the energy")
 
 
+CLOSED = [{"path": "rock.density_kg_m3", "lo": 2385, "hi": 2915}, {"path": "simulation.gravity_m_s2", "lo": 9.3195, "hi": 10.3005}]
+IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # of a belt that lies behind the last control
+
+
+def energies_in_doubt(points, seeds, idle):
+    """The energy per rock started at rest: it goes as density times gravity."""
+    what = measured(forest=[{"from_m": 92, "to_m": 99, "stand": wood()}] if idle else [], release={"x_m": 5},
+                    rock={"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2650}, doubt=CLOSED + [IDLE] * idle)
+    with Folder() as f:
+        path = f.write("s.yaml", what)
+        for seed in range(1, seeds + 1):
+            result = good(f"--sensitivity={points}", "-f", "json", "-n", 200, "--seed", seed, path).json()[0]
+            found = figure(result, "energy_per_released_kJ")
+            yield seed, found["doubt_p95"] - found["doubt_p5"], {i["path"]: i for i in found["inputs"]}
+
+
+def test_shares_in_closed_form():
+    """Energy goes as density times gravity where rocks start at rest: shares of .8 and .2, and what is left, whatever the seed"""
+    left = {row["path"]: 0 for row in CLOSED}
+    for seed, width, found in energies_in_doubt(256, 10, False):
+        for row, share in zip(CLOSED, (0.8, 0.2)):
+            total, se = found[row["path"]]["total"], found[row["path"]]["total_se"]
+            expect(abs(total - share) < 3 * se < 0.4, f"seed {seed}: {row['path']}", found)
+            left[row["path"]] += found[row["path"]]["width_if_known"] / width / 10
+    whole = 3 - 2 * math.sqrt(0.2)  # p95 - p5 of the sum of two uniform ones, the first twice as wide
+    expect_near(left[CLOSED[0]["path"]], 0.9 / whole, 0.04, "density known")
+    expect_near(left[CLOSED[1]["path"]], 1.8 / whole, 0.04, "gravity known")
+
+
+def test_left_without_effect():
+    """Of an input without effect all of the doubt is left, on the mean of ten seeds, from however few points"""
+    for points in (16, 64):
+        shares = [found[IDLE["path"]]["width_if_known"] / width for _, width, found in energies_in_doubt(points, 10, True)]
+        expect_near(sum(shares) / 10, 1, 0.1, f"{points} points: {shares}")
+
+
 def test_many():
     """Sixty inputs: the least move together, and it is said how many"""
     belts = [{"from_m": 4 * i, "to_m": 4 * i + 4, "stand": wood()} for i in range(20)]
@@ -314,18 +358,17 @@ def test_ranked_by_few_rocks():
 
 
 def test_ranking():
-    """Options: each pair of neighbours in rank with the probability of its order; two alike are even"""
+    """Options: each pair of neighbours in rank, in how much of what may be true it is better, equal, worse; two alike are equal"""
     belts = [{"from_m": 0, "to_m": 80, "stand": wood()}]
     options = [{"name": "a", "forest": belts}, {"name": "b", "forest": belts}, {"name": "none", "forest": []}]
     what = measured(options=options, doubt=[DENSITY])
     del what["forest"]
     result = answer(what)
     expect_equal(len(result["figures"]), 3 * 3 + 2 * 3)
-    pairs = {(r["better"], r["than"]): r["probability"] for r in result["ranking"]}
+    pairs = {(r["better"], r["than"]): (r["probability"], r["equal"], r["worse"]) for r in result["ranking"]}
     expect_equal(len(pairs), 2)
-    same = pairs.get(("a", "b"), pairs.get(("b", "a")))
-    expect_equal(same, 0.5, "the same forest twice")
-    expect(any(than == "none" and p == 1 for (_, than), p in pairs.items()), pairs)
+    expect_equal(pairs.get(("a", "b"), pairs.get(("b", "a"))), (0, 1, 0), "the same forest twice")
+    expect(any(than == "none" and p == (1, 0, 0) for (_, than), p in pairs.items()), pairs)
     difference = [f for f in result["figures"] if f["against"] == "a" and f["option"] == "b"]
     expect_equal([(f["value"], f["doubt_p5"], f["doubt_p95"]) for f in difference], [(0, 0, 0)] * 3)
 
@@ -353,7 +396,8 @@ REFUSED = {
     "doubt[0].hi: the range is empty; hi must be above lo": {"path": "rock.density_kg_m3", "lo": 2500, "hi": 2500},
     "doubt[0].sd: the range is empty; sd must be above 0": {"path": "rock.density_kg_m3", "mean": 2500, "sd": 0},
     "doubt[0].hi: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "lo": 0.5, "hi": 1.5},
-    "doubt[0].mean: -0.125 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "mean": 0.25, "sd": 0.125},
+    "doubt[0].sd: 1.5 is outside the range of rn: 0…1": {"path": "slope.segments[0].rn", "mean": 0.75, "sd": 0.25},
+    "doubt[0].sd: sd is more than 2 times the mean; give lo and hi": {"path": "slope.segments[0].rn", "mean": 0.1, "sd": 0.25},
     "doubt[0].one_of[1]: 'dorian' is unknown; one of: brauner, dorren": {**LAW, "one_of": ["brauner", "dorian"]},
     "doubt[0].one_of: name at least two words": {**LAW, "one_of": ["brauner"]},
     "doubt[0]: give lo and hi, or mean and sd": {"path": "rock.density_kg_m3", "lo": 2500},

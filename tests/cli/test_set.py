@@ -80,6 +80,27 @@ def test_set_by_name_twice():
         bad_set_on(path, "forest[c].to_m=1", "'c': no such item")
 
 
+def test_set_all():
+    """-s with [*] sets a value of every item of a list, here or in files; an empty list has none"""
+    four, one = "four-systems", [f"options[{i}].forest[0].stand.stools.per_ha=700" for i in range(8)]
+    together, apart = (result(four, "-n", 20, *[w for s in sets for w in ("-s", s)]) for sets in
+                       (["options[*].forest[*].stand.stools.per_ha=700"], one))
+    together["work"] = apart["work"] = None  # it has the time
+    expect_equal(together, apart)
+    with Folder() as f:
+        belts = [{"from_m": x, "to_m": x + 9, "stand": stand()} for x in (10, 20)]
+        path = f.write("s.yaml", scene(forest=belts, doubt=[]))
+        expect_in("'*': no such item", ceduo("--check", "-s", "doubt[*].lo=1", path).err)
+        done = ceduo("--check", "-s", "forest[*].to_m=-1", path)
+        expect_in("--set:1:16: forest[0].to_m", done.err)
+        trees = stand(stools=None, shoots=None)
+        two = f.write("two.yaml", scene(forest=[{"from_m": x, "to_m": x + 9, "stand": trees} for x in (10, 20)]))
+        both, first = (good("-f", "json", "--find", f"forest[{n}].stand.trees[0].per_ha=50:5000", "--goal", "adc=9", where).json()[0]
+                       for n, where in (("*", two), ("0", f.write("one.yaml", scene(forest=[{"from_m": 10, "to_m": 19, "stand": trees}])))))
+        expect(both["found"] and both["value"] > 50, both)
+        expect_equal(both["value"], first["value"], "two belts alike, and one of them")
+
+
 def bad_set_on(path, change, words):
     done = ceduo("--check", "-s", change, path)
     expect(done.status == USAGE and words in done.err, done)

@@ -107,13 +107,13 @@ def test_refused():
              ({"lo": 1, "hi": 2}, "c.yaml", "'path' is missing")]
     with Folder() as f:
         for row, name, words in wrong:
-            f.write("c.yaml", coppice(row))
+            f.write("c.yaml", {"ceduo": "stand/1", **coppice(row)})
             r = ceduo("--check", f.write("s.yaml", site([belt("c.yaml")], [belt("c.yaml")])))
             expect_equal(r.status, INPUT, r)
             expect_in(name, r.err)
             expect_in(words, r.err)
             expect_equal(r.err.count(words), 1, r.err)
-        f.write("c.yaml", coppice(TREES, TREES))
+        f.write("c.yaml", {"ceduo": "stand/1", **coppice(TREES, TREES)})
         r = ceduo("--check", f.write("s.yaml", site([belt("c.yaml")])))
         expect_in("'trees[0].per_ha' is given twice", r.err)
         f.write("c.yaml", coppice())

@@ -56,6 +56,16 @@ def stools(stems):
     return {s[2] for s in stems if s[1] == "shoot"}
 
 
+def gamma_share(x, mean, sd):
+    """The share of a gamma law of this mean and deviation that is below x: its series."""
+    shape, scale = (mean / sd) ** 2, sd**2 / mean
+    term = total = 1 / shape
+    for n in range(1, 500):
+        term *= x / scale / (shape + n)
+        total += term
+    return total * math.exp(shape * math.log(x / scale) - x / scale - math.lgamma(shape))
+
+
 def test_densities():
     """Stools, shoots and trees per hectare of the map, a plot without stems among them; the standard errors are its doubt"""
     with Folder() as f:
@@ -67,11 +77,13 @@ def test_densities():
         r = ceduo("--sensitivity=2", "-n", 20, "-f", "json", path)
         inputs = {i["path"]: i for i in json.loads(r.out)["figures"][0]["inputs"]}
         mean, se = by_hand(stools)
-        half = 3 * se if mean > 3 * se else math.sqrt(3) * se
-        found = inputs["forest[0].stand.stools.per_ha"]
-        expect_near(found["hi"], mean + half, 1e-2)
+        expect(se > mean / 3, "a gamma law where the error is above a third of the mean", mean, se)
+        found, normal = inputs["forest[0].stand.stools.per_ha"], (1 + math.erf(-3 / math.sqrt(2))) / 2
+        for end, share in (("lo", normal), ("hi", 1 - normal)):  # where three standard deviations of a normal one would be
+            expect_near(gamma_share(found[end], mean, se), share, 1e-5, end)
         expect_in("forest[0].stand.trees[1].per_ha", list(inputs))
         expect_in("stools.spacing_m, mean: 0.35, sd: 0.05", text)  # of 0.3 and 0.4
+        expect_in("; spacing on 2 of them", text)
 
 
 def test_same_bytes():

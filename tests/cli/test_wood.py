@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
+from harness import (INPUT, USAGE, Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
                      wooded_scene)
 from pages import expect_width
 from runs import expect_run, through
@@ -50,7 +50,7 @@ EXTREMES = [
 
 def extreme(_, wood, rocks, clumps):
     with Folder() as f:
-        path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": wood}], simulation={"rocks": rocks}))
+        path = f.write("s.yaml", wooded_scene(forest=[{"from_m": 10, "to_m": 95, "stand": wood}], simulation={"rocks": rocks, "contact_dbh_m": 0}))
         for model in ("poisson", "stems"):
             run = result(path, *through(model))
             expect_run(run, model)
@@ -182,12 +182,12 @@ BRAUNER = {"model": "brauner", "u_J_m3": 102800}  # beech, Table 4 of Ciabocco e
 
 
 def dorren(ratio):
-    return {"model": "dorren", "fracture_ratio": ratio, "glancing": False}
+    return {"model": "dorren", "fracture_ratio": ratio}
 
 
 def test_laws_on_the_paper_site():
     """The paper's site under other published laws: share above 50 kJ within half a percent point of other programs' figures"""
-    for energy, wanted in ((None, 47.9), ({**BRAUNER, "offset": "dorren", "glancing": False}, 69.6),
+    for energy, wanted in ((None, 47.9), ({**BRAUNER, "offset": "dorren"}, 69.6),
                            (dorren(1), 32.7), (dorren(1.5), 9.2), (dorren(1.7), 4.9)):
         expect_near(exceed("paper-site", energy)[0], wanted, 0.5, energy)
     half = [w for k in ("forest[0]", "forest[1]") for c in ("shoots", "trees")
@@ -199,36 +199,37 @@ def test_laws_turn_the_order():
     """Just cut, large reserves are better than selection coppice by one law and worse by the other"""
     names = ("large reserves, just cut", "selection coppice, just cut")
     only = [w for name in names for w in ("--option", name)]
+    thin = f"options[{names[1]}].forest[0].stand.shoots[0].volume_m3={0.5 * math.pi / 4 * 0.04**2 * 5}"  # theirs by form factor 0.5
     for energy, wanted in (({"model": "brauner", "u_J_m3": 102800}, {names[0]: 39.8, names[1]: 55.6}),
                            (dorren(1.5), {names[0]: 28.6, names[1]: 20.0}),
-                           ({**BRAUNER, "offset": "dorren", "glancing": False}, {names[0]: 62.1, names[1]: 72.8})):
+                           ({**BRAUNER, "offset": "dorren"}, {names[0]: 62.1, names[1]: 72.8})):
         changes = [w for n in names for w in ("-s", f"options[{n}].forest[0].stand.energy={json.dumps(energy)}")]
-        run = result("four-systems", *only, *changes, "-n", 300000)
+        run = result("four-systems", *only, *changes, "-s", thin, "-n", 300000)
         for option in run["options"]:
             found = 100 * option["controls"][-1]["wooded"]["exceed_probability"]
             expect_near(found, wanted[option["name"]], 0.5, f"{option['name']}, {energy}")
 
 
-def test_glancing():
-    """A grazed stem cannot stop a rock: fewer are stopped, and the default is by law"""
-    def run(**energy):
-        stand = json.dumps({**BRAUNER, **energy})
-        return result("paper-site", "-s", f"forest[0].stand.energy={stand}", "-s", f"forest[1].stand.energy={stand}", "-n", 5000)
+def test_grazed_stems():
+    """A stem that is touched at its edge may stop a rock: no law lets nearly all rocks through Vaujany's forest, where 34 of 100 passed"""
+    passed = []
+    for energy in ({"model": "brauner"}, {"model": "dorren"}, {"model": "brauner", "offset": "dorren"}):
+        run = result("vaujany", "-s", f"options[1].forest[0].stand.energy={json.dumps(energy)}", "-n", 5000)
+        passed.append(run["options"][1]["controls"][-1]["wooded"]["reach_probability"])
+    expect(passed == sorted(passed) and passed[-1] < 0.6, passed)
 
-    def rest(run):
-        controls = run["options"][0]["controls"]
-        return [{k: v for k, v in c.items() if k != "other_energy"} for c in controls], run["options"][0]["ends"]
 
-    with_share = {"offset": "dorren"}
-    expect_equal(rest(run()), rest(run(glancing=False)), "brauner, whole")
-    expect_equal(rest(run(**with_share)), rest(run(**with_share, glancing=True)), "brauner, by eccentricity")
-    expect_equal(rest(run(model="dorren")), rest(run(model="dorren", glancing=True)), "dorren")
-    stopped = [run(model="dorren", glancing=g)["options"][0]["ends"]["stopped_by_stems"] for g in (True, False)]
-    expect(stopped[0] < stopped[1] - 0.03, stopped)
+def test_glancing_is_gone():
+    """energy.glancing, in a file and by -s, is refused with what to do instead"""
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(forest=[belt(20, 80, energy={"glancing": True})]))
+        for done in (ceduo("--batch", path), ceduo("--batch", "paper-site", "-s", "forest[0].stand.energy.glancing=true")):
+            expect_in("this key is gone: a hit takes what its law says, however slightly it touches; leave it out", done.err)
+            expect(done.status in (USAGE, INPUT), done.status)
 
 
 def test_hit_below():
-    """A hit above hit_below_m takes nothing: a tall stem is as good as one that ends there"""
+    """A hit with the rock's centre above hit_below_m takes nothing: a tall stem is as good as one that ends a radius below that"""
     with Folder() as f:
         trees = [{"per_ha": 900, "dbh_m": 0.2, "height_m": 30, "volume_m3": 0.05}]
         mapping = wooded_scene(controls=[{"x_m": 100}])
@@ -238,10 +239,11 @@ def test_hit_below():
             path = f.write("s.yaml", {**mapping, "forest": [{"from_m": 10, "to_m": 95, "stand": wood}]})
             return result(path)["options"][0]["controls"][0]["wooded"]
 
-        low = {**BRAUNER, "hit_below_m": 0.4}
+        low, radius = {**BRAUNER, "hit_below_m": 0.775}, 0.375
         expect_equal(wooded(low, 30), wooded(BRAUNER, 0.4))
+        expect_equal(wooded({**BRAUNER, "hit_below_m": radius}, 30)["contacts"]["mean"], 0, "no rock's centre is lower than its radius")
         expect_equal(wooded({**BRAUNER, "hit_below_m": 40}, 30), wooded(BRAUNER, 30))
-        expect(wooded(low, 30) != wooded(BRAUNER, 30), "hits above 0.4 m are many")
+        expect(wooded(low, 30) != wooded(BRAUNER, 30), "hits above it are many")
 
 
 def test_ratio_of_species():

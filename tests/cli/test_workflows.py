@@ -341,7 +341,7 @@ def test_survey():
     page = " ".join(walk.outputs[3].split())
     expect(re.search(r"standards: Toscana asks for 60 standards a hectare at least \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
                      page), page)
-    expect(re.search(r"is better than .*: (clear|likely|undecided)\.", " ".join(walk.outputs[4].split())), walk.outputs[4])
+    expect(re.search(r"is better than .*: (clear|likely|hardly ever worse|undecided)\.", " ".join(walk.outputs[4].split())), walk.outputs[4])
     expect(re.search(r"as it is: Whether the test of energy passes depends on .*roughness", " ".join(walk.outputs[4].split())),
            walk.outputs[4])
     for name, language in (("page.html", "en"), ("pagina.html", "it")):
@@ -427,7 +427,8 @@ def test_groups():
     for name, nothing in (("standards in groups, just cut", 24), ("single standards, just cut", 13)):
         expect_near(100 * float(runs[name]["summary.meet_nothing_probability"]), nothing, 0.5, f"{name}: nothing met")
     mean, se = (float(runs["standards in groups, just cut"][f"difference.exceed_probability.{key}"]) for key in ("mean", "se"))
-    expect_near(1000 * mean, 26, 0.5, "more of 1000")
+    more = re.search(r"Just cut, groups let (\d+) rocks of 1000 more through", PAGE.read_text(encoding="utf-8"))
+    expect_near(1000 * mean, float(more[1]), 0.50001, "more of 1000")
     expect_near(1000 * se, 2, 0.5, "standard error")
     expect(mean > 3 * se, "clearly more", mean, se)
     expect_in("standards in groups", walk.outputs[1])
@@ -438,13 +439,14 @@ def test_doubt():
     walk = walked("doubt")
     now, lo, hi, low, high = map(int, re.search(r"current +(\d+) +(\d+)–(\d+) +(\d+)–(\d+)", walk.outputs[0]).groups())
     expect(450 < now < 510 and 440 < lo < hi < 520, "480, 30 more or less", now, lo, hi)
-    expect(210 < low < 260 and 730 < high < 790, "230 to 760", low, high)
+    told = re.search(r"but (\d+) to (\d+) may be true", PAGE.read_text(encoding="utf-8"))
+    expect(abs(low - int(told[1])) <= 15 and abs(high - int(told[2])) <= 15, told[0], low, high)
     expect(high - low > 6 * (hi - lo), "the doubt is mostly far more")
     shares = [(m[1].strip(), int(m[2])) for m in re.finditer(r"^  (\S.{33}).* (\d+) % +\d+$", walk.outputs[0], re.M)]
     expect_equal([name for name, _ in shares[:2]], ["energy law", "hit off centre"])
     expect(shares[0][1] > 50, shares)
     expect_in("920 scenes were computed", walk.outputs[0])
-    expect(re.search(r"is better than .*: (clear|likely|undecided)\.", re.sub(r"\s+", " ", walk.outputs[1])), walk.outputs[1])
+    expect(re.search(r"is better than .*: (clear|likely|hardly ever worse|undecided)\.", re.sub(r"\s+", " ", walk.outputs[1])), walk.outputs[1])
 
 
 def test_hazard():
@@ -495,7 +497,7 @@ def test_sections():
     expect_equal(len(ends), 3, "options")
     once, top, bottom = ([int(x) for x in end] for end in ends)
     expect_equal([once[4], top[4], bottom[4]], [135] * 3, "metres felled")
-    expect_equal([once[0], top[0], bottom[0]], [1, 3, 3], "years without contact")
+    expect_equal([once[0], top[0], bottom[0]], [10, 25, 25], "years without contact: ten after each cut")
     for plan in (top, bottom):
         expect(plan[3] < 0.85 * once[3], "the worst year", ends)
         expect(abs(plan[1] - once[1]) < 60, "the mean", ends)

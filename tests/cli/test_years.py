@@ -313,7 +313,7 @@ def test_sum():
     controls = [{"x_m": 60, "accepted_kJ": 5}, {"x_m": 135, "accepted_kJ": 50}, {"x_m": 90}]
     for last in (1, 2):
         controls[2]["x_m"] = 90 if last == 1 else 140
-        found = run(four_systems(controls=controls, rocks=300), "0:27:3", "--plain")
+        found = run(four_systems(controls=controls, rocks=300), "0:27:3")
         for option in found["options"]:
             option["released"] = 300
             expect_sum(option, last)
@@ -509,7 +509,7 @@ def test_page_rotations():
     expect_in("Over these years 'in three, top first' and 'in three, bottom first' let the fewest dangerous rocks through and "
               "cannot be told apart", words)
     rows, words = rotations(good("--batch", "--years", "0:26", "-s", "simulation.contact_model=index", "rotation").out, NAMES)
-    expect(re.search(r" 194 \(1\) +2/27 +2/27 ", rows["simple coppice"]), rows)
+    expect(re.search(r" 194 \(1\) +11/27 +11/27 ", rows["simple coppice"]), rows)
     expect("fewest" not in words, words)
 
 
@@ -601,8 +601,10 @@ def test_right_after_the_cut():
             wooded = year["controls"][0]["wooded"]
             share[option["name"]] = (adc, wooded["exceed_probability"], wooded["exceed_lo"], wooded["exceed_hi"])
         expect(option["name"] in share, f"{option['name']} is never cut")
-        others = [y for y in option["years"] if not y["cut"]]
-        expect(all(y["controls"][0]["lights"]["contact"] == "pass" for y in others), f"{option['name']} between the cuts")
+        for year in option["years"]:  # shoots count from 3 cm on: d(10) = 16 (1 - exp(-.22)) = 3.16 cm
+            young = "selection" not in option["name"] and 1 <= year["year"] < 11
+            expect_equal(year["controls"][0]["lights"]["contact"] == "fail", young or year["cut"] and "selection" not in option["name"],
+                         f"{option['name']}, year {year['year']}")
     bare = found["options"][0]["controls"][0]["bare"]["exceed_probability"]
     print(f"# right after the cut, of 1000 with more than 50 kJ at 135 m (bare {1000 * bare:.0f}):")
     for name, (adc, p, lo, hi) in share.items():
@@ -743,7 +745,7 @@ def test_find_over_years():
     """--find over a rotation: of shares the mean over its years, of all else the worst year; by the index a share is that without forest"""
     for model, goals in (("stems", ("arrive=1", "adc=1e6", "free-run=1", "energy=1e6", "exceed=1")), ("index", ("arrive=1", "adc=1e6"))):
         mapping = site(belt(0, 135, coppice(rotation=5, stay=[30])), rocks=40, simulation={"contact_model": model})
-        rows = run(mapping, "1:5", "--plain")["options"][0]["years"]
+        rows = run(mapping, "1:5")["options"][0]["years"]
         controls = [row["controls"][0] for row in rows]
         arrivals = [c["wooded"] or c["bare"] for c in controls]
         expect(model == "index" or len({a["energy_kJ"]["mean"] for a in arrivals}) == 5, "years are alike")
@@ -751,7 +753,7 @@ def test_find_over_years():
             name = goal.split("=")[0]
             share = {"arrive": "reach_probability", "exceed": "exceed_probability"}.get(name)
             wanted = sum(a[share] for a in arrivals) / 5 if share else max(goal_of({"options": [row]}, name) for row in rows)
-            found = find(mapping, RESERVES, 60, 60, goal, "--years", "--plain")
+            found = find(mapping, RESERVES, 60, 60, goal, "--years")
             expect_near(found["goal_at_value"], wanted, 1e-9 * wanted, name)
 
 

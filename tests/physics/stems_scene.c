@@ -150,11 +150,10 @@ struct met meet(uint64_t rocks, double metres)
     return m;
 }
 
-static struct ceduo_run *run_as(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
-                                unsigned threads, size_t exact_bytes, bool plain)
+struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
+                         unsigned threads, size_t exact_bytes)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.plain = plain;
     def.option = option;
     def.rocks_most = rocks;
     def.threads = threads;
@@ -164,16 +163,4 @@ static struct ceduo_run *run_as(const struct ceduo_scene *scene, const struct ce
     assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
     assert_int_equal(ceduo_run_rocks(run), rocks);
     return run;
-}
-
-struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
-                         unsigned threads, size_t exact_bytes)
-{
-    return run_as(scene, option, rocks, threads, exact_bytes, true);
-}
-
-struct ceduo_run *adjusted_run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
-                                  unsigned threads, size_t exact_bytes)
-{
-    return run_as(scene, option, rocks, threads, exact_bytes, false);
 }

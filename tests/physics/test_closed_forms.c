@@ -596,14 +596,42 @@ static void widths_of_few(void **state)
     static const struct {
         uint64_t n;
         double t;
-    } rows[] = {{2, 12.706}, {3, 4.303}, {10, 2.262}, {31, 2.042}, {121, 1.980}, {10000000, 1.960}};
+    } rows[] = {{10, 2.262}, {16, 2.131}, {31, 2.042}, {121, 1.980}, {10000000, 1.960}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         EXPECT_NEAR(ceduo_half_width(2, rows[i].n), 2 * rows[i].t, 1e-3);
-    assert_true(isnan(ceduo_half_width(1, 1)));
-    assert_true(isnan(ceduo_half_width(1, 0)));
+    for (uint64_t n = 0; n < 10; n++) /* too few to say */
+        assert_true(isnan(ceduo_half_width(1, n)));
     expect_near(ceduo_half_width_of_share(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
     EXPECT_NEAR(ceduo_half_width_of_share(0, 0, 20), .1611, .5e-4); /* Newcombe 1998, Table I */
     EXPECT_NEAR(ceduo_half_width_of_share(1, 0, 29), .1170, .5e-4);
+}
+
+/* Of n pairs that are all equal as many as 3.841/(n + 3.841) may differ: Wilson's upper end of 0 of n. */
+static void pairs_that_do_not_differ(void **state)
+{
+    (void)state;
+    struct ceduo_moments m = {0};
+    struct ceduo_paired p = ceduo_paired_of(.5, &m, 100); /* of which no single rock is kept */
+    EXPECT(p.mean, ==, .5);
+    assert_true(isnan(p.se));
+    EXPECT(p.below, ==, 0);
+    for (int i = 0; i < 999; i++)
+        ceduo_moments_add(&m, 0);
+    p = ceduo_paired_of(0, &m, 999);
+    EXPECT(p.mean, ==, 0);
+    assert_true(isnan(p.se));
+    EXPECT_NEAR(p.below, 3.841459 / (999 + 3.841459), 1e-9);
+    ceduo_moments_add(&m, -1); /* one of 1000 */
+    p = ceduo_paired_of(-1e-3, &m, 1000);
+    EXPECT(p.mean, ==, -1e-3);
+    EXPECT_NEAR(p.se, 1e-3, 1e-6);
+    EXPECT(p.below, ==, 0);
+    m = (struct ceduo_moments){0};
+    for (int i = 0; i < 20; i++)
+        ceduo_moments_add(&m, 0.5); /* all differ, and alike */
+    p = ceduo_paired_of(0.5, &m, 20);
+    EXPECT(p.se, ==, 0);
+    EXPECT(p.below, ==, 0);
 }
 
 static void ranks_of_quantiles(void **state)
@@ -952,6 +980,7 @@ int main(void)
         cmocka_unit_test(four_times_the_lengths_and_twice_the_speeds_are_the_same_way),
         cmocka_unit_test(intervals_of_wilson),
         cmocka_unit_test(widths_of_few),
+        cmocka_unit_test(pairs_that_do_not_differ),
         cmocka_unit_test(ranks_of_quantiles),
         cmocka_unit_test(intervals_of_quantiles),
         cmocka_unit_test(a_distribution_of_exact_values),

@@ -474,9 +474,11 @@ static void volumes_of_tabacchi(void **state)
         {"castanea-sativa", 20, 15, -2.001 + 0.036524 * 400 * 15 + 0.74466 * 20, CEDUO_VOLUME_EQUATION},
         {"robinia-pseudoacacia", 20, 15, -2.1214 + 0.037123 * 400 * 15 + 0.14296 * 20, CEDUO_VOLUME_EQUATION},
         {"picea-abies", 30, 20, -9.1298 + 0.034866 * 900 * 20 + 1.4633 * 30, CEDUO_VOLUME_EQUATION},
-        {"ostrya-carpinifolia", 4.7, 4, 0.5 * 3.14159265358979 / 4 * 4.7 * 4.7 * 4 / 10, CEDUO_VOLUME_FORM_FACTOR},
-        {"ostrya-carpinifolia", 36, 20, 0.5 * 3.14159265358979 / 4 * 36 * 36 * 20 / 10, CEDUO_VOLUME_FORM_FACTOR},
-        {"acer", 20, 25, 0.5 * 3.14159265358979 / 4 * 20 * 20 * 25 / 10, CEDUO_VOLUME_FORM_FACTOR},
+        /* beyond the rectangle d2 h times that of its nearest point */
+        {"ostrya-carpinifolia", 4.7, 4, (-1.4983 + 0.038828 * 25 * 5) * (4.7 * 4.7 * 4) / (25 * 5), CEDUO_VOLUME_FORM_FACTOR},
+        {"ostrya-carpinifolia", 36, 20, (-1.4983 + 0.038828 * 35 * 35 * 20) * (36 * 36.) / (35 * 35), CEDUO_VOLUME_FORM_FACTOR},
+        {"castanea-sativa", 3, 40, (-2.001 + 0.036524 * 36 * 30 + 0.74466 * 6) * (9 * 40.) / (36 * 30), CEDUO_VOLUME_FORM_FACTOR},
+        {"acer", 20, 25, (1.6905 + 0.037082 * 400 * 24) * 25 / 24, CEDUO_VOLUME_FORM_FACTOR},
     };
     for (size_t i = 0; i < LENGTH(rows); i++) {
         const struct volume_row *r = &rows[i];
@@ -488,6 +490,31 @@ static void volumes_of_tabacchi(void **state)
         assert_int_equal(from, r->from);
     }
     assert_int_equal(ceduo_species_find("sequoia"), -1);
+}
+
+/* A stem a little thicker or taller never takes less: there is no jump at the edge of any species' data. */
+static void volumes_have_no_jump(void **state)
+{
+    (void)state;
+    size_t n;
+    const struct ceduo_species *list = ceduo_species_list(&n);
+    for (size_t i = 0; i < n; i++) {
+        const double edges[][2] = {{list[i].d_lo, 12}, {list[i].d_hi, 12}, {20, list[i].h_lo}, {20, list[i].h_hi}};
+        struct ceduo_stand stand = {.species = (int)i, .u = NAN};
+        for (size_t e = 0; e < LENGTH(edges); e++) {
+            double before = 0;
+            for (int k = -1; k <= 1; k += 2) {
+                double more = 1 + 1e-9 * k;
+                struct ceduo_stems stems = {.per_ha = 1, .volume = NAN, .dbh = edges[e][0] / 100 * more, .height = edges[e][1] * more};
+                double volume = ceduo_stem_volume(&stand, &stems, NULL);
+                if (k > 0) {
+                    EXPECT(volume, >, before);
+                    EXPECT_NEAR(volume / before, 1, 1e-7);
+                }
+                before = volume;
+            }
+        }
+    }
 }
 
 static void energy_of_a_reserve_by_its_volume(void **state)
@@ -766,6 +793,7 @@ int main(void)
         cmocka_unit_test(basal_area_of_table_1),
         cmocka_unit_test(energies_of_dorren),
         cmocka_unit_test(volumes_of_tabacchi),
+        cmocka_unit_test(volumes_have_no_jump),
         cmocka_unit_test(energy_of_a_reserve_by_its_volume),
         cmocka_unit_test(work_of_table_4),
         cmocka_unit_test(each_stratum_takes_its_own_energy),

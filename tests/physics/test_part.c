@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "core/run_pack.h"
-#include "core/variate_sums.h"
 #include "paper_site.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
@@ -221,12 +220,9 @@ static void put_count(struct saved *s, size_t at, uint64_t value)
 }
 
 /* Behind the head its first block: contacts, ends, two counts of them and stems, then moments of four numbers each, of the
- * stops, and at the control of four quantities and of the stems hit before; then how many exceed, ends, sums with variates, and
- * sums of these. */
+ * stops, and at the control of four quantities and of the stems hit before; then how many exceed, and ends. */
 enum { AT_END = 8, AT_UPHILL = 8 * 8 + 8 * (1 + CEDUO_ENDS), AT_STOPS = AT_UPHILL + 8 * (2 + 3), AT_CONTROL = AT_STOPS + 4 * 8,
-       AT_HITS = AT_CONTROL + 4 * 4 * 8, AT_VARIED = AT_HITS + 4 * 8 + 8 + 8 * CEDUO_ENDS,
-       AT_VARIATES = AT_VARIED + 8 * VARIATES * (VARIED_ENDED + CEDUO_ENDS),
-       AT_NEXT = AT_VARIATES + 8 * (VARIATES + VARIATES * (VARIATES + 1) / 2) };
+       AT_HITS = AT_CONTROL + 4 * 4 * 8 };
 
 static void figures_that_are_none_are_refused(void **state)
 {
@@ -241,24 +237,13 @@ static void figures_that_are_none_are_refused(void **state)
     } rows[] = {{AT_CONTROL + 8, NAN},       {AT_CONTROL + 8, INFINITY}, {AT_CONTROL + 16, NAN},
                 {AT_CONTROL + 16, INFINITY}, {AT_CONTROL + 16, -1},      {AT_CONTROL + 24, NAN},
                 {AT_CONTROL + 24, INFINITY}, {AT_STOPS + 24, NAN}, /* without forest none is hit: plain zeros */
-                {AT_HITS + 8, -0.},          {AT_HITS + 16, 1},          {AT_HITS + 24, -0.},
-                /* sums of which a zero has no sign: it would get lost in the next sum */
-                {AT_VARIED, NAN},            {AT_VARIED + 8 * VARIED_ENDED, -0.}, {AT_VARIATES - 8, INFINITY},
-                {AT_VARIATES, NAN},          {AT_VARIATES + 8, -0.},     {AT_NEXT - 8, INFINITY}};
+                {AT_HITS + 8, -0.},          {AT_HITS + 16, 1},          {AT_HITS + 24, -0.}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         unsigned char was[8];
         memcpy(was, first.bytes + rows[i].at, 8);
         put_double(&first, rows[i].at, rows[i].value);
         assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
         memcpy(first.bytes + rows[i].at, was, 8);
-    }
-    for (size_t i = 0; i < 2; i++) { /* the variates of the last rock, of four bytes each */
-        const float none = i == 0 ? NAN : INFINITY;
-        unsigned char *last = first.bytes + first.n - (1 + i) * sizeof none, was[sizeof none];
-        memcpy(was, last, sizeof was);
-        memcpy(last, &none, sizeof none);
-        assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_BAD_PART);
-        memcpy(last, was, sizeof was);
     }
     for (size_t i = 0; i < 2; i++) { /* more that leave uphill than leave, more that are stopped early than are stopped */
         put_count(&first, AT_UPHILL + 8 * i, ROCKS);
@@ -312,8 +297,7 @@ static void weights_that_are_none_are_refused(void **state)
     free(first.bytes);
 }
 
-/* Where samples are not kept the energies of the first rocks and then their variates come last: no more energies than rocks that
- * arrived. */
+/* Where samples are not kept the energies of the first rocks come last: no more of them than rocks that arrived. */
 static void more_energies_than_arrivals_are_refused(void **state)
 {
     (void)state;
@@ -334,15 +318,13 @@ static void more_energies_than_arrivals_are_refused(void **state)
     def.rocks_most = 8;
     struct ceduo_run *to = run_of(def, 0);
     assert_int_equal(paper_run_save(from, &s.bytes, &s.n), CEDUO_OK);
-    size_t variates = 8 * VARIATES * sizeof(float), behind = s.n - variates;
-    size_t at = behind - 8 * (size_t)a.reached - 1; /* their bits */
+    size_t at = s.n - 8 * (size_t)a.reached - 1; /* their bits */
     unsigned lacks = ~(unsigned)s.bytes[at] & 0xff;
     struct saved more = {malloc(s.n + 8), s.n + 8};
     assert_non_null(more.bytes);
-    memcpy(more.bytes, s.bytes, behind);
-    memcpy(more.bytes + behind + 8, s.bytes + behind, variates);
+    memcpy(more.bytes, s.bytes, s.n);
     more.bytes[at] = (unsigned char)(s.bytes[at] | (lacks & -lacks)); /* one more of them */
-    put_double(&more, behind, 1000);
+    put_double(&more, s.n, 1000);
     assert_int_equal(ceduo_run_adopt(to, more.bytes, more.n), CEDUO_BAD_PART);
     more.bytes[at] = s.bytes[at];
     assert_int_equal(ceduo_run_adopt(to, more.bytes, more.n), CEDUO_BAD_PART); /* too long */

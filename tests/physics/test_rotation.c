@@ -364,7 +364,7 @@ static void a_cut_in_year_0_is_done(void **state)
     now = at(&s, 0, 0);
     assert_true(ceduo_stand_is_bare(&now.stand));
     assert_false(now.stems);
-    EXPECT(ceduo_stand_sdi(&now.stand), ==, 0);
+    EXPECT(ceduo_stems_sdi(now.stand.trees, now.stand.trees_count), ==, 0);
     ceduo_grown_stand_release(&now);
 }
 
@@ -385,11 +385,10 @@ static void without_cuts_it_grows_for_ever(void **state)
 
 /* ---- density ---- */
 
-static double index_by_hand(const struct ceduo_stand *s)
+static double index_by_hand(const struct ceduo_stems *stems, size_t count)
 {
     double n = 0, squares = 0;
-    for (size_t i = 0; i < s->shoots_count + s->trees_count; i++) {
-        const struct ceduo_stems *x = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
+    for (const struct ceduo_stems *x = stems; x < stems + count; x++) {
         n += x->per_ha;
         squares += x->per_ha * (x->dbh * x->dbh + x->dbh_sd * x->dbh_sd);
     }
@@ -401,13 +400,17 @@ static void the_density_index(void **state)
     (void)state;
     struct paper_plot plot; /* one mean dbh each */
     paper_plot_init(&plot, 1);
-    expect_near(ceduo_stand_sdi(&plot.stand), 9076 * pow(6.1 / 25.4, 1.605), 1e-13);
+    expect_near(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
     paper_plot_init(&plot, 2);
-    expect_near(ceduo_stand_sdi(&plot.stand), 4641 * pow(4.7 / 25.4, 1.605), 1e-13);
+    expect_near(ceduo_stems_sdi(&plot.trees, 1), plot.trees.per_ha * pow(4.7 / 25.4, 1.605), 1e-13);
     struct sample s;
     init(&s);
-    s.shoots[0].dbh_sd = .02;
-    expect_near(ceduo_stand_sdi(&s.stand), index_by_hand(&s.stand), 1e-13);
+    s.trees[0].dbh_sd = .02;
+    expect_near(ceduo_stems_sdi(s.trees, 2), index_by_hand(s.trees, 2), 1e-13);
+    s.stand.growth.sdi_most = 800;
+    expect_near(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 280, 1e-13);
+    s.stand.growth.trees_sdi_most = 500;
+    expect_near(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500, 1e-13);
 }
 
 static void shoots_are_thinned_to_the_density(void **state)
@@ -429,17 +432,20 @@ static void shoots_are_thinned_to_the_density(void **state)
     EXPECT(thinned, >, 5);
     EXPECT(thinned, <, 20);
     init(&s);
-    s.stand.growth.sdi_most = 600;
+    s.stand.growth.sdi_most = 600; /* the trees take their part of it */
+    s.stand.growth.trees_sdi_most = 400;
     struct ceduo_grown_stand grown = at(&s, 0, 24);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(grown.stand.trees[1].per_ha, ==, 30);
-    expect_near(index_by_hand(&grown.stand), 600, 1e-12);
+    double trees = index_by_hand(grown.stand.trees, 2);
+    EXPECT(trees, >, 50);
+    expect_near(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.sdi_most = 10; /* the trees alone are more */
     grown = at(&s, 0, 24);
     expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
-    EXPECT(index_by_hand(&grown.stand), >, 10);
+    EXPECT(ceduo_space_of_trees(&s.stand.growth, &grown.stand), <, 1);
     ceduo_grown_stand_release(&grown);
 }
 
@@ -473,7 +479,7 @@ static void random_stand(struct sample *s)
         .shoots = s->shoots,
         .trees = s->trees,
         .u = NAN,
-        .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000), 0},
+        .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000), uniform(0, 1) < .5 ? 0 : uniform(100, 2000), 0},
         .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s->stay}};
     stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
     stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;
@@ -521,12 +527,14 @@ static void no_computed_stand_is_too_dense(void **state)
     for (int i = 0; i < STANDS; i++) {
         struct sample s;
         random_stand(&s);
-        double most = s.stand.growth.sdi_most;
-        for (unsigned year = 1; most > 0 && year < YEARS; year += 4) {
+        const struct ceduo_growth *g = &s.stand.growth;
+        for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
             struct ceduo_grown_stand grown = at(&s, NAN, year);
-            double sdi = index_by_hand(&grown.stand), shoots = ceduo_stand_shoots(&grown.stand);
-            thinned += fabs(sdi - most) < 1e-9 * most;
-            if (sdi > most * (1 + 1e-9)) {
+            double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
+            double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
+            double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
+            thinned += most > 0 && fabs(sdi - most) < 1e-9 * most;
+            if (sdi > most * (1 + 1e-9) && shoots > 0) {
                 EXPECT(shoots, <=, grown.stand.stools_per_ha * (1 + 1e-12));
                 at_least++;
             }

@@ -23,18 +23,12 @@ static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
 }
 
 /* A run of `scene` of so many rocks on as many threads. */
-static struct ceduo_run *run_as(struct ceduo_scene *scene, uint64_t rocks, unsigned threads, bool plain)
+static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, unsigned threads)
 {
     scene->simulation.rocks = rocks;
     struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.plain = plain;
     def.threads = threads;
     return run_of(&def, rocks);
-}
-
-static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, unsigned threads)
-{
-    return run_as(scene, rocks, threads, false);
 }
 
 static struct ceduo_arrivals arrivals_of(const struct ceduo_run *run, size_t control)
@@ -119,7 +113,7 @@ static void figures_of_an_arrival_fit_together(void **state)
 {
     (void)state;
     choose(&combinations[3]);
-    struct ceduo_run *run = run_as(&site.scene, 5000, 2, true);
+    struct ceduo_run *run = run_scene(&site.scene, 5000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     static double energies[5000];
     size_t n = ceduo_run_energies(run, 0, energies, LENGTH(energies)), exceeded = 0;
@@ -173,7 +167,7 @@ static void a_run_flies_the_rocks_that_can_be_followed(void **state)
 {
     (void)state;
     choose(&combinations[5]);
-    struct ceduo_run *run = run_as(&site.scene, 1500, 2, true);
+    struct ceduo_run *run = run_scene(&site.scene, 1500, 2);
     struct ceduo_moments energy = {0}, speed = {0}, height = {0};
     uint64_t contacts = 0;
     for (uint64_t rock = 0; rock < 1500; rock++) {

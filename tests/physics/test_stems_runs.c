@@ -176,33 +176,6 @@ static void differences_without_all_samples_are_the_same(void **state)
     EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
 }
 
-static void adjusted_differences_are_those_of_adjusted_figures(void **state)
-{
-    (void)state;
-    const uint64_t rocks = 5000;
-    static const size_t bytes[] = {CEDUO_EXACT_BYTES, 2500 * sizeof(double), 0};
-    open_sides();
-    for (size_t i = 0; i < LENGTH(bytes); i++) {
-        struct ceduo_run *run = adjusted_run_of(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
-        struct ceduo_run *base = adjusted_run_of(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
-        struct ceduo_run *plain[2] = {run_of(&site.scene, &sides.options[1], rocks, 2, bytes[i]),
-                                      run_of(&site.scene, &sides.options[0], rocks, 2, bytes[i])};
-        struct ceduo_difference d = ceduo_run_difference(run, base, 0), p = ceduo_run_difference(plain[0], plain[1], 0);
-        struct ceduo_arrivals a, b;
-        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        assert_int_equal(ceduo_run_arrivals(base, 0, &b), CEDUO_OK);
-        EXPECT_NEAR(d.reach_probability.mean, a.reach_probability - b.reach_probability, 1e-12);
-        EXPECT_NEAR(d.exceed_probability.mean, a.exceed_probability - b.exceed_probability, 1e-12);
-        EXPECT_NEAR(d.energy_per_released.mean, a.energy_per_released - b.energy_per_released, 1e-12 * a.energy_per_released);
-        EXPECT(d.energy_per_released.se <= 1.01 * p.energy_per_released.se, ==, bytes[i] > 0); /* of no rock it is not known */
-        EXPECT(d.energy_per_released.mean, !=, p.energy_per_released.mean);
-        ceduo_run_free(plain[0]);
-        ceduo_run_free(plain[1]);
-        ceduo_run_free(base);
-        ceduo_run_free(run);
-    }
-}
-
 static void expect_same_bits(const struct ceduo_run *a, const struct ceduo_run *b)
 {
     struct ceduo_arrivals x, y;
@@ -226,11 +199,11 @@ static void the_same_bits_among_stems_with_any_number_of_threads_and_steps(void 
     static const uint64_t to[] = {999, 1024, 3000, 3000, 4096, 5000};
     open_sides();
     for (size_t e = 0; e < LENGTH(bytes); e++) {
-        struct ceduo_run *base = adjusted_run_of(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
-        struct ceduo_run *one = adjusted_run_of(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
+        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
+        struct ceduo_run *one = run_of(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
         struct ceduo_difference d = ceduo_run_difference(one, base, 0), f;
         for (size_t t = 0; t < LENGTH(threads); t++) {
-            struct ceduo_run *many = adjusted_run_of(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
+            struct ceduo_run *many = run_of(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
             expect_same_bits(one, many);
             f = ceduo_run_difference(many, base, 0);
             assert_memory_equal(&d, &f, sizeof d);
@@ -380,7 +353,7 @@ static void options_with_the_same_stems_share_a_run(void **state)
     work = ceduo_pool_work(pool);
     assert_int_equal(work.rocks, 3000);
     struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
-    struct ceduo_run *alone = adjusted_run_of(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
+    struct ceduo_run *alone = run_of(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
     expect_same_bits(run, alone);
     ceduo_run_free(alone);
     ceduo_pool_free(pool);
@@ -425,7 +398,6 @@ int main(void)
         cmocka_unit_test(rocks_on_the_papers_site_arrive_as_in_independent_implementations),
         cmocka_unit_test(differences_have_the_error_of_differences_rock_by_rock),
         cmocka_unit_test(differences_without_all_samples_are_the_same),
-        cmocka_unit_test(adjusted_differences_are_those_of_adjusted_figures),
         cmocka_unit_test(the_same_bits_among_stems_with_any_number_of_threads_and_steps),
         cmocka_unit_test(a_run_among_stems_flies_the_rocks_that_can_be_followed),
         cmocka_unit_test(stems_that_take_nothing_leave_the_way_as_it_is),

@@ -54,7 +54,6 @@ static void inertia_beside_brauner(void **state)
         double energy = .5 * MASS * rows[i].speed * rows[i].speed;
         EXPECT_NEAR(share * energy / amount, rows[i].ratio, 5e-4);
     }
-    assert_false(ceduo_stand_glances(&plot.stand)); /* not unless the stand says so */
     EXPECT(ceduo_stand_warnings(&plot.stand, B, CEDUO_RULE_AUTO) & CEDUO_WARN_INERTIA, !=, 0);
 }
 
@@ -65,44 +64,33 @@ static struct ceduo_belt *plant_inert(double from, double to)
     plant_shoots(belt, 3200, .12)->volume = .005;
     belt->stand.energy = CEDUO_INERTIA;
     belt->stand.green_density = GREEN;
-    belt->stand.glancing = -1;
     return belt;
 }
 
-/* e(u) E m/(M + m), however fast the rock is; with `glancing` no more than 1 - u2 of E. */
+/* e(u) E m/(M + m), however fast the rock is. */
 static void hits_take_their_share(void **state)
 {
     (void)state;
     struct ceduo_rock rock;
-    uint64_t hits = 0, cut = 0;
-    for (int glancing = 0; glancing < 2; glancing++) {
-        clear_plane(520);
-        ceduo_rock_of_means(&plane.line.scene.rock, &rock);
-        struct ceduo_belt *belt = plant_inert(10, 510);
-        if (glancing) { /* stems so heavy that they could stop it */
-            belt->stand.glancing = 1;
-            belt->stand.trees[0].volume = belt->stand.shoots[0].volume = 1e3;
-            belt->to = 14;
+    uint64_t hits = 0;
+    clear_plane(520);
+    ceduo_rock_of_means(&plane.line.scene.rock, &rock);
+    plant_inert(10, 510);
+    sweep_begin();
+    for (uint64_t number = 0; number < 500; number++) {
+        sweep_rock(number);
+        EXPECT(sweep.way.end, !=, CEDUO_STOPPED_BY_STEMS);
+        for (size_t i = 0; i < sweep.count; i++) {
+            const struct ceduo_stem_passed *s = &sweep.stems[i];
+            double m = 33. / 140 * GREEN * (s->shoot ? .005 : .02);
+            double u = fabs(s->y) / ((B + s->dbh) / 2), share = printed_share(u) * m / (rock.mass + m);
+            if (s->hit && !(fabs(s->taken / s->before - share) <= 1e-10))
+                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, s->before);
+            hits += s->hit;
         }
-        sweep_begin();
-        for (uint64_t number = 0; number < 500; number++) {
-            sweep_rock(number);
-            EXPECT(sweep.way.end, !=, CEDUO_STOPPED_BY_STEMS);
-            for (size_t i = 0; i < sweep.count; i++) {
-                const struct ceduo_stem_passed *s = &sweep.stems[i];
-                double volume = glancing ? 1e3 : s->shoot ? .005 : .02, m = 33. / 140 * GREEN * volume;
-                double u = fabs(s->y) / ((B + s->dbh) / 2), share = printed_share(u) * m / (rock.mass + m);
-                cut += glancing && share > 1 - u * u;
-                double wanted = glancing ? fmin(share, 1 - u * u) : share;
-                if (s->hit && !(fabs(s->taken / s->before - wanted) <= 1e-10))
-                    fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, s->before);
-                hits += s->hit;
-            }
-        }
-        sweep_end();
     }
+    sweep_end();
     EXPECT(hits, >, 10000);
-    EXPECT(cut, >, 100);
 }
 
 /* A contact of poisson takes the mean share of its stratum: of stools that of their shoots. */
@@ -182,7 +170,6 @@ static void stumps_are_met_as_low_trees(void **state)
         clear_plane(520); /* the rock's underside is .95 to 1 m high */
         struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
         belt->stand.energy = CEDUO_DORREN;
-        belt->stand.glancing = 0;
         belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = low ? .9 : 1.1, .energy = 1500};
         sweep_begin();
         for (uint64_t number = 0; number < 800; number++) {
@@ -199,26 +186,6 @@ static void stumps_are_met_as_low_trees(void **state)
         sweep_end();
     }
     expect_mean("stumps per metre", &met, per_metre(900, B + .25));
-}
-
-/* Grazed stumps take no more than 1 - u2 of the energy where the stand says so. */
-static void grazed_stumps_stop_no_rock(void **state)
-{
-    (void)state;
-    clear_plane(520);
-    struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
-    belt->stand.glancing = 1;
-    belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = 5, .energy = 1e12};
-    sweep_begin();
-    for (uint64_t number = 0; number < 100; number++) {
-        sweep_rock(number);
-        EXPECT(sweep.way.end, !=, CEDUO_STOPPED_BY_STEMS);
-        const struct ceduo_stem_passed *s = &sweep.stems[0];
-        double u = 2 * fabs(s->y) / (B + .25);
-        if (sweep.count > 0)
-            EXPECT_NEAR(s->taken / s->before, 1 - u * u, 1e-9);
-    }
-    sweep_end();
 }
 
 /* Of N logs per square metre, drawn at random angles, those that touch a strip as wide as the rock: Buffon. */
@@ -241,7 +208,6 @@ static void logs_are_met_as_buffons_needles(void **state)
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     clear_plane(520);
     struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
-    belt->stand.glancing = 1; /* means nothing to a log */
     belt->stand.logs = (struct ceduo_logs){.per_ha = per_ha, .length = length, .diameter = 1.2, .energy = 700};
     sweep_begin();
     for (uint64_t number = 0; number < 2000; number++) {
@@ -638,7 +604,6 @@ int main(void)
         cmocka_unit_test(contacts_take_the_mean_share),
         cmocka_unit_test(the_index_multiplies_shares),
         cmocka_unit_test(stumps_are_met_as_low_trees),
-        cmocka_unit_test(grazed_stumps_stop_no_rock),
         cmocka_unit_test(logs_are_met_as_buffons_needles),
         cmocka_unit_test(the_index_has_stumps_and_logs),
         cmocka_unit_test(poisson_takes_stumps_and_logs),

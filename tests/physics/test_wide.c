@@ -42,8 +42,9 @@ static void compare_control(const char *scene, const struct ceduo_run *a, const 
     size_t n = ceduo_run_energies(a, control, energies[0], 5000);
     assert_int_equal(n, ceduo_run_energies(b, control, energies[1], 5000));
     expect_same_bits(scene, "energies", energies[0], energies[1], n * sizeof(double));
-    struct ceduo_difference d = ceduo_run_difference(a, a, control), e = ceduo_run_difference(b, a, control);
-    expect_same_bits(scene, "differences", &d, &e, sizeof d);
+    struct ceduo_difference d = ceduo_run_difference(b, a, control);
+    if (ceduo_run_rocks(a) > 0 && (d.energy_per_released.mean != 0 || d.energy_per_released.se > 0))
+        fail_msg("%s: a rock fares differently", scene);
 }
 
 /* Controls and cells. */
@@ -206,7 +207,6 @@ static void add_stand(struct wild *w, struct line_random *r, int i)
     stand->energy = (enum ceduo_energy_model)line_uniform(r, CEDUO_BRAUNER, CEDUO_INERTIA + 0.999);
     stand->green_density = 900;
     stand->offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
-    stand->glancing = line_chance(r, 0.5) ? -1 : line_chance(r, 0.5);
     stand->hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
     if (line_chance(r, 0.3))
         stand->stumps = (struct ceduo_stumps){.per_ha = line_uniform(r, 1, 2000),

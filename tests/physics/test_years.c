@@ -435,8 +435,8 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
         double r = a->reach_probability, e = a->exceed_probability, share = isnan(e) ? r : e;
         reach += r / n;
         exceed += e / n;
-        reach_se += (a->adjusted ? a->reach_se : sqrt(r * (1 - r) / (double)a->released)) / n;
-        exceed_se += (a->adjusted ? a->exceed_se : sqrt(e * (1 - e) / (double)a->released)) / n;
+        reach_se += sqrt(r * (1 - r) / (double)a->released) / n;
+        exceed_se += sqrt(e * (1 - e) / (double)a->released) / n;
         energy += a->energy_per_released / n;
         energy_se += a->energy_per_released_se / n;
         if (share > worst) {

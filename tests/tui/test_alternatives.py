@@ -151,7 +151,7 @@ def test_command_line():
     with Place() as place:
         place.write("bad.yaml", scene_with("{shape: sphere, diameter_m: 1, height_m: 2}"))
         done = ceduo("--check", str(place.path / "bad.yaml"))
-        expect("remove it" in done.err and "-s" not in done.err, done)
+        expect("remove it" in done.err and "-s '" not in done.err, done)
 
 
 if __name__ == "__main__":

@@ -20,12 +20,15 @@ NO_LAW = WOOD.replace("rock: {", "rock: {density_kg_m3: 2600, ", 1)
 
 
 def test_nothing():
-    """A scene with nothing in doubt says so, computes nothing, and has no doubt in the column"""
+    """A scene with nothing in doubt, or whose doubt is not asked for, says which, computes nothing, and has none in the column"""
+    told = {NO_LAW + "doubt: none\n": "not computed: the scene says 'doubt: none'",
+            NO_LAW + "doubt: []\n": "nothing is marked as assumed or named by 'doubt'"}
     with Place() as place:
-        place.write("sure.yaml", NO_LAW + "doubt: none\n")
-        sure, = place.play("key 7\nwait idle\ndump", "sure.yaml")
-        expect_in("nothing is marked as assumed or named by 'doubt'", sure.body)
-        expect("doubt" not in sure.now, sure.now)
+        for scene, why in told.items():
+            place.write("sure.yaml", scene)
+            sure, = place.play("key 7\nwait idle\ndump", "sure.yaml")
+            expect_in(why, sure.body)
+            expect("doubt" not in sure.now, sure.now)
 
 
 def test_view():
@@ -87,6 +90,17 @@ def test_options():
         place.write("cuts.yaml", CUTS + DOUBT.replace("forest[0]", "options[*].forest[0]"))
         thick, = place.play("key 7\nwait idle\ndump", "cuts.yaml")
     thick.has("thick is better than thin in", "clear.", "thick depends on")
+
+
+def test_units():
+    """The ends of a diameter's range stand in cm under their head, and are typed in cm; those of a density in its own unit"""
+    rows = "doubt:\n  - {path: 'forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n  - {path: rock.density_kg_m3, lo: 2400, hi: 2700}\n"
+    with Place() as place:
+        place.write("wide.yaml", NO_LAW + rows)
+        shown, = place.play("resize 120 40\nkey 7\nfind doubt[0].hi\nset 24\nwait idle\ndump\nkey s", "wide.yaml")
+        expect(re.search(r"^1 +diameter, c.*? 15 +24\b", shown.body, re.M), shown)
+        expect(re.search(r"^2 +density.*? 2400 +2700\b", shown.body, re.M), shown)
+        expect_in("hi: 0.24", place.text("wide.yaml"))
 
 
 def test_many_options():

@@ -193,7 +193,7 @@ def test_now_wood():
         for name, values in (("arriving kJ", [a["energy_kJ"]["mean"] for a in (wooded, bare)]),
                              ("kJ a rock", [a["energy_per_released_kJ"]["mean"] for a in (wooded, bare)]),
                              ("95 % kJ", [a["energy_kJ"]["p95"] for a in (wooded, bare)]),
-                             *[("95 % m", [a["height_m"]["p95"] for a in (wooded, bare)])] * (screen.width == 200)):
+                             *[("95% m under", [a["height_m"]["p95"] for a in (wooded, bare)])] * (screen.width == 200)):
             expect_equal(screen.pair(name), tuple(float(f"{v:.3g}") for v in values), name)
         for name, key in (("stems stop", "stopped_by_stems"), ("at rest", "came_to_rest")):
             expect_equal(screen.pair(name), tuple(round(a["missed"][key] * 1000) for a in (wooded, bare)), name)

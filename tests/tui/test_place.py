@@ -11,7 +11,7 @@ from harness import expect, expect_equal, expect_in, run_all  # noqa: E402
 from test_editing import table  # noqa: E402
 from test_ground import BELTS, GROUNDS, LAND, ONE_GROUND, land, points, stretches  # noqa: E402
 
-AT = re.compile(r"^([\d.]+) m: (-?\d+)° steep, (.*?)(?:; of 100 rocks that pass 95 are below ([\d.]+) m; ([\d.]+) kJ on average)?$")
+AT = re.compile(r"^([\d.]+) m: (-?\d+)° steep, (.*?)(?:; of 100 rocks that pass the underside of 95 is below ([\d.]+) m; ([\d.]+) kJ on average)?$")
 
 
 def place(screen):

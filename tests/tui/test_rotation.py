@@ -196,10 +196,13 @@ def test_window():
 
 
 def test_thin_shoots():
-    """Just after a cut thin shoots pass the test of contact alone: from 8 cm on it fails, and both are said"""
-    screens = shown("wait idle\nresize 120 40\nkey 6\nwait idle\nkey Tab l\ndump\nresize 80 24\ndump", "rotation.yaml")
-    with Place() as place:
-        year = result("--years", "-n", 100, place.path / "rotation.yaml")["options"][0]["years"][1]
+    """Shoots of a year count for no light; some years later thin ones pass the test of contact alone: from 8 cm on it fails, and both are said"""
+    screens = shown("wait idle\nresize 120 40\nkey 6\nwait idle\nkey Tab l l l l l l l l l l l\ndump\nresize 80 24\ndump", "rotation")
+    option = result("--years", "-n", 100, "rotation")["options"][0]
+    year, just_cut = option["years"][11], option["years"][1]
+    expect_equal([just_cut["controls"][0]["lights"][k] for k in ("contact", "free_run")], ["fail", "fail"], "shoots of a year")
+    expect_equal((option["rotation"]["unprotected_contact"], option["rotation"]["unprotected_contact_8cm"]), (10, 25))
+    expect_in("From 8 cm on: contact 25, free run 25.", flat(screens[0]))
     expect_equal([year["controls"][0]["lights"][k] for k in ("contact", "contact_8cm")], ["pass", "fail"], "the scene tells nothing")
     expect(re.search(r"✔ Contact +passes", screens[0].now) and re.search(r"✘ +≥8 cm +FAILS", screens[0].now), screens[0])
     expect_in("of stems from 8 cm on", flat(screens[0]))
@@ -207,8 +210,9 @@ def test_thin_shoots():
     counted = result("-s", "simulation.contact_dbh_m=0.08", "--years", "-n", 100, "rotation")["options"][0]["years"][2]
     lights = counted["controls"][0]["lights"]
     expect_equal((lights["contact"], lights["free_run"]), ("fail", "fail"), "only stems from contact_dbh_m on count")
-    paper = result("-s", "simulation.contact_dbh_m=0.08", "-n", 10, "paper-site")["options"][0]["stands"][0]
-    expect_equal((f"{paper['adc']['adc_m']:.3f}", paper["passes_threshold"]), ("1.948", False), "the paper's figure stays")
+    paper = [result("-s", f"simulation.contact_dbh_m={d}", "-n", 10, "paper-site")["options"][0]["stands"][0] for d in (0, 0.03, 0.08)]
+    expect_equal([(p["adc"]["adc_m"] and round(p["adc"]["adc_m"], 3), p["passes_threshold"]) for p in paper],
+                 [(1.948, True), (1.948, True), (None, False)], "the paper's figure stays where its stems of 6 cm count")
 
 
 def test_small_window():
@@ -363,7 +367,7 @@ def test_live_threshold():
         wait idle
         dump""")
     found = [[c for _, c in marks(s, "C")] for s in screens]
-    expect_equal([f.count("✘") for f in found], [0, 2], "years without contact at 300 m, at 30 m")
+    expect_equal([f.count("✘") for f in found], [0, 10], "years without contact at 300 m, at 30 m")
 
 
 def test_more_controls():

@@ -106,7 +106,7 @@ def check_now(screen, scene, charset):
     figure = "-" if by_index else r"[\d.]+"
     for pattern in (r"^of 1000 +forest +without$", rf"^ arrive +{share} +\d+$", rf"^ >50 kJ +{share} +\d+$",
                     rf"^kJ a rock +{figure} +[\d.]+$", rf"^arriving kJ +{figure} +[\d.]+$", rf"^  95 % kJ +{figure} +[\d.]+$",
-                    *[rf"^  95 % m +{figure} +[\d.]+$"] * (screen.height > 24),
+                    *[rf"^ 95% m under +{figure} +[\d.]+$"] * (screen.height > 24),
                     r"^index: -[\d.]+, left [\d.]+ kJ$",
                     rf"^finished, \d+ rocks(, {sign}[\d.]+ %)?$"):
         expect(re.search(pattern, now, re.M), f"nothing like {pattern!r} in the column on the right:", now)
@@ -127,7 +127,7 @@ def check_now(screen, scene, charset):
 
 def check_pairs(screen):
     """Through the wood no more arrive, and with no more energy, than without it; the energy light goes by the share."""
-    for name in ("arrive", ">50 kJ", "kJ a rock", "arriving kJ", "95 % kJ", *["95 % m"] * (screen.height > 24)):
+    for name in ("arrive", ">50 kJ", "kJ a rock", "arriving kJ", "95 % kJ", *["95% m under"] * (screen.height > 24)):
         wood, bare = screen.pair(name)
         expect(wood < bare, f"{name}: {wood} through the wood, {bare} without", screen.now)
     share = float(re.search(r"Energy +\w+ ([\d.]+) %", screen.now).group(1))
@@ -151,13 +151,13 @@ WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", 
 # With rocks in the wood, and by the index alone.
 MUST_WOOD = {"slope": ["wood", "bare"], "stand": [], "rock": ["rocks among stems stems"],
              "results": ["bare 991"], "compare": ["Of 1000 rocks, more than 50 kJ at 135 m", "today", "rotation"]}
-WIDE_WOOD = {"slope": ["p95 of the height, m", "mean energy, kJ", "ways of 102400 through"], "stand": [],
+WIDE_WOOD = {"slope": ["underside p95, m", "mean energy, kJ", "ways of 102400 through"], "stand": [],
              "rock": [], "results": ["Of 1000,", "are stopped by stems", "Energy: FAILS.", "of 1000 released"], "compare": []}
 MUST_INDEX = {"slope": [], "stand": [], "rock": ["rocks among stems index"], "results": ["n = 101519 of 102400"],
               "compare": ["At 135 m", "ADC m", "kJ/100m"]}
-WIDE_INDEX = {"slope": ["height above the ground, m", "without forest", "p95", "p50"], "stand": [], "rock": [],
+WIDE_INDEX = {"slope": ["underside above the ground, m", "without forest", "p95", "p50"], "stand": [], "rock": [],
               "results": ["Energy: unknown. The index alone"], "compare": []}
-HEADS = ("today", "worst year", "rotation", "fail", "m³/ha y", "CFE", "ADC m", "worst", "kJ/100m")
+HEADS = ("today", "worst year", "rotation", "fail", "m³/ha y", "CFE now", "ADC m", "worst", "kJ/100m")
 
 
 def compared(screen):
@@ -173,7 +173,7 @@ def compared(screen):
             break
         cells, begin = {}, heads[0][1] - 8
         for head, end in heads:
-            cells[head.replace("m3", "m³")] = line[begin:end].strip()
+            cells[head.replace("m3", "m³").replace(" now", "")] = line[begin:end].strip()
             begin = end
         in_columns = "  " in line.strip()  # the words below are not
         if in_columns and re.search(r"\d|…|\.\.\.|none|-", line[heads[0][1] - 5:heads[0][1]]) and re.search(r"\d/\d|…|\.\.\.|-", line):

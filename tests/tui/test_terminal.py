@@ -247,7 +247,7 @@ def test_resizes():
         t.sees("ceduo needs a window of 60 x 20; this one is 59 x 19")
         t.keys("1")
         t.tmux("resize-window", "-x", "120", "-y", "40")
-        screen = t.sees("Belts of forest", "height above the ground", "w export")
+        screen = t.sees("Belts of forest", "underside above the ground", "w export")
         lines = screen.split("\n")
         expect_equal(len(lines), 41, "lines")
         expect_in("? help", lines[39], "the last line")
@@ -787,6 +787,18 @@ def test_live_wood():
         t.keys("u")
         t.sees("rocks among stems    stems", "undone: ", lacks=("? Energy   unknown",))
         t.keys("s", "q")
+
+
+def test_rough_doubt():
+    """What is still being refined is called rough in the column, and no longer once it is not."""
+    with Place() as place, Tmux(place, 120, 40) as t:
+        t.start("four-systems")
+        t.keys("7")
+        found = re.search(r"^.*│ +doubt +\d+-\d+ +rough$", t.sees(" doubt  ", "rough"), re.M)
+        expect(found, "rough beside the doubt")
+        done = t.sees(" doubt  ", lacks=("rough", "being refined"))
+        expect(re.search(r"│ +doubt +\d+-\d+$", done, re.M), done)
+        t.keys("q")
 
 
 def main():

@@ -3,8 +3,10 @@
 #include "expect.h"
 
 #include <stdatomic.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <time.h>
 
 #include "study/chains.h"
@@ -35,10 +37,10 @@ static double wrong_guess(void *context, const double *x)
     return log_normal(moved);
 }
 
-static bool learn_nothing(void *context, const double *x, const double *densities, size_t n)
+static enum ceduo_status learn_nothing(void *context, const double *x, const double *densities, size_t n)
 {
     (void)context, (void)x, (void)densities, (void)n;
-    return true;
+    return CEDUO_OK;
 }
 
 static const double starts[8] = {5, 0, -5, 0, 1, -4, 3, -2}, scales[2] = {1, 1};
@@ -193,23 +195,112 @@ static void a_guess_learns_a_quadratic(void **state)
         u[2 * i + 1] = i / 8 / 8.;
         values[i] = 3 + u[2 * i] - 2 * u[2 * i] * u[2 * i + 1] + 5 * u[2 * i + 1] * u[2 * i + 1];
     }
-    assert_true(ceduo_guess_learn(&g, u, values, 5));
+    EXPECT(ceduo_guess_learn(&g, u, values, 5, NULL), ==, CEDUO_OK);
     EXPECT(ceduo_guess_at(&g, at), ==, 0);
     values[7] = -INFINITY;
-    assert_true(ceduo_guess_learn(&g, u, values, 64));
+    EXPECT(ceduo_guess_learn(&g, u, values, 64, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
     for (int i = 0; i < 64; i++)
         values[i] = i < 60 ? -INFINITY : 0; /* too few are known */
-    assert_true(ceduo_guess_learn(&g, u, values, 64));
+    EXPECT(ceduo_guess_learn(&g, u, values, 64, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_guess_at(&g, at), 3 + 0.3 - 2 * 0.27 + 5 * 0.81, 1e-9);
     for (int i = 0; i < 16; i++) { /* less than three times the six terms: each counts */
         u[2 * i] = i % 4 / 4.;
         u[2 * i + 1] = i / 4 / 4.;
         values[i] = 1 - u[2 * i];
     }
-    assert_true(ceduo_guess_learn(&g, u, values, 16));
+    EXPECT(ceduo_guess_learn(&g, u, values, 16, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
     ceduo_guess_release(&g);
+}
+
+/* A number from 0 to 1, the next of a row that is always the same. */
+static double next_unit(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/* What weighted least squares leave is orthogonal to every term, however many places there are: here of a quartic, with those
+ * that lie below the best counting less and less. */
+static void a_guess_weighs_what_it_knows(void **state)
+{
+    (void)state;
+    enum { N = 3000, NEAR = 9 /* three times the terms */ };
+    static double u[N], values[N], sorted[NEAR + 1];
+    struct guess g = ceduo_guess_begin(1);
+    uint64_t random = 1;
+    double left[3] = {0}, size[3] = {0};
+    for (int i = 0; i < N; i++) {
+        u[i] = next_unit(&random);
+        values[i] = -600 * pow(u[i] - 0.4, 4) - 90 * pow(u[i] - 0.4, 2);
+    }
+    for (int i = 0; i <= NEAR; i++) { /* the best ones */
+        sorted[i] = -INFINITY;
+        for (int k = 0; k < N; k++)
+            if (values[k] > sorted[i] && (i == 0 || values[k] < sorted[i - 1]))
+                sorted[i] = values[k];
+    }
+    double reach = fmax(2, (sorted[0] - sorted[NEAR]) / 2);
+    EXPECT(ceduo_guess_learn(&g, u, values, N, NULL), ==, CEDUO_OK);
+    for (int i = 0; i < N; i++) {
+        double weight = exp((values[i] - sorted[0]) / reach), miss = values[i] - ceduo_guess_at(&g, &u[i]);
+        for (int k = 0; k < 3; k++) {
+            left[k] += weight * miss * pow(u[i] - 0.5, k);
+            size[k] += fabs(weight * miss * pow(u[i] - 0.5, k));
+        }
+    }
+    for (int k = 0; k < 3; k++)
+        EXPECT_NEAR(left[k] / size[k], 0, 1e-9);
+    ceduo_guess_release(&g);
+}
+
+static atomic_bool ended;
+
+static void on_time(int number)
+{
+    (void)number;
+    atomic_store(&ended, true);
+}
+
+static double processor_seconds(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
+/* Twelve values have 91 terms. Ended after a tenth of the time that 25 000 places take, it ends in less than half of it, and
+ * knows what it knew. */
+static void a_guess_is_ended_while_it_learns(void **state)
+{
+    (void)state;
+    enum { N = 25000, D = 12 };
+    double *u = malloc(N * D * sizeof *u), *values = malloc(N * sizeof *values), start, all;
+    struct guess g = ceduo_guess_begin(D);
+    uint64_t random = 1;
+    assert_true(u && values);
+    for (int i = 0; i < N; i++) {
+        values[i] = 0;
+        for (int k = 0; k < D; k++) {
+            u[i * D + k] = next_unit(&random);
+            values[i] -= 40 * pow(u[i * D + k] - 0.3, 2);
+        }
+    }
+    start = processor_seconds();
+    EXPECT(ceduo_guess_learn(&g, u, values, N, &ended), ==, CEDUO_OK);
+    all = processor_seconds() - start;
+    double knew = ceduo_guess_at(&g, u);
+    for (int i = 0; i < N; i++)
+        values[i] *= 2;
+    struct itimerval timer = {.it_value = {(time_t)(all / 10), (suseconds_t)(fmod(all / 10, 1) * 1e6) + 1}};
+    signal(SIGPROF, on_time);
+    setitimer(ITIMER_PROF, &timer, NULL); /* of processor time */
+    start = processor_seconds();
+    EXPECT(ceduo_guess_learn(&g, u, values, N, &ended), ==, CEDUO_CANCELLED);
+    EXPECT(processor_seconds() - start, <, all / 2);
+    EXPECT(ceduo_guess_at(&g, u), ==, knew);
+    ceduo_guess_release(&g);
+    free(u);
+    free(values);
 }
 
 /* A density that ends the chains: `left` more are given. */
@@ -254,6 +345,20 @@ static void chains_are_ended(void **state)
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     EXPECT(c.steps, ==, 1 + 2 * CEDUO_CHAINS_ROUND);
     assert_false(c.settled);
+    ceduo_chains_release(&c);
+}
+
+/* Ended, nobody asks how well chains agree: that takes long of many draws. */
+static void a_look_at_all_chains_is_ended(void **state)
+{
+    (void)state;
+    struct chains c;
+    struct chains_def def = two_dimensions();
+    const atomic_bool cancel = true;
+    def.steps_most = 4 * CEDUO_CHAINS_ROUND;
+    def.cancel = &cancel;
+    EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
+    EXPECT(c.effective_size, ==, INFINITY);
     ceduo_chains_release(&c);
 }
 
@@ -326,7 +431,10 @@ static void chains_that_stand_still(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_guess_weighs_what_it_knows),
+        cmocka_unit_test(a_guess_is_ended_while_it_learns),
         cmocka_unit_test(chains_are_ended),
+        cmocka_unit_test(a_look_at_all_chains_is_ended),
         cmocka_unit_test(one_chain_ends_all),
         cmocka_unit_test(chains_that_stand_still),
         cmocka_unit_test(a_normal_law_is_drawn_from),        cmocka_unit_test(a_wrong_guess_changes_nothing),

@@ -250,7 +250,7 @@ static bool join_pools(void)
 /* Now the second option is clearly worse, and by the other energy law clearly better. */
 static void turn(struct ceduo_result *r)
 {
-    const struct ceduo_paired worse = {0.5, 0.1}, better = {-0.5, 0.1};
+    const struct ceduo_paired worse = {0.5, 0.1, 0}, better = {-0.5, 0.1, 0};
     r->options[1].differences[0].exceed_probability = worse;
     for (size_t i = 0; i < 2; i++)
         r->options[i].others[0] = (struct ceduo_other_energy){.known = true};
@@ -352,7 +352,7 @@ static bool ask_doubt(const struct ceduo_doubt_def *def, uint64_t parts)
         status = parts > 0 ? ceduo_doubt_join(def, written, parts, &answer) : ceduo_doubt_ask(def, &answer);
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_DOUBT_ENERGY].p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].p50);
-        add(answer.order, 2 * sizeof answer.order[0]);
+        add(answer.orders, answer.orders_count * sizeof answer.orders[0]);
         ceduo_doubt_free(&answer);
     }
     for (uint64_t i = 0; i < parts; i++)

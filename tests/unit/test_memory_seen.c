@@ -153,21 +153,13 @@ static bool look_without_a_fit(void)
     return is_done(status);
 }
 
-static void cancel(void *context, const struct ceduo_calibration_state *state)
-{
-    (void)state;
-    atomic_store((atomic_bool *)context, true);
-}
-
-/* A fit of one value that is ended as soon as something is known: what is known is the answer. */
+/* A fit of one value, its chains of one round. Nearly all that it tries lies beyond where something was seen, and takes no time. */
 static bool fit(void)
 {
-    static const char *const place = "release.vx_m_s";
-    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
+    static const char *const place = "release.x_m";
+    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
     struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
-    atomic_bool cancelled = false;
     make_ground();
-    seen.x = 1;
     seen.option = 1;
     const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen}, scenes[2] = {scene, scene};
     const struct ceduo_calibration_def def = {.scenes_count = 2,
@@ -176,13 +168,10 @@ static bool fit(void)
                                               .rocks = 1,
                                               .seed = 1,
                                               .threads = 1,
-                                              .cancel = &cancelled,
-                                              .progress = cancel,
-                                              .context = &cancelled};
+                                              .steps_most = 1};
     struct ceduo_calibration a;
     enum ceduo_status status = ceduo_calibrate(&def, &a);
     if (status == CEDUO_OK) {
-        assert_false(a.complete);
         add(&a.parameters[0].best, sizeof a.parameters[0].best);
         add(&a.predicted[0].at_best.deviance, sizeof a.predicted[0].at_best.deviance);
         ceduo_calibration_free(&a);
@@ -231,7 +220,6 @@ static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void
                                                                                .steps_most = 1, .progress = tell},
                                                &a);
     if (status == CEDUO_OK) {
-        assert_true(a.complete);
         add(&a.parameters[0].best, sizeof a.parameters[0].best);
         ceduo_calibration_free(&a);
     }
@@ -315,9 +303,9 @@ static double guess_at(void *context, const double *x)
     return ceduo_guess_at(context, x);
 }
 
-static bool learn(void *context, const double *x, const double *log_densities, size_t n)
+static enum ceduo_status learn(void *context, const double *x, const double *log_densities, size_t n)
 {
-    return ceduo_guess_learn(context, x, log_densities, n);
+    return ceduo_guess_learn(context, x, log_densities, n, NULL);
 }
 
 static bool draw(void)

@@ -14,7 +14,7 @@
 static struct text part_line(void)
 {
     static const unsigned char bytes[] = "seven!\n";
-    char name[] = "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8";
+    char name[] = "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8 \xf0\x9f\xbf\xbe";
     struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 3, .rocks = 10, .points = 8, .seconds = 0.5, .inputs = bytes,
                         .runs = bytes, .inputs_length = 7, .runs_length = 5};
     struct text text = {0};
@@ -42,7 +42,7 @@ static void parts_are_read_back(void **state)
     struct part part;
     char *copy = strdup(line.bytes);
     assert_int_equal(ceduo_part_read(&arena, &part, copy, line.length), PART_GOOD);
-    assert_string_equal(part.scene, "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8");
+    assert_string_equal(part.scene, "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8 \xf0\x9f\xbf\xbe");
     EXPECT(part.shard, ==, 1);
     EXPECT(part.shards, ==, 2);
     EXPECT(part.place, ==, 3);

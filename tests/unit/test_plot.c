@@ -380,7 +380,7 @@ static void strips_show_quantiles_along_the_slope(void **state)
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     expect(CEDUO_PLOT_HEIGHT, &p, 60, 12, ASCII,
-           "  height above the ground, m\n"
+           "  underside above the ground, m\n"
            "3+    .   .   .   .   :   .   .   .   .   .'  .   .    max\n"
            " |                    '                    '\n"
            " |                    '                    '\n"
@@ -419,7 +419,7 @@ static void strips_show_the_wood_beside_the_bare_slope(void **state)
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII,
-           "    height above ground, m  -- wood  .. bare\n"
+           "    underside, m up  -- wood  .. bare\n"
            "2.0+    .   .   .   .   . ' .   .   .   .   .   :   .   .    bare p95\n"
            "   |                      '                     '\n"
            "   |                      '                     '\n"
@@ -475,7 +475,7 @@ static void small_strips_show_one_pair_of_curves(void **state)
            "   ++-----+-----+-----+-----+-----+----+-----+-----+-----+-----+\n"
            "    0 m   10    20    30    40    50   60    70    80    90  100\n");
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 8, BRAILLE,
-           "  p95 of the height, m  ── wood  ·· bare\n"
+           "  underside p95, m  ── wood  ·· bare\n"
            "2┤    ⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠪⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠂⠇⠂⠂⠂⠂⠂⠂⠂⠂⠂    bare\n"
            " │   ⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠺⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠒⠂        ⠅             wood\n"
            "1┤                        ⠨                        ⠅\n"
@@ -562,7 +562,7 @@ static void a_peak_is_cut_and_told(void **state)
     s.envelopes[2].height.max = 30;
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "max beyond the top: 30.0 m at 25.0 m"));
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII,
-           "  height above the ground, m; max beyond the top: 30.0 m at 25.0 m\n"
+           "  underside above the ground, m; max beyond the top: 30.0 m at 25.0 m\n"
            " |                        '                        '\n"
            "3+    .   .               :   .   .   .   .   .   .'  .   .      max\n"
            " |                        '                        '\n"

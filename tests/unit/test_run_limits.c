@@ -272,10 +272,8 @@ static void differences_of_the_first_rocks(void **state)
     site.control.x = 1;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.arrivals_only = true;
-    struct ceduo_scene slower = site.scene;
-    slower.release.vx.mean = 4;
     struct ceduo_run_def other = def;
-    other.scene = &slower;
+    other.option = &site.option;
     struct ceduo_run *exact[2] = {run_of(&def, ROCKS), run_of(&other, ROCKS)}, *binned[2];
     def.exact_bytes = other.exact_bytes = (CEDUO_PAIRED_ROCKS + 40000) * 3 * sizeof(double);
     binned[0] = run_of(&def, CEDUO_PAIRED_ROCKS + 30000); /* with samples until here */
@@ -285,9 +283,9 @@ static void differences_of_the_first_rocks(void **state)
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_arrivals(binned[0], 0, &a), CEDUO_OK);
     assert_false(a.exact);
-    EXPECT(a.reached, ==, ROCKS);
     EXPECT(first.energy_per_released.mean, ==, all.energy_per_released.mean);
     EXPECT(all.energy_per_released.mean, >, 0);
+    EXPECT(all.energy_per_released.se, >, 0);
     EXPECT_NEAR(first.energy_per_released.se, all.energy_per_released.se, .01 * all.energy_per_released.se);
     for (int i = 0; i < 2; i++) {
         ceduo_run_free(exact[i]);
@@ -323,25 +321,23 @@ static void differences_of_blocks(void **state)
         ceduo_run_free(runs[i]);
 }
 
-/* In brief a run says what it says at length: adjusted or as counted, of blocks of all sizes, with and without an accepted energy. */
+/* In brief a run says what it says at length: of one block or of all sizes, with and without an accepted energy. */
 static void a_run_in_brief(void **state)
 {
     (void)state;
     static double volumes[] = {0.05, 1};
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 4; i++) {
         paper_site_init(&site);
         site.control.x = 20;
         site.control.accepted = i % 2 == 0 ? 1e3 : NAN;
         site.scene.blocks = &blocks;
-        site.scene.blocks_count = i / 2 == 2;
+        site.scene.blocks_count = i / 2 == 1;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        def.plain = i / 2 == 1;
         struct ceduo_run *run = run_of(&def, 300);
         struct ceduo_brief brief = ceduo_run_brief(run, 0);
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        EXPECT(a.adjusted, ==, i / 2 == 0);
         EXPECT_NEAR(brief.reach_probability, a.reach_probability, 1e-12);
         EXPECT(isnan(brief.exceed_probability), ==, i % 2);
         if (i % 2 == 0)

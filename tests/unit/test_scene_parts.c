@@ -274,9 +274,9 @@ static void draws_of_an_assumed_ground(void **state)
 {
     (void)state;
     static const char lines[] = "slope: profile.csv\ndoubt: {draws: draws.csv}";
-    static const char *const places[] = {"slope.segments[0].rn", "slope.segments[1].rn", "slope.segments[0].rt",
-                                         "slope.segments[1].rt", "rock.density_kg_m3"};
-    static const double values[] = {0.25, 0.25, 0.75, 0.75, 2500};
+    static const char *const places[] = {"rock.density_kg_m3", "slope.segments[0].rn", "slope.segments[0].rt", /* by name */
+                                         "slope.segments[1].rn", "slope.segments[1].rt"};
+    static const double values[] = {0.75, 0.25, 0.75, 0.25, 0.75};
     struct scene_file file;
     put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
     put("draws.csv", "slope.materials[talus].rn,slope.segments[*].rt rock.density_kg_m3\n0.5,0.5\n0.25,0.75\n");
@@ -285,7 +285,7 @@ static void draws_of_an_assumed_ground(void **state)
     assert_int_equal(file.inputs[0].draws_count, 2);
     for (size_t i = 0; i < LENGTH(places); i++) {
         assert_string_equal(file.inputs[0].places[i], places[i]);
-        EXPECT(file.inputs[0].draws[i][1], ==, i < 4 ? values[i] : 0.75);
+        EXPECT(file.inputs[0].draws[i][1], ==, values[i]);
     }
     ceduo_scene_release(&file);
     put("draws.csv", "slope.materials[talus].rn\n0.25\n"); /* else it is where the file says so */
@@ -314,20 +314,30 @@ static void draws_of_an_assumed_ground(void **state)
 static void draws_of_many_columns(void **state)
 {
     (void)state;
-    struct text table = {0};
+    struct text profile = {0}, heads = {0}, draws = {0};
     struct scene_file file;
-    for (int row = 0; row < 2; row++)
-        for (int c = 0; c < 6000; c++)
-            ceduo_text_format(&table, row == 0 ? "slope.segments[*].r%c%c" : "0.%c5%c",
-                              row == 0 ? "nt"[c % 2] : '1' + c % 8, c == 5999 ? '\n' : ',');
-    put("draws.csv", table.bytes);
-    read_scene(&file, "doubt: {draws: draws.csv}", NULL, 0, NULL);
-    assert_int_equal(file.inputs[0].places_count, 12000);
-    assert_string_equal(file.inputs[0].places[11999], "slope.segments[1].rt");
-    EXPECT(file.inputs[0].draws[11999][0], ==, 0.85);
-    EXPECT(file.inputs[0].draws[11996][0], ==, 0.75);
+    ceduo_text_put(&profile, "x,z\n");
+    for (int i = 0; i <= 3000; i++)
+        ceduo_text_format(&profile, "%d,%d\n", i, 3000 - i);
+    for (int c = 0; c < 6000; c++) {
+        ceduo_text_format(&heads, "%sslope.segments[%d].r%c", c > 0 ? "," : "", c / 2, "nt"[c % 2]);
+        ceduo_text_format(&draws, "%s0.%04d", c > 0 ? "," : "\n", c);
+    }
+    ceduo_text_put(&heads, draws.bytes);
+    put("profile.csv", profile.bytes);
+    put("draws.csv", heads.bytes);
+    read_scene(&file, "slope: profile.csv\ndoubt: {draws: draws.csv}", NULL, 0, NULL);
+    assert_int_equal(file.inputs[0].places_count, 6000);
+    for (size_t i = 0; i < 6000; i++) {
+        int segment;
+        char key;
+        assert_int_equal(sscanf(file.inputs[0].places[i], "slope.segments[%d].r%c", &segment, &key), 2);
+        EXPECT_NEAR(file.inputs[0].draws[i][0], (2 * segment + (key == 't')) / 1e4, 1e-12);
+    }
     ceduo_scene_release(&file);
-    ceduo_text_free(&table);
+    ceduo_text_free(&profile);
+    ceduo_text_free(&heads);
+    ceduo_text_free(&draws);
 }
 
 /* ---- inputs ---- */

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "ceduo/sensitivity.h"
+#include "ceduo/doubt.h"
 
 #define POINTS 1024
 
@@ -148,6 +148,28 @@ static double constant(const double *u, size_t n)
     return 7;
 }
 
+/* The halves are of the same rocks at every point: a constant between them is neither noise nor variance. */
+static void halves_may_differ_by_a_constant(void **state)
+{
+    (void)state;
+    const double slopes[] = {2, 1}, known[] = {.8, .2};
+    for (uint64_t seed = 1; seed <= 10; seed++) {
+        struct ceduo_design d = {.inputs = 2, .points = 256, .seed = seed, .groups = 2};
+        double u[256 * 4 * 2];
+        struct ceduo_halves y[256 * 4];
+        struct ceduo_indices found;
+        EXPECT(ceduo_design_fill(&d, u), ==, CEDUO_OK);
+        for (size_t e = 0; e < 256 * 4; e++)
+            for (int h = 0; h < 2; h++)
+                y[e].half[h] = 100 + slopes[0] * u[2 * e] + slopes[1] * u[2 * e + 1] + (h ? .9 : -.9);
+        EXPECT(ceduo_design_read(&d, y, &found), ==, CEDUO_OK);
+        EXPECT_NEAR(found.variance, 5. / 12, .03);
+        EXPECT_NEAR(found.noise, 0, 1e-12);
+        expect_shares(found.total, known, 2);
+        expect_shares(found.first, known, 2);
+    }
+}
+
 /* Noise of the rocks is not taken for an effect: not of a figure that depends on nothing, nor beside real effects. */
 static void noise_is_taken_off(void **state)
 {
@@ -163,6 +185,24 @@ static void noise_is_taken_off(void **state)
     struct ceduo_indices found = indices_of(ishigami, (struct ceduo_design){3, POINTS, 5, 3, NULL}, 2);
     expect_shares(found.total, total, 3);
     EXPECT_NEAR(found.noise, 2, 0.2); /* of the mean of two halves of variance 4 */
+}
+
+/* The doubt of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
+static void gamma_laws_keep_the_mean(void **state)
+{
+    (void)state;
+    for (double ratio = .34; ratio <= 1; ratio += .06) {
+        const struct ceduo_input input = {.kind = CEDUO_INPUT_GAMMA, .mean = 50, .sd = 50 * ratio};
+        double sum = 0, squares = 0;
+        for (int i = 0; i < 2000; i++) {
+            double x = ceduo_input_quantile(&input, (i + .5) / 2000);
+            EXPECT(x, >, 0);
+            sum += x / 2000;
+            squares += x * x / 2000;
+        }
+        EXPECT_NEAR(sum, 50, .5);
+        EXPECT_NEAR(sqrt(squares - sum * sum), 50 * ratio, .05 * 50 * ratio); /* what is cut off */
+    }
 }
 
 /* A figure without noise that depends on nothing has no indices. */
@@ -182,6 +222,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(inputs_of_a_group_move_together),
     cmocka_unit_test(errors_cover),
     cmocka_unit_test(noise_is_taken_off),
+    cmocka_unit_test(halves_may_differ_by_a_constant),
+    cmocka_unit_test(gamma_laws_keep_the_mean),
     cmocka_unit_test(nothing_varies),
 };
 

@@ -78,6 +78,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
     const struct derived_member derived[] = {
         DERIVED(slope, ceduo_slope, origin_x),
         DERIVED(slope, ceduo_slope, origin_z),
+        DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
         DERIVED(belt, ceduo_belt, name),
         DERIVED(belt, ceduo_belt, assumed),
         DERIVED(belt, ceduo_belt, changed),

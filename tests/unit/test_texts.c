@@ -74,6 +74,16 @@ static void no_character_does_anything(void **state)
                 {"\xe2\x81\xa6", "\\xe2\\x81\\xa6", "\"\\u2066\""},
                 {"\xe2\x81\xa9", "\\xe2\\x81\\xa9", "\"\\u2069\""},
                 {"\xe2\x81\xaa", "\xe2\x81\xaa", "\"\xe2\x81\xaa\""},
+                {"\xef\xb7\x8f", "\xef\xb7\x8f", "\"\xef\xb7\x8f\""}, /* beside what Unicode keeps for no character */
+                {"\xef\xb7\x90", "\\xef\\xb7\\x90", "\"\\ufdd0\""},
+                {"\xef\xb7\xaf", "\\xef\\xb7\\xaf", "\"\\ufdef\""},
+                {"\xef\xb7\xb0", "\xef\xb7\xb0", "\"\xef\xb7\xb0\""},
+                {"\xef\xbf\xbd", "\xef\xbf\xbd", "\"\xef\xbf\xbd\""},
+                {"\xef\xbf\xbe", "\\xef\\xbf\\xbe", "\"\\ufffe\""},
+                {"\xef\xbf\xbf", "\\xef\\xbf\\xbf", "\"\\uffff\""},
+                {"\xf0\x90\x80\x80", "\xf0\x90\x80\x80", "\"\xf0\x90\x80\x80\""},
+                {"\xf0\x9f\xbf\xbe", "\\xf0\\x9f\\xbf\\xbe", "\"\\ud83f\\udffe\""}, /* of JSON two halves (RFC 8259, 7) */
+                {"\xf4\x8f\xbf\xbf", "\\xf4\\x8f\\xbf\\xbf", "\"\\udbff\\udfff\""},
                 {"\"\\", "\"\\", "\"\\\"\\\\\""},
                 {"\xff", "\\xff", "\"\\ufffd\""}};
     for (size_t i = 0; i < LENGTH(rows); i++) {

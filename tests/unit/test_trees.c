@@ -54,7 +54,7 @@ static void scalars_are_read_back(void **state)
         "{a}",  "&a",   "*a",  "!a",   "%a",    "@a",   "`a`", "|",    ">",   "?",   "? a", ":",    "a,b", "=",   "<<",
         "_",    ".",    "/",   "a/b",  "..",    "---",  "...", "'",    "a'b", "AZaz09", "on", "null x", "a\tb", "\\n", "no",
         "a\xc2\x80", "a\xc2\x85z", "\xc2\x9f", "\xc2\xa0", "a\xe2\x80\xa8z", "\xe2\x80\xa9", ("\xef\xbb\xbf" "a"), "\xef\xbf\xbe", "\xef\xbf\xbf",
-        "\xf4\x8f\xbf\xbf", "a\rb", "a  b", " ", "\t"};
+        "\xf4\x8f\xbf\xbf", "\xef\xb7\x90", "\xe2\x80\xae", "a\rb", "a  b", " ", "\t"};
     struct arena arena = {0};
     const struct node *empty = parsed(&arena, "{}");
     for (size_t i = 0; i < LENGTH(words); i++)

@@ -110,7 +110,7 @@ static void set(size_t option, bool accepted, double share, double se)
     *(accepted ? &arrivals[option].exceed_probability : &arrivals[option].reach_probability) = share;
     struct ceduo_paired *d = accepted ? &differences[option].exceed_probability : &differences[option].reach_probability;
     double first = accepted ? arrivals[0].exceed_probability : arrivals[0].reach_probability;
-    *d = (struct ceduo_paired){share - first, se};
+    *d = (struct ceduo_paired){share - first, se, 0};
 }
 
 /* All shares and errors are multiples of the same power of two, so that no rounding is in it. Errors of 3 and 4 to the first
@@ -154,7 +154,7 @@ static void unknown_is_never_best(void **state)
     open_scene(50e3);
     set(0, true, .5, 0);
     set(1, true, .25, .015625);
-    differences[2].exceed_probability = (struct ceduo_paired){NAN, NAN};
+    differences[2].exceed_probability = CEDUO_NOT_PAIRED;
     expect_best("");
 }
 
