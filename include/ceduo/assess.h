@@ -9,6 +9,7 @@ enum ceduo_light { CEDUO_UNKNOWN, CEDUO_PASS, CEDUO_FAIL };
 
 #define CEDUO_FREE_RUN_MOST 0.1  /* chance of a free run that a belt may leave */
 #define CEDUO_EXCEED_MOST 0.05   /* share of the released that may pass with too much energy */
+#define CEDUO_ARRIVE_LEAST 1000  /* of so many released one must arrive without forest */
 
 /* One belt of an option, as the index sees it. */
 struct ceduo_stand_result {
@@ -34,7 +35,7 @@ struct ceduo_stand_result {
 #define CEDUO_THICK_DBH 0.08 /* m: thinner shoots are met, but hardly stop anything; assumed */
 
 /* What the lights of contact and free run say where stems count from some dbh on. Contact passes where every belt
- * is under the threshold and no gap longer than it. */
+ * is under the threshold, free run where every belt leaves few of them; neither does where a gap is longer than the threshold. */
 struct ceduo_meeting {
     double worst_adc;      /* m, the largest of the belts; infinite where no belt is, or one without stems that count */
     double worst_free_run; /* the largest of the belts; 1 where no belt is */
@@ -63,6 +64,19 @@ bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
 /* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, where it is not
  * said what is too much, and where it hangs on rocks that never came to an end. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
+
+/* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_LEAST released
+ * where that many were flown. Rocks that never came to an end may arrive. False where none was flown. */
+bool ceduo_says_nothing(const struct ceduo_arrivals *bare);
+
+/* Does the forest keep rocks with too much energy to at most CEDUO_EXCEED_MOST of the released? By one energy law and with the
+ * error of the rocks alone; unanswered without an accepted energy, and where what arrives through the forest is not known
+ * (`wooded` NULL), but that the bare slope keeps within it already. */
+enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED, CEDUO_DEPENDS, CEDUO_NOTHING };
+enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
+
+/* Whether a share is at most CEDUO_EXCEED_MOST; not decided where its 95 % interval holds that limit. */
+enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi);
 
 /* A belt by itself. */
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt);

@@ -2,7 +2,7 @@
 #ifndef CEDUO_OTHER_H
 #define CEDUO_OTHER_H
 
-#include "run.h"
+#include "assess.h"
 
 /* The same rocks under the other energy law of stems. Two published laws disagree about thin stems (Brauner et al. 2005;
  * Dorren et al. 2006), and nobody knows yet which of them holds there; so what follows from both is shown. */
@@ -19,6 +19,7 @@ struct ceduo_other_energy {
     double reach_probability, reach_lo, reach_hi;     /* of all released, as in struct ceduo_arrivals */
     double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
     double energy, energy_se;                         /* J, mean of those that reach it; NaN where none does */
+    enum ceduo_judgement judgement; /* of the control by this law; CEDUO_DEPENDS: one law says yes, the other no */
     struct ceduo_difference to_first;             /* to the first option under its other law; NaN: not known */
 };
 

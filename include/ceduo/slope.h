@@ -2,6 +2,7 @@
 #ifndef CEDUO_SLOPE_H
 #define CEDUO_SLOPE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "number.h"
@@ -36,6 +37,7 @@ struct ceduo_slope {
     double *x, *z;                  /* m, x strictly increasing */
     struct ceduo_segment *segments; /* vertices - 1 */
     size_t segments_given;          /* as the files have them: 1 is for all; 0: they follow from something else */
+    bool reversed;                  /* its file has it upward: it was mirrored as it was read, with its ground */
     double origin_x, origin_z;
 };
 
@@ -47,6 +49,16 @@ double ceduo_slope_height(const struct ceduo_slope *slope, double x);
 
 /* The segment that x lies on, the right-hand one at a vertex. */
 size_t ceduo_slope_segment(const struct ceduo_slope *slope, double x);
+
+/* A place of the profile (m, with its origin) as its file has it, which may be `reversed`; and back. */
+double ceduo_slope_mirrored(const struct ceduo_slope *slope, double x);
+
+/* How the ground falls at x: metres down for each along, below 0 where it rises. */
+double ceduo_slope_fall(const struct ceduo_slope *slope, double x);
+
+/* Where rocks are likely to start: the upper end of the first segment that falls by more than CEDUO_FACE_FALL. NaN: there is none. */
+#define CEDUO_FACE_FALL 1.0 /* metres down for each along, 45 degrees: more than any scree; assumed */
+double ceduo_slope_face(const struct ceduo_slope *slope);
 
 /* CEDUO_BAD_SLOPE where it is not as described above. */
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope);

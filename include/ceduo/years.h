@@ -83,6 +83,7 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
  * NaN where a figure does not exist. */
 struct ceduo_years_summary {
     size_t years, flown;
+    bool nothing; /* nothing can be said of the forest (ceduo_says_nothing()): no light fails and none passes */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
     size_t thick_contact, thick_free_run; /* and where only stems from CEDUO_THICK_DBH on count */
     struct ceduo_paired reach, exceed; /* of the released */

@@ -144,6 +144,8 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
         enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
+        if (one == EXIT_DONE)
+            ceduo_batch_warn(a, &file);
         ceduo_scene_release(&file);
         status = worse(status, one);
     }

@@ -70,6 +70,8 @@ static enum exit_status find_in(const struct arguments *a, struct scene_file *fi
 {
     size_t option = 0;
     enum exit_status status = choose(a, file, &option);
+    if (status == EXIT_DONE)
+        ceduo_batch_warn(a, file);
     return status == EXIT_DONE ? look(a, file, option, out) : status;
 }
 

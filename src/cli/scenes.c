@@ -11,6 +11,7 @@
 #include "io/file.h"
 #include "output.h"
 #include "say.h"
+#include "view/words.h"
 
 /* ---- reading ---- */
 
@@ -89,6 +90,35 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
     if (status == EXIT_DONE)
         status = check(a, file);
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;
+}
+
+/* ---- nothing to be said ---- */
+
+#define LOOK_ROCKS 1000
+
+static void warn(void *context, const char *sentence)
+{
+    const struct scene_file *file = context;
+    struct text plain = {0};
+    ceduo_text_put(&plain, sentence);
+    ceduo_say_plainly(&plain);
+    ceduo_say_why(file->path, ceduo_text_string(&plain));
+    ceduo_text_free(&plain);
+}
+
+void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file)
+{
+    struct ceduo_scene bare = file->scene;
+    bare.simulation.contact_model = CEDUO_INDEX; /* nothing is flown through the forests */
+    struct ceduo_question question = ceduo_question_default(&bare);
+    struct ceduo_answer answer;
+    question.rocks = bare.simulation.rocks < LOOK_ROCKS ? bare.simulation.rocks : LOOK_ROCKS;
+    question.run.rocks_most = question.rocks;
+    question.run.threads = a->threads;
+    question.run.cancel = ceduo_interrupt_flag();
+    if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK)
+        ceduo_words_still(answer.result, warn, (void *)(uintptr_t)file);
+    ceduo_answer_release(&answer);
 }
 
 /* ---- asking ---- */

@@ -16,6 +16,10 @@ enum exit_status ceduo_batch_read(const struct arguments *arguments, const char 
 /* The option of a name. EXIT_USAGE where there is none, once that is told. */
 enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index);
 
+/* Says on standard error that nothing can be said of a scene, where hardly a rock arrives even without forest: for modes whose
+ * answer is of something else. It looks at no more than LOOK_ROCKS. */
+void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file *file);
+
 /* Rocks and seconds on standard error, once a second is over: a run's `progress`. */
 struct progress {
     double start, shown;

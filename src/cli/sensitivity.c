@@ -69,6 +69,7 @@ enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_
 enum exit_status ceduo_sensitivity_whole(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct asked_doubt d;
+    ceduo_batch_warn(a, file);
     enum ceduo_status status = ceduo_sensitivity_ask(a, file, &d);
     if (status != CEDUO_OK)
         return ceduo_batch_failed(file, status);

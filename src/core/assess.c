@@ -93,7 +93,8 @@ static void judge_meeting(const struct ceduo_scene *scene, bool forest, double l
     double threshold = scene->simulation.threshold;
     if (!forest || longest_gap > threshold)
         meeting->contact = CEDUO_FAIL;
-    meeting->free_run = meeting->worst_free_run <= CEDUO_FREE_RUN_MOST ? CEDUO_PASS : CEDUO_FAIL;
+    bool rare = meeting->worst_free_run <= CEDUO_FREE_RUN_MOST && !(longest_gap > threshold);
+    meeting->free_run = rare ? CEDUO_PASS : CEDUO_FAIL;
 }
 
 bool ceduo_index_hangs_on_thin(const struct ceduo_index *index)
@@ -146,6 +147,34 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
         return CEDUO_FAIL;
     double unfinished = (double)a->unfinished / (double)a->released;
     return a->exceed_probability + unfinished <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_UNKNOWN;
+}
+
+/* ---- what can be said ---- */
+
+bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
+{
+    uint64_t may_arrive = bare->reached + bare->unfinished;
+    bool few = bare->released >= CEDUO_ARRIVE_LEAST && may_arrive * CEDUO_ARRIVE_LEAST < bare->released;
+    return bare->released > 0 && (may_arrive == 0 || few);
+}
+
+enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi)
+{
+    if (isnan(share))
+        return CEDUO_UNANSWERED;
+    if (lo <= CEDUO_EXCEED_MOST && hi > CEDUO_EXCEED_MOST)
+        return CEDUO_NOT_DECIDED;
+    return share <= CEDUO_EXCEED_MOST ? CEDUO_YES : CEDUO_NO;
+}
+
+enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)
+{
+    if (ceduo_says_nothing(bare))
+        return CEDUO_NOTHING;
+    if (wooded)
+        return ceduo_judge_share(wooded->exceed_probability, wooded->exceed_lo, wooded->exceed_hi);
+    bool within = ceduo_judge_share(bare->exceed_probability, bare->exceed_lo, bare->exceed_hi) == CEDUO_YES;
+    return within ? CEDUO_YES : CEDUO_UNANSWERED;
 }
 
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)

@@ -74,6 +74,13 @@ void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 
+/* Where rocks do not arrive anyhow a light that passes would be a promise of the forest. */
+static void put_out(struct ceduo_index *index)
+{
+    index->contact = index->free_run = index->energy = CEDUO_UNKNOWN;
+    index->thick.contact = index->thick.free_run = CEDUO_UNKNOWN;
+}
+
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option,
                        const struct ceduo_flown *bare, const struct ceduo_flown *wooded,
                        struct ceduo_stand_result *stands, struct ceduo_index *controls)
@@ -83,6 +90,8 @@ void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_optio
     for (size_t c = 0; c < scene->controls_count; c++) {
         controls[c] = ceduo_assess_index(scene, option, &scene->controls[c], bare->arrivals[c].energy.mean);
         controls[c].energy = ceduo_energy_light(wooded->rocks > 0 ? &wooded->arrivals[c] : NULL);
+        if (ceduo_says_nothing(&bare->arrivals[c]))
+            put_out(&controls[c]);
     }
 }
 
@@ -115,6 +124,15 @@ static struct ceduo_result *allocate(const struct ceduo_scene *scene)
     return NULL;
 }
 
+static enum ceduo_judgement judge_other(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded,
+                                        const struct ceduo_other_energy *other)
+{
+    enum ceduo_judgement one = ceduo_judge(bare, wooded);
+    enum ceduo_judgement two = ceduo_judge_share(other->exceed_probability, other->exceed_lo, other->exceed_hi);
+    bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
+    return one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
+}
+
 /* Assesses every option of a result whose flights are read; otherwise frees it. */
 static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
 {
@@ -127,8 +145,12 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
         else
             status = copy(&r->bare, &o->wooded);
         ceduo_flown_compare(&o->wooded, &r->bare);
-        for (size_t c = 0; c < scene->controls_count && !r->wooded; c++)
-            o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
+        for (size_t c = 0; c < scene->controls_count; c++)
+            if (!r->wooded)
+                o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
+            else if (o->others[c].known)
+                o->others[c].judgement =
+                    judge_other(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c), &o->others[c]);
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
     if (status == CEDUO_OK)

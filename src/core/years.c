@@ -271,6 +271,7 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
         const struct ceduo_index *index = &y->controls[control];
+        s.nothing |= index->contact == CEDUO_UNKNOWN;
         s.unprotected_contact += index->contact == CEDUO_FAIL;
         s.unprotected_free_run += index->free_run == CEDUO_FAIL;
         s.thick_contact += index->thick.contact == CEDUO_FAIL;

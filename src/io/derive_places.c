@@ -18,7 +18,8 @@ void ceduo_derive_release(struct deriver *d, const char *path, struct ceduo_rele
     const struct ceduo_scene *scene = &d->draft.scene;
     struct ceduo_number *x = &release->x;
     path = ceduo_derive_text(d, "%s.x_m", path);
-    x->mean = isnan(x->mean) ? 0 : x->mean - d->origin;
+    release->x_assumed = isnan(x->mean);
+    x->mean = release->x_assumed ? 0 : x->mean - d->origin;
     if (!d->profile || !ceduo_derive_sound(d, path))
         return;
     double end = scene->slope.x[scene->slope.vertices - 1];

@@ -56,20 +56,38 @@ static bool check_vertices(struct deriver *d, const struct points *p)
     return rising && (csv || ceduo_derive_sound(d, "slope.vertices_m"));
 }
 
+/* Rocks go along x, so it must be downward; one that was drawn from below is known by its ends. */
+static bool check_downward(struct deriver *d, const struct points *p)
+{
+    const char *path = ceduo_derive_given(d, "slope", "csv") ? "slope.csv" : "slope.vertices_m";
+    bool reversed = d->draft.scene.slope.reversed;
+    double first = p->z[0], last = p->z[p->n - 1];
+    if (last > first && !reversed)
+        ceduo_derive_refuse(d, path, "",
+                            _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
+                              "'reversed: true' in slope, which mirrors it with its ground"),
+                            first, last);
+    else if (last < first && reversed)
+        ceduo_derive_refuse(d, "slope.reversed", "",
+                            _("the profile falls already, from %s to %s m; leave 'reversed' out"), first, last);
+    return reversed ? last >= first : last <= first;
+}
+
 /* Vertices relative to the first. What is so close that this makes it one is refused. */
 static bool make_vertices(struct deriver *d, const struct points *p, size_t extra)
 {
     struct ceduo_slope *s = &d->draft.scene.slope;
+    size_t last = p->n - 1;
     s->x = ceduo_bind_take(d->arena, p->n + extra, sizeof(double), d->problems);
     s->z = ceduo_bind_take(d->arena, p->n + extra, sizeof(double), d->problems);
     if (!s->x || !s->z)
         return false;
     s->vertices = p->n;
     s->origin_x = p->x[0];
-    s->origin_z = p->z[0];
+    s->origin_z = s->reversed ? p->z[last] : p->z[0];
     for (size_t i = 0; i < p->n; i++) {
-        s->x[i] = p->x[i] - s->origin_x;
-        s->z[i] = p->z[i] - s->origin_z;
+        s->x[i] = s->reversed ? p->x[last] - p->x[last - i] : p->x[i] - s->origin_x;
+        s->z[i] = p->z[s->reversed ? last - i : i] - s->origin_z;
     }
     d->origin = s->origin_x;
     d->profile = true;
@@ -123,6 +141,11 @@ static void make_segments(struct deriver *d)
     note_missing(d, "friction", ceduo_derive_text(d, _("friction %g of a rolling rock"), ceduo_segment_default().friction));
     if (uses_mu(d))
         note_missing(d, "mu", text_of_mu(d));
+    for (size_t i = 0, k = s->segments_given - 1; s->reversed && i < k; i++, k--) {
+        const struct ceduo_segment swap = s->segments[i];
+        s->segments[i] = s->segments[k];
+        s->segments[k] = swap;
+    }
     if (s->segments_given != 1)
         return;
     const struct ceduo_segment all = s->segments[0];
@@ -178,12 +201,29 @@ static void split_at(struct ceduo_slope *s, double x)
     s->vertices++;
 }
 
+/* Its rows as they lie on a profile that was mirrored. */
+static const struct material_belt *mirrored(struct deriver *d)
+{
+    const struct ceduo_slope *s = &d->draft.scene.slope;
+    size_t n = d->draft.materials_count;
+    struct material_belt *rows = ceduo_bind_take(d->arena, n, sizeof *rows, d->problems);
+    for (size_t i = 0; rows && i < n; i++) {
+        rows[i] = d->draft.materials[n - 1 - i];
+        double from = rows[i].from;
+        rows[i].from = ceduo_slope_mirrored(s, rows[i].to);
+        rows[i].to = ceduo_slope_mirrored(s, from);
+    }
+    return rows;
+}
+
 static void make_materials(struct deriver *d)
 {
     struct ceduo_slope *s = &d->draft.scene.slope;
-    const struct material_belt *rows = d->draft.materials;
     size_t n = d->draft.materials_count, count;
     const struct ceduo_material *library = ceduo_materials(&count);
+    const struct material_belt *rows = s->reversed ? mirrored(d) : d->draft.materials;
+    if (!rows)
+        return;
     for (size_t i = 1; i < n; i++)
         split_at(s, rows[i].from - d->origin);
     s->segments = ceduo_bind_take(d->arena, s->vertices - 1, sizeof *s->segments, d->problems);
@@ -250,7 +290,7 @@ void ceduo_derive_slope(struct deriver *d)
     struct points p = {0};
     if (reuse_slope(d) || !ceduo_derive_known(d, "slope"))
         return;
-    bool profile = read_vertices(d, &p) && check_vertices(d, &p);
+    bool profile = read_vertices(d, &p) && check_vertices(d, &p) && check_downward(d, &p);
     bool segments = ceduo_derive_given(d, "slope", "segments"), materials = ceduo_derive_given(d, "slope", "materials");
     if (profile && !make_vertices(d, &p, d->draft.materials_count))
         return;

@@ -160,8 +160,9 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
     const struct node *rows = ceduo_node_get(ceduo_node_get(root, "slope"), "materials");
     struct finder f = {.arena = arena};
     size_t n = 0;
-    for (size_t j = 0, row = 0; rows && rows->kind == NODE_LIST && rows->n > 0 && j + 1 < s->vertices; j++) {
-        double middle = s->origin_x + (s->x[j] + s->x[j + 1]) / 2;
+    for (size_t j = 0; rows && rows->kind == NODE_LIST && rows->n > 0 && j + 1 < s->vertices; j++) {
+        double middle = ceduo_slope_mirrored(s, s->origin_x + (s->x[j] + s->x[j + 1]) / 2);
+        size_t row = 0;
         while (row + 1 < rows->n && middle >= ceduo_node_number(rows->items[row + 1], "from_m"))
             row++;
         const char *name = ceduo_node_text(rows->items[row], "material");

@@ -22,11 +22,20 @@ const char *ceduo_node_text(const struct node *node, const char *key)
     return entry && entry->kind == NODE_SCALAR ? entry->text : NULL;
 }
 
-double ceduo_node_number(const struct node *node, const char *key)
+static double number_of(const char *text)
 {
     double value;
-    const char *text = ceduo_node_text(node, key);
     return text && ceduo_number_read(text, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
+}
+
+double ceduo_node_number(const struct node *node, const char *key)
+{
+    return number_of(ceduo_node_text(node, key));
+}
+
+double ceduo_node_item_number(const struct node *list, size_t i)
+{
+    return list->kind == NODE_LIST && i < list->n && list->items[i]->kind == NODE_SCALAR ? number_of(list->items[i]->text) : NAN;
 }
 
 /* A copy with room for n items, of which none is set. */

@@ -45,6 +45,9 @@ const char *ceduo_node_text(const struct node *node, const char *key);
 /* The number of such an entry; NaN where there is none. */
 double ceduo_node_number(const struct node *node, const char *key);
 
+/* The number that item i of a list is; NaN where it is none. */
+double ceduo_node_item_number(const struct node *list, size_t i);
+
 /* A mapping with the entry put in place of one with its key, or added. NULL without memory. */
 const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key,
                                    const struct node *value);

@@ -78,8 +78,8 @@ static void add_ground(struct changes *c, const struct document *d)
 {
     struct text without = {0};
     const struct node *slope = ceduo_node_get(d->file.root, "slope");
-    static const char *const keys[] = {"materials", "csv"};
-    for (size_t i = 0; i < 2; i++)
+    static const char *const keys[] = {"materials", "csv", "reversed"}; /* vertices are written as they lie now */
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (ceduo_node_get(slope, keys[i])) {
             ceduo_text_format(&without, "slope.%s", keys[i]);
             add(c, &without);

@@ -117,6 +117,10 @@ static const struct field slope_fields[] = {
     OTHER(FIELD_FILE, "csv", NAMED(N_("file"), NULL),
         NOWHERE, FIELD_NOWHERE, NULL,
           N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
+    OTHER(FIELD_FLAG, "reversed", NAMED(N_("drawn upward"), NULL),
+        AT(ceduo_slope, reversed), 0, "false",
+          N_("whether the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
+             "places in the scene are of the mirrored profile"), NULL, NULL),
 };
 static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slopes");
 

@@ -18,6 +18,29 @@ double ceduo_slope_height(const struct ceduo_slope *slope, double x)
     return pz[j] + (pz[j + 1] - pz[j]) / (px[j + 1] - px[j]) * (x - px[j]);
 }
 
+double ceduo_slope_mirrored(const struct ceduo_slope *slope, double x)
+{
+    return slope->reversed ? 2 * slope->origin_x + slope->x[slope->vertices - 1] - x : x;
+}
+
+static double fall(const struct ceduo_slope *s, size_t j)
+{
+    return (s->z[j] - s->z[j + 1]) / (s->x[j + 1] - s->x[j]);
+}
+
+double ceduo_slope_fall(const struct ceduo_slope *slope, double x)
+{
+    return fall(slope, ceduo_slope_segment(slope, x));
+}
+
+double ceduo_slope_face(const struct ceduo_slope *slope)
+{
+    for (size_t j = 0; j + 1 < slope->vertices; j++)
+        if (fall(slope, j) > CEDUO_FACE_FALL)
+            return slope->x[j];
+    return NAN;
+}
+
 static bool unit_interval(struct ceduo_number n)
 {
     return n.mean >= 0 && n.mean <= 1 && n.spread >= 0 && isfinite(n.spread);

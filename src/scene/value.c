@@ -67,8 +67,13 @@ static bool enter_list(struct finder *f, const struct field *list)
     size_t n;
     if (list->object == ceduo_schema_segment()) { /* one may be for all; materials give one for each stretch */
         size_t given = slope->segments_given;
+        n = given > 0 ? given : slope->vertices - 1;
         f->n = given == 1 ? slope->vertices - 1 : 1;
-        return enter_item(f, list->object, (char *)slope->segments, given > 0 ? given : slope->vertices - 1);
+        if (!enter_item(f, list->object, (char *)slope->segments, n))
+            return false;
+        if (slope->reversed && given > 1) /* its file has them in the other order */
+            f->item = (char *)(slope->segments + n - 1) - (f->item - (char *)slope->segments);
+        return true;
     }
     if (list->object == ceduo_schema_belt() && list->flags & FIELD_DRAFT) /* the forest is the only option */
         return f->scene->options_count == 1 &&

@@ -20,7 +20,7 @@ static bool is_decided(const struct ceduo_scene *scene, size_t option, enum cedu
 {
     const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
     struct ceduo_index index = ceduo_assess_index(scene, &scene->options[option], control, NAN);
-    return light == CEDUO_DOUBT_CONTACT && index.longest_gap > scene->simulation.threshold;
+    return light != CEDUO_DOUBT_EXCEED && index.longest_gap > scene->simulation.threshold;
 }
 
 size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *a, size_t option,

@@ -100,6 +100,8 @@ static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
     const struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
     c->years = s.years;
     c->flown = s.flown;
+    c->nothing = s.nothing;
+    c->energy_known &= !s.nothing;
     c->no_contact = s.unprotected_contact;
     c->free_runs = s.unprotected_free_run;
     c->too_much = s.unprotected_energy;
@@ -188,6 +190,8 @@ static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
 
 static enum ceduo_status judge(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
 {
+    if (v->nothing)
+        return CEDUO_OK;
     v->today.known = all_are_known(v, false);
     for (size_t i = 0; i < v->n && v->today.known; i++)
         v->today.known = !isnan(difference_today(r, i, 0).mean);
@@ -208,6 +212,7 @@ enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_
     *v = (struct ceduo_verdict){.wooded = r->wooded && r->scene->controls_count > 0,
                                 .accepted = r->scene->controls_count > 0 &&
                                             !isnan(r->scene->controls[r->last_control].accepted),
+                                .nothing = r->scene->controls_count > 0 && ceduo_says_nothing(&r->bare.arrivals[r->last_control]),
                                 .choices = calloc(n + 1, sizeof *v->choices)};
     v->today.rival = calloc(n + 1, sizeof *v->today.rival);
     v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);

@@ -36,6 +36,7 @@ struct ceduo_choice {
     size_t years, flown;                     /* flown: years in which rocks were simulated */
     size_t no_contact, free_runs, too_much;  /* years in which that light fails */
     bool energy_known;                       /* too_much is */
+    bool nothing;                            /* none of the three is: nothing can be said */
     bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more
                   * through */
     struct ceduo_window window;
@@ -58,6 +59,7 @@ struct ceduo_turned {
 
 struct ceduo_verdict {
     bool wooded, accepted; /* rocks fly through the forests; an accepted energy is given */
+    bool nothing;          /* nothing can be said of any forest (ceduo_says_nothing()): no option is best, no year fails */
     size_t n;
     struct ceduo_choice *choices;
     struct ceduo_leader today, rotation;

@@ -171,6 +171,7 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
                          const struct ceduo_arrivals *bare, const struct ceduo_other_energy *other)
 {
     const struct ceduo_distribution none = ceduo_distribution_none();
+    bool nothing_said = ceduo_says_nothing(bare);
     const struct ceduo_arrivals nothing = {.reach_probability = NAN,
                                            .exceed_probability = NAN,
                                            .energy_per_released = NAN,
@@ -181,7 +182,9 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     bool told = false;
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
-    put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
+    put_released(pen, wood, bare, isnan(c->accepted) && !nothing_said ? other : NULL);
+    if (nothing_said) /* why stands below, and takes the room */
+        return;
     if (!isnan(c->accepted)) {
         compared_share(a, sizeof a, wood, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
@@ -336,7 +339,8 @@ static void put_warnings(struct pen *pen)
     struct text w = {0};
     const struct ceduo_option *o = ceduo_app_option(app);
     const struct ceduo_option_result *found = ceduo_app_found(app);
-    struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed};
+    struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed, .nothing_said = true};
+    ceduo_words_still(app->figures.result, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
     ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
@@ -397,8 +401,11 @@ void ceduo_column_draw(struct app *app, struct ceduo_area area)
         line(&pen, CEDUO_ROLE_TITLE, f.year->cut ? _("Year %u, just cut") : _("Year %u"), f.year->year);
     put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c],
                  f.year ? NULL : &ceduo_app_found(app)->others[c]);
-    put_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);
+    bool said = !ceduo_says_nothing(&r->bare.arrivals[c]);
+    if (said)
+        put_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);
     put_mark(&pen, f.wood ? f.wood : ceduo_app_shown(app));
-    put_index(&pen, f.index);
+    if (said)
+        put_index(&pen, f.index);
     put_warnings(&pen);
 }

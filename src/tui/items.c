@@ -8,6 +8,7 @@
 #include "base/language.h"
 #include "ceduo/material.h"
 #include "edit.h"
+#include "place.h"
 #include "view/typed.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
@@ -34,11 +35,6 @@ static bool find_item(struct app *app, struct item *item)
 }
 
 /* ---- splitting ---- */
-
-static bool read_scalar(const struct node *node, double *value)
-{
-    return node && node->kind == NODE_SCALAR && ceduo_number_read(node->text, value) == CEDUO_NUMBER_GOOD;
-}
 
 /* The number at `list[index].key`; NaN where there is none. */
 static double number_of(const struct app *app, const struct item *item, size_t index, const char *key)
@@ -71,11 +67,11 @@ static bool split_at(struct app *app, size_t segment, bool apart, double at)
     }
     double x[2], z[2];
     for (size_t i = 0; i < 2; i++) {
-        const struct node *point = vertices->items[segment + i];
-        if (point->kind != NODE_LIST || point->n != 2 || !read_scalar(point->items[0], &x[i]) ||
-            !read_scalar(point->items[1], &z[i]))
-            return false;
+        x[i] = ceduo_node_item_number(vertices->items[segment + i], 0);
+        z[i] = ceduo_node_item_number(vertices->items[segment + i], 1);
     }
+    if (isnan(x[0] + x[1] + z[0] + z[1]))
+        return false;
     double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
     snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
     return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
@@ -87,8 +83,8 @@ static bool split_segment(struct app *app, const struct item *item)
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
     bool all = segments && segments->n == 1;
-    double at = isnan(item->at) ? s->x[s->vertices - 1] / 2 : item->at - s->origin_x;
-    return split_at(app, all ? ceduo_slope_segment(s, at) : item->index, true, item->at);
+    double at = isnan(item->at) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->at;
+    return split_at(app, all ? ceduo_place_stretch_of(app, at) : item->index, true, item->at);
 }
 
 /* A point between this one and the next, or before the last. */

@@ -116,11 +116,10 @@ void ceduo_place_say(struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_outlook *o = ceduo_figures_outlook(&app->figures, scene);
     double x = ceduo_place_x(app);
-    size_t j = ceduo_slope_segment(&scene->slope, x), belt = belt_at(app, x);
-    double dx = scene->slope.x[j + 1] - scene->slope.x[j], dz = scene->slope.z[j + 1] - scene->slope.z[j];
+    size_t belt = belt_at(app, x);
     const struct ceduo_envelope *e = passing(o, ceduo_outlook_sight(o, scene, app->option), x);
     struct text text = {0};
-    ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x, atan2(-dz, dx) * 180 / M_PI,
+    ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x, atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
                       belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name
                                                                : _("no forest"));
     if (e) {
@@ -137,6 +136,13 @@ void ceduo_place_say(struct app *app)
 }
 
 /* ---- what can be done there ---- */
+
+/* x as the file of the slope has it. */
+static double written(const struct app *app, double x)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    return ceduo_slope_mirrored(s, x + s->origin_x);
+}
 
 /* "list#index": to edit; "+list#index": to add at the cursor. */
 static void offer(struct popup *p, const char *line, const char *sign, const char *list, size_t index)
@@ -160,7 +166,9 @@ static void chose(struct app *app, struct popup *p, const char *value)
     ceduo_app_state(app)->pane = 0;
     app->message[0] = '\0'; /* it was about the cursor */
     if (add)
-        ceduo_items_add_at(app, list, index, ceduo_place_x(app) + app->document.file.scene.slope.origin_x);
+        ceduo_items_add_at(app, list, index, strncmp(list, "slope.", 6) == 0
+                                                 ? written(app, ceduo_place_x(app))
+                                                 : ceduo_place_x(app) + app->document.file.scene.slope.origin_x);
     else
         ceduo_form_go(ceduo_app_form(app), list, index);
 }
@@ -174,7 +182,19 @@ __attribute__((format(printf, 2, 3))) static const char *line_of(char room[160],
     return room;
 }
 
-/* The item of slope.materials that holds it, in given metres; SIZE_MAX: none. */
+size_t ceduo_place_stretch_of(const struct app *app, double x_written)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    size_t j = ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x);
+    if (!vertices) /* a CSV file */
+        return s->reversed ? s->vertices - 2 - j : j;
+    for (j = 0; j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0);)
+        j++;
+    return j;
+}
+
+/* The item of slope.materials that holds it, in metres of its file; SIZE_MAX: none. */
 static size_t material_at(const struct app *app, double x)
 {
     const struct node *list = ceduo_document_node(&app->document, "slope.materials");
@@ -191,7 +211,8 @@ static void offer_ground(struct app *app, struct popup *p, double x)
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    size_t j = ceduo_slope_segment(s, x), material = material_at(app, x + s->origin_x);
+    double there = written(app, x);
+    size_t j = ceduo_place_stretch_of(app, there), material = material_at(app, there);
     char room[160];
     if (segments && segments->n > 0) {
         size_t i = segments->n == 1 ? 0 : j;
@@ -203,9 +224,10 @@ static void offer_ground(struct app *app, struct popup *p, double x)
         offer(p, _("another ground from here on"), "+", "slope.materials", material);
     }
     if (vertices && vertices->n <= 200) {
-        size_t nearest = x - s->x[j] < s->x[j + 1] - x ? j : j + 1;
-        offer(p, line_of(room, _("edit the nearest point of the profile: number %zu, at %.4g m"), nearest + 1,
-                         s->x[nearest] + s->origin_x), "", "slope.vertices_m", nearest);
+        double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
+        bool first = there - a < b - there;
+        offer(p, line_of(room, _("edit the nearest point of the profile: number %zu, at %.4g m"), j + (first ? 1 : 2),
+                         ceduo_slope_mirrored(s, first ? a : b)), "", "slope.vertices_m", j + (first ? 0 : 1));
         offer(p, _("a new point of the profile here"), "+", "slope.vertices_m", j);
     }
 }

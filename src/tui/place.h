@@ -22,6 +22,9 @@ void ceduo_place_zoom(struct app *app, int by);
 /* Says where it is and what passes there. */
 void ceduo_place_say(struct app *app);
 
+/* The stretch between points of the profile that holds x, both as the file of the slope has them. */
+size_t ceduo_place_stretch_of(const struct app *app, double x_written);
+
 /* Lists what it stands on, to be edited, and what can be put there. */
 void ceduo_place_choose(struct app *app);
 

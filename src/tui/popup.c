@@ -272,13 +272,13 @@ static void fields_key(struct app *app, struct popup *p, int key)
 static void draw_box(struct app *app, struct ceduo_area r, const char *title)
 {
     static const char *const corners[2][2] = {{"\xe2\x94\x8c", "\xe2\x94\x90"}, {"\xe2\x94\x94", "\xe2\x94\x98"}};
+    ceduo_cells_clear_area(app->cells, r);
     for (int y = 0; y < r.height; y++)
         for (int x = 0; x < r.width; x++) {
             bool upright = x == 0 || x == r.width - 1, level = y == 0 || y == r.height - 1;
-            const char *c = upright && level ? corners[y > 0][x > 0]
-                            : level          ? "\xe2\x94\x80"
-                            : upright        ? "\xe2\x94\x82"
-                                             : " ";
+            const char *c = upright && level ? corners[y > 0][x > 0] : level ? "\xe2\x94\x80" : "\xe2\x94\x82";
+            if (!upright && !level)
+                continue;
             ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
         }
     ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, NULL);
@@ -360,14 +360,16 @@ static void draw_list(struct app *app, struct popup *p)
         draw_picks(app, p, in);
 }
 
-#define PICKS_SHOWN 6 /* below the fields */
+#define PICKS_SHOWN   6  /* below the fields */
+#define PICTURE_SHOWN 16 /* or a picture instead */
 
 static void draw_fields(struct app *app, struct popup *p)
 {
     int picks = 0;
     for (size_t i = 0; i < p->fields_count; i++)
         picks = p->offers[i] ? PICKS_SHOWN : picks;
-    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + picks, app->height);
+    int below = p->picture ? PICTURE_SHOWN : picks;
+    struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
     int x = in.left + 32, width = in.width - 32;
     for (size_t i = 0; i < p->fields_count; i++) {
         ceduo_app_text(app, (struct ceduo_area){in.left, in.top + (int)i, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);
@@ -376,7 +378,9 @@ static void draw_fields(struct app *app, struct popup *p)
     in.top += (int)p->fields_count;
     in.height -= (int)p->fields_count;
     draw_message(app, p, (struct ceduo_area){in.left, in.top, in.width, in.height < 2 ? in.height : 2});
-    if (!p->message[0])
+    if (p->picture && !p->offers[p->at] && !p->message[0])
+        p->picture(app, p, (struct ceduo_area){in.left, in.top + 1, in.width, in.height - 1});
+    else if (!p->message[0])
         draw_picks(app, p, (struct ceduo_area){in.left + 2, in.top + 1, in.width - 2, in.height - 1});
 }
 

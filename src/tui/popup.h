@@ -47,6 +47,7 @@ struct popup {
     struct foreseen ahead; /* what it would do to the lights, once that is computed */
     bool ahead_known;
     popup_filled *filled;
+    void (*picture)(struct app *app, struct popup *popup, struct ceduo_area area); /* below fields, where nothing is offered */
     bool (*check)(struct app *app, struct popup *popup, size_t field); /* as a field is left; false: it is said why */
     void (*then)(struct app *app); /* what goes on once unsaved work is saved or given up */
 };

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A new scene from a few questions. */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -11,20 +13,29 @@
 #include "popup.h"
 #include "popups.h"
 #include "scene/words.h"
+#include "view/plot.h"
 #include "view/typed.h"
 
-enum { NEW_TITLE, NEW_PROFILE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
+enum { NEW_TITLE, NEW_PROFILE, NEW_RELEASE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 
 /* What the fields say, numbers read. */
 struct answers {
-    struct text slope;        /* the profile as YAML: "vertices_m: …", "csv: …" */
-    double first, last;       /* x of the profile */
-    double face;              /* where the face ends; the first x without one */
+    struct text slope;         /* the profile as YAML: "vertices_m: …", "csv: …" */
+    struct scene_file profile; /* a scene of it alone; turned round where it was drawn upward */
+    double first, last;        /* x of the profile */
+    double release;            /* where rocks start */
+    double face;               /* where the face ends; the first x without one */
     double rock, control, accepted;
     bool has_accepted, counted;
 };
 
-/* ---- reading ---- */
+static void release_answers(struct answers *a)
+{
+    ceduo_scene_release(&a->profile);
+    ceduo_text_free(&a->slope);
+}
+
+/* ---- the profile ---- */
 
 static bool ends_in_csv(const char *name)
 {
@@ -50,17 +61,105 @@ static bool read_csv(struct app *app, struct popup *p, const char *path, struct 
     return good;
 }
 
-static bool read_profile(struct app *app, struct popup *p, struct answers *a)
+static bool read_points(struct app *app, const char *typed, struct answers *a)
 {
-    const char *typed = p->fields[NEW_PROFILE].text;
-    if (ends_in_csv(typed))
-        return read_csv(app, p, typed, a);
     ceduo_text_put(&a->slope, "vertices_m: ");
     if (ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
         return true;
     ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
     return false;
 }
+
+/* The profile as a scene of its own; `more`: keys of the slope besides. */
+static bool make_profile(struct answers *a, const char *more)
+{
+    struct text yaml = {0};
+    struct problems problems = {0};
+    ceduo_text_format(&yaml,
+                      "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
+                      a->last, ceduo_text_string(&a->slope), more);
+    ceduo_scene_release(&a->profile);
+    bool good = ceduo_scene_read_text(&a->profile, "", ceduo_text_string(&yaml), &problems);
+    ceduo_problems_free(&problems);
+    ceduo_text_free(&yaml);
+    return good;
+}
+
+/* One that was drawn upward is turned round. */
+static bool read_profile(struct app *app, struct popup *p, struct answers *a)
+{
+    const char *typed = p->fields[NEW_PROFILE].text;
+    if (!(ends_in_csv(typed) ? read_csv(app, p, typed, a) : read_points(app, typed, a)))
+        return false;
+    if (make_profile(a, "") || make_profile(a, "  reversed: true\n"))
+        return true;
+    ceduo_app_warn(app, "%s", _("two points of the profile lie too close together for their distance from the first"));
+    return false;
+}
+
+/* x of the profile in few digits. */
+static double place_of(const struct ceduo_slope *s, double x)
+{
+    return round((x + s->origin_x) * 100) / 100;
+}
+
+/* Where the face that begins at x (relative) ends. */
+static double face_end(const struct ceduo_slope *s, double x)
+{
+    size_t j = ceduo_slope_segment(s, x);
+    while (j + 1 < s->vertices && ceduo_slope_fall(s, s->x[j]) > CEDUO_FACE_FALL)
+        j++;
+    return s->x[j];
+}
+
+static void put_number(struct line *line, double value)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    ceduo_line_set(line, ceduo_number_shortest(value, room));
+}
+
+/* The edge of the first face and its lower end, unless another is typed already. */
+static void guess_face(struct popup *p, const struct answers *a)
+{
+    const struct ceduo_slope *s = &a->profile.scene.slope;
+    double edge = ceduo_slope_face(s);
+    if (p->kept && strcmp(p->kept, p->fields[NEW_PROFILE].text) == 0) /* for this profile that was done */
+        return;
+    free(p->kept);
+    p->kept = strdup(p->fields[NEW_PROFILE].text);
+    put_number(&p->fields[NEW_RELEASE], isnan(edge) ? a->first : place_of(s, edge));
+    ceduo_line_set(&p->fields[NEW_FACE], "");
+    if (!isnan(edge))
+        put_number(&p->fields[NEW_FACE], place_of(s, face_end(s, edge)));
+}
+
+/* x (relative) of the steepest stretch. */
+static double steepest(const struct ceduo_slope *s)
+{
+    size_t best = 0;
+    for (size_t j = 1; j + 1 < s->vertices; j++)
+        if (ceduo_slope_fall(s, s->x[j]) > ceduo_slope_fall(s, s->x[best]))
+            best = j;
+    return s->x[best];
+}
+
+/* What is known of the profile, over the fields. */
+static void describe(struct popup *p, const struct answers *a)
+{
+    const struct ceduo_slope *s = &a->profile.scene.slope;
+    size_t n = s->vertices - 1;
+    double at = steepest(s), degrees = 180 / M_PI;
+    ceduo_text_free(&p->text);
+    ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m; it is steepest at %.4g m, %.0f\xc2\xb0."), s->x[n], -s->z[n],
+                      at + s->origin_x, atan(ceduo_slope_fall(s, at)) * degrees);
+    if (s->reversed)
+        ceduo_text_then(&p->text, " ", "%s", _("It was drawn upward and is turned round."));
+    if (a->release >= a->first && a->release < a->last)
+        ceduo_text_then(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
+                        atan(ceduo_slope_fall(s, a->release - s->origin_x)) * degrees);
+}
+
+/* ---- reading ---- */
 
 /* A number, or `otherwise` where the field is empty. */
 static bool read_number(struct app *app, const struct popup *p, size_t field, double otherwise, double *value)
@@ -79,6 +178,16 @@ static bool read_stand(struct app *app, struct popup *p, struct answers *a)
     return false;
 }
 
+static bool read_release(struct app *app, const struct popup *p, struct answers *a)
+{
+    if (!read_number(app, p, NEW_RELEASE, a->first, &a->release))
+        return false;
+    if (a->release >= a->first && a->release < a->last)
+        return true;
+    ceduo_app_warn(app, _("rocks start at %g m, outside the profile from %g to %g m"), a->release, a->first, a->last);
+    return false;
+}
+
 static bool read_face(struct app *app, const struct popup *p, struct answers *a)
 {
     if (!read_number(app, p, NEW_FACE, a->first, &a->face))
@@ -93,10 +202,10 @@ static bool read_control(struct app *app, const struct popup *p, struct answers 
 {
     if (!read_number(app, p, NEW_CONTROL, a->last, &a->control))
         return false;
-    if (a->control > a->first && a->control > a->face && a->control <= a->last)
+    double least = fmax(a->release, a->face);
+    if (a->control > least && a->control <= a->last)
         return true;
-    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, a->face,
-                   a->last);
+    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, least, a->last);
     return false;
 }
 
@@ -125,7 +234,8 @@ static bool read_material(struct app *app, const struct popup *p)
 static bool read_answers(struct app *app, struct popup *p, size_t upto, struct answers *a)
 {
     a->has_accepted = p->fields[NEW_ACCEPTED].text[0] != '\0';
-    return (upto < NEW_PROFILE || read_profile(app, p, a)) && (upto < NEW_FACE || read_face(app, p, a)) &&
+    return (upto < NEW_PROFILE || read_profile(app, p, a)) && (upto < NEW_RELEASE || read_release(app, p, a)) &&
+           (upto < NEW_FACE || read_face(app, p, a)) &&
            (upto < NEW_MATERIAL || read_material(app, p)) && (upto < NEW_ROCK || read_rock(app, p, a)) &&
            (upto < NEW_CONTROL || read_control(app, p, a)) &&
            (upto < NEW_ACCEPTED || read_number(app, p, NEW_ACCEPTED, 0, &a->accepted)) &&
@@ -135,9 +245,15 @@ static bool read_answers(struct app *app, struct popup *p, size_t upto, struct a
 /* What is wrong is said at its question, not after the last one. */
 static bool check_new(struct app *app, struct popup *p, size_t field)
 {
-    struct answers a = {.slope = {0}};
+    struct answers a = {.release = NAN};
     bool good = read_answers(app, p, field, &a);
-    ceduo_text_free(&a.slope);
+    if (good && field == NEW_PROFILE)
+        guess_face(p, &a);
+    if (good && field == NEW_PROFILE)
+        good = read_release(app, p, &a);
+    if (good && (field == NEW_PROFILE || field == NEW_RELEASE))
+        describe(p, &a);
+    release_answers(&a);
     return good;
 }
 
@@ -149,16 +265,34 @@ static void put_quoted(struct text *yaml, const char *before, const char *value)
     ceduo_emit_scalar(yaml, value, true);
 }
 
+/* A stretch of ground, given as it lies; a profile that is turned round has it as it was drawn. */
+static void put_material(struct text *yaml, const struct ceduo_slope *s, double from, double to, const char *material)
+{
+    double a = ceduo_slope_mirrored(s, from), b = ceduo_slope_mirrored(s, to);
+    ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g", fmin(a, b), fmax(a, b));
+    put_quoted(yaml, ", material: ", material);
+    ceduo_text_put(yaml, "}\n");
+}
+
+static void put_ground(const struct popup *p, const struct answers *a, struct text *yaml)
+{
+    const struct ceduo_slope *s = &a->profile.scene.slope;
+    ceduo_text_put(yaml, s->reversed ? "  reversed: true\n  materials:\n" : "  materials:\n");
+    bool face = a->face > a->first;
+    if (face && !s->reversed)
+        put_material(yaml, s, a->first, a->face, "cliff");
+    put_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].text);
+    if (face && s->reversed)
+        put_material(yaml, s, a->first, a->face, "cliff");
+}
+
 static void put_scene(struct popup *p, const struct answers *a, struct text *yaml)
 {
     put_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].text);
-    ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nslope:\n  %s\n  materials:\n", a->rock,
+    ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nrelease: {x_m: %.10g}\nslope:\n  %s\n", a->rock, a->release,
                       ceduo_text_string(&a->slope));
-    if (a->face > a->first)
-        ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g, material: cliff}\n", a->first, a->face);
-    ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g", a->face, a->last);
-    put_quoted(yaml, ", material: ", p->fields[NEW_MATERIAL].text);
-    ceduo_text_format(yaml, "}\ncontrols:\n  - {x_m: %.10g", a->control);
+    put_ground(p, a, yaml);
+    ceduo_text_format(yaml, "controls:\n  - {x_m: %.10g", a->control);
     if (a->has_accepted)
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
     ceduo_text_put(yaml, "}\n");
@@ -172,18 +306,34 @@ static void put_scene(struct popup *p, const struct answers *a, struct text *yam
 
 static bool filled_new(struct app *app, struct popup *p)
 {
-    struct answers a = {.slope = {0}};
+    struct answers a = {.release = NAN};
     struct text yaml = {0};
     bool good = read_answers(app, p, NEW_STAND, &a);
     if (good) {
         put_scene(p, &a, &yaml);
         good = ceduo_app_open_text(app, ceduo_text_string(&yaml));
     }
+    bool counted = a.counted;
     ceduo_text_free(&yaml);
-    ceduo_text_free(&a.slope);
-    if (good && a.counted)
+    release_answers(&a);
+    if (good && counted)
         ceduo_popup_counts(app);
     return good;
+}
+
+/* The profile as far as it is known, with the release and, ruled, the lower end of the face. */
+static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
+{
+    struct answers a = {.release = NAN};
+    bool good = p->at > NEW_PROFILE && read_answers(app, p, NEW_RELEASE, &a);
+    double face = good && read_face(app, p, &a) ? a.face - a.first : NAN;
+    app->message[0] = '\0';
+    if (good) {
+        a.profile.scene.release.x.mean = a.release - a.first;
+        ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &area,
+                        &(struct ceduo_picture){.scene = &a.profile.scene, .mark = face > 0 ? &face : NULL});
+    }
+    release_answers(&a);
 }
 
 static void offer_profiles(struct app *app, struct popup *p, const char *typed)
@@ -201,8 +351,10 @@ static void ask(struct app *app)
                                "left empty is not there; rocks are then counted at the end. All can be changed later."));
     p->endings = ".csv";
     p->check = check_new;
+    p->picture = draw_profile;
     ceduo_popup_field(p, _("title"), _("My slope"));
-    ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 60, 20 35, 60 20, 100 12", offer_profiles);
+    ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", offer_profiles);
+    ceduo_popup_field(p, _("rocks start at x, m"), "");
     ceduo_popup_field(p, _("face from the top to x, m"), "");
     ceduo_popup_choice(p, _("ground below it"), ceduo_material_talus()->name, ceduo_popup_offer_grounds);
     ceduo_popup_field(p, _("rock: diameter, m"), "0.6");

@@ -137,7 +137,7 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
     case FAILS:
         if (c->years == 0)
             ceduo_text_put(text, "\xe2\x80\xa6");
-        else if (!v->wooded || c->energy_known)
+        else if (!c->nothing && (!v->wooded || c->energy_known))
             ceduo_text_format(text, "%zu/%zu", v->wooded ? c->too_much : c->no_contact, c->years);
         else
             ceduo_text_char(text, '-');

@@ -148,7 +148,9 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     if (s.flown > 0)
         ceduo_text_then(text, " ", _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u)."), mean.mean * 1000,
                         ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
-    if (s.flown > 0 && says)
+    if (s.nothing)
+        ceduo_text_then(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
+    else if (s.flown > 0 && says)
         ceduo_text_then(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."), s.unprotected_energy,
                         s.unprotected_contact, s.unprotected_free_run, s.years);
     else

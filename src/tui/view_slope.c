@@ -13,6 +13,8 @@ static void build_ground(struct app *app, struct form *form)
     const struct node *segments = ceduo_document_node(d, "slope.segments");
     ceduo_form_heading(form, _("Ground"));
     ceduo_form_field(form, d, slope, "slope", "facets", NULL);
+    if (d->file.scene.slope.reversed)
+        ceduo_form_note(form, _("the profile is drawn upward: below, x of ground and points counts from its lower end"));
     if (!segments && !ceduo_document_node(d, "slope.materials"))
         ceduo_form_note(form, _("talus is assumed everywhere"));
     if (!segments)

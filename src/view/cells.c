@@ -57,6 +57,16 @@ void ceduo_cells_clear(struct ceduo_cells *cells)
         memset(cells->density, 0, ceduo_cells_dots(cells) * sizeof *cells->density);
 }
 
+void ceduo_cells_clear_area(struct ceduo_cells *cells, struct ceduo_area area)
+{
+    for (int y = area.top; y < area.top + area.height; y++)
+        for (int x = area.left; x < area.left + area.width; x++) {
+            struct ceduo_cell *cell = ceduo_cells_at(cells, x, y);
+            if (cell)
+                *cell = (struct ceduo_cell){0};
+        }
+}
+
 struct ceduo_cell *ceduo_cells_at(const struct ceduo_cells *cells, int column, int row)
 {
     if (column < 0 || column >= cells->width || row < 0 || row >= cells->height)

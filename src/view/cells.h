@@ -48,6 +48,7 @@ void ceduo_cells_free(struct ceduo_cells *cells);
 
 /* Make every cell blank, and every count of the density 0. */
 void ceduo_cells_clear(struct ceduo_cells *cells);
+void ceduo_cells_clear_area(struct ceduo_cells *cells, struct ceduo_area area); /* of it what lies on the grid */
 
 /* ---- Text ---- */
 

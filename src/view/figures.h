@@ -42,6 +42,7 @@ struct ceduo_figure {
     const void *(*item)(const void *object, size_t i);  /* a list within any object; NULL after the last */
     const char *const *columns; /* of such a list: its items in CSV, up to NULL; without them it has no columns */
     void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
+    bool one;            /* of sentences: there is one, and JSON has it as text, not as a list */
     bool optional;       /* JSON omits it if it is null or empty */
 };
 

@@ -163,6 +163,14 @@ static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void
     ceduo_words_stand_warnings(p->report->result->scene, belt_of(p), stand_of(p), say, context);
 }
 
+static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    struct text why = {0};
+    ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
+    say(context, ceduo_text_string(&why));
+    ceduo_text_free(&why);
+}
+
 static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, void *context)
 {
     struct ceduo_place p = *place;
@@ -201,7 +209,11 @@ VALUE(below_of, paired, NUMBER(o->below > 0 ? o->below : NAN))
 VALUE(share_at, flown, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(missed_at, arrivals, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
-VALUE(too_much_of, place, isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
+VALUE(too_much_of, place, o->sum.nothing || isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
+VALUE(fails_of, place, o->sum.nothing ? NOTHING : COUNT(*(const size_t *)member(f, o)))
+VALUE(judgement_of, place,
+      WORD(ceduo_words_judgement(ceduo_judge(&o->report->result->bare.arrivals[o->control], through_the_wood(o)))))
+VALUE(judgement_of_other, other_energy, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, WORD("ceduo-find-1"))
 VALUE(find_path, find_report, WORD(o->file->path))
@@ -380,6 +392,11 @@ static const struct ceduo_figure lights[] = {
     {"free_run_8cm", "", "free_run, counting likewise", LIGHT_AT(thick.free_run)},
     END};
 
+#define ANSWERS "yes, no, not-decided (the 95 % interval holds the limit), nothing (hardly a rock arrives even without forest)"
+static const struct ceduo_figure verdict_of_other[] = {
+    {"answer", "", "the same by that law, but depends where one law says yes and the other no", .value = judgement_of_other,
+     .null = UNSAID}, END};
+
 static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_other_energy, model)},
@@ -395,6 +412,12 @@ static const struct ceduo_figure other_energy[] = {
      .null = NO_ROCK},
     {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = KILO,
      .null = FEW},
+    {"verdict", "", "what is said of the control", .of = verdict_of_other},
+    END};
+
+static const struct ceduo_figure verdict[] = {
+    {"answer", "", "whether the forest keeps rocks with more than accepted_kJ to at most 5 of 100: " ANSWERS, .value = judgement_of, .null = UNSAID ", or contact_model is index"},
+    {"because", "", "why, in a sentence", .say = say_because, .one = true},
     END};
 
 static const struct ceduo_figure control[] = {
@@ -409,6 +432,7 @@ static const struct ceduo_figure control[] = {
      .null = "the option has no stems, contact_model is index, and in a year of --years"},
     {"lights", "", "verdicts on the way from the release to this control, each pass, fail or unknown, never merged into one",
      .from = index_of, .of = lights},
+    {"verdict", "", "what is said of the control", .of = verdict},
     END};
 
 static const struct ceduo_figure ends[] = {
@@ -461,15 +485,17 @@ static const struct ceduo_figure yield_columns[] = {YIELD, END};
 
 static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};
 
+#define FAILS(which) .value = fails_of, .offset = offsetof(struct ceduo_place, sum.which), .null = NOTHING_SAID
+#define NOTHING_SAID "nothing can be said"
 static const struct ceduo_figure rotation[] = {
     {"years", "", "how many years were computed", AT(place, sum.years)},
     {"felled_m", "m", "metres of belts felled in them, each time they are", .value = felled_of},
-    {"unprotected_contact", "", "years in which lights.contact fails", AT(place, sum.unprotected_contact)},
-    {"unprotected_free_run", "", "years in which lights.free_run fails", AT(place, sum.unprotected_free_run)},
-    {"unprotected_contact_8cm", "", "years in which lights.contact_8cm fails", AT(place, sum.thick_contact)},
-    {"unprotected_free_run_8cm", "", "years in which lights.free_run_8cm fails", AT(place, sum.thick_free_run)},
+    {"unprotected_contact", "", "years in which lights.contact fails", FAILS(unprotected_contact)},
+    {"unprotected_free_run", "", "years in which lights.free_run fails", FAILS(unprotected_free_run)},
+    {"unprotected_contact_8cm", "", "years in which lights.contact_8cm fails", FAILS(thick_contact)},
+    {"unprotected_free_run_8cm", "", "years in which lights.free_run_8cm fails", FAILS(thick_free_run)},
     {"unprotected_energy", "", "years in which lights.energy fails", .value = too_much_of,
-     .null = "the control has no accepted_kJ, or contact_model is index"},
+     .null = "the control has no accepted_kJ, contact_model is index, or " NOTHING_SAID},
     {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
     {"exceed_probability", "", "plain mean over the years", IN(place, sum.exceed, paired)},
     {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired),

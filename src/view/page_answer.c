@@ -55,12 +55,18 @@ static void ask(struct ceduo_page *page, const struct subject *s)
 /* "125 of 1000 rocks arrive with more than 50 kJ, 894 without forest": whether that is little enough. */
 static void answer_one(struct text *text, const struct subject *s)
 {
-    enum ceduo_light light = ceduo_result_last_index(s->result, s->index)->energy;
+    enum ceduo_judgement judgement = ceduo_judge(s->bare, s->arrivals);
     double through = share_of(s, s->arrivals), bare = share_of(s, s->bare), most = 1000 * CEDUO_EXCEED_MOST;
     if (!s->accepted)
         ceduo_text_format(text, _("Of 1000 rocks %.0f arrive through the forest, and %.0f would without it."), through,
                           bare);
-    else if (light == CEDUO_PASS)
+    else if (judgement == CEDUO_NOT_DECIDED)
+        ceduo_text_format(
+            text,
+            _("Not decided by so many rocks: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are "
+              "allowed; without forest %.0f would."),
+            through, most, bare);
+    else if (judgement == CEDUO_YES)
         ceduo_text_format(
             text,
             _("Yes: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are allowed; "
@@ -82,9 +88,7 @@ static void answer_by_index(struct text *text, const struct subject *s)
     ceduo_plot_number(index->dissipated * KILO, 3, taken);
     ceduo_plot_number(s->bare->energy.mean * KILO, 3, mean);
     ceduo_plot_number(index->residual * KILO, 3, left);
-    if (s->bare->reached == 0)
-        ceduo_text_put(text, _("No rock arrives, even without forest."));
-    else if (s->result->scene->options_count > 1)
+    if (s->result->scene->options_count > 1)
         ceduo_text_format(
             text,
             _("By the index (Eq. 4 and 5) '%s' leaves least of the %s kJ that a rock brings in the mean: %s "
@@ -221,14 +225,19 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_number_shortest(ceduo_words_accepted(control), s.withstands);
     ask(page, &s);
     struct text *first = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-    if (!s.arrivals)
+    bool nothing = ceduo_says_nothing(s.bare);
+    if (nothing)
+        ceduo_words_nothing(first, r, r->last_control);
+    else if (!s.arrivals)
         answer_by_index(first, &s);
     else if (r->scene->options_count > 1 && c->report->verdict)
         answer_many(first, &s);
     else
         answer_one(first, &s);
-    say_sampling(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &s);
-    say_doubt(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &s);
+    if (!nothing) { /* neither error changes that */
+        say_sampling(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &s);
+        say_doubt(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &s);
+    }
     page->failed |= s.where.failed;
     ceduo_text_free(&s.where);
 }

@@ -76,12 +76,13 @@ static void say_separation(struct ceduo_page *page, const struct ceduo_result *r
         const enum ceduo_light lights[] = {s->contact, s->free_run, s->energy};
         pass += lights[light] == CEDUO_PASS;
     }
-    if (pass == n || pass == 0)
+    if (pass == n || (pass == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), pass == n ? all : none);
 }
 
 /* ---- over the years ---- */
 
+/* `known`: false also where nothing can be said. */
 static void add_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
 {
     struct text *text = ceduo_page_text(page);
@@ -102,8 +103,8 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
         ceduo_words_number(worst, c->worst.mean, 3);
         ceduo_text_format(worst, " (%u)", c->worst_year);
     }
-    add_fails(page, c, c->no_contact, true);
-    add_fails(page, c, c->free_runs, true);
+    add_fails(page, c, c->no_contact, !c->nothing);
+    add_fails(page, c, c->free_runs, !c->nothing);
     if (c->flown > 0)
         add_fails(page, c, c->too_much, c->energy_known);
     ceduo_page_number(page, c->yield.cut_per_year, 2);

@@ -54,7 +54,9 @@ static void warn_of_run(void *context, const char *sentence)
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
 {
     struct ceduo_page *warned[2] = {page, NULL};
-    ceduo_words_run_warnings(report->result, &report->remarks, warn_of_run, warned);
+    struct ceduo_run_remarks remarks = report->remarks;
+    remarks.nothing_said = true; /* at the head of the page */
+    ceduo_words_run_warnings(report->result, &remarks, warn_of_run, warned);
     const struct source_note *note = report->file->notes;
     while (note && !is_shown(report, note))
         note = note->before;

@@ -192,10 +192,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
     }
     if (wooded)
         say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
-    if (none_arrives(bare))
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Without forest no rock arrives (of 1000, below %.1f with 95 %%)."), bare->reach_hi * 1000);
-    else if (wooded && none_arrives(wooded))
+    if (wooded && none_arrives(wooded) && !none_arrives(bare))
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
                           _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."),
                           wooded->reach_hi * 1000);
@@ -203,6 +200,10 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
 
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
+    if (ceduo_says_nothing(&r->bare.arrivals[control])) { /* why stands at the head of the page */
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), _("Contact, free run and energy: nothing can be said."));
+        return;
+    }
     ceduo_words_contact(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     ceduo_words_free_run(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
@@ -317,6 +318,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(scene->title));
     ceduo_page_facts(&page, report);
+    ceduo_words_still(report->result, ceduo_page_warn, &page);
     for (size_t i = 0; i < scene->options_count; i++)
         ceduo_page_option(&page, report, i);
     if (scene->options_count > 1 && scene->controls_count > 0)

@@ -63,6 +63,11 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
     bool says = !isnan(last_control(r)->accepted);
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    if (s.nothing) {
+        ceduo_text_format(line, ngettext("Of this %zu year nothing can be said.", "Of these %zu years nothing can be said.", s.years),
+                          s.years);
+        return;
+    }
     ceduo_text_format(line,
                       ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
                                "Of these %zu years: without contact %zu, with long free runs %zu", s.years),

@@ -3,9 +3,16 @@
 #include "base/language.h"
 #include "figures.h"
 
+/* Where sentences go: items of a list, or the one of a key. */
+struct sentences {
+    struct json *json;
+    const char *key;
+};
+
 static void put_sentence(void *context, const char *sentence)
 {
-    ceduo_json_string(context, NULL, sentence);
+    const struct sentences *to = context;
+    ceduo_json_string(to->json, to->key, sentence);
 }
 
 static void put_value(struct json *j, const struct ceduo_figure *f, struct ceduo_value v)
@@ -82,11 +89,14 @@ static void put_figures(struct json *j, const struct ceduo_figure *f, const void
         } else if (f->of) {
             put_object(j, f, ceduo_figure_object(f, object), scale);
         } else {
-            ceduo_json_open(j, f->key, '[');
+            struct sentences to = {j, f->one ? f->key : NULL};
+            if (!f->one)
+                ceduo_json_open(j, f->key, '[');
             ceduo_language_of_data(true);
-            f->say(object, put_sentence, j);
+            f->say(object, put_sentence, &to);
             ceduo_language_of_data(false);
-            ceduo_json_close(j, ']');
+            if (!f->one)
+                ceduo_json_close(j, ']');
         }
     }
 }

@@ -207,6 +207,8 @@ static void say_early(const struct ceduo_result *result, ceduo_words_say *say, v
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
                               ceduo_words_say *say, void *context)
 {
+    if (!remarks->nothing_said)
+        ceduo_words_still(result, say, context);
     say_tolerance(result, remarks, say, context);
     uint64_t unfinished = ceduo_result_unfinished(result);
     if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
@@ -288,11 +290,14 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
     const struct ceduo_index *s = index_at(result, option, control);
+    double limit = result->scene->simulation.threshold;
     ceduo_text_format(text, _("Free run: %s."), ceduo_words_verdict(s->free_run));
     ceduo_text_char(text, ' ');
-    if (s->length > 0)
+    if (s->length > 0 && s->longest_gap > limit)
+        ceduo_text_format(text, _("A gap of %.3g m has no forest: every rock runs more than %g m there."), s->longest_gap, limit);
+    else if (s->length > 0)
         ceduo_text_format(text, _("Chance of %g m without a contact at worst %.1f %% (10 %% is allowed)."),
-                          result->scene->simulation.threshold, s->worst_free_run * 100);
+                          limit, s->worst_free_run * 100);
     else
         ceduo_text_put(text, _("No stem stands on the way."));
     if (s->thick.free_run != s->free_run)

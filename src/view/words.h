@@ -31,9 +31,20 @@ struct ceduo_run_remarks {
     double tolerance;
     bool tolerance_met;
     bool ground_assumed;
+    bool nothing_said; /* where nothing can be said, that stands elsewhere on the page */
 };
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
                               ceduo_words_say *say, void *context);
+
+/* Why nothing can be said of a control (ceduo_says_nothing()): what arrives, how far rocks come, from where, and what to do. The
+ * same of the first control of which that holds, as a warning. */
+void ceduo_words_nothing(struct text *text, const struct ceduo_result *result, size_t control);
+void ceduo_words_still(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+
+/* What is said of a control: the word of files, NULL where it is not answered; and why, in a sentence. */
+const char *ceduo_words_judgement(enum ceduo_judgement judgement);
+void ceduo_words_because(struct text *text, const struct ceduo_result *result, size_t control,
+                         const struct ceduo_arrivals *wooded); /* NULL: not known */
 
 /* The three lights of an option at a control, each with its reason: contact, free run, energy. */
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control);

@@ -141,6 +141,8 @@ static bool say_both(struct text *text, const struct ceduo_scene *scene, const s
 
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
+    if (v->nothing)
+        ceduo_text_put(text, _("Nothing can be said of any option: no rock arrives, even without forest."));
     const char *when = all_of_kind(v, CEDUO_WINDOW_GIVEN) ? _("Over these years") : _("Over a whole rotation");
     bool years = v->rotation.known && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
     if (years && say_both(text, scene, v, when))

@@ -31,10 +31,12 @@ ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUM
 INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "rocks": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER, "exceed_probability": MAYBE,
-         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ_mean": MAYBE, "energy_kJ_se": MAYBE}  # null without stems
+         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ_mean": MAYBE, "energy_kJ_se": MAYBE,
+         "verdict": {"answer": TEXT_OR_NULL}}  # null without stems
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
            "other_energy": OTHER,
-           "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT}}
+           "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT},
+           "verdict": {"answer": TEXT_OR_NULL, "because": TEXT}}
 STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
          "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
          "adc": {"rule": TEXT_OR_NULL, "adc_m": MAYBE, "gsteiger_stools_m": MAYBE, "gsteiger_stems_m": MAYBE,
@@ -210,7 +212,7 @@ SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.m
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
                  flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
                  ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
-                  "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
+                  "verdict.answer", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", SHAPE_OF_DIFFERENCE) +
                  [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])
 RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",

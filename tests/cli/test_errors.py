@@ -390,6 +390,8 @@ CASES = {
         "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "simulation.rocks=@@2000000"),
     # Slope
     "x 10 does not lie beyond 10; x must rise: ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
+    "the profile rises, from 15 to 141.4 m, and rocks go along x: ...": sl(VERTICES, "@@[[0, 15], [100, 141.4]]"),
+    "the profile falls already, from 64 to 0 m; leave 'reversed' out": sl("facets: against", "facets: against\nreversed: @@true"),
     "a profile needs two vertices or more": sl(VERTICES, "@@[[0, 64]]"),
     "two vertices lie too close together for their distance from the first": sl(
         f"ceduo: slope/1\nname: line\nfacets: against\nvertices_m: {VERTICES}",

@@ -82,6 +82,8 @@ static void a_gap_as_long_as_the_threshold_passes(void **state)
             struct ceduo_index found = assess();
             assert_true(longer ? found.longest_gap > 30 : found.longest_gap == 30);
             assert_int_equal(found.contact, longer ? CEDUO_FAIL : CEDUO_PASS);
+            assert_int_equal(found.free_run, longer ? CEDUO_FAIL : CEDUO_PASS); /* every rock runs that far there */
+            EXPECT(found.worst_free_run, <, .1);
         }
 }
 
@@ -259,6 +261,56 @@ static void what_hangs_on_thin_stems(void **state)
     }
 }
 
+/* ---- what can be said ---- */
+
+static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinished)
+{
+    const struct ceduo_arrivals a = {.released = released, .reached = reached, .unfinished = unfinished};
+    return ceduo_says_nothing(&a);
+}
+
+/* None, or fewer than one of a thousand where a thousand were flown. */
+static void hardly_a_rock_says_nothing(void **state)
+{
+    (void)state;
+    assert_false(says_nothing(0, 0, 0)); /* nothing was flown */
+    assert_true(says_nothing(1, 0, 0));
+    assert_false(says_nothing(1, 1, 0));
+    assert_false(says_nothing(999, 1, 0));
+    assert_false(says_nothing(1000, 1, 0));
+    assert_true(says_nothing(1001, 1, 0));
+    assert_false(says_nothing(2000, 2, 0));
+    assert_true(says_nothing(2001, 2, 0));
+    assert_false(says_nothing(1001, 1, 1)); /* which may still arrive */
+    assert_false(says_nothing(10, 0, 1));
+}
+
+/* The limit is a share of .05; its interval must lie on one side of it. */
+static void a_share_is_judged_by_its_interval(void **state)
+{
+    (void)state;
+    assert_int_equal(ceduo_judge_share(.04, .03, .05), CEDUO_YES);
+    assert_int_equal(ceduo_judge_share(.04, .03, next_above(.05)), CEDUO_NOT_DECIDED);
+    assert_int_equal(ceduo_judge_share(.06, next_above(.05), .07), CEDUO_NO);
+    assert_int_equal(ceduo_judge_share(.06, .05, .07), CEDUO_NOT_DECIDED);
+    assert_int_equal(ceduo_judge_share(NAN, NAN, NAN), CEDUO_UNANSWERED);
+}
+
+static void what_a_bare_slope_keeps_needs_no_forest(void **state)
+{
+    const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed_probability = .01, .exceed_hi = .02};
+    const struct ceduo_arrivals many = {
+        .released = 1000, .reached = 900, .exceed_probability = .8, .exceed_lo = .77, .exceed_hi = .83};
+    const struct ceduo_arrivals none = {.released = 1000, .exceed_hi = .004};
+    (void)state;
+    assert_int_equal(ceduo_judge(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
+    assert_int_equal(ceduo_judge(&many, NULL), CEDUO_UNANSWERED);
+    assert_int_equal(ceduo_judge(&many, &few), CEDUO_YES);
+    assert_int_equal(ceduo_judge(&many, &many), CEDUO_NO);
+    assert_int_equal(ceduo_judge(&many, &none), CEDUO_YES); /* the forest stops all of them */
+    assert_int_equal(ceduo_judge(&none, &none), CEDUO_NOTHING);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -271,6 +323,9 @@ int main(void)
         cmocka_unit_test(a_difference_counts_no_rock_with_the_accepted_energy),
         cmocka_unit_test(one_rock_of_twenty_may_exceed),
         cmocka_unit_test(what_hangs_on_thin_stems),
+        cmocka_unit_test(hardly_a_rock_says_nothing),
+        cmocka_unit_test(a_share_is_judged_by_its_interval),
+        cmocka_unit_test(what_a_bare_slope_keeps_needs_no_forest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

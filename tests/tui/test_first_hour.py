@@ -29,7 +29,7 @@ def verdict(screen):
 
 def test_two_minutes():
     """With what is offered, a scene of one's own and its verdict take at most 12 keys."""
-    script = "key n " + "Enter " * 8
+    script = "key n " + "Enter " * 9
     expect(keys_in(script) <= 12, keys_in(script))
     with Folder() as f:
         screen = play(f.path, script + "\nwait idle\ndump")[0]
@@ -52,7 +52,7 @@ PLOT = """key Enter Enter Enter
     key 6"""
 BY_POINTS = """key n Enter
     type 0 60;40 30;99 0
-    key Enter
+    key Enter Enter
     type 15
     key Enter Enter
     type ,8

@@ -58,7 +58,7 @@ def test_new_typed():
             type Above the mill
             key Enter
             type 0 100, 40 60; 90 20, 120 18
-            key Enter Enter Enter
+            key Enter Enter Enter Enter
             type 0,9
             key Enter
             type 95
@@ -75,7 +75,7 @@ def test_new_typed():
             type mill.yaml
             key Enter
             dump""")
-        screens[0].has("New scene", "profile (CSV file or points)", "face from the top", "ground",
+        screens[0].has("New scene", "profile (CSV file or points)", "rocks start at x", "face from the top", "ground",
                        "rock: diameter, m", "counted at x, m", "the place withstands, kJ", "stand on the way", "Esc one back")
         screens[1].has("Above the mill", "0 100, 40 60; 90 20, 120 18", "0,9", "95", "30", "simple-coppice")
         screens[2].has("* Above the mill", "At 95 m", ">30 kJ", "Wood simple coppice")
@@ -93,7 +93,7 @@ def test_new_csv():
         place.write("line.csv", "distance,elevation\n0,150\n30,120\n80,80\n140,60\n200,55\n")
         made, saved = place.play("""key n Enter
             type line.csv
-            key Enter Enter Enter Enter
+            key Enter Enter Enter Enter Enter
             type 150
             key Enter Enter Enter
             wait idle
@@ -113,13 +113,16 @@ def test_new_csv():
 def test_new_refused():
     """n: what cannot be a scene is explained at its own question, and nothing is lost."""
     for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "none.csv"), "none.csv"),
-                         (("x", "0 60, 100 12", "100"), "outside the profile"), (("x", "0 60, 100 12", "x"), "'x' is not a number"),
-                         (("x", "0 60, 100 12", "", "moon"), "no ground 'moon'"),
-                         (("x", "0 60, 100 12", "", "talus", "-1"), "-1 is below 0 m"),
-                         (("x", "0 60, 100 12", "", "talus", "wide"), "'wide' is not a number"),
-                         (("x", "0 60, 100 12", "10", "talus", "0.6", "500"), "outside the slope below the face, 10 to 100 m"),
-                         (("x", "0 60, 100 12", "10", "talus", "0.6", "5"), "outside the slope below the face"),
-                         (("x", "0 60, 100 12", "", "talus", "0.6", "90", "much"), "'much' is not a number")):
+                         (("x", "0 60, 100 12", "100"), "rocks start at 100 m, outside the profile"),
+                         (("x", "0 60, 100 12", "x"), "'x' is not a number"),
+                         (("x", "0 60, 100 12", "", "100"), "outside the profile"), (("x", "0 60, 100 12", "", "x"), "'x' is not a number"),
+                         (("x", "0 60, 100 12", "", "", "moon"), "no ground 'moon'"),
+                         (("x", "0 60, 100 12", "", "", "talus", "-1"), "-1 is below 0 m"),
+                         (("x", "0 60, 100 12", "", "", "talus", "wide"), "'wide' is not a number"),
+                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "500"), "outside the slope below the face, 10 to 100 m"),
+                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "5"), "outside the slope below the face"),
+                         (("x", "0 60, 100 12", "20", "10", "talus", "0.6", "15"), "outside the slope below the face, 20 to 100 m"),
+                         (("x", "0 60, 100 12", "", "", "talus", "0.6", "90", "much"), "'much' is not a number")):
         script = "wait idle\nkey n\n"
         for field in fields:
             script += f"key Ctrl-U\ntype {field}\nkey Enter\n"
@@ -128,13 +131,13 @@ def test_new_refused():
         expect(part in refused.popup.split("stand on the way")[1], f"{fields} is not refused with a reason:", refused)
         after.has("1 5 45 upper")
         expect(after.title.endswith(" fast"), after.title)
-    refused = fast("key n Enter Ctrl-U\ntype 0 1, 0 2, 0 3\n" + "key Enter\n" * 7 + "dump")[0]
+    refused = fast("key n Enter Ctrl-U\ntype 0 1, 0 2, 0 3\n" + "key Enter\n" * 8 + "dump")[0]
     expect_in("New scene", refused.text, "x does not rise")
 
 
 def test_new_bad_stand():
     """n: a stand that there is not is told, not left out in silence."""
-    screen = fast("key n Enter Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand.yaml\nkey Enter\ndump")[0]
+    screen = fast("key n Enter Enter Enter Enter Enter Enter Enter Enter Ctrl-U\ntype no-such-stand.yaml\nkey Enter\ndump")[0]
     expect_in("no stand 'no-such-stand.yaml'", screen.popup)
 
 
