@@ -55,8 +55,23 @@ enum ceduo_stand_warning {
     CEDUO_WARN_U_ASSUMED = 1 << 4,         /* U of beech assumed for another species */
     CEDUO_WARN_WIDE_SPACING = 1 << 6,      /* s > B + d: the rock can pass between two shoots; crofton is not exact */
     CEDUO_WARN_LOW = 1 << 8,               /* stumps or logs: contacts, but no stems that count */
-    CEDUO_WARN_INERTIA = 1 << 7            /* inertia: an assumption, and Eq. 4 has no meaning */
+    CEDUO_WARN_INERTIA = 1 << 7,           /* inertia: an assumption, and Eq. 4 has no meaning */
+    CEDUO_WARN_BASAL_AREA = 1 << 9,        /* what hardly any stand has, so that it may be a mistake: more than these */
+    CEDUO_WARN_MANY_SHOOTS = 1 << 10,
+    CEDUO_WARN_SLENDER = 1 << 11,
+    CEDUO_WARN_STOUT = 1 << 12,            /* or less than this */
+    CEDUO_WARN_THICK = 1 << 13,            /* thicker than any stem that its species' volumes were measured on */
+    CEDUO_WARN_UNLIKELY = 31 << 9          /* any of the last five */
 };
+
+/* Beyond these a stand is unlikely (assumed). */
+#define CEDUO_BASAL_AREA_MOST 60   /* m2/ha */
+#define CEDUO_SHOOTS_MOST 15       /* on a stool, all cohorts together */
+#define CEDUO_SLENDERNESS_MOST 150 /* height over dbh */
+#define CEDUO_SLENDERNESS_LEAST 25
+
+/* How one kind of stem is unlikely: of SLENDER, STOUT and THICK. */
+unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
 

@@ -54,6 +54,9 @@ void ceduo_grown_stand_release(struct ceduo_grown_stand *grown);
 enum ceduo_status ceduo_stand_before_cut(const struct ceduo_stand *stand, double first_cut, unsigned year,
                                          struct ceduo_grown_stand *out);
 
+/* Height (m) of a stem of `dbh` m on its curve; NaN where the curve is unknown or never gets so thick. */
+double ceduo_curve_height(const struct ceduo_curve *curve, double dbh);
+
 /* Whether its stools were cut just before year 0, and whether anything in it changes but by cuts. */
 bool ceduo_stand_sprouts(const struct ceduo_stand *stand);
 bool ceduo_stand_grows(const struct ceduo_stand *stand);

@@ -54,6 +54,7 @@ struct ceduo_stems {
     double age;    /* years; NaN: unknown */
     unsigned group;      /* of single trees: so many stand in a group; 0 or 1: each by itself */
     double group_radius; /* m, >= 0: of the disc in which they stand; NaN: not said */
+    double per_stool;    /* of shoots: so many on each stool, where that was given instead of per_ha; NaN or 0: it was not */
 };
 
 /* What a cut leaves: stumps are met as trees of that height are, but take `energy` (J). per_ha 0: none. */
@@ -115,9 +116,13 @@ struct ceduo_stand {
     struct ceduo_cutting cutting;
 };
 
+/* Sets per_ha of the shoots that are given per stool. What reads and changes stands does so; all else reads per_ha. */
+void ceduo_stand_count_shoots(struct ceduo_stand *stand);
+
 /* Sums over a stand, per hectare. */
 double ceduo_stand_shoots(const struct ceduo_stand *stand);
 double ceduo_stand_trees(const struct ceduo_stand *stand);
+double ceduo_stand_stay(const struct ceduo_stand *stand); /* single trees that a cut leaves */
 double ceduo_stand_basal_area(const struct ceduo_stand *stand); /* m2/ha: sum of N pi d2/4 */
 bool ceduo_stand_has_shoots(const struct ceduo_stand *stand);
 bool ceduo_stand_has_stems(const struct ceduo_stand *stand); /* that stand: shoots or trees */

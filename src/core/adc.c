@@ -209,13 +209,38 @@ static unsigned stems_warnings(const struct ceduo_stand *stand, const struct ced
     return warnings;
 }
 
+#define ABOVE(value, most) ((value) > (most) * (1 + 1e-9)) /* what is typed as the limit itself is not beyond it */
+
+unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    size_t n;
+    double slender = stems->height / stems->dbh;
+    double thickest = stand->species >= 0 ? ceduo_species_list(&n)[stand->species].d_hi / 100 : INFINITY;
+    if (!(stems->per_ha > 0))
+        return 0;
+    return (ABOVE(slender, CEDUO_SLENDERNESS_MOST) ? CEDUO_WARN_SLENDER : 0u) |
+           (ABOVE(CEDUO_SLENDERNESS_LEAST, slender) ? CEDUO_WARN_STOUT : 0u) |
+           (ABOVE(stems->dbh, thickest) ? CEDUO_WARN_THICK : 0u);
+}
+
+static unsigned unlikely(const struct ceduo_stand *stand)
+{
+    unsigned warnings = (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MOST) ? CEDUO_WARN_BASAL_AREA : 0u) |
+                        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        warnings |= ceduo_stem_unlikely(stand, &stand->shoots[i]);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        warnings |= ceduo_stem_unlikely(stand, &stand->trees[i]);
+    return warnings;
+}
+
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
     if (ceduo_stand_is_bare(stand))
         return 0;
     unsigned warnings = stems_warnings(stand, stand->shoots, stand->shoots_count) |
                         stems_warnings(stand, stand->trees, stand->trees_count) |
-                        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0);
+                        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0u) | unlikely(stand);
     if (!(shoots(stand) > 0))
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);

@@ -27,6 +27,13 @@ static double reached(double rate, double age)
     return -ceduo_expm1(-rate * age);
 }
 
+double ceduo_curve_height(const struct ceduo_curve *curve, double dbh)
+{
+    double share = dbh / curve->dbh_most;
+    bool reaches = known(curve) && share < 1;
+    return reaches ? curve->height_most * reached(curve->height_rate, -ceduo_log1p(-share) / curve->dbh_rate) : NAN;
+}
+
 /* Infinite where the stem grows no more; NaN where nothing tells it. */
 static double age_of(const struct ceduo_stems *stems, const struct ceduo_curve *curve)
 {

@@ -268,7 +268,7 @@ static int by_name(const void *a, const void *b)
 static bool is_said(struct deriver *d, const struct ceduo_input *before, const struct ceduo_input *row)
 {
     if (before->kind != CEDUO_INPUT_DRAWS)
-        return strcmp(with_numbers(d, before->path), with_numbers(d, row->path)) == 0;
+        return ceduo_schema_same(with_numbers(d, before->path), with_numbers(d, row->path));
     for (size_t i = 0; i < row->places_count; i++)
         if (bsearch(&row->places[i], before->places, before->places_count, sizeof *before->places, by_name))
             return true;
@@ -309,7 +309,7 @@ static bool is_of_scene(const struct stand_rows *s, const char *place)
 {
     for (size_t i = 0; i < s->of_scene; i++)
         for (size_t k = 0; k < s->inputs[i].places_count; k++)
-            if (strcmp(s->inputs[i].places[k], place) == 0)
+            if (ceduo_schema_same(s->inputs[i].places[k], place))
                 return true;
     return false;
 }
@@ -368,7 +368,7 @@ static void take_stand(struct stand_rows *s, const char *path, const struct node
         bool twice = false;
         for (size_t k = 0; k < i; k++) {
             const char *other = ceduo_node_text(rows->items[k], "path");
-            twice |= other && strcmp(other, row.path) == 0;
+            twice |= other && ceduo_schema_same(other, row.path);
         }
         if (twice)
             complain_twice(s->d, &said);

@@ -124,6 +124,32 @@ static bool lacks(struct deriver *d, double value, const char *path, const char 
     return isnan(value) && ceduo_derive_known(d, "%s%s", path, key);
 }
 
+/* Whether something is written at a path. */
+static bool is_written(struct deriver *d, const char *path)
+{
+    const char *within;
+    size_t used;
+    ceduo_resolve_walk(d->root, path, &within, &used);
+    return path[used] == '\0';
+}
+
+/* Shoots are given per hectare or per stool. */
+static void check_densities(struct deriver *d, const char *path, const struct ceduo_stand *s)
+{
+    for (size_t i = 0; i < s->shoots_count; i++) {
+        const struct ceduo_stems *stems = &s->shoots[i];
+        const char *here = ceduo_derive_text(d, "%s.shoots[%zu]", path, i);
+        bool each = is_written(d, ceduo_derive_text(d, "%s.per_stool", here));
+        if (each && is_written(d, ceduo_derive_text(d, "%s.per_ha", here)))
+            ceduo_derive_refuse(d, here, ".per_stool", _("per_ha already says this; keep one of the two"), 0, 0);
+        else if (!each && lacks(d, stems->per_ha, here, ".per_ha") && ceduo_derive_known(d, "%s.per_stool", here))
+            ceduo_derive_refuse(d, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"), 0, 0);
+        else if (each && !is_written(d, ceduo_derive_text(d, "%s.stools.per_ha", path)) &&
+                 ceduo_derive_known(d, "%s.stools.per_ha", path))
+            ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0, 0);
+    }
+}
+
 /* Of what is in the way besides stems no figure is assumed. */
 static void check_low(struct deriver *d, const char *path, const struct ceduo_stand *s)
 {
@@ -148,6 +174,7 @@ static void check_low(struct deriver *d, const char *path, const struct ceduo_st
 
 static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand *s)
 {
+    ceduo_stand_count_shoots(s);
     if ((int)s->system < 0)
         s->system = system_of(s);
     if (!ceduo_derive_known(d, "%s", path)) /* what it starts from is not there */
@@ -158,6 +185,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or remove them"), 0,
                             0);
+    check_densities(d, path, s);
     check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(d, path, "trees", s->trees, s->trees_count);
     check_low(d, path, s);
@@ -174,7 +202,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
                             _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
                               "stools"),
                             0, 0);
-    else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha)
+    else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha * (1 - 1e-12)) /* .4 and .6 per stool */
         ceduo_derive_refuse(d, path, ".stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
                             ceduo_stand_shoots(s), s->stools_per_ha);
 }

@@ -100,7 +100,8 @@ static bool law_knows(const struct finder *f, const char *key)
 
 static void consider(struct finder *f, const struct field *field, const struct node *node)
 {
-    const struct range *range = field->flags & FIELD_YEARS ? NULL : ceduo_range_of(field); /* today is in doubt, not the years */
+    bool instead = !node && field->flags & FIELD_ONE_OF && !field->value; /* another key says it */
+    const struct range *range = instead || field->flags & FIELD_YEARS ? NULL : ceduo_range_of(field); /* today is in doubt, not the years */
     const char *path = range ? text_of(f, "%s", ceduo_text_string(&f->path)) : NULL;
     struct value v;
     if (!path || !law_knows(f, field->key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
@@ -205,7 +206,7 @@ static bool is_named(const struct scene_file *file, const char *path)
 {
     for (size_t i = 0; i < file->inputs_count; i++)
         for (size_t k = 0; k < file->inputs[i].places_count; k++)
-            if (strcmp(file->inputs[i].places[k], path) == 0)
+            if (ceduo_schema_same(file->inputs[i].places[k], path))
                 return true;
     return false;
 }

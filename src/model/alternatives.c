@@ -128,6 +128,7 @@ static void keep_one_of_all(struct changes *c, const char *path)
 {
     static const char *const sphere[] = {"diameter_m", "volume_m3", "mass_kg", NULL};
     static const char *const weight[] = {"mass_kg", "density_kg_m3", NULL};
+    static const char *const shoots[] = {"per_ha", "per_stool", NULL};
     static const char *const roughness[] = {"roughness_m", "roughness_rad", NULL};
     const char *dot = strrchr(path, '.');
     char map[256];
@@ -138,6 +139,8 @@ static void keep_one_of_all(struct changes *c, const char *path)
         keep_one(c, map, dot + 1, c->d->file.scene.rock.shape == CEDUO_SPHERE ? sphere : weight);
     else if (strncmp(map, "slope.segments[", 15) == 0)
         keep_one(c, map, dot + 1, roughness);
+    else if (strstr(map, ".shoots["))
+        keep_one(c, map, dot + 1, shoots);
 }
 
 bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said,
@@ -148,8 +151,8 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         change_shape(&c, shape_of(d, value));
     else
         keep_one_of_all(&c, path);
-    if (ceduo_changes_follow(&c, path, value))
-        ceduo_changes_add(&c, "%s=%s", path, value);
+    ceduo_changes_follow(&c, path, value);
+    ceduo_changes_add(&c, "%s=%s", path, value);
     if (c.failed)
         ceduo_problem_memory(problems);
     else if (c.refused.length)

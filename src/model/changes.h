@@ -10,7 +10,7 @@
 
 struct changes {
     struct document *d;
-    const char *sets[CHANGES_MOST]; /* PATH=VALUE, or PATH alone: what stands there is taken out */
+    const char *sets[CHANGES_MOST]; /* as of ceduo_document_set_all() */
     size_t n;
     struct text taken, filled, followed;
     struct text refused; /* why it cannot be; "": it can, as far as is known */
@@ -22,13 +22,8 @@ void ceduo_changes_add(struct changes *changes, const char *format, ...) __attri
 /* A number of so many digits as text. */
 const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 
-/* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap;
- * the shoots of stools that become more or fewer, so that as many stand on each. False where the path is none of the
- * files (ceduo_shoots_per_stool()), and nothing is to be set there. */
-bool ceduo_changes_follow(struct changes *changes, const char *path, const char *value);
-
-/* Shoots on a stool of the stand at a path, as its document has them; NaN where there are none. A field of the screen
- * alone, STAND.stools.per_stool: files have the shoots per hectare. */
-double ceduo_shoots_per_stool(const struct document *document, const char *stand);
+/* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap; a
+ * height that is assumed, by its diameter. Says what does not follow: shoots that are given per hectare, standards. */
+void ceduo_changes_follow(struct changes *changes, const char *path, const char *value);
 
 #endif

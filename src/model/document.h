@@ -57,7 +57,8 @@ bool ceduo_document_rename_option(struct document *document, size_t index, const
 /* A copy of an option after it. */
 bool ceduo_document_copy_option(struct document *document, size_t index, struct problems *problems);
 
-/* Several changes as one state: PATH=VALUE each, or PATH alone: what stands there is taken out. */
+/* Several changes as one state: PATH=VALUE each; or PATH:=VALUE, a scalar that keeps the source around it, for it only
+ * follows what a person changes; or PATH alone: what stands there is taken out. */
 bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
                             struct problems *problems);
 

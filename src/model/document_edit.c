@@ -127,15 +127,19 @@ static const struct node *with_item(struct document *d, const struct node *root,
     return root ? shift_doubts(d, root, list, (struct shift){index, 0, 1}, problems) : NULL;
 }
 
-/* root with PATH=VALUE, or without PATH. */
+/* root with PATH=VALUE, or PATH:=VALUE, or without PATH. */
 static const struct node *with_set(struct document *d, const struct node *root, const char *set,
                                    struct problems *problems)
 {
     const char *equals = strchr(set, '=');
     if (!equals)
         return without(d, root, &set, problems);
-    char *path = ceduo_arena_copy(&d->file.arena, set, (size_t)(equals - set));
+    bool keeps = equals > set && equals[-1] == ':';
+    char *path = ceduo_arena_copy(&d->file.arena, set, (size_t)(equals - set) - keeps);
     const struct node *value = path ? ceduo_document_parse(d, path, equals + 1, problems) : NULL;
+    const struct node *old = value && keeps ? node_at(root, path) : NULL;
+    if (old)
+        value = ceduo_node_scalar(&d->file.arena, old->source, value->text, false);
     return value ? put(d, root, path, value, problems) : NULL;
 }
 

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What goes along with a value that a person changes. Borders: where a belt, or a ground, ends and the next one begins
- * in the same place, moving one moves the other; where a border is moved over the next, that one gives way. Stools:
- * more of them have more shoots. */
+ * in the same place, moving one moves the other; where a border is moved over the next, that one gives way. Stands: a height
+ * that is assumed goes along with its diameter; of stools and standards it is said what does not. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "ceduo/rotation.h"
 #include "changes.h"
+#include "io/inputs.h"
 
 void ceduo_changes_add(struct changes *c, const char *format, ...)
 {
@@ -116,54 +118,89 @@ static void follow_end(struct changes *c, const char *path, const char *value)
     ceduo_changes_add(c, "%s=%s", border, ceduo_number_shortest(now, room));
 }
 
-/* ---- stools ---- */
+/* ---- stands ---- */
 
-static double sum_of_shoots(const struct document *d, const char *stand, size_t *n)
+/* The stand of a path such as forest[0].stand.trees[1].per_ha, what the path is of within it, and of which item; NULL: it is
+ * of no stand. */
+static const struct ceduo_stand *find_stand(const struct document *d, const char *path, const char **within, size_t *item)
 {
-    char path[256];
-    double sum = 0;
-    snprintf(path, sizeof path, "%.160s.shoots", stand);
-    const struct node *shoots = ceduo_document_node(d, path);
-    *n = shoots && shoots->kind == NODE_LIST ? shoots->n : 0;
-    for (size_t i = 0; i < *n; i++) {
-        snprintf(path, sizeof path, "%.160s.shoots[%zu].per_ha", stand, i);
-        sum += number_at(d, path);
+    const struct ceduo_belt *belt = ceduo_input_belt(&d->file.scene, path);
+    const char *stand = strstr(path, "].stand."), *bracket = strrchr(path, '[');
+    *within = stand ? stand + strlen("].stand.") : "";
+    *item = bracket > stand ? strtoul(bracket + 1, NULL, 10) : 0;
+    return belt && stand ? &belt->stand : NULL;
+}
+
+/* What happens to the shoots of stools that become more or fewer. */
+static void say_shoots(struct changes *c, const struct ceduo_stand *s, double stools)
+{
+    char room[CEDUO_NUMBER_ROOM], before[CEDUO_NUMBER_ROOM];
+    double shoots = ceduo_stand_shoots(s), each = shoots / s->stools_per_ha;
+    if (!(stools > 0) || !(shoots > 0))
+        return;
+    if (s->shoots[0].per_stool > 0)
+        ceduo_text_format(&c->followed, _("%s shoots on each stool stay"), ceduo_changes_rounded(each, 3, room));
+    else
+        ceduo_text_format(&c->followed, _("the shoots per ha stay: %s on a stool, not %s"),
+                          ceduo_changes_rounded(shoots / stools, 3, room), ceduo_changes_rounded(each, 3, before));
+}
+
+/* A height that is only assumed goes along with its diameter, as both do while stems grow. */
+static void follow_diameter(struct changes *c, const char *path, const struct ceduo_curve *curve,
+                            const struct ceduo_stems *stems, double dbh)
+{
+    char height[256], room[CEDUO_NUMBER_ROOM];
+    snprintf(height, sizeof height, "%.*sheight_m", (int)(strlen(path) - strlen("dbh_m")), path);
+    if (!ceduo_scene_assumes_value(&c->d->file, height) || dbh == stems->dbh)
+        return;
+    double taller = ceduo_curve_height(curve, dbh) / ceduo_curve_height(curve, stems->dbh);
+    ceduo_changes_rounded(taller > 0 ? stems->height * taller : stems->height, 3, room);
+    if (taller > 0)
+        ceduo_changes_add(c, "%s:=%s", height, room);
+    ceduo_text_format(&c->followed,
+                      taller > 0 ? _("its height, assumed, goes along by the growth curve: %s m")
+                                 : _("its height, %s m, is assumed and stays: no growth curve has this diameter"),
+                      room);
+}
+
+/* Trees that stand today, and those that a cut leaves, are two things: who changes one is told of the other. */
+static void compare_standards(struct changes *c, const struct ceduo_stand *s, double stand, double stay, bool today)
+{
+    if (s->cutting.rotation > 0 && fabs(stand - stay) > 0.5)
+        ceduo_text_format(&c->followed, today ? _("a cut still leaves %g trees per ha: see 'trees that stay'")
+                                              : _("today %g trees per ha stand: see 'single trees'"),
+                          today ? stay : stand);
+}
+
+/* The sum of [30, 30]; NaN: it is none. */
+static double sum_of(const char *list)
+{
+    double sum = 0, one;
+    char *end;
+    for (list += strspn(list, "[ "); *list && *list != ']'; list = end + strspn(end, ", ")) {
+        one = strtod(list, &end);
+        if (end == list)
+            return NAN;
+        sum += one;
     }
     return sum;
 }
 
-static double stools_of(const struct document *d, const char *stand)
+static void follow_stand(struct changes *c, const char *path, const char *value, double now)
 {
-    char path[256];
-    snprintf(path, sizeof path, "%.160s.stools.per_ha", stand);
-    return number_at(d, path);
-}
-
-double ceduo_shoots_per_stool(const struct document *d, const char *stand)
-{
-    size_t n;
-    double shoots = sum_of_shoots(d, stand, &n), stools = stools_of(d, stand);
-    return n > 0 && stools > 0 ? shoots / stools : NAN;
-}
-
-static void multiply_shoots(struct changes *c, const char *stand, double factor)
-{
-    char path[256], room[CEDUO_NUMBER_ROOM];
-    size_t n;
-    sum_of_shoots(c->d, stand, &n);
-    for (size_t i = 0; i < n; i++) {
-        snprintf(path, sizeof path, "%.160s.shoots[%zu].per_ha", stand, i);
-        ceduo_changes_add(c, "%s=%s", path, ceduo_changes_rounded(number_at(c->d, path) * factor, 6, room));
-    }
-}
-
-/* The stand whose stools a path is about. */
-static bool is_of_stools(const char *path, const char *key, char *stand, size_t size)
-{
-    if (!ends_in(path, key))
-        return false;
-    snprintf(stand, size, "%.*s", (int)(strlen(path) - strlen(key)), path);
-    return true;
+    const char *key;
+    size_t i;
+    const struct ceduo_stand *s = find_stand(c->d, path, &key, &i);
+    bool shoot = s && strncmp(key, "shoots[", 7) == 0 && i < s->shoots_count;
+    bool tree = s && strncmp(key, "trees[", 6) == 0 && i < s->trees_count;
+    if (s && strcmp(key, "stools.per_ha") == 0)
+        say_shoots(c, s, now);
+    else if (s && strcmp(key, "cutting.stay_per_ha") == 0)
+        compare_standards(c, s, ceduo_stand_trees(s), sum_of(value), false);
+    else if (tree && ends_in(key, "].per_ha"))
+        compare_standards(c, s, ceduo_stand_trees(s) - s->trees[i].per_ha + now, ceduo_stand_stay(s), true);
+    else if ((shoot || tree) && ends_in(key, "].dbh_m"))
+        follow_diameter(c, path, shoot ? &s->growth.shoots : &s->growth.trees, shoot ? &s->shoots[i] : &s->trees[i], now);
 }
 
 /* Both surveys are judged or none: the other one is taken as poor, which asks for more. */
@@ -177,24 +214,14 @@ static void follow_design(struct changes *c, const char *path)
         }
 }
 
-bool ceduo_changes_follow(struct changes *c, const char *path, const char *value)
+void ceduo_changes_follow(struct changes *c, const char *path, const char *value)
 {
-    char stand[192], room[CEDUO_NUMBER_ROOM];
     double now;
     follow_end(c, path, value);
     follow_design(c, path);
-    bool number = ceduo_number_read(value, &now) == CEDUO_NUMBER_GOOD;
-    if (number)
+    if (ceduo_number_read(value, &now) != CEDUO_NUMBER_GOOD)
+        now = NAN;
+    else
         follow_border(c, path, now);
-    if (is_of_stools(path, ".stools.per_stool", stand, sizeof stand)) {
-        multiply_shoots(c, stand, number ? now / ceduo_shoots_per_stool(c->d, stand) : NAN);
-        return false;
-    }
-    bool stools = number && now > 0 && is_of_stools(path, ".stools.per_ha", stand, sizeof stand);
-    double each = stools ? ceduo_shoots_per_stool(c->d, stand) : NAN;
-    if (!(each > 0))
-        return true;
-    multiply_shoots(c, stand, now / stools_of(c->d, stand));
-    ceduo_text_format(&c->followed, _("%s shoots on each stool stay"), ceduo_changes_rounded(each, 3, room));
-    return true;
+    follow_stand(c, path, value, now);
 }

@@ -195,9 +195,9 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
 /* ---- stand ---- */
 
 /* Of shoots as of trees. */
-#define STEM_ROWS \
+#define STEM_ROWS(given) \
     NUMBER("per_ha", USUAL(N_("per hectare"), N_("per ha"), 0, 50000), \
-        AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, REQUIRED, NULL, \
+        AT(ceduo_stems, per_ha), "1/ha", 0, 1e6, given, NULL, \
            N_("stems per horizontal hectare")), \
     NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), \
         AT(ceduo_stems, dbh), "m", 0, 10, REQUIRED | ABOVE, NULL, N_("diameter at breast height")), \
@@ -211,7 +211,12 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
     NUMBER("age_y", USUAL(N_("age, years"), N_("age y"), 0, 500), \
         AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL, N_("age"))
 
-static const struct field stems_fields[] = {STEM_ROWS};
+static const struct field stems_fields[] = {
+    NUMBER("per_stool", USUAL(N_("shoots per stool"), N_("a stool"), 0.1, 15),
+        AT(ceduo_stems, per_stool), "", 0, 10000, ABOVE | FIELD_ONE_OF, NULL,
+           N_("shoots on each stool, instead of per_ha: with more stools there are more shoots")),
+    STEM_ROWS(FIELD_ONE_OF),
+};
 static const struct object stems_object = OBJECT(ceduo_stems, stems_fields, NULL);
 
 static const struct field groups_fields[] = {
@@ -225,7 +230,7 @@ static const struct field groups_fields[] = {
 static const struct object groups_object = OBJECT(ceduo_stems, groups_fields, NULL);
 
 static const struct field trees_fields[] = {
-    STEM_ROWS,
+    STEM_ROWS(REQUIRED),
     GROUP("groups", NAMED(N_("groups"), NULL),
         SAME, 0, N_("trees kept in groups; per_ha still counts trees"), &groups_object),
 };
@@ -263,10 +268,6 @@ static const struct field stools_fields[] = {
         AT(ceduo_stand, spacing), "m", 0, 20, REQUIRED | ZERO, NULL,
            N_("distance between neighbouring shoots of a stool (dbh_int of the paper)")),
 };
-static const struct field per_stool_field =
-    NUMBER("per_stool", USUAL(N_("shoots per stool"), NULL, 1, 50),
-        NOWHERE, "", 1, 10000, FIELD_NOWHERE, NULL,
-           N_("shoots on each stool; stays as it is when the stools per ha are changed"));
 static const struct object stools_object = OBJECT(ceduo_stand, stools_fields, NULL);
 
 static const struct field energy_fields[] = {
@@ -306,6 +307,23 @@ const char *ceduo_schema_gone(const struct object *object, const char *key)
         if (gone[i].object == object && strcmp(gone[i].key, key) == 0)
             return gone[i].instead;
     return NULL;
+}
+
+const char *ceduo_schema_other(const struct object *object, const char *key)
+{
+    static const char *const pair[2] = {"per_ha", "per_stool"};
+    for (int i = 0; object == &stems_object && i < 2; i++)
+        if (strcmp(key, pair[i]) == 0)
+            return pair[1 - i];
+    return NULL;
+}
+
+bool ceduo_schema_same(const char *a, const char *b)
+{
+    const char *key = strrchr(a, '.'), *with = strrchr(b, '.');
+    bool siblings = key && with && key - a == with - b && strncmp(a, b, (size_t)(key - a)) == 0;
+    const char *other = siblings ? ceduo_schema_other(&stems_object, key + 1) : NULL;
+    return strcmp(a, b) == 0 || (other && strcmp(other, with + 1) == 0);
 }
 
 static const struct field curve_fields[] = {
@@ -546,11 +564,6 @@ static const struct field scene_fields[] = {
           &window_object),
 };
 static const struct object scene_object = OBJECT(scene_draft, scene_fields, "scenes");
-
-const struct field *ceduo_schema_per_stool(void)
-{
-    return &per_stool_field;
-}
 
 #define ROOT(name) \
     const struct object *ceduo_schema_##name(void) { return &name##_object; }

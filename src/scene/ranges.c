@@ -19,6 +19,7 @@ static const struct range ranges[] = {
     {"slope.segments[0].friction", CEDUO_INPUT_RANGE, 0.3, 0.8, {0}, ASSUMED, N_("stops of past rocks")},
     {"slope.segments[0].mu", CEDUO_INPUT_RANGE, 0.4, 0.9, {0}, ASSUMED, N_("stops of past rocks")},
     {"forest[0].stand.stools.per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed"), N_("more sample plots")},
+    {"forest[0].stand.shoots[0].per_stool", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed"), N_("more sample plots")},
     {STEMS "per_ha", CEDUO_INPUT_FACTOR, 0.85, 1.15, {0}, N_("error of a few sample plots; assumed"), N_("more sample plots")},
     {STEMS "dbh_m", CEDUO_INPUT_FACTOR, 0.9, 1.1, {0}, N_("error of a few sample plots; assumed"), N_("dbh on more plots")},
     {STEMS "volume_m3", CEDUO_INPUT_FACTOR, 0.75, 1.25, {0}, N_("volume tables of single stems; assumed"), N_("some stems, felled and measured")},

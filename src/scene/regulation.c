@@ -30,10 +30,7 @@ static bool meets(const struct ceduo_regulation_item *item, double value)
 
 static double standards_of(const struct ceduo_stand *stand)
 {
-    double kept = 0;
-    for (size_t i = 0; i < stand->cutting.stay_count; i++)
-        kept += stand->cutting.stay_per_ha[i];
-    return stand->cutting.stay_count > 0 ? kept : ceduo_stand_trees(stand);
+    return stand->cutting.stay_count > 0 ? ceduo_stand_stay(stand) : ceduo_stand_trees(stand);
 }
 
 struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r, const struct ceduo_stand *stand)

@@ -134,12 +134,16 @@ const struct object *ceduo_schema_segment(void);
 const struct object *ceduo_schema_belt(void);
 const struct object *ceduo_schema_stand(void);
 
-/* Shoots on a stool: a number that screens show and take, and no file has. */
-const struct field *ceduo_schema_per_stool(void);
-
 const struct field *ceduo_schema_field(const struct object *object, const char *key);
 /* What to do instead of a key that earlier versions had there, marked for translation; NULL: none had it. */
 const char *ceduo_schema_gone(const struct object *object, const char *key);
+/* The key that says the same in another way, so that only one of the two may stand there; NULL: there is none. Who sets one
+ * takes the other out. */
+const char *ceduo_schema_other(const struct object *object, const char *key);
+
+/* Whether two paths are of one value: they are the same, or end in such keys of the same mapping. */
+bool ceduo_schema_same(const char *a, const char *b);
+
 const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step);
 
 /* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */

@@ -5,6 +5,13 @@
 
 #include "volume.h"
 
+void ceduo_stand_count_shoots(struct ceduo_stand *stand)
+{
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        if (stand->shoots[i].per_stool > 0)
+            stand->shoots[i].per_ha = stand->shoots[i].per_stool * stand->stools_per_ha;
+}
+
 static double sum_per_ha(const struct ceduo_stems *stems, size_t n)
 {
     double sum = 0;
@@ -21,6 +28,14 @@ double ceduo_stand_shoots(const struct ceduo_stand *stand)
 double ceduo_stand_trees(const struct ceduo_stand *stand)
 {
     return sum_per_ha(stand->trees, stand->trees_count);
+}
+
+double ceduo_stand_stay(const struct ceduo_stand *stand)
+{
+    double sum = 0;
+    for (size_t i = 0; i < stand->cutting.stay_count; i++)
+        sum += stand->cutting.stay_per_ha[i];
+    return sum;
 }
 
 static double basal_area(const struct ceduo_stems *stems, size_t n)

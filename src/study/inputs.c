@@ -53,11 +53,26 @@ static bool copy_scene(struct arena *arena, struct ceduo_scene *scene)
     return !arena->failed;
 }
 
+/* Shoots whose per_ha is an input are no longer counted by their stools. */
+static void drop_per_stool(struct input_scene *copy, const char *place)
+{
+    const char *key = strrchr(place, '.');
+    struct text other = {0};
+    struct value value;
+    if (!key || strcmp(key, ".per_ha") != 0)
+        return;
+    ceduo_text_format(&other, "%.*s.per_stool", (int)(key - place), place);
+    if (other.bytes && ceduo_value_find(&copy->scene, other.bytes, &value))
+        ceduo_value_forget(&value);
+    copy->arena.failed |= other.failed;
+    ceduo_text_free(&other);
+}
+
 enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene,
                                     const struct ceduo_input *inputs, size_t n)
 {
     size_t places = 0;
-    *copy = (struct input_scene){.scene = *scene, .inputs = inputs, .inputs_count = n};
+    *copy = (struct input_scene){.scene = *scene, .given = scene, .inputs = inputs, .inputs_count = n};
     for (size_t i = 0; i < n; i++)
         places += inputs[i].places_count;
     copy->places = ceduo_arena_take(&copy->arena, (places + 1) * sizeof *copy->places);
@@ -69,8 +84,9 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
             if (!ceduo_value_find(&copy->scene, inputs[i].places[k], &p->value))
                 return CEDUO_BAD_SLOPE;
             p->given = ceduo_value_get(&p->value);
+            drop_per_stool(copy, inputs[i].places[k]);
         }
-    return CEDUO_OK;
+    return copy->arena.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
 }
 
 void ceduo_inputs_release(struct input_scene *copy)
@@ -121,13 +137,28 @@ static void mend_stools(struct ceduo_scene *scene)
     for (size_t i = 0; i < scene->options_count; i++)
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             struct ceduo_stand *stand = &scene->options[i].belts[k].stand;
+            ceduo_stand_count_shoots(stand);
             stand->stools_per_ha = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
+        }
+}
+
+/* What counting and mending have changed is as given again, whether it is an input or not. */
+static void restore_stools(struct input_scene *copy)
+{
+    for (size_t i = 0; i < copy->scene.options_count; i++)
+        for (size_t k = 0; k < copy->scene.options[i].belts_count; k++) {
+            struct ceduo_stand *stand = &copy->scene.options[i].belts[k].stand;
+            const struct ceduo_stand *given = &copy->given->options[i].belts[k].stand;
+            stand->stools_per_ha = given->stools_per_ha;
+            for (size_t s = 0; s < stand->shoots_count; s++)
+                stand->shoots[s].per_ha = given->shoots[s].per_ha;
         }
 }
 
 void ceduo_inputs_set(struct input_scene *copy, const double *u)
 {
     const struct input_place *p = copy->places;
+    restore_stools(copy);
     for (size_t i = 0; i < copy->inputs_count; i++)
         for (size_t k = 0; k < copy->inputs[i].places_count; k++, p++)
             put(&p->value, isnan(u[i]) ? p->given : value_at(&copy->inputs[i], k, p, u[i]));

@@ -10,6 +10,7 @@ struct input_place;
 struct input_scene {
     struct arena arena;
     struct ceduo_scene scene;
+    const struct ceduo_scene *given; /* what it is a copy of */
     const struct ceduo_input *inputs;
     size_t inputs_count;
     struct input_place *places; /* of all inputs, one after the other */
@@ -20,8 +21,9 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
                                     const struct ceduo_input *inputs, size_t n);
 void ceduo_inputs_release(struct input_scene *copy);
 
-/* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. A stand whose stools would be more
- * than its shoots has as many stools as shoots. */
+/* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. Shoots that are given per stool follow
+ * the stools, unless their per_ha is an input. A stand whose stools would be more than its shoots has as many stools as
+ * shoots. */
 void ceduo_inputs_set(struct input_scene *copy, const double *u);
 
 #endif

@@ -128,18 +128,6 @@ void ceduo_form_field(struct form *form, const struct document *d, const struct 
     row->n = 1;
 }
 
-void ceduo_form_number(struct form *form, const struct field *field, const char *path, double value)
-{
-    struct form_row *row = add_row(form, FORM_FIELDS, _(field->shown.label));
-    struct form_cell *cell = &row->cells[0];
-    snprintf(cell->path, sizeof cell->path, "%s", path);
-    cell->field = field;
-    cell->given = true;
-    if (!isnan(value))
-        snprintf(cell->text, sizeof cell->text, "%.4g", value);
-    row->n = 1;
-}
-
 static bool has_path(const struct form *form, const char *path)
 {
     for (size_t i = 0; i < form->n; i++)
@@ -353,6 +341,9 @@ static void draw_cell(const struct form_cell *cell, struct ceduo_cells *cells, i
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
     ceduo_text_free(&words);
+    double number;
+    if ((int)ceduo_utf8_width(shown) > span && strchr(shown, '.') && ceduo_number_read(cell->text, &number) == CEDUO_NUMBER_GOOD)
+        snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
     char *more = cell->field && cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
     if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
         *more = '\0';

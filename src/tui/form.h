@@ -47,9 +47,6 @@ void ceduo_form_note(struct form *form, const char *text);
 void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
                       const char *key, const char *label);
 
-/* A line with a number that screens alone have; NaN: none. */
-void ceduo_form_number(struct form *form, const struct field *field, const char *path, double value);
-
 /* A line for each field of a group (such as growth.shoots) that has none yet: what the table of the scene has and a view
  * does not name. */
 void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,

@@ -160,7 +160,7 @@ static bool add_shoots(struct app *app, const struct item *item)
         return copy_item(app, item);
     char stools[FORM_PATH + 64], shoots[FORM_PATH + 64];
     snprintf(stools, sizeof stools, "%.*sstools={per_ha: 2500, spacing_m: 0.35}", (int)(item->key - item->list), item->list);
-    snprintf(shoots, sizeof shoots, "%s=[{per_ha: 7500, dbh_m: 0.07, height_m: 8}]", item->list);
+    snprintf(shoots, sizeof shoots, "%s=[{per_stool: 3, dbh_m: 0.07, height_m: 8}]", item->list);
     const char *const sets[] = {stools, shoots};
     return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
 }

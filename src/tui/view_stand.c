@@ -6,8 +6,10 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "model/changes.h"
 #include "scene/words.h"
+#include "view/words.h"
+
+#define FIGURES 3 /* lines */
 
 /* Of each class of trees. The radius comes first: a group must have one. */
 static void put_groups(struct form *form, const struct document *d, const char *list, size_t classes)
@@ -35,6 +37,42 @@ static void put_low(struct form *form, const struct document *d, const char *pat
     }
 }
 
+/* Shoots on a stool, where no one value says it. */
+static void put_per_stool(struct form *form, const struct ceduo_stand *s)
+{
+    char note[64];
+    snprintf(note, sizeof note, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha);
+    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0)))
+        ceduo_form_note(form, note);
+}
+
+/* Cohorts by what the stand gives of them: shoots per stool, per hectare, or of some the one and of some the other. */
+static void put_shoots(struct form *form, const struct document *d, const char *list, const struct ceduo_stand *s)
+{
+    static const char *const columns[] = {"per_stool", "per_ha", "dbh_m", "height_m", "volume_m3", "dbh_sd_m", NULL};
+    const char *keys[sizeof columns / sizeof columns[0]] = {NULL};
+    size_t each = 0, n = 0;
+    for (size_t i = 0; i < s->shoots_count; i++)
+        each += s->shoots[i].per_stool > 0;
+    for (size_t i = each == 0; columns[i]; i++)
+        if (i != 1 || each < s->shoots_count || s->shoots_count == 0)
+            keys[n++] = columns[i];
+    ceduo_form_table(form, d, ceduo_schema_field(ceduo_schema_stand(), "shoots")->object, list, keys, "");
+}
+
+/* What a cut leaves stands beside the trees of today: to change one does not change the other. */
+static void put_stay(struct form *form, const struct document *d, const char *path, const struct ceduo_stand *s)
+{
+    char note[64];
+    double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
+    if (s->cutting.rotation == 0)
+        return;
+    ceduo_form_field(form, d, ceduo_schema_stand(), path, "cutting.stay_per_ha", _("trees that stay, per ha"));
+    snprintf(note, sizeof note, _("! today %g, after a cut %g: two things"), today, stay);
+    if (fabs(today - stay) > 0.5)
+        ceduo_form_note(form, note);
+}
+
 static void build(struct app *app, struct form *form)
 {
     static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
@@ -55,17 +93,18 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "system", NULL);
     ceduo_form_field(form, d, stand, path, "species", NULL);
     ceduo_form_field(form, d, stand, path, "stools.per_ha", NULL);
-    snprintf(list, sizeof list, "%s.stools.per_stool", path);
-    ceduo_form_number(form, ceduo_schema_per_stool(), list, ceduo_shoots_per_stool(d, path));
+    const struct ceduo_stand *s = &ceduo_app_option(app)->belts[app->belt].stand;
+    put_per_stool(form, s);
     ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
     ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));
     snprintf(list, sizeof list, "%s.shoots", path);
-    ceduo_form_table(form, d, ceduo_schema_field(stand, "shoots")->object, list, stem_columns, "");
+    put_shoots(form, d, list, s);
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     snprintf(list, sizeof list, "%s.trees", path);
     ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
-    put_groups(form, d, list, ceduo_app_option(app)->belts[app->belt].stand.trees_count);
+    put_stay(form, d, path, s);
+    put_groups(form, d, list, s->trees_count);
     ceduo_form_heading(form, _("Energy of a contact"));
     ceduo_form_field(form, d, stand, path, "energy.model", NULL);
     ceduo_form_field(form, d, stand, path, "energy.u_J_m3", NULL);
@@ -80,13 +119,27 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "name", NULL);
 }
 
-static void draw_figures(struct app *app, struct ceduo_area area)
+static void add_warning(void *context, const char *sentence)
+{
+    ceduo_text_format(context, "! %s\n", sentence);
+}
+
+/* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
+static int draw_figures(struct app *app, struct ceduo_area area)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
+    struct text text = {0}, unlikely = {0};
     if (app->belt >= o->belts_count)
-        return;
-    struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, &o->belts[app->belt]);
-    struct text text = {0};
+        return 0;
+    const struct ceduo_belt *belt = &o->belts[app->belt];
+    struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
+    ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
+    int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
+    lines = lines > area.height / 3 ? area.height / 3 : lines;
+    struct ceduo_area above = {area.left, area.top + area.height - FIGURES - lines, area.width, lines};
+    ceduo_app_put(app, above, CEDUO_ROLE_WARN, &unlikely);
+    area.top += area.height - FIGURES;
+    area.height = FIGURES;
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
     ceduo_text_char(&text, ' ');
     if (!r.bare)
@@ -96,6 +149,7 @@ static void draw_figures(struct app *app, struct ceduo_area area)
     if (!r.bare && !isnan(r.per_100m))
         ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * KILO);
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
+    return lines;
 }
 
 #define BOTH_LEAST 18 /* lines that hold the plan and the way of a rock through it */
@@ -124,10 +178,10 @@ static void draw_plan(struct app *app, struct ceduo_area area)
 static void draw(struct app *app, struct ceduo_area area)
 {
     ceduo_app_follow_rock(app);
+    area.height -= draw_figures(app, area);
     bool wide = area.width >= WIDE;
     int plan = !wide ? 0 : area.width < WIDER ? PLAN_LEAST : area.width / 2 - 1;
-    struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - 3};
-    struct ceduo_area figures = {area.left, area.top + area.height - 3, area.width, 3};
+    struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - FIGURES};
     if (!wide && area.height >= 30) { /* the plan below the form */
         form.height = area.height * 3 / 5;
         struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
@@ -137,7 +191,6 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
     if (wide)
         draw_plan(app, beside);
-    draw_figures(app, figures);
 }
 
 const struct view ceduo_view_stand = {

@@ -287,7 +287,6 @@ void ceduo_shown_path(const char *path, struct text *text)
             continue;
         }
         f = object ? ceduo_schema_step(object, &step) : NULL;
-        f = f || !ceduo_path_is(&step, ceduo_schema_per_stool()->key) ? f : ceduo_schema_per_stool();
         object = f ? f->object : NULL;
         named = f;
     }

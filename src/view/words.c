@@ -49,7 +49,7 @@ __attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *sa
     ceduo_text_free(&sentence);
 }
 
-/* How many kinds of stem have a volume by form factor, and the first of them. */
+/* How many kinds of stem have a volume by form factor, and the first of them; but for those of which CEDUO_WARN_THICK says it. */
 static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ceduo_stems **first)
 {
     size_t n = 0;
@@ -58,7 +58,7 @@ static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ce
             i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
         enum ceduo_volume_from from;
         ceduo_stem_volume(stand, s, &from);
-        if (from != CEDUO_VOLUME_FORM_FACTOR || !(s->per_ha > 0))
+        if (from != CEDUO_VOLUME_FORM_FACTOR || !(s->per_ha > 0) || ceduo_stem_unlikely(stand, s) & CEDUO_WARN_THICK)
             continue;
         *first = n++ == 0 ? s : *first;
     }
@@ -86,6 +86,44 @@ static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_bel
                    belt->name, s->spacing);
 }
 
+static const struct ceduo_stems *first_unlikely(const struct ceduo_stand *s, unsigned how)
+{
+    for (size_t i = 0; i < s->shoots_count + s->trees_count; i++) {
+        const struct ceduo_stems *stems = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
+        if (ceduo_stem_unlikely(s, stems) & how)
+            return stems;
+    }
+    return NULL;
+}
+
+void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
+                          void *context)
+{
+    const struct ceduo_stand *s = &belt->stand;
+    const struct ceduo_stems *slender = first_unlikely(s, CEDUO_WARN_SLENDER), *stout = first_unlikely(s, CEDUO_WARN_STOUT);
+    const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
+    size_t n;
+    if (r->warnings & CEDUO_WARN_BASAL_AREA)
+        say_format(say, context, _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
+                   belt->name, r->basal_area, CEDUO_BASAL_AREA_MOST);
+    if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
+        say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), belt->name,
+                   ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MOST);
+    if (slender)
+        say_format(say, context, _("%s: stems of %.3g cm are %.3g m high, more than %d times their diameter: check both."),
+                   belt->name, slender->dbh * 100, slender->height, CEDUO_SLENDERNESS_MOST);
+    if (stout)
+        say_format(say, context, _("%s: stems of %.3g cm are %.3g m high, less than %d times their diameter: check both."),
+                   belt->name, stout->dbh * 100, stout->height, CEDUO_SLENDERNESS_LEAST);
+    if (thick)
+        say_format(say, context,
+                   isnan(thick->volume) ? _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
+                                            "were measured on, %g cm; the form factor there is assumed.")
+                                        : _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
+                                            "were measured on, %g cm: check them."),
+                   belt->name, thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
+}
+
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
                                 const struct ceduo_stand_result *r, ceduo_words_say *say, void *context)
 {
@@ -93,6 +131,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
         say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), belt->name,
                    r->trees_per_ha, scene->reserves_minimum);
+    ceduo_words_unlikely(belt, r, say, context);
     say_geometry(scene, belt, r, say, context);
     if (r->warnings & CEDUO_WARN_DORREN_THIN)
         say_format(say, context,

@@ -17,6 +17,10 @@ typedef void ceduo_words_say(void *context, const char *sentence);
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
                                 const struct ceduo_stand_result *stand, ceduo_words_say *say, void *context);
 
+/* Of these what is unlikely about a stand, so that it may be a mistake. */
+void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
+                          void *context);
+
 /* What the rules of the region ask of a belt, one sentence for each; `met`: it is as they ask. */
 typedef void ceduo_words_rule(void *context, bool met, const char *sentence);
 void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_compliance *rules, ceduo_words_rule *say,

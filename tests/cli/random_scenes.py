@@ -469,12 +469,18 @@ class Maker:
         all_shoots = clamp(stools["per_ha"] * each, stools["per_ha"], most * cohorts)
         stand["shoots"] = []
         for _ in range(cohorts):
-            shoots = self.fill(node["shoots[]"], {"per_ha": clamp(all_shoots / cohorts, 5e-324, most)}, ("dbh_sd_m",))
+            shoots = self.fill(node["shoots[]"], {"per_ha": clamp(all_shoots / cohorts, 5e-324, most)}, ("dbh_sd_m", "per_stool"))
             stand["shoots"].append(shoots)
             self.diameters(node["shoots[]"], shoots)
         while sum(s["per_ha"] for s in stand["shoots"]) < stools["per_ha"]:  # by rounding
             stand["shoots"][0]["per_ha"] = math.nextafter(stand["shoots"][0]["per_ha"], math.inf)
         self.case.used.add("forest[].stand.shoots[].per_ha")
+        for shoots in stand["shoots"]:
+            each = shoots["per_ha"] / stools["per_ha"] if stools["per_ha"] > 1e-200 else 0
+            if 1e-100 < each <= 1e4 and self.chance(0.4):
+                del shoots["per_ha"]
+                shoots["per_stool"] = each
+                self.case.used.add("forest[].stand.shoots[].per_stool")
 
     def diameters(self, node, stems):
         """Now and then a spread of diameters, seldom larger than they are."""
@@ -702,7 +708,7 @@ class Maker:
     def spoil_stools(self):
         for belt in self.case.scene.get("forest", []):
             stand = belt["stand"]
-            if not isinstance(stand, dict) or "base" in stand or "stools" not in stand:
+            if not isinstance(stand, dict) or "base" in stand or "stools" not in stand or any("per_stool" in s for s in stand["shoots"]):
                 continue
             shoots = sum(s["per_ha"] for s in stand["shoots"])
             if shoots * 1.01 <= 1e6 and math.isfinite(shoots) and shoots > 1e-300:

@@ -313,6 +313,13 @@ def check_controls(case, result, controls, stems, what):
 
 # ---- JSON: stands ----
 
+def with_per_ha(stand):
+    """A stand whose shoots are given per hectare, as those on its stools are."""
+    if "shoots" not in stand:
+        return stand
+    return {**stand, "shoots": [{"per_ha": s.get("per_stool", 0) * stand["stools"]["per_ha"], **s} for s in stand["shoots"]]}
+
+
 def stems_of(stand):
     return [s for s in stand.get("shoots", []) + stand.get("trees", []) if s["per_ha"] > 0]
 
@@ -486,7 +493,7 @@ def check_ends(case, result, option, what):
 
 def check_option(case, result, option, i):
     what = f"option {i}"
-    wholes = case.belts[i]
+    wholes = [(a, b, with_per_ha(stand)) for a, b, stand in case.belts[i]]
     stems = any(has_obstacles(stand) for _, _, stand in wholes)
     check_stands(case, result, option["stands"], wholes, what)
     for k, (s, (_, _, stand)) in enumerate(zip(option["stands"], wholes)):

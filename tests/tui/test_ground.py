@@ -149,36 +149,5 @@ def test_any_border():
         expect_equal((grounds[0][0], grounds[-1][1]), (0, 100), "the ground is that of the whole profile")
 
 
-def test_stools_keep_shoots():
-    """Stools that become more keep the shoots on each; shoots per stool is a field of its own."""
-    script = """key 2
-        find stools.per_ha
-        dump
-        set 1500
-        dump
-        key Down
-        set 4,5
-        dump
-        key u u
-        dump
-        find stools.per_ha
-        set 0
-        dump"""
-    with Place() as place:
-        start, fewer, more, back, none = place.play(script, "fast.yaml")
-        shoots = [[float(x) for x in re.findall(r"^\d +(\S+)", s.body.split("\n    per ha")[1], re.M)] for s in (start, fewer, more, back)]
-        expect_near(float(start.row("^shoots per stool")[-1]), 9500 / 3000, 0.001, "shoots per stool")
-        expect_equal(shoots[1], [4500, 250], "half the stools, half the shoots")
-        expect_in("3.17 shoots on each stool stay", fewer.note)
-        expect_equal(float(fewer.row("^shoots per stool")[-1]), float(start.row("^shoots per stool")[-1]))
-        expect_near(sum(shoots[2]), 4.5 * 1500, 0.1, "shoots of 4.5 on each")
-        expect_near(shoots[2][0] / shoots[2][1], 18, 0.01, "the cohorts stay in proportion")
-        expect_equal((back.row("^stools per ha")[-1], shoots[3]), ("3000", shoots[0]), "after u u")
-        expect_in("shoots without stools", none.note)
-        place.play("key 2\nfind stools.per_ha\nset 1500\nkey s", "fast.yaml")
-        wanted = FAST.replace("per_ha: 3000", "per_ha: 1500").replace("per_ha: 9000", "per_ha: 4500").replace("per_ha: 500,", "per_ha: 250,")
-        expect_equal(place.text("fast.yaml"), wanted, "the file")
-
-
 if __name__ == "__main__":
     run_all(__name__)

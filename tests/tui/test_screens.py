@@ -246,7 +246,7 @@ Stand of belt 1: ADS 1
 system                simple coppice
 species               hop hornbeam
 stools per ha         3688
-shoots per stool      2.258
+2.258 shoots per stool
 spacing, m            0.5
 Shoots on the stools
 1   8326     6.1      6        0.0107   0

@@ -79,6 +79,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(slope, ceduo_slope, origin_x),
         DERIVED(slope, ceduo_slope, origin_z),
         DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
+        DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* shoots have it */
         DERIVED(belt, ceduo_belt, name),
         DERIVED(belt, ceduo_belt, assumed),
         DERIVED(belt, ceduo_belt, changed),
@@ -443,6 +444,8 @@ static void check_put(void *context, const char *path, const struct field *f)
                 EXPECT_NEAR(ceduo_value_get(&v), number, 1e-12 * number);
             if (!keys_with(scenes[i], place.bytes, values[k], &set))
                 continue;
+            if (strcmp(f->key, "per_stool") == 0)
+                ceduo_stand_count_shoots(&file.scene.options[0].belts[0].stand);
             struct keys now = keys_of(&file.scene);
             if (!good || now.flight != set.flight || now.years != set.years)
                 fail_msg("%s=%s: set is another scene than put", place.bytes, values[k]);

@@ -151,7 +151,7 @@ static void paths_in_words(void **state)
     static const char *const cases[][2] = {
         {"forest[1].stand.stools.per_ha", "stools per ha, belt 2"},
         {"options[standards].forest[0].stand.shoots[1].dbh_m", "diameter, cm, shoots 2, belt 1, option 'standards'"},
-        {"forest[1].stand.stools.per_stool", "shoots per stool, belt 2"},
+        {"forest[1].stand.shoots[0].per_stool", "shoots per stool, shoots 1, belt 2"},
         {"forest[1]", "belt 2"},
         {"rock.diameter_m", "diameter, m"},
         {"controls[0].accepted_kJ", "withstands, kJ, control 1"},
