@@ -21,10 +21,10 @@
 /* How a rock starts. Each number may have a spread. */
 struct ceduo_release {
     struct ceduo_number x;      /* m, relative to the slope's first vertex */
-    bool x_assumed;             /* not given: the first vertex */
     struct ceduo_number height; /* m above the ground, >= 0 */
     struct ceduo_number vx, vz; /* m/s, z upward */
     struct ceduo_number spin;   /* rad/s, positive where it rolls forward in +x */
+    bool x_assumed;             /* x is not given: the first vertex */
 };
 
 /* A place where the rocks that pass are counted. */

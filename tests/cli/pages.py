@@ -133,9 +133,12 @@ def expect_option(text, option):
             hit = f"{control['wooded']['contacts']['mean']:.3g}"
             expect(re.search(rf"\b{re.escape(hit)} stems?\b", flat_text), f"'{hit} stems' is missing in:", text)
     words = {"pass": "passes", "fail": "FAILS", "unknown": "unknown"}
+    told = [c for c in option["controls"] if c["verdict"]["answer"] != "nothing"]
+    nothing = len(re.findall("Contact, free run and energy: nothing can be said", flat_text))
+    expect_equal(nothing, len(option["controls"]) - len(told), "nothing can be said")
     for name, key in (("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy")):
         said = re.findall(rf"\b{name}: (\w+)\. (\S+)", flat_text)
-        expect_equal([word for word, reason in said], [words[c["lights"][key]] for c in option["controls"]], name)
+        expect_equal([word for word, reason in said], [words[c["lights"][key]] for c in told], name)
         expect(all(reason for _, reason in said), f"{name} without a reason", text)
 
 

@@ -566,7 +566,7 @@ def check_rotation(case, result, option, what):
     expect_equal(sums["years"], len(years), f"{what}: years of the rotation")
     for light in ("contact", "free_run", "energy"):
         failed = sum(c["lights"][light] == "fail" for c in lasts)
-        unknown = light == "energy" and sums["exceed_probability"]["mean"] is None
+        unknown = lasts[0]["verdict"]["answer"] == "nothing" or (light == "energy" and sums["exceed_probability"]["mean"] is None)
         expect_equal(sums[f"unprotected_{light}"], None if unknown else failed, f"{what}: unprotected_{light}")
     expect(sums["worst_year"] in [y["year"] for y in years], f"{what}: worst year {sums['worst_year']}")
     for key in ("reach_probability", "exceed_probability", "energy_per_released_kJ"):
@@ -756,6 +756,9 @@ def check_page(case, lines, result):
                 expect_equal(row[3], of_1000(a, "exceed"), f"{what}, {name}: exceed")
                 check_page_row(a, row[4], f"{what}, {name}")
             for light, key in (("Contact", "contact"), ("Free run", "free_run"), ("Energy", "energy")):
+                if c["verdict"]["answer"] == "nothing": # said once, at the head of the page
+                    expect_equal(c["lights"][key], "unknown", what)
+                    continue
                 verdict = next(verdicts, None)
                 expect(verdict and (verdict[1], LIGHTS[verdict[2]]) == (light, c["lights"][key]), f"{what}: {light}: {verdict}")
     expect(next(rows, None) is None and next(verdicts, None) is None, "the page: rows too many")

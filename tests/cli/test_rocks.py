@@ -163,9 +163,9 @@ def test_uphill():
     thrown = {"x_m": 0, "height_m": 2, "vx_m_s": {"mean": 0, "spread": 1, "kind": "uniform"}}
     with Folder() as f:
         # A wall at the foot: what leaves, leaves uphill.
-        short = f.write("short.yaml", scene(release=thrown, slope={"vertices_m": [[0, 40], [90, 0], [100, 80]], "segments": [
+        short = f.write("short.yaml", scene(release=thrown, slope={"vertices_m": [[0, 40], [90, 0], [92, 40]], "segments": [
             {"rn": 0.35, "rt": 0.875, "friction": 0.5}]}))
-        long_ = f.write("long.yaml", scene(release=thrown, slope={"vertices_m": [[-50, 62], [0, 40], [90, 0], [100, 80]],
+        long_ = f.write("long.yaml", scene(release=thrown, slope={"vertices_m": [[-50, 62], [0, 40], [90, 0], [92, 40]],
                                                                   "segments": [{"rn": 0.35, "rt": 0.875, "friction": 0.5}]}))
         run = result(short)
         left = round(200 * run["options"][0]["ends"]["left_slope"])

@@ -78,6 +78,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
     const struct derived_member derived[] = {
         DERIVED(slope, ceduo_slope, origin_x),
         DERIVED(slope, ceduo_slope, origin_z),
+        DERIVED(ceduo_schema_field(scene, "release")->object, ceduo_release, x_assumed),
         DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
         DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* shoots have it */
         DERIVED(belt, ceduo_belt, name),
@@ -85,7 +86,6 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(belt, ceduo_belt, changed),
         DERIVED(belt, ceduo_belt, felled),
     };
-    (void)scene;
     mark_rows(seen, object, size);
     for (size_t i = 0; i < LENGTH(derived); i++)
         if (derived[i].object == object)
@@ -359,10 +359,10 @@ static void check_row(void *context, const char *path, const struct field *f)
     struct text place = {0};
     bool taken = false, flight = false, years = false;
     if (f->type == FIELD_TAG || (strncmp(path, "slope.materials[]", 17) == 0 && f->type == FIELD_NUMBER) ||
-        strcmp(f->key, "base") == 0 || strstr(path, "doubt[]") || strncmp(path, "observed[]", 10) == 0 ||
+        strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "doubt[]") || strncmp(path, "observed[]", 10) == 0 ||
         strncmp(path, "options[].forest[].", 19) == 0)
         return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
-                 * options hold what the forest does; of a doubt nothing can be changed alone; what was seen has test_observed.py */
+                 * options hold what the forest does; a profile says itself whether it is reversed; of a doubt nothing can be changed alone; what was seen has test_observed.py */
     first_place(path, f, &place);
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         const char *values[64];
