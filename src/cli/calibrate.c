@@ -189,19 +189,16 @@ static void put_heads(const struct job *j, struct text *heads, const char **to)
     }
 }
 
-static enum exit_status write_draws(const struct job *j, const struct ceduo_calibration *answer, const char *path)
+static void put_draws(const struct job *j, const struct ceduo_calibration *answer, struct text *out)
 {
-    struct text out = {0}, heads[MOST] = {{0}};
+    struct text heads[MOST] = {{0}};
     const char *names[MOST];
     put_heads(j, heads, names);
-    ceduo_calibration_draws(&out, answer, names);
-    bool good = !out.failed && ceduo_file_write(path, ceduo_text_string(&out), out.length);
-    if (!good)
-        ceduo_say_why(path, out.failed ? _("out of memory") : strerror(errno));
-    for (size_t i = 0; i < j->parameters_count; i++)
+    ceduo_calibration_draws(out, answer, names);
+    for (size_t i = 0; i < j->parameters_count; i++) {
+        out->failed |= heads[i].failed;
         ceduo_text_free(&heads[i]);
-    ceduo_text_free(&out);
-    return good ? EXIT_DONE : EXIT_OUTPUT;
+    }
 }
 
 static bool edit_scene(const struct job *j, const struct ceduo_calibration_report *r, const char *draws,
@@ -214,35 +211,90 @@ static bool edit_scene(const struct job *j, const struct ceduo_calibration_repor
     for (size_t i = 0; i < j->parameters_count; i++)
         best[i] = r->answer->parameters[i].best;
     const struct fit_values fit = {j->parameters_count, j->inputs, j->fields, best, ceduo_text_string(&source), draws};
-    bool good = ceduo_document_open(document, a->scenes[0], problems) &&
-                (a->sets.n == 0 || ceduo_document_set_all(document, (const char *const *)a->sets.items, a->sets.n, "", problems)) &&
-                ceduo_keep_fit(document, &fit, problems);
+    bool good = ceduo_document_open(document, a->scenes[0], problems);
+    free(document->recovery); /* what the terminal program keeps of the scene is not ours */
+    document->recovery = NULL;
+    good = good && (a->sets.n == 0 ||
+                    ceduo_document_set_all(document, (const char *const *)a->sets.items, a->sets.n, "", problems));
+    good = good && ceduo_keep_fit(document, &fit, problems);
     ceduo_text_free(&source);
     return good;
 }
 
-/* The first scene with the best values, and the draws beside it. */
-static enum exit_status write_scene(const struct job *j, const struct ceduo_calibration_report *r)
+/* The scene is made while the table lies under a name of its own, and is to name it as it will be called. */
+static void name_draws(struct text *scene, const struct temporary *draws)
+{
+    const char *mark = draws->path + strlen(draws->target);
+    char *at = scene->failed ? NULL : strstr(scene->bytes, mark);
+    if (at) {
+        scene->length -= strlen(mark);
+        memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
+    }
+}
+
+static bool prepare(struct pending_file *file, const char *path, const struct text *text)
+{
+    errno = ENOMEM;
+    bool good = !text->failed && ceduo_file_prepare(file, path, ceduo_text_string(text), text->length);
+    if (!good)
+        ceduo_say_why(path, strerror(errno));
+    return good;
+}
+
+static bool place(struct pending_file *file)
+{
+    bool good = ceduo_file_place(file);
+    if (!good)
+        ceduo_say_why(file->path, strerror(errno));
+    return good;
+}
+
+static enum exit_status place_both(const struct job *j, const struct ceduo_calibration_report *r, struct pending_file *draws,
+                                   struct pending_file *file)
 {
     const char *output = j->arguments->output;
-    struct text path = {0};
-    struct document document;
+    struct document document = {0};
     struct problems problems = {0};
-    bool anew;
-    ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
-    enum exit_status status = write_draws(j, r->answer, ceduo_text_string(&path));
-    bool edited = status == EXIT_DONE && edit_scene(j, r, ceduo_text_string(&path), &document, &problems);
-    if (edited && !ceduo_document_save(&document, output, &anew)) {
-        ceduo_say_why(output, strerror(errno));
-        status = EXIT_OUTPUT;
-    } else if (!edited && status == EXIT_DONE) {
+    struct text scene = {0};
+    enum exit_status status = EXIT_OUTPUT;
+    if (!edit_scene(j, r, draws->temporary.path, &document, &problems)) {
         ceduo_problems_close(&problems);
         ceduo_say(&problems.text);
         status = EXIT_RUN;
+    } else {
+        ceduo_document_text(&document, output, &scene);
+        name_draws(&scene, &draws->temporary);
+        draws->wait = false; /* for their folder: the scene waits for it, and nothing comes between the two */
+        if (prepare(file, output, &scene) && place(draws) && place(file))
+            status = EXIT_DONE;
     }
-    if (edited || problems.count > 0)
-        ceduo_document_close(&document);
+    ceduo_document_close(&document);
     ceduo_problems_free(&problems);
+    ceduo_text_free(&scene);
+    return status;
+}
+
+/* The first scene with the best values, and the draws beside it. Both are filled before either takes its place: a full disk
+ * must not leave the draws of this fit beside the scene of another. */
+static enum exit_status write_scene(const struct job *j, const struct ceduo_calibration_report *r)
+{
+    const char *output = j->arguments->output;
+    struct text path = {0}, draws = {0};
+    struct pending_file beside = {.temporary.fd = -1}, file = {.temporary.fd = -1};
+    enum exit_status status = EXIT_OUTPUT;
+    ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
+    put_draws(j, r->answer, &draws);
+    if (prepare(&beside, ceduo_text_string(&path), &draws)) {
+        if (!beside.target) /* a device, a pipe */
+            ceduo_say_why(beside.path, strerror(EINVAL));
+        else if (strncmp(beside.temporary.path, beside.target, strlen(beside.target)) != 0) /* of a long name only a part */
+            ceduo_say_why(beside.path, strerror(ENAMETOOLONG));
+        else
+            status = place_both(j, r, &beside, &file);
+    }
+    ceduo_file_drop(&beside);
+    ceduo_file_drop(&file);
+    ceduo_text_free(&draws);
     ceduo_text_free(&path);
     return status;
 }

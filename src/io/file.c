@@ -520,32 +520,25 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
     return true;
 }
 
-/* What is to be written: all of a file that was filled before, if there is one, then these bytes. */
-struct content {
-    int before; /* -1: none */
-    const char *bytes;
-    size_t n;
-};
-
-static bool write_content(int fd, const struct content *content)
+static bool write_content(int fd, const struct pending_file *file)
 {
     char part[PART];
     ssize_t n = 0;
     off_t at = 0;
-    while (content->before >= 0 && (n = pread(content->before, part, sizeof part, at)) > 0) {
+    while (file->before >= 0 && (n = pread(file->before, part, sizeof part, at)) > 0) {
         if (!ceduo_file_fill(fd, part, (size_t)n, NULL))
             return false;
         at += n;
     }
-    return n == 0 && ceduo_file_fill(fd, content->bytes, content->n, NULL);
+    return n == 0 && ceduo_file_fill(fd, file->bytes, file->n, NULL);
 }
 
-static bool write_straight(const char *path, const struct content *content)
+static bool write_straight(const struct pending_file *file)
 {
-    int fd = open(path, O_WRONLY | O_CLOEXEC);
+    int fd = open(file->path, O_WRONLY | O_CLOEXEC);
     if (fd < 0)
         return false;
-    bool good = write_content(fd, content);
+    bool good = write_content(fd, file);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -554,22 +547,12 @@ static bool write_straight(const char *path, const struct content *content)
 }
 
 /* It stays open, and so locked, until it is in its place. */
-static bool fill_temporary(int fd, mode_t mode, const struct content *content, bool wait)
+static bool fill_temporary(const struct pending_file *file, mode_t mode)
 {
-    bool good = fchmod(fd, mode) == 0 && write_content(fd, content) && (!wait || fsync(fd) == 0);
+    int fd = file->temporary.fd;
+    bool good = fchmod(fd, mode) == 0 && write_content(fd, file) && (!file->wait || fsync(fd) == 0);
     int once_more = good ? dup(fd) : -1; /* some file systems say only now that there is no room */
     return once_more >= 0 && close(once_more) == 0;
-}
-
-static bool write_whole(const char *target, mode_t mode, const struct content *content, bool wait)
-{
-    struct temporary temporary;
-    bool good = ceduo_temporary_begin(&temporary, target) && fill_temporary(temporary.fd, mode, content, wait) &&
-                ceduo_temporary_place(&temporary, wait);
-    int why = errno;
-    ceduo_temporary_end(&temporary);
-    errno = why;
-    return good;
 }
 
 static mode_t usual_mode(void)
@@ -606,37 +589,59 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
-static bool write_file(const char *path, const struct content *content, bool wait)
+static bool prepare(struct pending_file *file)
 {
     struct stat st;
-    bool exists = stat(path, &st) == 0;
+    bool exists = stat(file->path, &st) == 0;
+    file->temporary.fd = -1;
     if (exists && !S_ISREG(st.st_mode))
-        return write_straight(path, content);
-    if (exists && access(path, W_OK) != 0)
+        return true;
+    if (exists && access(file->path, W_OK) != 0)
         return false;
-    char *target = exists ? realpath(path, NULL) : follow_links(path); /* a link stays a link */
-    if (!target)
-        return false;
-    bool good = write_whole(target, exists ? st.st_mode & 07777 : usual_mode(), content, wait);
+    file->target = exists ? realpath(file->path, NULL) : follow_links(file->path); /* a link stays a link */
+    return file->target && ceduo_temporary_begin(&file->temporary, file->target) &&
+           fill_temporary(file, exists ? st.st_mode & 07777 : usual_mode());
+}
+
+bool ceduo_file_prepare(struct pending_file *file, const char *path, const char *bytes, size_t n)
+{
+    *file = (struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true};
+    return prepare(file) && (!file->target || ceduo_temporary_name(&file->temporary));
+}
+
+bool ceduo_file_place(struct pending_file *file)
+{
+    return file->target ? ceduo_temporary_place(&file->temporary, file->wait) : write_straight(file);
+}
+
+void ceduo_file_drop(struct pending_file *file)
+{
     int why = errno;
-    free(target);
+    ceduo_temporary_end(&file->temporary);
+    free(file->target);
     errno = why;
+}
+
+static bool write_file(struct pending_file file)
+{
+    bool good = prepare(&file) && ceduo_file_place(&file);
+    ceduo_file_drop(&file);
     return good;
 }
 
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
-    return write_file(path, &(struct content){-1, bytes, n}, true);
+    return write_file((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true});
 }
 
 bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
 {
-    return write_file(path, &(struct content){-1, bytes, n}, false);
+    return write_file((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n});
 }
 
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n)
 {
-    return write_file(path, &(struct content){before, bytes, n}, true);
+    return write_file((struct pending_file){.path = path, .before = before, .bytes = bytes, .n = n, .wait = true});
 }
 
 void ceduo_file_tidy(const char *path)

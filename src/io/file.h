@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "problem.h"
+#include "temporary.h"
 
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
 #define CSV_BYTES_MOST ((size_t)64 * 1024 * 1024)
@@ -69,6 +70,25 @@ bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n);
 
 /* The same as ceduo_file_write(), but first what the open file `before` holds (-1: nothing). */
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n);
+
+/* A file that is filled and not yet in its place, so that several can be filled before the first takes its. What is no regular
+ * file is written when it is placed; until then `bytes` must stay. */
+struct pending_file {
+    const char *path;
+    int before; /* first all of this open file; -1: none */
+    const char *bytes;
+    size_t n;
+    bool wait;    /* for the disk */
+    char *target; /* NULL: no regular file */
+    struct temporary temporary;
+};
+
+/* Fills it under a name of its own beside its place. False with errno set; to be dropped even then. */
+bool ceduo_file_prepare(struct pending_file *file, const char *path, const char *bytes, size_t n);
+/* False with errno set. */
+bool ceduo_file_place(struct pending_file *file);
+/* Takes away what has not taken its place. */
+void ceduo_file_drop(struct pending_file *file);
 
 /* Takes away what a program left behind that was killed while it wrote this file; what a living one writes stays. Each
  * write does so first. */

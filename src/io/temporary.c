@@ -144,7 +144,7 @@ static bool open_named(struct temporary *t)
     return false;
 }
 
-static bool give_name(struct temporary *t)
+bool ceduo_temporary_name(struct temporary *t)
 {
     char nameless[64];
     snprintf(nameless, sizeof nameless, "/proc/self/fd/%d", t->fd);
@@ -180,7 +180,7 @@ static void sync_folder(const struct temporary *t)
 
 bool ceduo_temporary_place(struct temporary *t, bool wait)
 {
-    if ((!t->named && !give_name(t)) || rename(t->path, t->target) != 0)
+    if (!ceduo_temporary_name(t) || rename(t->path, t->target) != 0)
         return false;
     t->named = false;
     if (wait)

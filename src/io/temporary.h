@@ -19,6 +19,9 @@ struct temporary {
 /* `target` is not a link, and must stay until the end. False with errno set; to be ended even then. */
 bool ceduo_temporary_begin(struct temporary *temporary, const char *target);
 
+/* Gives it its name beside the target, if it has none yet. False with errno set. */
+bool ceduo_temporary_name(struct temporary *temporary);
+
 /* Puts it in the target's place. `wait`: for the disk, too. False with errno set. */
 bool ceduo_temporary_place(struct temporary *temporary, bool wait);
 

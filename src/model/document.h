@@ -90,8 +90,8 @@ bool ceduo_document_is_shipped(const char *path);
 /* Whether the file on disk is no longer the one that was read. */
 bool ceduo_document_changed_on_disk(const struct document *document);
 
-/* The document as YAML text. */
-void ceduo_document_text(struct document *document, struct text *text);
+/* The document as YAML text, as it would be saved to `path`; NULL: to its own. */
+void ceduo_document_text(struct document *document, const char *path, struct text *text);
 
 /* Recovery: a copy of unsaved work, kept while there is some. */
 void ceduo_document_keep(struct document *document);

@@ -158,10 +158,11 @@ static bool fill_text(struct document *d, const char *to, struct text *text, boo
     return !text->failed && !ceduo_text_lost();
 }
 
-void ceduo_document_text(struct document *d, struct text *text)
+void ceduo_document_text(struct document *d, const char *path, struct text *text)
 {
     bool anew;
-    if (!fill_text(d, d->path ? d->path : d->recovery, text, &anew))
+    const char *own = d->path ? d->path : d->recovery;
+    if (!fill_text(d, path ? path : own, text, &anew))
         text->failed = true;
 }
 
@@ -224,7 +225,7 @@ void ceduo_document_keep(struct document *d)
     struct text text = {0};
     if (!d->recovery)
         return;
-    ceduo_document_text(d, &text);
+    ceduo_document_text(d, NULL, &text);
     if (!text.failed && text.bytes)
         ceduo_recovery_write(d->recovery, d->path, text.bytes, text.length);
     ceduo_text_free(&text);

@@ -9,11 +9,11 @@
 
 typedef const struct ceduo_regulation_item item;
 
-static void put_asked(struct ceduo_page *page, item *asked)
+static void put_asked(struct ceduo_page *page, item *asked, bool species)
 {
     struct text *cell = ceduo_page_text(page);
     if (!asked)
-        ceduo_text_char(cell, '-');
+        ceduo_text_put(cell, species ? _("not named") : _("no species"));
     else if (isnan(asked->most))
         ceduo_text_format(cell, "\xe2\x89\xa5 %g", asked->least);
     else
@@ -21,14 +21,14 @@ static void put_asked(struct ceduo_page *page, item *asked)
 }
 
 /* What is, what is asked for, and whether it is kept. */
-static void put_rule(struct ceduo_page *page, double is, item *asked, bool met)
+static void put_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
 {
     struct text *cell = ceduo_page_text(page);
     if (isnan(is))
         ceduo_text_char(cell, '-');
     else
         ceduo_text_format(cell, "%.4g", is);
-    put_asked(page, asked);
+    put_asked(page, asked, species);
     ceduo_text_put(ceduo_page_text(page), !asked || isnan(is) ? "-" : met ? _("yes") : _("NO"));
 }
 
@@ -61,9 +61,10 @@ static void put_rows(struct ceduo_page *page, const struct ceduo_result *r, stru
             const struct ceduo_compliance *c = &r->options[i].stands[k].rules;
             if (!c->of || is_listed(r, i, k))
                 continue;
+            bool species = r->scene->options[i].belts[k].stand.species >= 0;
             ceduo_text_put(ceduo_page_text(page), r->scene->options[i].belts[k].name);
-            put_rule(page, c->standards, c->standards_item, c->standards_met);
-            put_rule(page, c->turn, c->turn_item, c->turn_met);
+            put_rule(page, c->standards, c->standards_item, c->standards_met, species);
+            put_rule(page, c->turn, c->turn_item, c->turn_met, species);
             put_source(sources, c->standards_item);
             put_source(sources, isnan(c->turn) ? NULL : c->turn_item);
         }
@@ -81,8 +82,8 @@ static const struct ceduo_regulation *regulation_of(const struct ceduo_result *r
 void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column columns[] = {{N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0},
-                                                       {N_("asked for"), -11, 0, 0},      {N_("kept"), 5, 1, 0},
-                                                       {N_("turn, years"), -12, 0, 0},    {N_("asked for"), -11, 0, 0},
+                                                       {N_("asked for"), -13, 0, 0},      {N_("kept"), 5, 1, 0},
+                                                       {N_("turn, years"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},
                                                        {N_("kept"), 0, 1, 0}};
     const struct ceduo_regulation *rules = regulation_of(r);
     struct text sources = {0};

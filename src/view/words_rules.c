@@ -18,13 +18,19 @@ __attribute__((format(printf, 4, 5))) static void say_format(ceduo_words_rule *s
     ceduo_text_free(&text);
 }
 
+static const char *species_of(const struct ceduo_belt *belt)
+{
+    size_t count;
+    return _(ceduo_species_list(&count)[belt->stand.species].common);
+}
+
 static void say_standards(const struct ceduo_belt *belt, const struct ceduo_compliance *c, ceduo_words_rule *say,
                           void *context)
 {
     const struct ceduo_regulation_item *item = c->standards_item;
     if (!item)
-        say_format(say, context, true, _("%s: the rules of %s as filed say nothing of standards of its species."),
-                   belt->name, c->of->name);
+        say_format(say, context, true, _("%s: the rules of %s as filed name no number of standards for this species (%s); none is checked."),
+                   belt->name, c->of->name, species_of(belt));
     else if (isnan(item->most))
         say_format(say, context, c->standards_met,
                    c->standards_met ? _("%s: %s asks for %g standards a hectare at least (%s, %u); %.4g are kept: met.")
@@ -40,12 +46,14 @@ static void say_standards(const struct ceduo_belt *belt, const struct ceduo_comp
 static void say_turn(const struct ceduo_belt *belt, const struct ceduo_compliance *c, ceduo_words_rule *say, void *context)
 {
     const struct ceduo_regulation_item *item = c->turn_item;
+    if (!item) {
+        say_format(say, context, true, _("%s: the rules of %s as filed name no turn for this species (%s); none is checked."), belt->name,
+                   c->of->name, species_of(belt));
+        return;
+    }
     if (isnan(c->turn))
         return;
-    if (!item)
-        say_format(say, context, true, _("%s: the rules of %s as filed say nothing of the turn of its species."), belt->name,
-                   c->of->name);
-    else if (isnan(item->most))
+    if (isnan(item->most))
         say_format(say, context, c->turn_met,
                    c->turn_met ? _("%s: %s asks for a turn of %g years at least (%s, %u); shoots are cut at %.4g: met.")
                                : _("%s: %s asks for a turn of %g years at least (%s, %u); shoots are cut at %.4g: NOT met."),
@@ -61,8 +69,13 @@ void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_complia
 {
     if (!c->of)
         return;
-    say_standards(belt, c, say, context);
-    say_turn(belt, c, say, context);
+    if (belt->stand.species < 0) {
+        say_format(say, context, true, _("%s: the stand names no species; nothing that %s asks is checked."), belt->name,
+                   c->of->name);
+    } else {
+        say_standards(belt, c, say, context);
+        say_turn(belt, c, say, context);
+    }
     if (c->of->note)
         say_format(say, context, true, _("%s: check the text in force; %s."), c->of->name, ceduo_words_shipped(c->of->note));
     else

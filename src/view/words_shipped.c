@@ -103,9 +103,10 @@ static const char *const shipped[] = {
        "and Ripa 2009, section 4.2), half of them from the cut before, as the Tuscan forest regulation asks "
        "(Gazzetta Ufficiale of 13 April 2002, Art. 24)"),
     /* notes of regions */
-    N_("D.G.R. 1732 of 2018 has rules of its own"),
+    N_("only the 60 standards that Ciabocco, Boccia and Ripa 2009 cite are checked; D.G.R. 1732 of 2018 has rules of "
+       "its own"),
     N_("at least half of the standards come from earlier cuts, evenly spread (art. 22); the turns are those of "
-       "the regulation before, 44/R of 2001"),
+       "the regulation before, 44/R of 2001, whose 'carpino' is not taken for hop hornbeam"),
     N_("R.R. 11 of 2012 changed art. 26 and 33; a simple coppice has at most two thirds of the minimum, above the"
        " maximum it is one with large reserves (art. 23)"),
 };

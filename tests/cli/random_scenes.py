@@ -387,10 +387,14 @@ class Maker:
         zs = self.zs(xs)
         self.case.xs, self.case.zs = xs, zs
         slope = {}
+        if zs[-1] > zs[0]: # drawn upward: the scene's places are of the mirrored profile
+            slope["reversed"] = True
+            self.case.used.add("slope.reversed")
+            self.case.xs, self.case.zs = [xs[0] + xs[-1] - x for x in reversed(xs)], zs[::-1]
         if self.chance(0.15):
             slope["csv"] = self.csv(xs, zs)
             self.case.used.add("slope.csv")
-            if self.chance(0.3):
+            if len(slope) == 1 and self.chance(0.3):
                 return slope["csv"]  # on talus
         else:
             slope["vertices_m"] = [[x, z] for x, z in zip(xs, zs)]
@@ -399,7 +403,7 @@ class Maker:
             slope["materials"] = self.materials(xs)
         else:
             slope["segments"] = [self.segment() for _ in range(1 if self.chance(0.4) else len(xs) - 1)]
-        self.fill(self.table.tree["slope"], slope, ("segments", "materials"))
+        self.fill(self.table.tree["slope"], slope, ("segments", "materials", "reversed"))
         if self.chance(0.1):
             name = f"s{self.index}-slope.yaml"
             self.forget(slope)

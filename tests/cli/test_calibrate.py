@@ -8,7 +8,7 @@ import signal
 import subprocess
 from pathlib import Path
 
-from harness import (CEDUO, DONE, INPUT, ROOT, SLOWER, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near,
+from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near,
                      run_all, scene)
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
@@ -161,6 +161,18 @@ def test_written():
                 r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, out)
                 expect_equal((r.status, r.err), (DONE, ""), r)
                 expect_in("draws", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
+
+
+def test_not_written():
+    """Where the draws cannot lie beside the scene neither is written: a device of their name, a name too long for one of its own"""
+    with Folder() as f:
+        path = f.write("s.yaml", quarry())
+        (f.path / "fitted.draws.csv").symlink_to("/dev/null")
+        for name, why in (("fitted", "Invalid argument"), (240 * "n", "File name too long")):
+            r = ceduo("-n", 20, "--calibrate", f"{RT}=0.7:0.98", "-o", f.path / f"{name}.yaml", path)
+            expect_equal(r.status, OUTPUT, r)
+            expect_in(f"{name}.draws.csv: {why}", r.err)
+            expect(not (f.path / f"{name}.yaml").exists() and f.names() == ["fitted.draws.csv", "s.yaml"], f.names())
 
 
 def test_doubt_written():

@@ -17,6 +17,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve
 from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, environment, expect,  # noqa: E402
                      expect_equal, expect_in, good, only_text, run_all)
 from play import FAST, Screen  # noqa: E402
+from test_calibrate import quarry  # noqa: E402
 from test_input import FILES  # noqa: E402
 
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
@@ -293,6 +294,55 @@ def test_kill():
 def test_kill_named():
     """The same where files cannot be without a name"""
     one_call("kill", False, named=True)
+
+
+def pair_with(fault):
+    """A fit that replaces the scene and the draws of an earlier one, with a fault at each call: how often they do not belong
+    together, and the statuses."""
+    mixed, statuses, seen, at = 0, set(), set(), 0
+    with Place() as place:
+        place.write("work/quarry.yaml", quarry())
+        files = [place.work / name for name in ("fitted.yaml", "fitted.draws.csv")]
+        words = ("-n", 2, "-j", 1, "--calibrate", "slope.segments[*].rt=0.7:0.98", "-o", "fitted.yaml")
+        pairs = []
+        for seed in (2, 1):
+            done, _ = place.run(*words, "-s", f"simulation.seed={seed}", "quarry.yaml", fault="none")
+            expect_equal((done.returncode, done.stderr), (DONE, b""))
+            pairs.append([p.read_bytes() for p in files])
+        expect(all(a != b for a, b in zip(*pairs)), "two fits are the same")
+        while True:
+            at += 1
+            for path, old in zip(files, pairs[0]):
+                path.write_bytes(old)
+            done, reached = place.run(*words, "-s", "simulation.seed=1", "quarry.yaml", fault=fault, at=at)
+            if not reached:
+                break
+            found = [p.read_bytes() for p in files]
+            expect(all(f in both for f, both in zip(found, zip(*pairs))), "half a file", told(done, at))
+            mixed += found not in pairs
+            statuses.add(done.returncode)
+            seen.add(pairs.index(found) if found in pairs else 2)
+            left = [p for p in place.work.iterdir() if p.name not in FILES and p.name != "quarry.yaml" and p not in files]
+            expect(fault == "kill" or not left, f"left behind: {left}", told(done, at))
+            expect(fault == "kill" or (done.returncode == DONE) <= (found == pairs[1]), told(done, at))
+            for p in left:
+                p.unlink()
+    print(f"# {at - 1} calls, {mixed} times the two do not belong together")
+    expect({0, 1} <= seen, "is the library loaded?", seen)
+    return mixed, statuses
+
+
+def test_calls_pair():
+    """--calibrate -o: only where the second of two renames fails do the scene and its draws not belong together, and the status says so"""
+    mixed, statuses = pair_with("call")
+    expect(mixed <= 1 and OUTPUT in statuses, mixed, statuses)
+
+
+def test_kill_pair():
+    """--calibrate -o: SIGKILL before each call leaves draws of this fit beside the old scene only between the two renames"""
+    mixed, statuses = pair_with("kill")
+    expect(mixed <= 1, mixed)
+    expect_equal(statuses, {-9})
 
 
 def halted(process):

@@ -30,6 +30,7 @@ def rules_of(what, rules, *arguments):
 SHIPPED = [  # region, species, system, standards, turn: at least, met, turn at least, at most, met; from the texts of the acts
     ("toscana", "ostrya-carpinifolia", "simple-coppice", 60, 25, (60, True, None, None, None)),
     ("toscana", "quercus-cerris", "simple-coppice", 59, 17, (60, False, 18, None, False)),
+    ("toscana", "quercus-ilex", "simple-coppice", 60, 17, (60, True, 18, None, False)),
     ("toscana", "castanea-sativa", "simple-coppice", 30, 10, (30, True, 10, None, True)),
     ("toscana", "robinia-pseudoacacia", "simple-coppice", 20, 8, (0, True, 8, None, True)),
     ("toscana", "fagus-sylvatica", "coppice-with-standards", 60, 23, (60, True, 24, None, False)),
@@ -92,7 +93,7 @@ def test_own_region():
             r = result(path, "-n", 5)["options"][0]["stands"][0]["rules"]
             expect_equal((r["region"], r["standards_least"]), ("Nowhere", least), what)
         page = " ".join(good("--batch", "-n", 5, path).out.split())
-        expect_in("the rules of Nowhere as filed say nothing of standards of its species", page)
+        expect_in("coppice: the stand names no species; nothing that Nowhere asks is checked.", page)
         page = " ".join(good("--batch", "-n", 5, f.write("s.yaml", site(coppice("acer"), "nowhere.yaml"))).out.split())
         expect_in("Nowhere asks for 10 standards a hectare at least (art. 1, Act 2, 1999); 60 are kept: met.", page)
         expect_in("Nowhere: check the text in force; made up.", page)
@@ -108,6 +109,45 @@ def test_page():
         expect_in("Umbria asks for 80 standards a hectare at least (art. 33, R.R. 7, 2002); 60 are kept: NOT met.", page)
         expect_in("Umbria asks for a turn of 15 to 40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
         expect_equal(page.count("check the text in force"), 1, page)
+
+
+NO_TURN = "the rules of {} as filed name no turn for this species ({}); none is checked."
+
+
+def test_not_named():
+    """What a region does not name is said, by species: on the page, in the report, on the screen, also where nothing is cut; JSON
+    and CSV have null. Holm oak is an oak of Toscana's 'specie quercine'."""
+    with Folder() as f:
+        for region, species, common, named in (("toscana", "ostrya-carpinifolia", "hop hornbeam", False), ("toscana", "acer", "maple", False),
+                                               ("toscana", "quercus-ilex", "holm oak", True), ("toscana", "carpinus-betulus", "hornbeam", True),
+                                               ("umbria", "ostrya-carpinifolia", "hop hornbeam", True), ("marche", "fagus-sylvatica", "beech", False)):
+            for turn in (25, None):
+                path = f.write("s.yaml", site(coppice(species, turn=turn), region))
+                page = " ".join(good("--batch", "-n", 5, path).out.split())
+                expect_equal((NO_TURN.format(region.title(), common) in page, "name no" in page), (not named, not named), f"{region} {species}: {page[:900]}")
+                expect_equal(rules_of(coppice(species, turn=turn), region)["turn_least"] is None, not named)
+                two = site(coppice(species, turn=turn), region)
+                two["options"] = [{"name": name, "forest": two["forest"]} for name in "ab"]
+                two.pop("forest")
+                good("--report", f.path / "p.html", "--sensitivity=2", "-n", 20, f.write("two.yaml", two))
+                expect_equal(">not named<" in (f.path / "p.html").read_text(), not named, f"{region} {species}")
+        own = {"name": "Nowhere", "standards": [{"species": ["acer"], "per_ha": 10, **ROW}]}
+        page = " ".join(good("--batch", "-n", 5, f.write("s.yaml", site(coppice(), own))).out.split())
+        expect_in("the rules of Nowhere as filed name no number of standards for this species (hop hornbeam); none is checked.", page)
+        f.write("keys", f"resize 120 60\nwait idle\nkey 4\ndump {f.path}/screen.txt\n")
+        good("--script", f.path / "keys", f.write("s.yaml", site(coppice(), "toscana")))
+        column = [line.rpartition("\u2502")[2] for line in (f.path / "screen.txt").read_text().splitlines()]
+        expect_in(NO_TURN.format("Toscana", "hop hornbeam"), " ".join(" ".join(column).split()))
+
+
+def test_marche():
+    """Of Marche only the paper's 60 standards are checked, and every page says so"""
+    with Folder() as f:
+        path = f.write("s.yaml", site(coppice(), "marche"))
+        page = " ".join(good("--batch", "-n", 5, path).out.split())
+        expect_in("only the 60 standards that Ciabocco, Boccia and Ripa 2009 cite are checked", page)
+        good("--report", f.path / "p.html", "--sensitivity=2", "-n", 20, path)
+        expect_in("only the 60 standards that Ciabocco, Boccia and Ripa 2009 cite are checked", (f.path / "p.html").read_text())
 
 
 def test_notes_in_italian():

@@ -396,7 +396,7 @@ static bool edit_document(void)
     EDIT(ceduo_document_delete(&d, "controls[0]", &problems));
     EDIT(ceduo_document_set_all(&d, sets, 2, "two", &problems));
     add_scene(&d.file);
-    ceduo_document_text(&d, &text);
+    ceduo_document_text(&d, NULL, &text);
     bool good = !text.failed;
     ceduo_text_free(&text);
     ceduo_problems_free(&problems);
