@@ -42,12 +42,14 @@ struct ceduo_choice {
     struct ceduo_yield yield;
 };
 
-/* Which option is best; known: all have their figure. */
+/* Which option is best; known: all have their figure. It is judged by the rocks that all have. */
 struct ceduo_leader {
     bool known;
     size_t best;
     size_t rivals; /* others that it does not clearly beat */
     bool *rival;   /* which: one for each option */
+    bool equal;    /* the best and its rivals have the same forests: copies */
+    bool uneven;   /* the options have different numbers of rocks: they are still computed, and none is called best */
 };
 
 /* Two options whose order today depends on the energy law (other.h): clear under one of the two laws, and the other way

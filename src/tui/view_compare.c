@@ -151,7 +151,7 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
  * all. */
 static const char *mark_of(const struct ceduo_verdict *v, size_t i)
 {
-    if (!v->rotation.known || v->rotation.rivals + 1 == v->n)
+    if (!v->rotation.known || v->rotation.uneven || v->rotation.rivals + 1 == v->n)
         return "";
     if (i == v->rotation.best)
         return v->rotation.rivals == 0 ? _("best") : "";
@@ -307,7 +307,7 @@ static void say_verdict(struct app *app, struct text *words)
         ceduo_words_best(words, r->scene, v);
         if (words->length > 0)
             ceduo_text_char(words, '\n');
-        if (!v->rotation.known && v->wooded)
+        if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_text_put(words, _("The years of the rotation are being computed.\n"));
         ceduo_words_turned(r, v, add_sentence, words);
     }

@@ -31,32 +31,31 @@ static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
         ceduo_page_number(page, s->residual * KILO, 3);
 }
 
+/* What arrives with more than is withstood comes first. */
 static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
     const struct ceduo_index *s = ceduo_result_last_index(r, i);
     ceduo_text_put(ceduo_page_text(page), r->scene->options[i].name);
+    if (r->wooded)
+        add_simulated(page, r, i);
     ceduo_page_number(page, s->worst_adc, 3);
     ceduo_page_verdict(page, s->contact);
     ceduo_page_percent(page, s->worst_free_run);
     ceduo_page_verdict(page, s->free_run);
-    if (r->wooded)
-        add_simulated(page, r, i);
-    else
+    if (!r->wooded)
         add_by_index(page, s);
 }
 
-#define BY_CONTACT                                                                                                     \
-    {N_("option"), 23, 2, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN},             \
-    {                                                                                                                  \
-        "", 5, 1, 0                                                                                                    \
-    }
+#define BY_CONTACT                                                                                                 \
+    {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN}, {"", 5, 1, 0}
 
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
-        BY_CONTACT, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 4, 2, 0}};
+        {N_("option"), 23, 2, 0}, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
+        BY_CONTACT};
     static const struct ceduo_page_column by_index[] = {
-        BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
+        {N_("option"), 23, 2, 0}, BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
     if (r->wooded) {
         ceduo_page_table(page, wooded, sizeof wooded / sizeof wooded[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));

@@ -106,8 +106,8 @@ def option_shown(start, screen):
     return row if re.search(r"\d/\d", row) else row + " " + lines[at[0] + 1].strip()
 
 
-ROW = re.compile(r"\s(?P<adc>[\d.]+|none) (?P<contact>pass|FAIL) +(?P<run>[\d.]+) % (?P<free_run>pass|FAIL) +"
-                 r"(?P<share>\d+) ±(?P<error>\d+) +(?P<difference>-|[-+]\d+ ±\d+) +(?P<energy>pass|FAIL|\?)$")
+ROW = re.compile(r"\s(?P<share>\d+) ±(?P<error>\d+) +(?P<difference>-|[-+]\d+ ±\d+) +(?P<energy>pass|FAIL|\?) +"
+                 r"(?P<adc>[\d.]+|none) (?P<contact>pass|FAIL) +(?P<run>[\d.]+) % (?P<free_run>pass|FAIL)$")
 
 
 def side_by_side(page):
