@@ -101,6 +101,7 @@ static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
     const struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
     c->years = s.years;
     c->flown = s.flown;
+    c->rocks = years->rocks;
     c->no_contact = s.unprotected_contact;
     c->free_runs = s.unprotected_free_run;
     c->too_much = s.unprotected_energy;

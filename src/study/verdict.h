@@ -34,6 +34,7 @@ struct ceduo_choice {
     struct ceduo_portion today, worst, mean; /* worst and mean: of the years */
     unsigned worst_year;
     size_t years, flown;                     /* flown: years in which rocks were simulated */
+    uint64_t rocks;                          /* in each of them, which may be fewer than today */
     size_t no_contact, free_runs, too_much;  /* years in which that light fails */
     bool energy_known;                       /* too_much is */
     bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more

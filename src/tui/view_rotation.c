@@ -165,7 +165,8 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     ceduo_text_put(text, isnan(s.passes_per_year) ? "" : " ");
     const struct ceduo_verdict *v = &app->figures.verdict;
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
-        ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
+        ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year. "), v->choices[app->option].yield.cut_per_year);
+    ceduo_words_counted(text, years->rocks);
 }
 
 /* Takes whole sentences off the end until the rest has room, and a sign of more. */

@@ -136,6 +136,7 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
     }
     for (size_t i = 0; i < v->n; i++)
         add_choice(page, r->scene->options[i].name, &v->choices[i]);
+    ceduo_words_counted(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
 }
 
 static void add_note(void *page, const char *sentence)

@@ -57,6 +57,15 @@ void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_ver
     }
 }
 
+void ceduo_words_counted(struct text *text, uint64_t rocks)
+{
+    if (rocks > 0)
+        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is the worst of these."),
+                          (unsigned long long)rocks);
+    else
+        ceduo_text_put(text, _("Years are counted from today."));
+}
+
 /* ---- the best ---- */
 
 static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
