@@ -46,16 +46,15 @@ static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_
         add_by_index(page, s);
 }
 
-#define BY_CONTACT                                                                                                 \
-    {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN}, {"", 5, 1, 0}
+#define OPTION     {N_("option"), 23, 2, 0}
+#define BY_CONTACT {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN}
 
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
-        {N_("option"), 23, 2, 0}, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
-        BY_CONTACT};
+        OPTION, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0}, BY_CONTACT, {"", 0, 1, 0}};
     static const struct ceduo_page_column by_index[] = {
-        {N_("option"), 23, 2, 0}, BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
+        OPTION, BY_CONTACT, {"", 5, 1, 0}, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
     if (r->wooded) {
         ceduo_page_table(page, wooded, sizeof wooded / sizeof wooded[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));

@@ -169,11 +169,10 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
 /* What reads as harm is that the small and the slow ones are stopped. */
 static void say_sorted(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
-    double more = wooded ? wooded->energy.mean - bare->energy.mean : NAN;
-    if (more > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
+    if (wooded && wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                       _("The mean of those that arrive is higher through the wood: fewer arrive, but larger or faster ones, as stems "
-                         "stop the others first."));
+                       _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean is "
+                         "higher."));
 }
 
 /* The mean that cannot mislead: of all released. It is no energy that the place must withstand. */
