@@ -119,12 +119,16 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     struct text span = {0};
     ceduo_words_span(&span, v);
-    ceduo_text_format(caption,
-                      v->wooded ? _("Over %s: of 1000 released, in the mean and in the worst year; years in which a test "
-                                    "fails; wood felled per hectare and year, and standing:")
-                                : _("Over %s: the worst year; years in which a test fails; wood felled per hectare and "
-                                    "year, and standing:"),
-                      ceduo_text_string(&span));
+    if (v->wooded)
+        ceduo_text_format(caption,
+                          _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
+                            "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
+                          ceduo_text_string(&span), (unsigned long long)v->choices[0].rocks);
+    else
+        ceduo_text_format(caption,
+                          _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
+                            "year, and standing:"),
+                          ceduo_text_string(&span));
     caption->failed |= span.failed;
     ceduo_text_free(&span);
     if (v->choices[0].flown > 0) {
@@ -135,7 +139,6 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
     }
     for (size_t i = 0; i < v->n; i++)
         add_choice(page, r->scene->options[i].name, &v->choices[i]);
-    ceduo_words_counted(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
 }
 
 static void add_note(void *page, const char *sentence)

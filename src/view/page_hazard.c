@@ -183,8 +183,7 @@ static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size
                             WRITTEN(h->intensity[i].left * 100, 2));
     if (said.length > 0)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Of what arrives without forest, so much arrives with '%s': %s. A strong rock that the wood slows "
-                            "arrives as a medium or a weak one."),
+                          _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
                           r->scene->options[option].name, ceduo_text_string(&said));
     page->failed |= said.failed;
     ceduo_text_free(&said);

@@ -87,8 +87,10 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
             mean.mean * 1000, ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
     else
         ceduo_text_format(line, _("The ADC is largest in year %u."), s.worst_year);
-    ceduo_text_char(line, ' ');
-    ceduo_words_counted(line, years->rocks);
+    if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
+        ceduo_text_char(line, ' ');
+        ceduo_words_counted(line, years->rocks);
+    }
     if (s.flown > 0 && !isnan(r->scene->rocks_per_year))
         say_expected(line, r->scene, &s, says);
     double felled = ceduo_years_felled(years);

@@ -245,8 +245,7 @@ def test_page():
         expect_in("A rock with more than 30 kJ reaches the place at 80 m every", page)
         expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
         left = ", ".join(f"{m['intensity']} {shown(100 * m['rate_left'])} %" for m in wooded["matrix"])
-        expect_in(f"Of what arrives without forest, so much arrives with 'coppice': {left}. A strong rock that the wood slows arrives "
-                  "as a medium or a weak one.", page)
+        expect_in(f"Of what arrives without forest, so much arrives with 'coppice', each rock by its energy here: {left}.", page)
         square = page.split("Intensity by return period")[2]
         marks = {word: [[] for _ in range(3)] for word in ("none", "weak", "medium", "strong")}
         for number, h in enumerate((bare, hazard_of(result, "wooded", -1, 0), wooded)):
@@ -268,7 +267,7 @@ def test_page():
         expect_in("every > ", stuck)
         few = " ".join(good("--batch", f.write("w.yaml", slope_site(blocks={"per_year": 4, "volume_m3": [0.001, 0.002], "exponent": 1},
                                                                       controls=[{"x_m": 140, "accepted_kJ": 1}]))).out.split())
-        expect(re.search(r"so much arrives with 'current': weak \S+ %\. ", few), "intensities that do not arrive", few)
+        expect(re.search(r"so much arrives with 'current', each rock by its energy here: weak \S+ %\. ", few), "intensities that do not arrive", few)
         expect(" - %" not in few and "- %" not in stuck, "a share of none", few, stuck)
         index = " ".join(good("--batch", "-s", "simulation.contact_model=index", path).out.split())
         expect_in(f"reaches 'road' every {years[0]} years without forest. ", index)
