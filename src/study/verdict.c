@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
+#include "ceduo/key.h"
 
 double ceduo_share_of(const struct ceduo_arrivals *arrivals)
 {
@@ -100,6 +101,7 @@ static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
     const struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
     c->years = s.years;
     c->flown = s.flown;
+    c->rocks = years->rocks;
     c->nothing = s.nothing;
     c->energy_known &= !s.nothing;
     c->no_contact = s.unprotected_contact;
@@ -188,18 +190,45 @@ static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
     return true;
 }
 
+static uint64_t rocks_of(const struct ceduo_result *r, struct ceduo_years *const *years, size_t option)
+{
+    return years ? years[option]->rocks : r->options[option].wooded.rocks;
+}
+
+/* Whether two options have the same forests, today or year by year. */
+static bool are_equal(const struct ceduo_scene *s, bool rotation, size_t a, size_t b)
+{
+    const struct ceduo_option *one = &s->options[a], *two = &s->options[b];
+    return rotation ? ceduo_years_key(one) == ceduo_years_key(two) : ceduo_option_key(s, one) == ceduo_option_key(s, two);
+}
+
+/* `years` NULL: today. */
+static void find_leader(const struct ceduo_result *r, struct ceduo_years *const *years, const struct ceduo_verdict *v,
+                        struct ceduo_leader *leader)
+{
+    leader->known = all_are_known(v, years != NULL);
+    for (size_t i = 0; i < v->n && leader->known; i++) {
+        leader->known = years || !isnan(difference_today(r, i, 0).mean);
+        leader->uneven |= rocks_of(r, years, i) != rocks_of(r, years, 0);
+    }
+    if (!leader->known)
+        return;
+    difference_of *difference = years ? difference_over_years : difference_today;
+    const void *context = years ? (const void *)years : r;
+    find_best(difference, context, v->n, leader);
+    leader->equal = leader->rivals > 0;
+    for (size_t i = 0; i < v->n; i++)
+        leader->equal &= !leader->rival[i] || (difference(context, i, leader->best).mean == 0 &&
+                                               are_equal(r->scene, years != NULL, i, leader->best));
+}
+
 static enum ceduo_status judge(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
 {
     if (v->nothing)
         return CEDUO_OK;
-    v->today.known = all_are_known(v, false);
-    for (size_t i = 0; i < v->n && v->today.known; i++)
-        v->today.known = !isnan(difference_today(r, i, 0).mean);
-    if (v->today.known)
-        find_best(difference_today, r, v->n, &v->today);
-    v->rotation.known = years && all_are_known(v, true);
-    if (v->rotation.known)
-        find_best(difference_over_years, years, v->n, &v->rotation);
+    find_leader(r, NULL, v, &v->today);
+    if (years)
+        find_leader(r, years, v, &v->rotation);
     for (size_t i = 0; i < v->n && v->rotation.known; i++)
         v->choices[i].beaten = is_beaten(years, v, i);
     return !v->wooded || find_turned(r, v) ? CEDUO_OK : CEDUO_NO_MEMORY;

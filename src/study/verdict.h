@@ -34,6 +34,7 @@ struct ceduo_choice {
     struct ceduo_portion today, worst, mean; /* worst and mean: of the years */
     unsigned worst_year;
     size_t years, flown;                     /* flown: years in which rocks were simulated */
+    uint64_t rocks;                          /* in each of them, which may be fewer than today */
     size_t no_contact, free_runs, too_much;  /* years in which that light fails */
     bool energy_known;                       /* too_much is */
     bool nothing;                            /* none of the three is: nothing can be said */
@@ -43,12 +44,14 @@ struct ceduo_choice {
     struct ceduo_yield yield;
 };
 
-/* Which option is best; known: all have their figure. */
+/* Which option is best; known: all have their figure. It is judged by the rocks that all have. */
 struct ceduo_leader {
     bool known;
     size_t best;
     size_t rivals; /* others that it does not clearly beat */
     bool *rival;   /* which: one for each option */
+    bool equal;    /* the best and its rivals have the same forests: copies */
+    bool uneven;   /* the options have different numbers of rocks: they are still computed, and none is called best */
 };
 
 /* Two options whose order today depends on the energy law (other.h): clear under one of the two laws, and the other way

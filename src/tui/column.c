@@ -34,12 +34,26 @@ __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ced
     ceduo_text_free(&safe);
 }
 
+/* No single size stands for blocks. */
+static void put_blocks(struct pen *pen, const struct ceduo_scene *s)
+{
+    double least = INFINITY, most = 0, per_year = 0;
+    for (size_t i = 0; i < s->blocks_count; i++) {
+        least = fmin(least, s->blocks[i].volumes[0]);
+        most = fmax(most, s->blocks[i].volumes[1]);
+        per_year += s->blocks[i].per_year;
+    }
+    line(pen, CEDUO_ROLE_TEXT, _("Blocks  %.3g-%.3g m\xc2\xb3  %.3g/year"), least, most, per_year);
+}
+
 static void put_scene(struct pen *pen)
 {
     const struct ceduo_scene *s = &pen->app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(pen->app);
     struct ceduo_rock rock = ceduo_rock_mean(&s->rock);
-    if (!isnan(rock.mass))
+    if (s->blocks_count > 0)
+        put_blocks(pen, s);
+    else if (!isnan(rock.mass))
         line(pen, CEDUO_ROLE_TEXT, _("Rock  %.3g m  %.4g kg%s"), rock.mean_diameter, rock.mass,
              ceduo_notes_assume(pen->app->document.file.notes, "rock") ? "*" : "");
     if (s->options_count < 2 && o->belts_count == 0)
@@ -125,6 +139,17 @@ static void put_other(struct pen *pen, const struct ceduo_other_energy *other)
     put_pair(pen, CEDUO_ROLE_DIM, name, a, "");
 }
 
+/* Years from one dangerous rock to the next: what matters where blocks of all sizes come down. */
+static void put_every(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+{
+    struct text a = {0}, b = {0};
+    ceduo_words_every(&a, ceduo_hazard_feared(&wood->hazard));
+    ceduo_words_every(&b, ceduo_hazard_feared(&bare->hazard));
+    put_pair_in(pen, _("years apart"), ceduo_text_string(&a), ceduo_text_string(&b));
+    ceduo_text_free(&a);
+    ceduo_text_free(&b);
+}
+
 /* Where all released end: on the way, or here. */
 static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare,
                          const struct ceduo_other_energy *other)
@@ -176,15 +201,17 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
                                            .exceed_probability = NAN,
                                            .energy_per_released = NAN,
                                            .energy = none,
+                                           .hazard = ceduo_hazard_none(),
                                            .height = none};
     wood = wood ? wood : &nothing;
     char a[32], b[32], limit[32];
-    bool told = false;
+    bool told = false, blocks = !isnan(bare->hazard.per_year);
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
-    put_released(pen, wood, bare, isnan(c->accepted) && !nothing_said ? other : NULL);
-    if (nothing_said) /* why stands below, and takes the room */
+    if (nothing_said) { /* why stands below, and takes the room */
+        put_released(pen, wood, bare, NULL);
         return;
+    }
     if (!isnan(c->accepted)) {
         compared_share(a, sizeof a, wood, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
@@ -193,10 +220,14 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
         put_other(pen, other);
         told = put_doubt(pen, false);
     }
+    if (blocks)
+        put_every(pen, wood, bare);
+    put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
     put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
     told |= put_doubt(pen, true);
-    put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
-    if (pen->area.height >= (told ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
+    if (!blocks) /* of them the large arrive: a mean of those would read as if the wood did harm */
+        put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
+    if (!blocks && pen->area.height >= (told ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
         put_figures(pen, "  95 % kJ", wood->energy.p95 * KILO, bare->energy.p95 * KILO);
     if (pen->area.height >= HEIGHT_FOR_ALL)
         put_figures(pen, _(" 95% m under"), wood->height.p95, bare->height.p95);

@@ -23,9 +23,9 @@ static void build(struct app *app, struct form *form)
 /* ---- the table ---- */
 
 /* Columns behind the names, as they stand from left to right. */
-enum column { TODAY, WORST, MEAN, MARK, FAILS, YIELD, LIGHTS, COLUMNS };
+enum column { TODAY, EVERY, WORST, MEAN, MARK, FAILS, YIELD, LIGHTS, COLUMNS };
 static const int widths[COLUMNS] = {
-    [TODAY] = 8, [WORST] = 11, [MEAN] = 9, [MARK] = 6, [FAILS] = 7, [YIELD] = 8, [LIGHTS] = 10};
+    [TODAY] = 8, [EVERY] = 9, [WORST] = 11, [MEAN] = 9, [MARK] = 6, [FAILS] = 7, [YIELD] = 8, [LIGHTS] = 10};
 
 #define NAME_LEAST  22 /* columns that tell the names of most options apart */
 #define SPARK_LEAST 12
@@ -51,14 +51,14 @@ static int width_of(const struct layout *l)
 }
 
 /* What goes first where there is little room. */
-static const enum column dispensable[] = {LIGHTS, YIELD, WORST, MARK, FAILS};
+static const enum column dispensable[] = {LIGHTS, YIELD, WORST, MARK, FAILS, EVERY};
 
 static struct layout lay_out(const struct app *app, struct ceduo_area area)
 {
     struct layout l = {.lines = 1};
     const struct ceduo_verdict *v = &app->figures.verdict;
     for (int c = 0; c < COLUMNS; c++)
-        l.has[c] = true;
+        l.has[c] = c != EVERY || (v->wooded && app->figures.result->scene->blocks_count > 0);
     int all = width_of(&l), rest = area.width - all;
     bool two_fit = 2 * (int)v->n + 8 <= area.height;
     if (rest < NAME_LEAST + SPARK_LEAST + 4 && two_fit)
@@ -125,6 +125,14 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
         else
             ceduo_words_number(text, index->worst_adc, 3);
         break;
+    case EVERY: {
+        const struct ceduo_arrivals *a = ceduo_result_wooded(app->figures.result, i, app->figures.result->last_control);
+        if (a)
+            ceduo_words_every(text, ceduo_hazard_feared(&a->hazard));
+        else
+            ceduo_text_put(text, "\xe2\x80\xa6");
+        break;
+    }
     case WORST:
         put_worst(text, c, v->wooded);
         break;
@@ -151,7 +159,7 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
  * all. */
 static const char *mark_of(const struct ceduo_verdict *v, size_t i)
 {
-    if (!v->rotation.known || v->rotation.rivals + 1 == v->n)
+    if (!v->rotation.known || v->rotation.uneven || v->rotation.rivals + 1 == v->n)
         return "";
     if (i == v->rotation.best)
         return v->rotation.rivals == 0 ? _("best") : "";
@@ -248,10 +256,12 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
 
 static void draw_head(struct app *app, const struct layout *l, struct ceduo_area area)
 {
-    static const char *const simulated[COLUMNS] = {N_("today"), N_("worst year"),     N_("rotation"), "",
-                                                   N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE now")};
-    static const char *const by_index[COLUMNS] = {N_("ADC m"), N_("worst"),          N_("kJ/100m"), "",
-                                                  N_("fail"),  N_("m\xc2\xb3/ha y"), N_("CFE now")};
+    static const char *const simulated[COLUMNS] = {[TODAY] = N_("today"), [EVERY] = N_("every, y"), [WORST] = N_("worst year"),
+                                                   [MEAN] = N_("rotation"), [MARK] = "", [FAILS] = N_("fail"),
+                                                   [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
+    static const char *const by_index[COLUMNS] = {[TODAY] = N_("ADC m"), [EVERY] = "", [WORST] = N_("worst"),
+                                                  [MEAN] = N_("kJ/100m"), [MARK] = "", [FAILS] = N_("fail"),
+                                                  [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
     const struct ceduo_result *r = app->figures.result;
     put_place(app, area, l->lights_left > 0 ? area.width - widths[LIGHTS] : area.width);
     if (l->lights_left > 0)
@@ -300,6 +310,10 @@ static void say_verdict(struct app *app, struct text *words)
 {
     const struct ceduo_result *r = app->figures.result;
     const struct ceduo_verdict *v = &app->figures.verdict;
+    if (r->scene->blocks_count > 0 && r->scene->controls_count > 0) {
+        ceduo_words_hazard(words, r, app->option, r->last_control);
+        ceduo_text_char(words, '\n');
+    }
     if (v->n < 2) {
         ceduo_text_put(words,
                        _("One way to treat this wood so far. a adds another from a preset, y a copy of this one.\n"));
@@ -307,7 +321,7 @@ static void say_verdict(struct app *app, struct text *words)
         ceduo_words_best(words, r->scene, v);
         if (words->length > 0)
             ceduo_text_char(words, '\n');
-        if (!v->rotation.known && v->wooded)
+        if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_text_put(words, _("The years of the rotation are being computed.\n"));
         ceduo_words_turned(r, v, add_sentence, words);
     }
@@ -323,6 +337,10 @@ static void say_verdict(struct app *app, struct text *words)
     if (v->n > 1 && r->wooded && v->accepted)
         ceduo_text_format(words, _("fail: years in which more than %.0f of 1000 bring too much."),
                           CEDUO_EXCEED_MOST * 1000);
+    if (v->rotation.known && !v->rotation.uneven) {
+        ceduo_text_char(words, ' ');
+        ceduo_words_counted(words, v->choices[0].rocks);
+    }
 }
 
 enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };

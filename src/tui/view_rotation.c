@@ -161,13 +161,16 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
                         s.thick_free_run);
     ceduo_text_char(text, ' ');
     if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_format(text, _("Expected a year: %.3g pass, %.3g with too much."), s.passes_per_year, s.exceeds_per_year);
+        ceduo_text_format(text, _("Expected a year: %s pass, %s with too much."), WRITTEN(s.passes_per_year, 2),
+                          WRITTEN(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
-        ceduo_text_format(text, _("Expected a year: %.3g pass."), s.passes_per_year);
+        ceduo_text_format(text, _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
     ceduo_text_put(text, isnan(s.passes_per_year) ? "" : " ");
     const struct ceduo_verdict *v = &app->figures.verdict;
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
         ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
+    ceduo_text_char(text, ' ');
+    ceduo_words_counted(text, years->rocks);
 }
 
 /* Takes whole sentences off the end until the rest has room, and a sign of more. */

@@ -17,7 +17,7 @@
 
 #define SEEN_WIDTH 8
 #define BAND_WIDTH 11
-#define WORD_WIDTH 7
+#define WORD_WIDTH 10
 #define NAME_WIDTH(width) ((width) - SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
 
 /* A cell of at least so many columns. */
@@ -82,7 +82,9 @@ static void put_observation(struct text *text, const struct scene_file *file, co
     ceduo_text_put(&band, RANGE);
     put_number(&band, o, p->hi, origin);
     put_row(text, width, ceduo_text_string(&name), ceduo_text_string(&seen), isnan(p->lo) ? "-" : ceduo_text_string(&band),
-            p->inside ? _("inside") : _("OUTSIDE"));
+            !p->inside                      ? _("OUTSIDE")
+            : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
+                                        : _("inside"));
     ceduo_text_free(&name);
     ceduo_text_free(&seen);
     ceduo_text_free(&band);
@@ -108,10 +110,13 @@ static void put_misfits(struct text *text, const struct scene_file *file, const 
         if (bad.length > 0)
             ceduo_text_put(&bad, "; ");
         ceduo_text_safe(&bad, file->observations[i].name);
+        const char *chance = p[i].p_value < 0.001 ? "<.001" : WRITTEN(p[i].p_value, 2);
         if (isnan(p[i].p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
+        else if (p[i].inside)
+            ceduo_text_format(&bad, _(" (the mean fits, how the values are spread does not: p %s)"), chance);
         else
-            ceduo_text_format(&bad, " (p %s)", p[i].p_value < 0.001 ? "<.001" : WRITTEN(p[i].p_value, 2));
+            ceduo_text_format(&bad, " (p %s)", chance);
     }
     if (bad.length > 0)
         ceduo_text_format(text, _("The scene as it is does not give what was seen: %s.\n"), ceduo_text_string(&bad));

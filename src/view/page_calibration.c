@@ -35,6 +35,14 @@ static void put_p(struct text *t, double p)
         ceduo_text_format(t, "%.*f", p < 0.1 ? 3 : 2, p);
 }
 
+/* Two scenes may call alike what was seen there. */
+static void put_seen_name(struct text *name, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
+{
+    ceduo_text_safe(name, ceduo_seen_of(r, p)->name);
+    if (r->scenes_count > 1)
+        ceduo_text_then(name, ", ", _("scene %zu"), p->scene + 1);
+}
+
 static void put_seen(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     ceduo_page_table(page, seen_columns, 6);
@@ -42,7 +50,7 @@ static void put_seen(struct ceduo_page *page, const struct ceduo_calibration_rep
         const struct ceduo_predicted *p = &r->answer->predicted[i];
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
         double origin = r->files[p->scene].scene.slope.origin_x;
-        ceduo_text_safe(ceduo_page_text(page), o->name);
+        put_seen_name(ceduo_page_text(page), r, p);
         ceduo_text_put(ceduo_page_text(page), o->use == CEDUO_OBSERVED_FIT ? "fit" : "check");
         ceduo_text_format(ceduo_page_text(page), "%zu", ceduo_seen_number(o));
         ceduo_words_number(ceduo_page_text(page), ceduo_seen_shown(o->kind, p->seen, origin), 3);
@@ -124,10 +132,11 @@ static void put_correlations(struct ceduo_page *page, const struct ceduo_calibra
         }
 }
 
-static void put_one_misfit(struct ceduo_page *page, const struct ceduo_observation *o, const char *format)
+static void put_one_misfit(struct ceduo_page *page, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p,
+                           const char *format)
 {
     struct text name = {0}, *t = ceduo_page_add(page, CEDUO_PAGE_WARNING);
-    ceduo_text_safe(&name, o->name);
+    put_seen_name(&name, r, p);
     put_with_name(page, t, format, &name);
 }
 
@@ -139,7 +148,7 @@ static void put_single(struct ceduo_page *page, const struct ceduo_calibration_r
     struct text name = {0}, range = {0};
     if (!o->values || isnan(p->one_lo))
         return;
-    ceduo_text_safe(&name, o->name);
+    put_seen_name(&name, r, p);
     put_range(&range, ceduo_seen_shown(o->kind, p->one_lo, origin), ceduo_seen_shown(o->kind, p->one_hi, origin));
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_ITEM), _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
                       ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
@@ -154,14 +163,16 @@ static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_
     for (size_t i = 0; i < a->predicted_count; i++) {
         const struct ceduo_predicted *p = &a->predicted[i];
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
-        if (p->p_value < CEDUO_MISFIT && o->use == CEDUO_OBSERVED_FIT)
-            put_one_misfit(page, o, _("This model cannot give what was seen here: %s."));
+        if (p->p_value < CEDUO_MISFIT && o->use == CEDUO_OBSERVED_FIT && p->inside)
+            put_one_misfit(page, r, p, _("This model can give the mean of what was seen here, but not how the values are spread: %s."));
+        else if (p->p_value < CEDUO_MISFIT && o->use == CEDUO_OBSERVED_FIT)
+            put_one_misfit(page, r, p, _("This model cannot give what was seen here: %s."));
         else if (p->p_value < CEDUO_MISFIT)
-            put_one_misfit(page, o, _("The fit does not hold for what was to check it: %s."));
+            put_one_misfit(page, r, p, _("The fit does not hold for what was to check it: %s."));
         if (o->use == CEDUO_OBSERVED_CHECK)
             put_single(page, r, p);
         if (o->kind == CEDUO_OBSERVED_SCARS && o->of > 0 && isnan(o->share_seen))
-            put_one_misfit(page, o, _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
+            put_one_misfit(page, r, p, _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
                                       "number of blows is taken too low."));
     }
     if (!a->misfit)
@@ -201,8 +212,12 @@ void ceduo_calibration_words(struct text *text, const struct ceduo_calibration_r
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *r, bool plain)
 {
     struct ceduo_page page = {.width = 80};
-    for (size_t s = 0; s < r->scenes_count; s++)
-        ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(r->files[s].scene.title));
+    for (size_t s = 0; s < r->scenes_count; s++) {
+        struct text *title = ceduo_page_add(&page, CEDUO_PAGE_TITLE);
+        if (r->scenes_count > 1)
+            ceduo_text_format(title, "%zu ", s + 1);
+        ceduo_text_safe(title, ceduo_words_shipped(r->files[s].scene.title));
+    }
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_SECTION), _("Fitted to what was seen"));
     put_values(&page, r);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);

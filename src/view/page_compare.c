@@ -31,32 +31,30 @@ static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
         ceduo_page_number(page, s->residual * KILO, 3);
 }
 
+/* What arrives with more than is withstood comes first. */
 static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
     const struct ceduo_index *s = ceduo_result_last_index(r, i);
     ceduo_text_put(ceduo_page_text(page), r->scene->options[i].name);
+    if (r->wooded)
+        add_simulated(page, r, i);
     ceduo_page_number(page, s->worst_adc, 3);
     ceduo_page_verdict(page, s->contact);
     ceduo_page_percent(page, s->worst_free_run);
     ceduo_page_verdict(page, s->free_run);
-    if (r->wooded)
-        add_simulated(page, r, i);
-    else
+    if (!r->wooded)
         add_by_index(page, s);
 }
 
-#define BY_CONTACT                                                                                                     \
-    {N_("option"), 23, 2, 0}, {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN},             \
-    {                                                                                                                  \
-        "", 5, 1, 0                                                                                                    \
-    }
+#define OPTION     {N_("option"), 23, 2, 0}
+#define BY_CONTACT {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN}
 
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
-        BY_CONTACT, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 4, 2, 0}};
+        OPTION, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0}, BY_CONTACT, {"", 0, 1, 0}};
     static const struct ceduo_page_column by_index[] = {
-        BY_CONTACT, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
+        OPTION, BY_CONTACT, {"", 5, 1, 0}, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
     if (r->wooded) {
         ceduo_page_table(page, wooded, sizeof wooded / sizeof wooded[0]);
         ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));
@@ -122,12 +120,16 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     struct text span = {0};
     ceduo_words_span(&span, v);
-    ceduo_text_format(caption,
-                      v->wooded ? _("Over %s: of 1000 released, in the mean and in the worst year; years in which a test "
-                                    "fails; wood felled per hectare and year, and standing:")
-                                : _("Over %s: the worst year; years in which a test fails; wood felled per hectare and "
-                                    "year, and standing:"),
-                      ceduo_text_string(&span));
+    if (v->wooded)
+        ceduo_text_format(caption,
+                          _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
+                            "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
+                          ceduo_text_string(&span), (unsigned long long)v->choices[0].rocks);
+    else
+        ceduo_text_format(caption,
+                          _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
+                            "year, and standing:"),
+                          ceduo_text_string(&span));
     caption->failed |= span.failed;
     ceduo_text_free(&span);
     if (v->choices[0].flown > 0) {

@@ -16,10 +16,20 @@ static void put_goal(struct text *text, enum ceduo_goal goal, double value)
         ceduo_text_format(text, "%.4g %s", value, ceduo_goals[goal].unit);
 }
 
-static void put_found(struct text *text, const struct ceduo_found *f, const char *path, const char *goal)
+/* With four digits, on the side that reaches the goal; JSON has them all. */
+static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
+{
+    double scale = pow(10, fmax(0, 3 - floor(log10(fabs(f->value)))));
+    if (f->whole_range || !isfinite(scale) || f->value == floor(f->value))
+        return f->value;
+    return f->side == CEDUO_SMALLEST ? fmin(s->hi, ceil(f->value * scale) / scale) : fmax(s->lo, floor(f->value * scale) / scale);
+}
+
+static void put_found(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const char *path,
+                      const char *goal)
 {
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s = %s\n  ", path, ceduo_number_shortest(f->value, room));
+    ceduo_text_format(text, "%s = %s\n  ", path, ceduo_number_shortest(shown(s, f), room));
     ceduo_text_format(text,
                       f->whole_range              ? _("every value of the range reaches the goal: %s")
                       : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")
@@ -59,7 +69,7 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     ceduo_text_safe(&option, report->file->scene.options[s->option].name);
     put_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
     if (f->found)
-        put_found(text, f, ceduo_text_string(&path), ceduo_text_string(&goal));
+        put_found(text, s, f, ceduo_text_string(&path), ceduo_text_string(&goal));
     else
         put_none(text, s, f, ceduo_text_string(&path), ceduo_text_string(&goal));
     put_wanted(text, s, ceduo_text_string(&option));

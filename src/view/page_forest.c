@@ -120,6 +120,13 @@ static void say_share_left(struct text *line, const char *rule, const struct ced
                           rule, WRITTEN(a->energy.mean * KILO, 4), WRITTEN(index->residual * KILO, 3));
 }
 
+/* All three with the decimals of the first, so that what is written is true. */
+static void say_difference(struct text *line, double mean, double taken, double left)
+{
+    int decimals = (int)fmax(0, 3 - floor(log10(mean)));
+    ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken, decimals, left);
+}
+
 static void say_amount_left(struct text *line, const char *rule, const struct ceduo_index *index,
                             const struct ceduo_arrivals *a)
 {
@@ -130,9 +137,10 @@ static void say_amount_left(struct text *line, const char *rule, const struct ce
         ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
     else if (index->exhausted)
         ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
+    else if (index->dissipated == 0)
+        ceduo_text_then(line, "; ", _("left (Eq. 5): all of %s kJ."), WRITTEN(index->residual * KILO, 3));
     else
-        ceduo_text_then(line, "; ", _("left (Eq. 5): %s \xe2\x88\x92 %s = %s kJ."), WRITTEN(a->energy.mean * KILO, 4),
-                        WRITTEN(index->dissipated * KILO, 3), WRITTEN(index->residual * KILO, 3));
+        say_difference(line, a->energy.mean * KILO, index->dissipated * KILO, index->residual * KILO);
 }
 
 void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
@@ -162,6 +170,12 @@ static void add_size(struct ceduo_page *page, const struct ceduo_block *b)
     ceduo_page_share(page, b->arrivals.released > 0 ? &b->arrivals : NULL);
 }
 
+/* Of sizes less than an octave apart the order would be chance: the scene's own stands for them. */
+static bool is_told_apart(const struct ceduo_block *b, double own)
+{
+    return b->own || b->volume >= 2 * own || 2 * b->volume <= own;
+}
+
 #define SIZES_WIDTH 68
 
 void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_block *blocks)
@@ -172,13 +186,17 @@ void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
                                                        {NULL, -18, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     char room[CEDUO_NUMBER_ROOM];
+    double own = NAN;
     if (page->width < SIZES_WIDTH)
         return;
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+        own = blocks[i].own ? blocks[i].volume : own;
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
                       _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
                       ceduo_number_shortest(c->x_given, room));
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_page_limit(page, c, _("of 1000 arrive"));
     for (size_t i = 0; i < CEDUO_BLOCKS; i++)
-        add_size(page, &blocks[i]);
+        if (is_told_apart(&blocks[i], own))
+            add_size(page, &blocks[i]);
 }

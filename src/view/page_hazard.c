@@ -23,13 +23,21 @@ static const char *name_of(const struct ceduo_result *r, size_t item)
 
 /* ---- in words ---- */
 
+void ceduo_words_every(struct text *text, struct ceduo_rate rate)
+{
+    if (isnan(rate.rate))
+        ceduo_text_char(text, '-');
+    else if (rate.rate > 0)
+        ceduo_text_put(text, WRITTEN(1 / rate.rate, 2));
+    else
+        ceduo_text_format(text, "> %s", WRITTEN(1 / rate.hi, 2));
+}
+
 void ceduo_words_years(struct text *text, struct ceduo_rate rate)
 {
-    if (!(rate.rate > 0)) {
-        ceduo_text_format(text, "> %s", WRITTEN(1 / rate.hi, 2));
+    ceduo_words_every(text, rate);
+    if (!(rate.rate > 0))
         return;
-    }
-    ceduo_text_put(text, WRITTEN(1 / rate.rate, 2));
     if (rate.lo > 0)
         ceduo_text_format(text, " (%s\xe2\x80\x93%s)", WRITTEN(1 / rate.hi, 2), WRITTEN(1 / rate.lo, 2));
     else
@@ -164,23 +172,21 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 
 #define FEW 2 /* options, of which each has sentences of its own; more are a table */
 
-/* What the wood leaves of each intensity. */
+/* What arrives of each intensity. */
 static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_hazard *h = hazard_of(r, option + 1, control);
-    struct text *line = h ? ceduo_page_add(page, CEDUO_PAGE_SENTENCE) : NULL;
-    char rooms[CEDUO_INTENSITIES][CEDUO_NUMBER_ROOM];
-    if (!h)
-        return;
-    for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
-        ceduo_words_shown(h->intensity[i].left * 100, 2, rooms[i]);
-    ceduo_text_format(line,
-                      r->scene->options_count > 1
-                          ? _("Of the rocks that would arrive without forest '%s' leaves %s %% of the weak ones, %s %% of the "
-                              "medium and %s %% of the strong.")
-                          : _("Of the rocks that would arrive without forest the wood of '%s' leaves %s %% of the weak ones, "
-                              "%s %% of the medium and %s %% of the strong."),
-                      r->scene->options[option].name, rooms[0], rooms[1], rooms[2]);
+    struct text said = {0};
+    for (size_t i = 0; h && i < CEDUO_INTENSITIES; i++)
+        if (!isnan(h->intensity[i].left)) /* without forest some arrive */
+            ceduo_text_then(&said, said.length > 0 ? ", " : "", _("%s %s %%"), ceduo_words_intensity((int)i),
+                            WRITTEN(h->intensity[i].left * 100, 2));
+    if (said.length > 0)
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
+                          r->scene->options[option].name, ceduo_text_string(&said));
+    page->failed |= said.failed;
+    ceduo_text_free(&said);
 }
 
 /* The option with which what is feared is rarest. */
@@ -207,11 +213,11 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     char room[CEDUO_NUMBER_ROOM];
     if (isnan(c->accepted))
-        ceduo_text_put(caption, _("Years from one rock to the next, and how much of the weak, medium and strong ones is left:"));
+        ceduo_text_put(caption, _("Years from one rock to the next, and what arrives weak, medium and strong, in % of what does without forest:"));
     else
         ceduo_text_format(caption,
-                          _("Years from one rock with more than %s kJ to the next, and how much of the weak, medium and strong "
-                            "ones is left:"),
+                          _("Years from one rock with more than %s kJ to the next, and what arrives weak, medium and strong, in "
+                            "%% of what does without forest:"),
                           ceduo_number_shortest(ceduo_words_accepted(c), room));
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     for (size_t i = 0; i <= r->scene->options_count; i++) {
@@ -221,7 +227,7 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
         ceduo_text_put(ceduo_page_text(page), name_of(r, i));
         ceduo_words_years(ceduo_page_text(page), ceduo_hazard_feared(h));
         for (size_t k = 0; k < CEDUO_INTENSITIES; k++)
-            ceduo_text_put(ceduo_page_text(page), i == 0 ? "100" : WRITTEN(h->intensity[k].left * 100, 2));
+            ceduo_text_put(ceduo_page_text(page), isnan(h->intensity[k].left) ? _("none") : i == 0 ? "100" : WRITTEN(h->intensity[k].left * 100, 2));
     }
 }
 

@@ -87,15 +87,6 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
                       survey, model, blocks);
 }
 
-/* Weights of small and large blocks: those that stems stop are small ones. */
-static void say_sorted(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_arrivals *wooded,
-                       const struct ceduo_arrivals *bare)
-{
-    if (r->scene->blocks_count > 0 && wooded && wooded->energy.p50 > bare->energy.p50)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
-                       _("Through the wood fewer rocks arrive, but larger ones: stems stop the small ones first."));
-}
-
 void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
@@ -104,5 +95,4 @@ void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *
     if (wooded)
         add_run(page, true, wooded);
     add_run(page, false, bare);
-    say_sorted(page, r, wooded, bare);
 }

@@ -25,7 +25,8 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
     const struct ceduo_result *r = report->result;
     struct text *line = ceduo_page_fact(page, _("Rock"));
     ceduo_text_format(line,
-                      ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
+                      r->scene->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
+                      : ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
                                                          : _("%s, %s kg, mean diameter %s m"),
                       _(shapes[r->scene->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
     ceduo_text_put(line, assumed_mark(report, "rock"));
@@ -87,12 +88,9 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
 static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
 {
     ceduo_text_put(ceduo_page_text(page), name);
+    if (!isnan(a->exceed_probability))
+        ceduo_words_of_1000(ceduo_page_text(page), a->exceed_probability, a->exceed_lo, a->exceed_hi);
     ceduo_words_of_1000(ceduo_page_text(page), a->reach_probability, a->reach_lo, a->reach_hi);
-    struct text *exceed = ceduo_page_text(page);
-    if (isnan(a->exceed_probability))
-        ceduo_text_put(exceed, "-");
-    else
-        ceduo_words_of_1000(exceed, a->exceed_probability, a->exceed_lo, a->exceed_hi);
     struct ceduo_page_cell *mean = ceduo_page_cell(page);
     if (a->reached > 0) {
         mean->kind = CEDUO_CELL_MEAN;
@@ -105,15 +103,22 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
     ceduo_page_number(page, a->speed.mean, 3);
 }
 
-/* The two runs below one another. */
+/* The two runs below one another; what arrives with more than is withstood comes first. */
 static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c,
                                const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
     static const struct ceduo_page_column columns[] = {
-        {NP_("head", "of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0}, {NULL, -16, 0, 0},     {NP_("head", "arriving kJ"), -12, 0, 0},
-        {N_("95 %"), -6, 0, 0},    {N_("m/s"), -5, 0, 0}};
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
-    ceduo_page_limit(page, c, "");
+        {NP_("head", "of 1000"), 16, 4, 0}, {NULL, -16, 0, 0}, {N_("arrive"), -16, 0, 0},
+        {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0}, {N_("m/s"), -5, 0, 0}};
+    static const struct ceduo_page_column not_accepted[] = {
+        {NP_("head", "of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0},
+        {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0}, {N_("m/s"), -5, 0, 0}};
+    if (isnan(c->accepted)) {
+        ceduo_page_table(page, not_accepted, sizeof not_accepted / sizeof not_accepted[0]);
+    } else {
+        ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+        ceduo_page_limit(page, c, "");
+    }
     if (wooded)
         add_arrivals_row(page, _("through the wood"), wooded);
     add_arrivals_row(page, _("without forest"), bare);
@@ -123,10 +128,13 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
 static void say_arrivals(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
     if (!isnan(a->exceed_probability))
-        ceduo_text_then(line, ", ", _("%s with more than it withstands"),
-                        WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi));
+        ceduo_text_format(line, _("%s: %s of 1000 arrive with more than it withstands, %s at all"), name,
+                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi),
+                          WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
+    else
+        ceduo_text_format(line, _("%s: %s of 1000 arrive"), name,
+                          WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("of those that arrive the mean is %s \xc2\xb1 %s kJ, 95 %% below %s"),
                         WRITTEN(a->energy.mean * KILO, 4), WRITTEN(ceduo_half_width(a->energy.se, a->reached) * KILO, 2),
@@ -158,7 +166,16 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
             all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
-/* What cannot mislead: the mean of those that arrive may be higher through the forest, as the slow ones are stopped. */
+/* What reads as harm is that the small and the slow ones are stopped. */
+static void say_sorted(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
+{
+    if (wooded && wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                       _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean is "
+                         "higher."));
+}
+
+/* The mean that cannot mislead: of all released. It is no energy that the place must withstand. */
 static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded,
                               const struct ceduo_arrivals *bare)
 {
@@ -182,7 +199,6 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
     const struct ceduo_arrivals *through = r->scene->options[option].belts_count > 0 ? wooded : NULL; /* said once */
-    say_energy_of_all(page, through, bare);
     if (page->width >= CEDUO_PAGE_WIDTH) {
         add_arrivals_table(page, &r->scene->controls[control], wooded, bare);
     } else {
@@ -190,6 +206,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
             say_arrivals(page, _("Through the wood"), through);
         say_arrivals(page, _("Without forest"), bare);
     }
+    say_sorted(page, through, bare);
     if (wooded)
         say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
     if (wooded && none_arrives(wooded) && !none_arrives(bare))
@@ -209,6 +226,8 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
         ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+    say_energy_of_all(page, r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL,
+                      &r->bare.arrivals[control]);
 }
 
 /* ---- an option ---- */

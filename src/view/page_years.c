@@ -46,15 +46,15 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
 static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s,
                          bool says)
 {
-    ceduo_text_then(line, " ", _("With %g rocks a year %.3g a year are to be expected to pass"), scene->rocks_per_year,
-                      s->passes_per_year);
+    ceduo_text_then(line, " ", _("With %g rocks a year %s a year are to be expected to pass"), scene->rocks_per_year,
+                      WRITTEN(s->passes_per_year, 2));
     if (says)
-        ceduo_text_then(line, ", ", _("%.3g of them with too much energy"), s->exceeds_per_year);
+        ceduo_text_then(line, ", ", _("%s of them with too much energy"), WRITTEN(s->exceeds_per_year, 2));
     if (says)
-        ceduo_text_then(line, "; ", _("in all %zu years %.3g and %.3g"), s->years, s->passes_per_year * (double)s->years,
-                        s->exceeds_per_year * (double)s->years);
+        ceduo_text_then(line, "; ", _("in all %zu years %s and %s"), s->years, WRITTEN(s->passes_per_year * (double)s->years, 2),
+                        WRITTEN(s->exceeds_per_year * (double)s->years, 2));
     else
-        ceduo_text_then(line, "; ", _("in all %zu years %.3g"), s->years, s->passes_per_year * (double)s->years);
+        ceduo_text_then(line, "; ", _("in all %zu years %s"), s->years, WRITTEN(s->passes_per_year * (double)s->years, 2));
     ceduo_text_char(line, '.');
 }
 
@@ -92,6 +92,10 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
             mean.mean * 1000, ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
     else
         ceduo_text_format(line, _("The ADC is largest in year %u."), s.worst_year);
+    if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
+        ceduo_text_char(line, ' ');
+        ceduo_words_counted(line, years->rocks);
+    }
     if (s.flown > 0 && !isnan(r->scene->rocks_per_year))
         say_expected(line, r->scene, &s, says);
     double felled = ceduo_years_felled(years);

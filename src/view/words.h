@@ -74,8 +74,12 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option, co
 /* Years of a verdict in a few words: "one whole rotation", "years 0 to 30". */
 void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
 
-/* How often what is feared at a control happens, in one sentence; "13 (9–14)" years; a class of intensity, -1: none. */
+/* How years are numbered, and with how many rocks in each they were simulated (0: by the index). */
+void ceduo_words_counted(struct text *text, uint64_t rocks);
+
+/* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years; a class of intensity, -1: none. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+void ceduo_words_every(struct text *text, struct ceduo_rate rate);
 void ceduo_words_years(struct text *text, struct ceduo_rate rate);
 const char *ceduo_words_intensity(int intensity);
 

@@ -57,9 +57,16 @@ void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_ver
     }
 }
 
-/* ---- the best ---- */
+void ceduo_words_counted(struct text *text, uint64_t rocks)
+{
+    if (rocks > 0)
+        ceduo_text_format(text, _("Years are counted from today, with %llu rocks in each; the worst is the worst of these."),
+                          (unsigned long long)rocks);
+    else
+        ceduo_text_put(text, _("Years are counted from today."));
+}
 
-#define NAMED_MOST 3 /* options named where none of them is clearly best */
+/* ---- the best ---- */
 
 static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
 {
@@ -99,25 +106,29 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
                      const char *when)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
-    ceduo_text_format(text, "%s ", when);
-    if (leader->rivals + 1 == v->n || leader->rivals >= NAMED_MOST) {
-        ceduo_text_format(text,
-                          leader->rivals + 1 == v->n ? _("no option is clearly better than the others.")
-                                                     : _("%zu options are best and cannot be told apart."),
-                          leader->rivals + 1);
-        return;
-    }
     struct text names = {0}, numbers = {0};
+    ceduo_text_format(text, "%s ", when);
     put_leaders(&names, scene, v, leader, rotation, true);
     put_leaders(&numbers, scene, v, leader, rotation, false);
-    ceduo_text_format(
-        text,
-        leader->rivals == 0
-            ? v->accepted ? _("%s lets the fewest dangerous rocks through: %s of 1000.")
-                          : _("%s lets the fewest rocks through: %s of 1000.")
-        : v->accepted ? _("%s let the fewest dangerous rocks through and cannot be told apart: %s of 1000.")
-                      : _("%s let the fewest rocks through and cannot be told apart: %s of 1000."),
-        ceduo_text_string(&names), ceduo_text_string(&numbers));
+    if (leader->rivals + 1 == v->n && leader->equal)
+        ceduo_text_format(text, _("all options are equal: %.0f of 1000."), mean_of(v, rotation, leader->best));
+    else if (leader->rivals + 1 == v->n)
+        ceduo_text_put(text, _("no option is clearly better than the others."));
+    else if (leader->rivals == 0)
+        ceduo_text_format(text,
+                          v->accepted ? _("%s lets the fewest dangerous rocks through: %s of 1000.")
+                                      : _("%s lets the fewest rocks through: %s of 1000."),
+                          ceduo_text_string(&names), ceduo_text_string(&numbers));
+    else if (leader->equal)
+        ceduo_text_format(text,
+                          v->accepted ? _("%s are equal and let the fewest dangerous rocks through: %.0f of 1000.")
+                                      : _("%s are equal and let the fewest rocks through: %.0f of 1000."),
+                          ceduo_text_string(&names), mean_of(v, rotation, leader->best));
+    else
+        ceduo_text_format(text,
+                          v->accepted ? _("%s let the fewest dangerous rocks through and cannot be told apart: %s of 1000.")
+                                      : _("%s let the fewest rocks through and cannot be told apart: %s of 1000."),
+                          ceduo_text_string(&names), ceduo_text_string(&numbers));
     text->failed |= names.failed || numbers.failed;
     ceduo_text_free(&names);
     ceduo_text_free(&numbers);
@@ -128,7 +139,7 @@ static bool say_both(struct text *text, const struct ceduo_scene *scene, const s
                      const char *when)
 {
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
-    if (!a->known || !b->known || a->best != b->best || a->rivals > 0 || b->rivals > 0)
+    if (!b->known || b->uneven || a->best != b->best || a->rivals > 0 || b->rivals > 0)
         return false;
     ceduo_text_format(text,
                       v->accepted
@@ -144,13 +155,14 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
     if (v->nothing)
         ceduo_text_put(text, _("Nothing can be said of any option: no rock arrives, even without forest."));
     const char *when = all_of_kind(v, CEDUO_WINDOW_GIVEN) ? _("Over these years") : _("Over a whole rotation");
-    bool years = v->rotation.known && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
+    bool years = v->rotation.known && !v->rotation.uneven && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
+    bool today = v->today.known && !v->today.uneven;
     if (years && say_both(text, scene, v, when))
         return;
     if (years)
         say_best(text, scene, v, true, when);
-    if (years && v->today.known)
+    if (years && today)
         ceduo_text_char(text, '\n');
-    if (v->today.known)
+    if (today)
         say_best(text, scene, v, false, _("Today"));
 }

@@ -58,7 +58,7 @@ def section(text, name):
     return "\n".join(lines[first:end])
 
 
-ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(\d+ \(\d+–\d+\)) +(-|\d+ \(\d+–\d+\)) +"
+ARRIVALS_ROW = re.compile(r"^ {4}(?:through the wood|without forest) +(?:(\d+ \(\d+–\d+\)) +)?(\d+ \(\d+–\d+\)) +"
                           r"(?:-|([\d.]+) ?±(-|[\d.]+)) +(-|[\d.e]+) +(-|[\d.e]+)$")
 
 
@@ -86,8 +86,8 @@ def expect_arrivals(line, arrivals):
     """A line of the table of arrivals has a blank between any two cells, and what it says of a mean and its error is true."""
     found = ARRIVALS_ROW.match(line)
     expect(found, "cells run into one another:", repr(line))
-    reach, exceed, mean, half, p95, speed = found.groups()
-    expect_equal((reach, exceed), (of_1000("reach", arrivals), of_1000("exceed", arrivals)), line)
+    exceed, reach, mean, half, p95, speed = found.groups()
+    expect_equal((exceed or "-", reach), (of_1000("exceed", arrivals), of_1000("reach", arrivals)), line)
     energy = arrivals["energy_kJ"]
     expect_equal(mean is None, energy["mean"] is None, line)
     if mean is not None and arrivals["rocks_reached"] < 10:
@@ -127,6 +127,8 @@ def expect_option(text, option):
         expect_in("On the whole profile: of 1000, {} are stopped by stems, {} come to rest, {} leave it".format(*shares),
                   flat_text, "ends")
         energies = [digits(control[k]["energy_per_released_kJ"]["mean"], 3) for k in ("wooded", "bare")]
+        place = flat_text[[m.end() for m in re.finditer(r" At [\d.]+ m", flat_text)][i]:]
+        expect(place.index(" of 1000 ") < place.index("Energy per released rock"), "a mean over all stands above the shares", text)
         expect(re.search(r"Energy per released rock: {} ±\S+ kJ through the wood, {} ±\S+ without it\.".format(*map(re.escape, energies)), flat_text),
                energies, text)
         if control["wooded"]["rocks_reached"] > 0:
@@ -161,7 +163,7 @@ def cells_of_rows(text):
     """What stands in the rows of arrivals behind the shares: mean, 95 %, m/s."""
     rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
     expect(rows, "no rows", text)
-    return [row[52:].strip().rsplit(None, 2) for row in rows]
+    return [re.sub(r"^ *(?:through the wood|without forest)|\d+ \(\d+–\d+\)", "", row).strip().rsplit(None, 2) for row in rows]
 
 
 BLOCK = re.compile(r"^ {2}([> ]) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+|none) +([\d.]+) +(-|\d+ \(\d+–\d+\))$")

@@ -94,6 +94,19 @@ def test_misfit():
     with Folder() as f:
         path = f.write("s.yaml", quarry(far))
         expect_in("This model cannot give what was seen here: stops.", ceduo("-n", 300, "--calibrate", f"{RT}=0.7:0.98", path).out)
+        middle = sum(STOPS) / 30
+        path = f.write("s.yaml", quarry({"stops": {"x_m": [middle + (7 if i % 2 else -7) + 0.01 * i for i in range(30)], "of": 30}}))
+        expect_in("This model can give the mean of what was seen here, but not how the values are spread: stops.",
+                  " ".join(ceduo("-n", 300, "--calibrate", f"{RT}=0.7:0.98", path).out.split()), "a mean that fits, in two heaps")
+
+
+def test_names():
+    """What was seen in two scenes under one name is told apart"""
+    with Folder() as f:
+        paths = [f.write(name, quarry()) for name in ("s.yaml", "t.yaml")]
+        page = ceduo("-n", 100, "--calibrate", f"{RT}=0.7:0.98", *paths).out
+    expect(re.search(r"^ *1 A quarry\n+ *2 A quarry$", page, re.M), page)
+    expect(re.search(r"stops, scene 1 .*\n.*stops, scene 2 ", page), page)
 
 
 def test_held_back():

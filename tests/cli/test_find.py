@@ -7,6 +7,7 @@ What is found is known beforehand: the ADC of N trees of 1/4 m a hectare and a r
 """
 import json
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -92,6 +93,17 @@ def test_arrive_equal():
     """Goal arrive: a share that equals the target reaches it"""
     expect(is_found(drop(), "arrive", 1), "all")
     expect(not is_found(drop(), "arrive", below(1)), "less than all")
+
+
+def test_digits():
+    """The page gives a value with four digits, and it still reaches the goal; JSON has them all"""
+    with Folder() as f:
+        path, per_ha = f.write("s.yaml", wood((0, 100, 400))), "forest[0].stand.trees[0].dbh_m"
+        orders = ("--find", f"{per_ha}=0.01:2", "--goal", "adc=17", "-n", 1, path)
+        value = good("-f", "json", *orders).json()[0]["value"]
+        shown = re.match(r"forest\[0\]\.stand\.trees\[0\]\.dbh_m = (\S+)\n", good(*orders).out).group(1)
+        expect(len(repr(value).strip("0.")) > 8 and len(shown.strip("0.")) <= 4 + ("." in shown.strip("0.")), value, shown)
+        expect(0 <= float(shown) - value < 1e-3 * value, "the smallest that reaches the goal", value, shown)
 
 
 def test_nobody_arrives():

@@ -243,6 +243,9 @@ def test_page():
         expect_in(f"A rock with more than 50 kJ reaches 'road' every {years[0]} years without forest, every {years[1]} years "
                   "with 'coppice'.", page)
         expect_in("A rock with more than 30 kJ reaches the place at 80 m every", page)
+        expect_in("Rock sphere; rocks are the blocks below, the index is of ", page)
+        left = ", ".join(f"{m['intensity']} {shown(100 * m['rate_left'])} %" for m in wooded["matrix"])
+        expect_in(f"Of what arrives without forest, so much arrives with 'coppice', each rock by its energy here: {left}.", page)
         square = page.split("Intensity by return period")[2]
         marks = {word: [[] for _ in range(3)] for word in ("none", "weak", "medium", "strong")}
         for number, h in enumerate((bare, hazard_of(result, "wooded", -1, 0), wooded)):
@@ -262,6 +265,10 @@ def test_page():
         expect_in("A rock reaches the place at 140 m every", alone)
         stuck = " ".join(good("--batch", f.write("u.yaml", falls(POWER, controls=[{"x_m": 55}]))).out.split())
         expect_in("every > ", stuck)
+        few = " ".join(good("--batch", f.write("w.yaml", slope_site(blocks={"per_year": 4, "volume_m3": [0.001, 0.002], "exponent": 1},
+                                                                      controls=[{"x_m": 140, "accepted_kJ": 1}]))).out.split())
+        expect(re.search(r"so much arrives with 'current', each rock by its energy here: weak \S+ %\. ", few), "intensities that do not arrive", few)
+        expect(" - %" not in few and "- %" not in stuck, "a share of none", few, stuck)
         index = " ".join(good("--batch", "-s", "simulation.contact_model=index", path).out.split())
         expect_in(f"reaches 'road' every {years[0]} years without forest. ", index)
         without = good("--batch", f.write("v.yaml", slope_site(blocks=None))).out
@@ -289,6 +296,20 @@ def test_many():
             wanted = [h["accepted_years"], h["accepted_years_lo"], h["accepted_years_hi"]]
             wanted += [100 * m["rate_left"] for m in h["matrix"]]
             expect_equal(list(row.groups()), [shown(v) for v in wanted])
+        expect_in("and what arrives weak, medium and strong, in % of what does without forest:", page)
+
+
+def test_means():
+    """Where the mean of the few that arrive is higher through the wood, the page says why; where it is lower it says nothing"""
+    said = "Fewer arrive through the wood, but larger or faster ones, as stems stop the others first"
+    with Folder() as f:
+        for what in (slope_site(), slope_site(blocks=None)):
+            path = f.write("s.yaml", what)
+            control = good("--batch", "-f", "json", path).json()[0]["options"][0]["controls"][1]
+            page = " ".join(good("--batch", path).out.split("At 140 m")[1].split("At 140 m")[0].split())
+            wooded, bare = (control[side]["energy_kJ"] for side in ("wooded", "bare"))
+            clear = wooded["mean"] - bare["mean"] > 1.96 * math.hypot(wooded["se"], bare["se"])
+            expect_equal(said in page, clear, f"{wooded} {bare}")
 
 
 def test_design():

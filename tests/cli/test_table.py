@@ -20,7 +20,7 @@ def test_table_order():
     option = run["options"][0]
     control = option["controls"][0]
     expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "through the wood",
-                 "without forest 992", "896", "113.2", "Of 1000, ", "stopped by stems", "come to rest", "leave the slope", "stems",
+                 "without forest 896", "992", "113.2", "Of 1000, ", "stopped by stems", "come to rest", "leave the slope", "stems",
                  "Contact: passes", "30 m", "Free run: passes", "Energy: FAILS", "of 1000 arrive with more than 50 kJ",
                  "50 are allowed", "ADS 1", "1.95 yes", "ADS 2", "2.61 yes", "interception", "gsteiger-stools 3.04 m",
                  "gsteiger-stems 1.49 m", "crofton 2.17 m", "(?i)by the index", "53.8 kJ",
@@ -41,8 +41,8 @@ def test_table_order():
 def test_table_order_index():
     """Table of the paper's site by the index: no figure through the wood, the index labelled, the energy light unknown"""
     text, run = good("--batch", *through("index"), PAPER).out, result(*through("index"), PAPER)
-    expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "without forest 992",
-                 "896", "113.2", "Contact: passes", "Free run: passes", "Energy: unknown", "index", "ADS 1", "1.95 yes", "ADS 2",
+    expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "without forest 896",
+                 "992", "113.2", "Contact: passes", "Free run: passes", "Energy: unknown", "index", "ADS 1", "1.95 yes", "ADS 2",
                  "2.61 yes", "gsteiger-stools 3.04 m", "(?i)by the index \\(Eq. 4, interception\\) stems could take 53.8 kJ",
                  "39.9 kJ per 100 m", "left \\(Eq. 5\\): 113.2 − 53.8 = 59.4 kJ", "62.3 kJ", "(?i)one rock", "Eq. 6 gives 2.61 m")
     expect_option(text, run["options"][0])
@@ -197,14 +197,13 @@ def test_table_close_call():
 
 
 def test_table_blocks():
-    """Table of blocks of other sizes: five, rising, this scene's marked and like the run, larger ones meet and carry more"""
-    for arguments, own in (((), 0.197), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),
+    """Table of blocks of other sizes: rising, an octave apart, this scene's marked and like the run, larger ones meet and carry more"""
+    for arguments, own in (((), 0.197), ((("-s", "rock.diameter_m=1.2", "-s", "rock.height_m=0.6")), 0.679), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),
                            (("-s", "rock.diameter_m=3", "-s", "rock.height_m=3"), 21.2)):
         text, run = good("--batch", PAPER, *arguments).out, result(PAPER, *arguments)
         rows = blocks_of(text)
-        expect_equal(len(rows), 5, "rows\n" + text)
         expect_equal(sorted(r[1] for r in rows), [r[1] for r in rows], "volumes rise")
-        expect_equal([r[1] for r in rows if not r[0]], [0.05, 0.2, 1, 5], "volumes")
+        expect_equal([r[1] for r in rows if not r[0]], [v for v in (0.05, 0.2, 1, 5) if not own / 2 < v < own * 2], "volumes")
         mine = next(r for r in rows if r[0])
         option, rock = run["options"][0], run["rock"]
         expect_equal(mine[1], own, "this scene's volume")
@@ -226,7 +225,7 @@ def test_table_blocks_cases():
         run, text = result(path), good("--batch", path).out
         for option in run["options"]:
             rows = blocks_of(section(text, option["name"]))
-            expect_equal(len(rows), 5, option["name"])
+            expect_equal(sum(r[0] for r in rows), 1, option["name"])
             mine = next(r for r in rows if r[0])
             expect_equal(mine[6], of_1000("exceed", option["controls"][1]["wooded"]), option["name"])
         expect(all(r[4] == math.inf and r[5] == 0 for r in blocks_of(section(text, "none"))), text)
@@ -251,7 +250,20 @@ def test_table_arrivals():
             run, text = result(path), good("--batch", path).out
             expect_option(text, run["options"][0])
             expect_width(text)
-            expect_equal(len(blocks_of(text)), 5, "blocks of other sizes")
+            expect(len(blocks_of(text)) in (4, 5), "blocks of other sizes", text)
+
+
+def test_table_left():
+    """Eq. 5 as it is written is true: one number of decimals, nothing is taken of nothing"""
+    for arguments in ((PAPER,), ("-s", "forest[0].stand.shoots=[]", PAPER), ("tschamut",), ("vaujany",)):
+        text = " ".join(good("--batch", "-n", 200, *arguments).out.split())
+        found = re.findall(r"left \(Eq\. 5\): (\S+) − (\S+) = (\S+) kJ", text)
+        expect(found or "left (Eq. 5): all of " in text, text)
+        for words in found:
+            mean, taken, left = map(float, words)
+            unit = 10.0 ** -len(words[0].partition(".")[2])
+            expect(taken > 0 and len({len(w.partition(".")[2]) for w in words}) == 1, words)
+            expect_near(mean - taken, left, 1.01 * unit, words)
 
 
 def test_table_verdicts():

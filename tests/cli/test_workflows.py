@@ -106,8 +106,8 @@ def option_shown(start, screen):
     return row if re.search(r"\d/\d", row) else row + " " + lines[at[0] + 1].strip()
 
 
-ROW = re.compile(r"\s(?P<adc>[\d.]+|none) (?P<contact>pass|FAIL) +(?P<run>[\d.]+) % (?P<free_run>pass|FAIL) +"
-                 r"(?P<share>\d+) ±(?P<error>\d+) +(?P<difference>-|[-+]\d+ ±\d+) +(?P<energy>pass|FAIL|\?)$")
+ROW = re.compile(r"\s(?P<share>\d+) ±(?P<error>\d+) +(?P<difference>-|[-+]\d+ ±\d+) +(?P<energy>pass|FAIL|\?) +"
+                 r"(?P<adc>[\d.]+|none) (?P<contact>pass|FAIL) +(?P<run>[\d.]+) % (?P<free_run>pass|FAIL)$")
 
 
 def side_by_side(page):
@@ -284,7 +284,7 @@ def test_two_cuts():
     expect(rows["selection"]["share"] < rows["simple"]["share"], "too much energy", rows)
     expect(1.6 < rows["selection"]["taken"] / rows["simple"]["taken"] < 2, rows)
     expect(160 < float(rows["simple"]["adc"]) < 180, rows)
-    bare = re.findall(r"without forest +1000 \(.*?\) +(\d+) \(", page)
+    bare = re.findall(r"without forest +(\d+) \([^)]*\) +1000 \(", page)
     expect_equal(len(bare), 2, "options")
     expect(bare[0] == bare[1] and 200 < int(bare[0]) < 300, page)
     assumed = page[page.index("Assumed, not measured"):]

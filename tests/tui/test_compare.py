@@ -43,5 +43,33 @@ def test_clear_differences():
     expect(seen == {"no option", "'one'", "'other'"}, "apart either way, and not apart though not the same", seen)
 
 
+def test_blocks():
+    """Where blocks of all sizes come down column and view 5 say how often a dangerous one does, and no mean of survivors"""
+    with Place() as place:
+        screen = place.play("resize 130 40\nkey 5\nwait idle\ndump", "blocks-above-the-road")[0]
+        rocks = re.search(r"(\d+) rocks", screen.now, re.M).group(1)
+        options = results("-n", rocks, "blocks-above-the-road")[0]["options"]
+    years = [o["controls"][0]["wooded"]["hazard"]["accepted_years"] for o in options]
+    bare = options[0]["controls"][0]["bare"]["hazard"]["accepted_years"]
+    expect_equal(screen.pair("years apart"), (round(years[0]), round(bare)))
+    expect("Rock" not in screen.now and "arriving kJ" not in screen.now, "one rock, or the mean of the few large ones", screen.now)
+    expect(re.search(r"^Blocks  0.01-2 m³  0.5/year$", screen.now, re.M), screen.now)
+    expect("every, y" in screen.body, screen)
+    found = re.findall(r"^ +\d+±\d+ +(\d+) +\d+ \(\d+\)", screen.body, re.M)
+    expect_equal(found, [f"{y:.0f}" for y in years], screen)
+    words = " ".join(screen.body.split())
+    expect(re.search(rf"reaches 'road' every {bare:.0f} \(.*\) years without forest, every {years[0]:.0f} ", words), words)
+    expect(re.search(r"Years are counted from today, with \d+ rocks in each; the worst is the worst of these\.", words), words)
+
+
+def test_copies():
+    """Of copies none is the best, and they are said to be equal; while options have different numbers of rocks none is"""
+    with Place() as place:
+        place.write("two.yaml", HEAD + "options:\n" + OPTION.format(name="one", per_ha=100) + TAIL)
+        before, after = place.play("resize 120 40\nkey 5\nwait idle\nkey y\ndump\nwait idle\ndump", "two.yaml", charset="ascii")
+    expect(not re.search(r" best |fewest", before.body), before)
+    expect(re.search(r"Today all options are equal: \d+ of 1000\.", " ".join(after.body.split())), after)
+
+
 if __name__ == "__main__":
     run_all(__name__)

@@ -9,6 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
 from play import check_good  # noqa: E402
+from pages import digits  # noqa: E402
 from harness import (PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good, result,  # noqa: E402
                      run_all)
 
@@ -248,7 +249,7 @@ def test_figures():
               f"(year {rotation['worst_year']}).", text)
     expect_in(f"Yield {option['yield']['cut_m3_ha_per_year']:.2g} m³ per ha and year.", text)
     expect_in(f"mean {1000 * rotation['exceed_probability']['mean']:.0f} ±", text)
-    expect_in(f"Expected a year: {rotation['passes_per_year']:.3g} pass, {rotation['exceeds_per_year']:.3g} with too much",
+    expect_in(f"Expected a year: {digits(rotation['passes_per_year'], 2)} pass, {digits(rotation['exceeds_per_year'], 2)} with too much",
               text)
     for screen, year in ((screens[0], years[0]), (screens[1], years[3])):
         number, cut, adc = year_said(screen)
@@ -350,7 +351,7 @@ def test_live_rate():
         wait idle
         dump""", "wood.yaml")
     passes = [float(re.search(r"Expected a year: (\S+) pass", flat(s)).group(1)) for s in screens]
-    expect(abs(passes[1] - 100 * passes[0]) <= 0.01 * passes[1], f"{passes}: 100 times the rocks")
+    expect(abs(passes[1] - 100 * passes[0]) <= 0.06 * passes[1], f"{passes}: 100 times the rocks")
 
 
 def test_live_threshold():

@@ -95,6 +95,16 @@ def test_rows():
                    "only a fit says what of it is determined.", "Simulated: 2000 rocks.")
 
 
+def test_spread():
+    """What 'does not give what was seen' names is not called inside in the row above it: of block 1 the mean alone fits"""
+    with Place() as place:
+        screen = place.play("resize 150 40\nkey 8\nwait idle\ndump", "tschamut")[0].whole()
+    words = " ".join(screen.body.split())
+    expect_in("does not give what was seen: block 1 (the mean fits, how the values are spread does not: p", words)
+    rows = dict(re.findall(r"^(block \d).* m +\S+–\S+ (inside|OUTSIDE|mean only)$", screen.body, re.M))
+    expect_equal(rows["block 1"], "mean only", screen)
+
+
 def test_fit_taken():
     """c fits what 'doubt' names; the speed that gives 22 m/s at the gate; Enter takes it as one edit, u takes it back"""
     with Place() as place:

@@ -792,11 +792,11 @@ def test_live_wood():
 def test_rough_doubt():
     """What is still being refined is called rough in the column, and no longer once it is not."""
     with Place() as place, Tmux(place, 120, 40) as t:
-        t.start("four-systems")
+        t.start("paper-site")
         t.keys("7")
-        found = re.search(r"^.*│ +doubt +\d+-\d+ +rough$", t.sees(" doubt  ", "rough"), re.M)
+        found = re.search(r"^.*│ +doubt +\d+-\d+ +rough$", t.sees("  doubt  ", " rough\n"), re.M)
         expect(found, "rough beside the doubt")
-        done = t.sees(" doubt  ", lacks=("rough", "being refined"))
+        done = t.sees(" doubt  ", lacks=(" rough\n", "being refined"))
         expect(re.search(r"│ +doubt +\d+-\d+$", done, re.M), done)
         t.keys("q")
 
