@@ -190,6 +190,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
         add_plots(a, &file->scene, NULL, NULL, NULL, out);
         return EXIT_DONE;
     }
+    ceduo_batch_warn(a, file);
     struct progress progress = ceduo_progress_begin(a);
     struct ceduo_question q = ceduo_batch_question(a, file, &progress);
     struct ceduo_pool *pool = NULL;

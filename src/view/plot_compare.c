@@ -12,9 +12,9 @@
  * arrive with too much energy (or at all, where that is not said) and the mean energy of those that arrive. */
 struct measures {
     double adc, middle, last; /* m; kJ per 100 m or of 1000; kJ. NaN: there is none */
-    bool passes, exhausted;
+    bool exhausted;
     bool awaited; /* what comes through the forest is not known yet */
-    enum ceduo_light energy;
+    enum ceduo_light contact, energy;
 };
 
 struct comparison {
@@ -39,10 +39,12 @@ static struct measures measures_of(const struct comparison *c, size_t i)
 {
     const struct ceduo_scene *scene = c->picture->scene;
     struct ceduo_index index = ceduo_assess_index(scene, &scene->options[i], c->control, c->bare);
+    const struct ceduo_arrivals *bare = ceduo_plot_bare_arrivals(c->picture, c->picture->control);
+    bool nothing = bare && ceduo_says_nothing(bare); /* then no light is on */
     struct measures m = {.adc = index.worst_adc,
                          .middle = index.per_100m * KILO,
                          .last = index.residual * KILO,
-                         .passes = index.contact == CEDUO_PASS,
+                         .contact = nothing ? CEDUO_UNKNOWN : index.contact,
                          .exhausted = index.exhausted};
     if (!c->wooded)
         return m;
@@ -53,7 +55,7 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     m.awaited = !a;
     m.middle = a ? 1000 * ceduo_share_of(a) : NAN;
     m.last = a ? a->energy.mean * KILO : NAN;
-    m.energy = ceduo_energy_light(a);
+    m.energy = nothing ? CEDUO_UNKNOWN : ceduo_energy_light(a);
     return m;
 }
 
@@ -127,7 +129,7 @@ static const char *word_of(enum ceduo_light light)
 static void draw_adc(const struct comparison *c, const struct measures *m, int row)
 {
     char room[PLOT_NUMBER_ROOM];
-    enum ceduo_light light = m->passes ? CEDUO_PASS : CEDUO_FAIL;
+    enum ceduo_light light = m->contact;
     const struct value v = {.share = adc_share(c, m->adc),
                             .limit = adc_share(c, c->picture->scene->simulation.threshold),
                             .role = role_of(light),

@@ -58,8 +58,10 @@ def test_outputs():
         expect_equal(row["verdict.answer"], "nothing")
         expect_equal(row["lights.energy"], "unknown")
         for arguments in (("--check",), ("--find", "forest[0].stand.stools.per_ha=500:4000", "--goal", "exceed=0.05"),
-                          ("--sensitivity=4",)):
-            expect_said(ceduo(*arguments, path).err)
+                          ("--sensitivity=4",), ("--plot", "compare")):
+            done = ceduo(*arguments, path)
+            expect_said(done.err)
+            expect("NO" not in done.out.split() and "pass" not in done.out.split(), "a light", done)
         years = result("--years", path)["options"][0]
         for key in ("contact", "free_run", "contact_8cm", "free_run_8cm", "energy"):
             expect_equal(years["rotation"]["unprotected_" + key], None, key)
