@@ -84,6 +84,36 @@ static void figures_and_years_come_to_an_end(void **state)
     release(&news);
 }
 
+/* What was computed and not yet taken is of no use once the scene is another. */
+static void nothing_of_an_older_scene_is_news(void **state)
+{
+    (void)state;
+    assert_true(show(true));
+    ceduo_jobs_wait(jobs);
+    file.scene.rock.diameter.mean *= 1.1;
+    assert_true(show(true));
+    struct jobs_news news = ceduo_jobs_news(jobs);
+    if (news.outlook)
+        assert_true(news.key == ceduo_jobs_key(&file.scene));
+    for (size_t i = 0; i < news.years_count; i++)
+        if (news.years && news.years[i])
+            assert_true(news.years[i]->key == ceduo_flights_years_key(&file.scene, i));
+    release(&news);
+}
+
+/* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
+static void a_contact_model_makes_another_key(void **state)
+{
+    (void)state;
+    uint64_t keys[3];
+    file.scene.options[0].belts_count = 0;
+    for (int i = 0; i < 3; i++) {
+        file.scene.simulation.contact_model = (enum ceduo_contact_model)i;
+        keys[i] = ceduo_jobs_key(&file.scene);
+    }
+    assert_true(keys[0] != keys[1] && keys[1] != keys[2] && keys[0] != keys[2]);
+}
+
 /* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */
 static void a_search_comes_first(void **state)
 {
@@ -197,6 +227,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_search_comes_first, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(nothing_of_an_older_scene_is_news, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_contact_model_makes_another_key, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_search_is_stopped, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_other_law_comes_along, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_doubt_comes_last, set_up, tear_down),
