@@ -136,6 +136,16 @@ def test_fit_taken():
     expect("Fitted." not in undone.body, undone)
 
 
+def test_fit_keeps_a_spread():
+    """A fitted value that is the mean of a spread takes the mean's place alone"""
+    with Place() as place:
+        place.write("flight.yaml", (FLIGHT + SEEN).replace("vx_m_s: 10}", "vx_m_s: {mean: 10, spread: 0.02}}"))
+        place.play("key 8\nwait idle\nkey c\nkey Enter\nwait idle\nkey Enter\nwait idle\nkey s\nwait idle\ndump", "flight.yaml")
+        text = place.text("flight.yaml")
+    value = re.search(r"vx_m_s: *{mean: *([\d.]+), *spread: *([\d.]+)", text)
+    expect(value and float(value[2]) == 0.02 and value[1] != "10" and abs(speed_at_gate(float(value[1])) - 22) < 0.2, text)
+
+
 def test_fit_left():
     """Esc while it goes on, Esc once it is done, and an edit meanwhile keep nothing of a fit"""
     with Place() as place:
