@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import fast  # noqa: E402
-from harness import expect_equal, run_all  # noqa: E402
+from play import Place, fast  # noqa: E402
+from harness import expect_equal, expect_in, run_all  # noqa: E402
 
 THRESHOLD = 3, "simulation.threshold_m", "^threshold"
 ROCKS = 3, "simulation.rocks", r"^rocks \(batch\)"
@@ -38,6 +38,14 @@ def test_through_a_power_of_ten():
 def test_counts_stay_whole():
     """A count of few has steps of 1: from 10 down to 9"""
     expect_equal(stepped(ROCKS, 11, "---++"), [10, 9, 8, 9, 10], "rocks")
+
+
+def test_centimetres():
+    """A diameter is stepped in the centimetres that are shown: from 30 to 31, and the file has metres"""
+    for start, keys, metres in ((30, "+", "0.31"), (30, "-", "0.29"), (10, "-", "0.099"), (9.9, "+", "0.1"), (100, "+", "1.1")):
+        with Place() as place:
+            place.play(f"key 2\nfind trees[0].dbh_m\nset {start}\nkey {keys}\nkey s\nwait idle\ndump")
+            expect_in(f"per_ha: 80, dbh_m: {metres},", place.text("fast.yaml"))
 
 
 if __name__ == "__main__":
