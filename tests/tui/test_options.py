@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import play  # noqa: E402
-from play import FAST, OPTIONS, Place, fast  # noqa: E402
+from play import CUTS, FAST, OPTIONS, Place, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, results, run_all  # noqa: E402
 from test_editing import FIGURE_NAMES  # noqa: E402
 from test_screens import BY_INDEX, SIGNS, SIZES, compared, compared_lights, lights, views_of  # noqa: E402
@@ -105,6 +105,23 @@ def test_compare_marks():
         expect("best" not in [cells["best"] for _, cells in rows], "one of two that are the same is best", rows)
     rows = compared(fast("resize 120 40\nkey 5\nwait idle\ndump", "options.yaml")[0])
     expect_equal([cells["best"] for _, cells in rows], [""] * 3, "by the index no option is best")
+
+
+def test_worst_overlaps():
+    """Of two options whose shares over the rotation lie within their errors neither is called the worst."""
+    hardly = """  - name: hardly any
+    forest:
+      - {from_m: 5, to_m: 80, stand: {name: one, species: ostrya-carpinifolia, energy: {model: brauner, u_J_m3: 100000},
+         trees: [{per_ha: 2, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}]}}
+"""
+    with Place() as place:
+        place.write("cuts.yaml", CUTS.replace("  - name: none left", hardly + "  - name: none left"))
+        screen = place.play("resize 120 40\nkey 5\nwait idle\ndump", "cuts.yaml", charset="ascii")[0]
+    rows = dict(compared(screen))
+    expect_equal({name: cells["best"] for name, cells in rows.items()},
+                 {"thick": "best", "thin": "", "hardly any": "", "none left": ""})
+    shares = [float(cells["rotation"].split("+")[0].split("±")[0]) for name, cells in rows.items() if name in ("hardly any", "none left")]
+    expect(shares[0] < shares[1], "they do not differ", shares)
 
 
 def test_compare_wood():
