@@ -88,8 +88,9 @@ def test_options():
     """Options: whether they separate, for the one that is shown"""
     with Place() as place:
         place.write("cuts.yaml", CUTS + DOUBT.replace("forest[0]", "options[*].forest[0]"))
-        thick, = place.play("key 7\nwait idle\ndump", "cuts.yaml")
+        thick, thin = place.play("key 7\nwait idle\ndump\nkey ]\nwait idle\ndump", "cuts.yaml")
     thick.has("thick is better than thin in", "clear.", "thick depends on")
+    thin.has("thick is better than thin in", "thin is better than none left in", "thin depends on") # the worse of a pair, too
 
 
 def test_units():
