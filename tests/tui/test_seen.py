@@ -136,6 +136,29 @@ def test_fit_taken():
     expect("Fitted." not in undone.body, undone)
 
 
+def picture_of(screen):
+    """The lines of the picture of stops, down to its axis."""
+    lines = screen.body.split("\n")
+    return lines[:next(i for i, line in enumerate(lines) if "└" in line) + 2]
+
+
+def test_stops_of_each_option():
+    """Where rocks stopped below two woods the picture is of the option that is shown"""
+    head = GROUNDS[:GROUNDS.index("forest:")].replace("  materials:", "  segments: [{rn: 0.3, rt: 0.8}]\n  # ").replace(
+        "    - {from_m", "  # - {from_m")
+    head += "options: [{name: one, forest: []}, {name: two, forest: []}]\nobserved:\n"
+    rows = ["  - {stops: {x_m: [80, 95, 104, 118], of: 4}, option: one}\n", "  - {stops: {x_m: [30, 35, 40], of: 3}, option: two}\n"]
+    play_both = "resize 120 40\nkey 8\nwait idle\ndump\nkey ]\nwait idle\ndump"
+    with Place() as place:
+        found = []
+        for names in (("one", "two"), ("two", "one")):
+            seen = "".join(row[:row.index("option:")] + f"option: {name}}}\n" for row, name in zip(rows, names))
+            place.write("s.yaml", head + seen + "simulation: {rocks: 60}\n")
+            found.append([picture_of(screen) for screen in place.play(play_both, "s.yaml")])
+    expect_equal(found[1], found[0][::-1], "the other way round")
+    expect(found[0][0] != found[0][1], "one picture for both", found[0][0])
+
+
 def test_fit_keeps_a_spread():
     """A fitted value that is the mean of a spread takes the mean's place alone"""
     with Place() as place:
