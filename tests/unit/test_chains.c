@@ -181,6 +181,38 @@ static void draws_that_hang_together_count_less(void **state)
     ceduo_chains_release(&c);
 }
 
+/* Two chains of eight steps, of which the first four are not read: by hand, with the n - 1 of Gelman et al. 2013, 11.4. Halves of
+ * two draws: means 4, 2, 9, 2 and variances 8, 2, 0, 8, so that W = 4.5, B/n = 131/12 and R-hat² = (W/2 + B/n)/W. */
+static void short_chains_by_hand(void **state)
+{
+    (void)state;
+    double rhat, size, x[] = {100, 100, 100, 100, 1, 3, 2, 6, 100, 100, 100, 100, 0, 4, 9, 9};
+    const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .room = 8, .x = x};
+    ceduo_chains_diagnose(&c, 0, &rhat, &size);
+    EXPECT_NEAR(rhat, sqrt((4.5 / 2 + 131. / 12) / 4.5), 1e-12);
+}
+
+/* A chain that is `run` times at 1, as often at -1, and so on: 64 steps, of which 32 are read, in two halves. */
+static double effective_of(size_t run)
+{
+    double rhat, size, x[64];
+    const struct chains c = {.dimensions = 1, .chains = 1, .steps = 64, .room = 64, .x = x};
+    for (size_t i = 0; i < 64; i++)
+        x[i] = i / run % 2 == 0 ? 1 : -1;
+    ceduo_chains_diagnose(&c, 0, &rhat, &size);
+    return size;
+}
+
+/* Draws on alternating sides of the mean count no more than independent ones. Where four follow on each side, of 16 draws 3 of 15
+ * neighbours and 6 of 14 next but one differ, by 2, and the variance is 1: correlations of 1 - 2·3/15 and 1 - 2·6/14; those farther
+ * apart are below 0 together, and are left out. */
+static void draws_that_alternate(void **state)
+{
+    (void)state;
+    EXPECT_NEAR(effective_of(1), 32, 1e-12);
+    EXPECT_NEAR(effective_of(4), 32 / (1 + 2 * (1 - 6. / 15 + 1 - 12. / 14)), 1e-9);
+}
+
 /* ---- the guess ---- */
 
 /* A quadratic is learnt whole; places without a value are left out. */
@@ -439,6 +471,7 @@ int main(void)
         cmocka_unit_test(chains_that_stand_still),
         cmocka_unit_test(a_normal_law_is_drawn_from),        cmocka_unit_test(a_wrong_guess_changes_nothing),
         cmocka_unit_test(threads_change_no_bit),             cmocka_unit_test(chains_apart_do_not_agree),
+        cmocka_unit_test(short_chains_by_hand),              cmocka_unit_test(draws_that_alternate),
         cmocka_unit_test(draws_that_hang_together_count_less), cmocka_unit_test(a_guess_learns_a_quadratic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -164,6 +164,27 @@ static void naslund_is_recovered(void **context)
         EXPECT_NEAR(ceduo_naslund_height(&found, d), ceduo_naslund_height(&truth, d), 0.12);
 }
 
+/* Six heights beside a curve: the root of their mean square distance from it. Where the squares are least, their sum does not change
+ * with a and b. */
+static void what_six_heights_leave(void **context)
+{
+    (void)context;
+    const double dbh[] = {.05, .1, .15, .2, .25, .3}, height[] = {5.2, 7.6, 10.7, 11.4, 12.9, 13.1};
+    struct ceduo_naslund c;
+    double squares = 0, by_a = 0, by_b = 0;
+    assert_int_equal(ceduo_naslund_fit(6, dbh, height, &c), CEDUO_OK);
+    for (size_t i = 0; i < 6; i++) {
+        double d = 100 * dbh[i], root = d / (c.a + c.b * d), left = height[i] - 1.3 - root * root;
+        squares += left * left;
+        by_a += left * root * root * root / d;
+        by_b += left * root * root * root;
+    }
+    EXPECT_NEAR(by_a, 0, 1e-6);
+    EXPECT_NEAR(by_b, 0, 1e-6);
+    EXPECT(squares, >, 0.1);
+    EXPECT_NEAR(c.rmse, sqrt(squares / 6), 1e-12);
+}
+
 /* No curve: too few heights, one diameter alone, heights that fall. */
 static void naslund_is_refused(void **context)
 {
@@ -270,6 +291,7 @@ int main(void)
         cmocka_unit_test(slopes_by_hand),           cmocka_unit_test(naslund_is_recovered),
         cmocka_unit_test(naslund_is_refused),       cmocka_unit_test(classes_by_hand),
         cmocka_unit_test(heights_that_are_missing),
+        cmocka_unit_test(what_six_heights_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fits whose likelihood is known in closed form: a rock's speed as it leaves is the value that is fitted, so that a mean speed that
+ * was seen is its normal law. And p of what the model itself has made. */
+#include "expect.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "ceduo/calibrate.h"
+#include "ceduo/ceduo.h"
+
+#define LO 10.
+#define HI 20.
+
+static const char *const place = "release.vx_m_s", *const density = "rock.density_kg_m3";
+static struct ceduo_input input;
+
+/* From 100 m above two metres of level ground, beyond which every rock leaves. */
+static struct ceduo_scene flight(double spread)
+{
+    static double x[] = {0, 2}, z[] = {0, 0};
+    static struct ceduo_segment segment;
+    static struct ceduo_option option = {.name = (char *)(uintptr_t) "bare"};
+    segment = (struct ceduo_segment){
+        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
+    struct ceduo_scene scene = ceduo_scene_default();
+    scene.slope = (struct ceduo_slope){.vertices = 2, .x = x, .z = z, .segments = &segment, .segments_given = 1};
+    scene.rock.shape = CEDUO_SPHERE;
+    scene.rock.diameter = ceduo_number(1);
+    scene.rock.density = ceduo_number(2600);
+    scene.release.height = ceduo_number(100);
+    scene.release.vx = (struct ceduo_number){.mean = 15, .spread = spread};
+    scene.options = &option;
+    scene.options_count = 1;
+    input = (struct ceduo_input){
+        .path = place, .kind = CEDUO_INPUT_RANGE, .lo = LO, .hi = HI, .places_count = 1, .places = &place};
+    return scene;
+}
+
+/* A mean speed where rocks leave, known to `sd`. */
+static struct ceduo_observation speed(double mean, double sd)
+{
+    return (struct ceduo_observation){.kind = CEDUO_OBSERVED_SPEED, .x = 0.001, .n = 1, .mean = mean, .sd = sd};
+}
+
+/* All pass, whatever is fitted. */
+static struct ceduo_observation all_pass(void)
+{
+    return (struct ceduo_observation){.kind = CEDUO_OBSERVED_PASSED, .x = 0.001, .count = 10, .of = 10};
+}
+
+/* Where the simplex was, for those who ask. */
+struct way {
+    double best;
+};
+
+static void on_progress(void *context, const struct ceduo_calibration_state *state)
+{
+    struct way *w = context;
+    if (state->stage != CEDUO_CHAINS)
+        w->best = state->best[0];
+}
+
+static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
+                                       uint64_t rocks, struct way *way)
+{
+    const struct ceduo_calibration_scene of = {scene, &input, n, seen};
+    const struct ceduo_calibration_def def = {.scenes_count = 1,
+                                              .scenes = &of,
+                                              .parameters_count = 1,
+                                              .rocks = rocks,
+                                              .seed = 1,
+                                              .threads = 1,
+                                              .progress = way ? on_progress : NULL,
+                                              .context = way};
+    struct ceduo_calibration a;
+    EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
+    assert_true(a.settled);
+    return a;
+}
+
+static struct ceduo_fitted fitted_to(double mean, double sd)
+{
+    struct ceduo_scene scene = flight(0);
+    const struct ceduo_observation seen = speed(mean, sd);
+    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    struct ceduo_fitted p = a.parameters[0];
+    ceduo_calibration_free(&a);
+    return p;
+}
+
+static int rising(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Between the two of n sorted values beside p(n - 1). */
+static double quantile(const double *sorted, size_t n, double p)
+{
+    double at = p * (double)(n - 1), below = floor(at);
+    size_t k = (size_t)below;
+    return k + 1 < n ? sorted[k] + (at - below) * (sorted[k + 1] - sorted[k]) : sorted[n - 1];
+}
+
+/* ---- what is not refuted ---- */
+
+/* A normal law, of which a quantile of 200 independent draws is known to 0.19 (2.5 and 97.5 %) and 0.09 (the median) of its sd; and
+ * the quantiles of the draws themselves. */
+static void a_normal_law_is_found(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = flight(0);
+    const struct ceduo_observation seen = speed(14, 1);
+    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    const struct ceduo_fitted *p = &a.parameters[0];
+    EXPECT_NEAR(p->best, 14, 0.02);
+    EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
+    EXPECT_NEAR(p->p50, 14, 4 * 0.09);
+    EXPECT_NEAR(p->p97_5, 14 + 1.96, 4 * 0.19);
+    assert_true(p->determined && !p->at_bound);
+    qsort(a.draws, a.draws_count, sizeof *a.draws, rising);
+    EXPECT_NEAR(p->p2_5, quantile(a.draws, a.draws_count, .025), 1e-9);
+    EXPECT_NEAR(p->p50, quantile(a.draws, a.draws_count, .5), 1e-9);
+    EXPECT_NEAR(p->p97_5, quantile(a.draws, a.draws_count, .975), 1e-9);
+    ceduo_calibration_free(&a);
+}
+
+/* A value lies at a bound where the best one is there, though half of the draws are farther than a twentieth from it (half a normal
+ * law: its median is 0.67 sd); or where they are not, though the best one is. What is not determined lies nowhere. */
+static void what_lies_at_a_bound(void **state)
+{
+    (void)state;
+    struct ceduo_fitted p = fitted_to(LO, 2);
+    assert_true(p.determined && p.at_bound);
+    EXPECT(p.best, <, LO + 0.01);
+    EXPECT(p.p50, >, LO + 0.5);
+    p = fitted_to(HI, 2);
+    assert_true(p.determined && p.at_bound);
+    EXPECT(p.p50, <, HI - 0.5);
+    p = fitted_to(LO + 0.3, 0.1);
+    assert_true(p.at_bound);
+    EXPECT(p.best, >, LO + 0.2);
+    assert_true(fitted_to(HI - 0.3, 0.1).at_bound);
+    assert_false(fitted_to(LO + 0.8, 0.1).at_bound);
+    p = fitted_to(LO, 20);
+    assert_false(p.determined || p.at_bound);
+}
+
+/* What says nothing leaves the value as it was before, uniform: draws with variance 1/12 of the range squared. */
+static void nothing_seen_leaves_a_uniform_law(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = flight(0);
+    const struct ceduo_observation seen = all_pass();
+    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    const struct ceduo_fitted *p = &a.parameters[0];
+    double sum = 0, squares = 0, n = (double)a.draws_count;
+    for (size_t i = 0; i < a.draws_count; i++) {
+        double u = (a.draws[i] - LO) / (HI - LO);
+        EXPECT(u, >, 0);
+        EXPECT(u, <, 1);
+        sum += u / n;
+        squares += u * u / n;
+    }
+    EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* of 200 independent draws */
+    EXPECT_NEAR(squares - sum * sum, 1. / 12, 4 * sqrt(1. / 180 / 200));
+    assert_false(p->determined || p->at_bound);
+    ceduo_calibration_free(&a);
+}
+
+/* What fits the better the faster, beyond the upper bound too: the simplex ends where it may not go on, 1/(1 + e^-9) of the range. */
+static void a_simplex_stays_within_its_bounds(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = flight(0);
+    const struct ceduo_observation seen = speed(25, 1);
+    struct way way = {NAN};
+    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, &way);
+    EXPECT(way.best, <=, LO + (HI - LO) / (1 + exp(-9)));
+    EXPECT(way.best, >, HI - 0.01);
+    EXPECT(a.parameters[0].best, <=, HI);
+    ceduo_calibration_free(&a);
+}
+
+/* ---- what is predicted ---- */
+
+/* Of two things fitted, or to check the fit, one that the model cannot give is enough, wherever it stands. */
+static void one_misfit_is_enough(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = flight(0);
+    for (int first = 0; first < 2; first++)
+        for (int check = 0; check < 2; check++) {
+            struct ceduo_observation seen[3] = {all_pass(), all_pass(), all_pass()};
+            seen[first] = speed(30, 1);
+            seen[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
+            struct ceduo_calibration a = fit_of(&scene, seen, 3, 2, NULL);
+            EXPECT(a.predicted[first].p_value, <, 0.001);
+            EXPECT(a.predicted[2].p_value, >, 0.5);
+            EXPECT(a.misfit, ==, !check);
+            EXPECT(a.refuted, ==, check);
+            ceduo_calibration_free(&a);
+        }
+}
+
+/* p is of other rocks than those of the fit: they differ from those of the scene as two samples do. */
+static void other_rocks_than_those_of_the_fit(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = flight(2);
+    input.path = density;
+    input.places = &density;
+    input.lo = 2500, input.hi = 2700;
+    const struct ceduo_observation seen = speed(15, 1);
+    struct ceduo_counterpart own;
+    struct ceduo_observer *observer;
+    EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_look(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
+    ceduo_observer_free(observer);
+    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50, NULL);
+    const struct ceduo_counterpart *at_best = &a.predicted[0].at_best;
+    EXPECT(at_best->mean, !=, own.mean);
+    EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
+    ceduo_calibration_free(&a);
+}
+
+/* Two rocks of each of 200 draws are 400 single values, which tell 95 % of them; one of each is not enough. */
+static void few_single_values_tell_nothing(void **state)
+{
+    (void)state;
+    struct ceduo_scene scene = flight(0);
+    const struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};
+    struct ceduo_calibration a = fit_of(&scene, seen, 2, 2, NULL);
+    assert_true(a.predicted[1].one_lo < 15 && a.predicted[1].one_hi > 15);
+    ceduo_calibration_free(&a);
+    a = fit_of(&scene, seen, 1, 1, NULL);
+    ceduo_calibration_free(&a);
+    const struct ceduo_observation passed_and_checked[2] = {
+        all_pass(), {.kind = CEDUO_OBSERVED_SPEED, .use = CEDUO_OBSERVED_CHECK, .x = 0.001, .n = 1, .mean = 15, .sd = 1}};
+    a = fit_of(&scene, passed_and_checked, 2, 1, NULL);
+    assert_true(isnan(a.predicted[1].one_lo) && isnan(a.predicted[1].one_hi));
+    ceduo_calibration_free(&a);
+}
+
+#define SEEN   400 /* times */
+#define VALUES 30
+
+/* 400 lists of what rocks of another seed did, and 400 means of them: each p is as likely as any other, in ten classes by Pearson's
+ * test with 9 degrees of freedom at one of a thousand. */
+static void p_is_uniform_under_the_truth(void **state)
+{
+    (void)state;
+    static struct ceduo_observation seen[2 * SEEN];
+    static struct ceduo_predicted p[2 * SEEN];
+    struct ceduo_scene scene = flight(2), truth = scene;
+    const struct ceduo_observation any = speed(15, 1);
+    struct ceduo_observer *observer;
+    double *values;
+    size_t n;
+    truth.simulation.seed = 99;
+    EXPECT(ceduo_observer_create(&any, 1, &observer), ==, CEDUO_OK);
+    EXPECT(ceduo_observer_values(observer, &truth, 0, SEEN * VALUES, &values, &n), ==, CEDUO_OK);
+    ceduo_observer_free(observer);
+    EXPECT(n, ==, SEEN * VALUES);
+    for (size_t i = 0; i < SEEN; i++) {
+        double *list = values + i * VALUES, sum = 0, squares = 0;
+        qsort(list, VALUES, sizeof *list, rising);
+        for (size_t k = 0; k < VALUES; k++) {
+            sum += list[k] / VALUES;
+            squares += (list[k] - 15) * (list[k] - 15) / VALUES;
+        }
+        seen[i] = seen[SEEN + i] = speed(sum, 2);
+        seen[i].n = seen[SEEN + i].n = VALUES;
+        seen[i].values = list;
+        EXPECT(squares, >, 1);
+    }
+    const struct ceduo_calibration_scene of = {.scene = &scene, .observations_count = 2 * SEEN, .observations = seen};
+    EXPECT(ceduo_calibration_as_it_is(&of, 20000, NULL, p), ==, CEDUO_OK);
+    for (size_t kind = 0; kind < 2; kind++) {
+        double counts[10] = {0}, chi2 = 0;
+        for (size_t i = 0; i < SEEN; i++)
+            counts[(size_t)fmin(9, 10 * p[kind * SEEN + i].p_value)]++;
+        for (int c = 0; c < 10; c++)
+            chi2 += (counts[c] - SEEN / 10.) * (counts[c] - SEEN / 10.) / (SEEN / 10.);
+        EXPECT(chi2, <, 27.88);
+    }
+    free(values);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_normal_law_is_found),
+        cmocka_unit_test(what_lies_at_a_bound),
+        cmocka_unit_test(nothing_seen_leaves_a_uniform_law),
+        cmocka_unit_test(a_simplex_stays_within_its_bounds),
+        cmocka_unit_test(one_misfit_is_enough),
+        cmocka_unit_test(other_rocks_than_those_of_the_fit),
+        cmocka_unit_test(few_single_values_tell_nothing),
+        cmocka_unit_test(p_is_uniform_under_the_truth),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
