@@ -21,9 +21,11 @@ struct ceduo_question {
                                * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
     bool years;               /* each option year by year, with as many rocks */
     struct ceduo_window window; /* those years; step 0: of each option those of ceduo_window_in() */
-    uint64_t year_rocks;  /* > 0: in each year at the most so many */
+    uint64_t year_rocks;  /* > 0: in each year at the most so many; with years_most in all years of an option a few times
+                           * the rocks of a run */
     unsigned years_most;  /* > 0: at the most so many years, evenly spread over those */
-    uint64_t block_rocks; /* > 0: blocks of other sizes to the last control, at the most so many of each */
+    uint64_t block_rocks; /* > 0: blocks of other sizes to the last control, at the most so many of each, and no dearer
+                           * than the runs without forest and through it */
 };
 #define CEDUO_ALL_OPTIONS SIZE_MAX
 

@@ -236,9 +236,18 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     return CEDUO_NUMBER_GOOD;
 }
 
+/* A spreadsheet computes what begins so; an apostrophe before it keeps it as it is. */
+static bool is_formula(const char *value)
+{
+    double number;
+    return *value == '=' || *value == '+' || *value == '@' || *value == '\t' ||
+           (*value == '-' && value[1] && ceduo_number_read(value, &number) == CEDUO_NUMBER_NONE);
+}
+
 void ceduo_text_csv(struct text *text, const char *value)
 {
     struct text safe = {0};
+    ceduo_text_put(&safe, is_formula(value) ? "'" : "");
     ceduo_text_safe(&safe, value);
     const char *bytes = ceduo_text_string(&safe);
     if (!strpbrk(bytes, ",\"")) {

@@ -55,7 +55,7 @@ enum ceduo_number_reading ceduo_number_read(const char *string, double *value);
 /* Reads a whole number from lo to hi, exactly: CEDUO_NUMBER_TOO_LARGE where it lies outside. */
 enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double hi, uint64_t *value);
 
-/* A field of CSV, in quotes where it needs them. */
+/* A field of CSV, in quotes where it needs them; behind an apostrophe where a spreadsheet would read a formula. */
 void ceduo_text_csv(struct text *text, const char *value);
 
 /* The nearest of some words, NULL where none is near. */

@@ -27,21 +27,26 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
     return to;
 }
 
-/* A size of rock that costs more than this, in contacts and stems drawn, is simulated with fewer rocks: a splinter as large
- * as a house is more work than all the rest of a page. */
-#define EFFORT_MOST 5e6
-#define FIRST_ROCKS 4
+#define EFFORT_MOST 5e6 /* of any size: a page is not waited for */
 
-/* How many rocks a size may have, by what the first of them cost. */
-static uint64_t affordable(const struct ceduo_run *run, uint64_t rocks)
+/* Below so many rocks a size is left out: their share would say nothing. */
+#define FEWEST 10
+
+/* Of a size whose rocks meet so many times the stems of the scene's own not even the first is simulated. */
+#define TIMES_MOST 100
+
+/* How many rocks a size may have, by what those so far cost in contacts and stems drawn. */
+static uint64_t affordable(const struct ceduo_run *run, uint64_t rocks, double most)
 {
     double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn;
-    double most = EFFORT_MOST / effort * (double)ceduo_run_rocks(run);
-    return (double)rocks < most ? rocks : (uint64_t)most;
+    double n = effort > 0 ? most / effort * (double)ceduo_run_rocks(run) : INFINITY;
+    return (double)rocks < n ? rocks : (uint64_t)n;
 }
 
+/* One rock, then four times as many each time: the first may stop where the others go on. What cannot be paid is left out. */
 static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
-                                   uint64_t rocks, unsigned threads, const atomic_bool *cancel, struct ceduo_block *b)
+                                   uint64_t rocks, double effort, unsigned threads, const atomic_bool *cancel,
+                                   struct ceduo_block *b)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.option = option;
@@ -53,10 +58,13 @@ static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct
     enum ceduo_status status = ceduo_run_create(&def, &run);
     if (status != CEDUO_OK)
         return status;
-    status = ceduo_run_extend(run, FIRST_ROCKS);
-    if (status == CEDUO_OK)
-        status = ceduo_run_extend(run, affordable(run, rocks));
-    if (status == CEDUO_OK)
+    uint64_t most = rocks;
+    for (uint64_t n = 1; n > ceduo_run_rocks(run) && status == CEDUO_OK; n = n < most ? n : most) {
+        status = ceduo_run_extend(run, n);
+        most = affordable(run, rocks, effort);
+        n *= 4;
+    }
+    if (status == CEDUO_OK && ceduo_run_rocks(run) >= (rocks < FEWEST ? rocks : FEWEST))
         status = ceduo_run_arrivals(run, control, &b->arrivals);
     ceduo_run_free(run);
     return status;
@@ -80,7 +88,7 @@ static void sort_volumes(double own, struct ceduo_block blocks[CEDUO_BLOCKS])
 }
 
 enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
-                               uint64_t rocks, const struct ceduo_arrivals *own, unsigned threads,
+                               uint64_t rocks, double effort, const struct ceduo_arrivals *own, unsigned threads,
                                const atomic_bool *cancel, struct ceduo_block blocks[CEDUO_BLOCKS])
 {
     struct ceduo_rock mean, rock;
@@ -88,6 +96,8 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
     if (status != CEDUO_OK)
         return status;
     sort_volumes(mean.volume, blocks);
+    effort = fmin(effort, EFFORT_MOST);
+    double contacts = ceduo_assess_index(scene, option, &scene->controls[control], NAN).contacts;
     bool flies = scene->simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < CEDUO_BLOCKS && status == CEDUO_OK; i++) {
         struct ceduo_block *b = &blocks[i];
@@ -105,8 +115,8 @@ enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ced
         b->contacts = index.contacts;
         if (flies && b->own && own && own->released >= rocks && scene->blocks_count == 0)
             b->arrivals = *own;
-        else if (flies)
-            status = fly_block(&other, option, control, rocks, threads, cancel, b);
+        else if (flies && index.contacts <= TIMES_MOST * contacts)
+            status = fly_block(&other, option, control, rocks, effort, threads, cancel, b);
     }
     return status;
 }

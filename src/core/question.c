@@ -28,12 +28,25 @@ static enum ceduo_status fly_all(const struct ceduo_question *q, struct ceduo_po
                                             : ceduo_pool_extend(pool, q->rocks);
 }
 
+/* What is added to a page costs a few times what was asked for: of each option all years together have so many times the
+ * rocks of a run, where not the years were asked for but some of them. */
+#define YEARS_TIMES 6
+#define YEAR_FEWEST 10 /* fewer have no interval */
+
+static uint64_t rocks_in_year(const struct ceduo_question *q, uint64_t flown)
+{
+    uint64_t rocks = q->year_rocks > 0 && q->year_rocks < flown ? q->year_rocks : flown;
+    uint64_t most = q->years_most > 0 && q->year_rocks > 0 ? flown * YEARS_TIMES / q->years_most : rocks;
+    most = most < YEAR_FEWEST ? YEAR_FEWEST : most;
+    return rocks < most ? rocks : most;
+}
+
 static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     const struct ceduo_flown *bare = &a->result->bare;
     uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
-    rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
+    rocks = rocks_in_year(q, rocks);
     a->years = calloc(scene->options_count + 1, sizeof *a->years);
     enum ceduo_status status = a->years ? CEDUO_OK : CEDUO_NO_MEMORY;
     a->years_count = scene->options_count;
@@ -51,8 +64,15 @@ static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_
     return status;
 }
 
-/* So thin a splinter that a smaller one is no rock has no other sizes. */
-static enum ceduo_status fly_blocks(const struct ceduo_question *q, struct ceduo_answer *a)
+/* What the run of an option cost, in contacts and stems drawn. */
+static double effort_of(const struct ceduo_pool *pool, const struct ceduo_option *option)
+{
+    const struct ceduo_run *run = ceduo_pool_find(pool, option);
+    return run ? (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn : 0;
+}
+
+/* Each size may cost as much as the two runs beside it. So thin a splinter that a smaller one is no rock has no other sizes. */
+static enum ceduo_status fly_blocks(const struct ceduo_question *q, const struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     uint64_t flown = ceduo_result_rocks(a->result), rocks = flown < q->block_rocks ? flown : q->block_rocks;
@@ -60,6 +80,7 @@ static enum ceduo_status fly_blocks(const struct ceduo_question *q, struct ceduo
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
         status = ceduo_blocks(scene, &scene->options[i], a->result->last_control, rocks,
+                              effort_of(pool, NULL) + effort_of(pool, &scene->options[i]),
                               ceduo_result_wooded(a->result, i, a->result->last_control), q->run.threads, q->run.cancel,
                               &a->blocks[i * CEDUO_BLOCKS]);
     if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
@@ -78,7 +99,7 @@ static enum ceduo_status answer_by(const struct ceduo_question *q, struct ceduo_
         status = fly_years(q, pool, a);
     a->work = ceduo_pool_work(pool);
     if (status == CEDUO_OK && q->block_rocks > 0 && q->run.scene->controls_count > 0)
-        status = fly_blocks(q, a);
+        status = fly_blocks(q, pool, a);
     return status;
 }
 

@@ -429,7 +429,7 @@ static const char *find_in(struct arena *arena, const char *root, const char *na
     char *longer = path ? ceduo_arena_take(arena, strlen(path) + 6) : NULL;
     if (!longer)
         return NULL;
-    strcat(strcpy(longer, path), ".yaml");
+    strcat(strcpy(longer, path), strcmp(folder, "surveys") == 0 ? ".csv" : ".yaml");
     return is_file(longer) ? longer : NULL;
 }
 

@@ -196,7 +196,15 @@ void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
                       ceduo_number_shortest(c->x_given, room));
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_page_limit(page, c, _("of 1000 arrive"));
-    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
-        if (is_told_apart(&blocks[i], own))
-            add_size(page, &blocks[i]);
+    bool left_out = false;
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
+        if (!is_told_apart(&blocks[i], own))
+            continue;
+        add_size(page, &blocks[i]);
+        left_out |= blocks[i].arrivals.released == 0;
+    }
+    if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                       _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
+                         "those of the scene."));
 }

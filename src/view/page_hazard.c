@@ -93,27 +93,40 @@ const char *ceduo_words_intensity(int intensity)
     return intensity < 0 ? _("none") : _(words[intensity]);
 }
 
+/* A figure and its interval, of which hi may be NaN, as 1.2 (1.1–1.3)e7: where there is no room for more. */
+static void put_shorter(struct text *text, double value, double lo, double hi)
+{
+    int e = value > 0 ? (int)floor(log10(value)) : 0;
+    double unit = pow(10, e);
+    ceduo_text_put(text, WRITTEN(value / unit, 2));
+    if (isnan(hi))
+        ceduo_text_format(text, " (> %s)e%d", WRITTEN(lo / unit, 2), e);
+    else
+        ceduo_text_format(text, " (%s\xe2\x80\x93%s)e%d", WRITTEN(lo / unit, 2), WRITTEN(hi / unit, 2), e);
+}
+
 static void add_return(struct ceduo_page *page, const struct ceduo_return *back)
 {
-    struct text *cell = ceduo_page_text(page);
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
     if (isnan(back->energy)) {
-        ceduo_text_put(cell, _("none"));
+        ceduo_text_put(&cell->text, _("none"));
         return;
     }
-    ceduo_text_put(cell, WRITTEN(back->energy * KILO, 3));
+    ceduo_text_put(&cell->text, WRITTEN(back->energy * KILO, 3));
     const char *lo = isnan(back->lo) ? "0" : WRITTEN(back->lo * KILO, 3);
     if (isnan(back->hi))
-        ceduo_text_format(cell, " (> %s)", lo);
+        ceduo_text_format(&cell->text, " (> %s)", lo);
     else
-        ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", lo, WRITTEN(back->hi * KILO, 3));
+        ceduo_text_format(&cell->text, " (%s\xe2\x80\x93%s)", lo, WRITTEN(back->hi * KILO, 3));
+    put_shorter(&cell->shorter, back->energy * KILO, isnan(back->lo) ? 0 : back->lo * KILO, back->hi * KILO);
 }
 
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {{"", 22, 4, CEDUO_WHOLE},
-                                                       {N_("30 years"), -18, 0, CEDUO_WHOLE},
-                                                       {N_("100 years"), -18, 0, CEDUO_WHOLE},
-                                                       {N_("300 years"), -18, 0, CEDUO_WHOLE}};
+                                                       {N_("30 years"), -17, 1, 0},
+                                                       {N_("100 years"), -17, 1, 0},
+                                                       {N_("300 years"), -17, 1, 0}};
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
@@ -201,14 +214,22 @@ static size_t rarest(const struct ceduo_result *r, size_t control)
     return best;
 }
 
+static void add_years(struct ceduo_page *page, struct ceduo_rate rate)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    ceduo_words_years(&cell->text, rate);
+    if (rate.rate > 0)
+        put_shorter(&cell->shorter, 1 / rate.rate, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
+}
+
 /* The same of all options, side by side. */
 static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {{"", 26, 4, CEDUO_WHOLE},
-                                                       {N_("years between"), -22, 0, CEDUO_WHOLE},
-                                                       {N_("% weak"), -9, 0, CEDUO_WHOLE},
-                                                       {N_("% medium"), -9, 0, CEDUO_WHOLE},
-                                                       {N_("% strong"), -9, 0, CEDUO_WHOLE}};
+                                                       {N_("years between"), -21, 1, 0},
+                                                       {N_("% weak"), -9, 0, 0},
+                                                       {N_("% medium"), -9, 0, 0},
+                                                       {N_("% strong"), -9, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[control];
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     char room[CEDUO_NUMBER_ROOM];
@@ -225,9 +246,13 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
         if (!h)
             continue;
         ceduo_text_put(ceduo_page_text(page), name_of(r, i));
-        ceduo_words_years(ceduo_page_text(page), ceduo_hazard_feared(h));
-        for (size_t k = 0; k < CEDUO_INTENSITIES; k++)
-            ceduo_text_put(ceduo_page_text(page), isnan(h->intensity[k].left) ? _("none") : i == 0 ? "100" : WRITTEN(h->intensity[k].left * 100, 2));
+        add_years(page, ceduo_hazard_feared(h));
+        for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
+            if (isnan(h->intensity[k].left))
+                ceduo_text_put(ceduo_page_text(page), _("none"));
+            else
+                ceduo_page_number(page, i == 0 ? 100 : h->intensity[k].left * 100, i == 0 ? 3 : 2);
+        }
     }
 }
 

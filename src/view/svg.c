@@ -14,6 +14,7 @@
 
 #define DOT       (SVG_CELL / 2.0) /* units: cells have 2 x 4 dots */
 #define TOLERANCE 0.3              /* units */
+#define TO_AND_FRO 400             /* lines of a way that gets no farther: by then all of it is to be seen */
 #define BELOW     19               /* units from the top of the bottom axis to the foot of its labels */
 
 enum style { PLAIN, DOTTED, CLOUD, FILLED, STYLES };
@@ -35,6 +36,8 @@ struct ceduo_svg {
     struct text paths[CEDUO_ROLE_COUNT][STYLES];
     struct text axes, numbers; /* numbers: labels of the axes, elements */
     struct stroke stroke;
+    double way_lo, way_hi; /* the stretch that the way drawn now has come through */
+    int idle;              /* its lines since that grew by a unit */
 };
 
 /* Lightness and width tell roles apart, too. */
@@ -129,6 +132,18 @@ static bool same(struct ceduo_position a, struct ceduo_position b)
 
 /* ---- the surface ---- */
 
+/* Whether a way adds something to see: a rock in a pit goes to and fro without end. */
+static bool gets_on(struct ceduo_svg *svg, bool first, double from, double to)
+{
+    if (first)
+        svg->way_lo = svg->way_hi = from;
+    bool on = first || to < svg->way_lo - 1 || to > svg->way_hi + 1;
+    svg->way_lo = on ? fmin(svg->way_lo, to) : svg->way_lo;
+    svg->way_hi = on ? fmax(svg->way_hi, to) : svg->way_hi;
+    svg->idle = on ? 0 : svg->idle + 1;
+    return svg->idle <= TO_AND_FRO;
+}
+
 static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
     struct ceduo_svg *svg = to;
@@ -140,6 +155,8 @@ static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, 
     ceduo_cells_surface.line(svg->cells, pen, a, b);
     pen->last_x = pen->last_x == INT_MIN ? 0 : pen->last_x;
     struct ceduo_position from = unit_of(&pen->raster, a), end = unit_of(&pen->raster, b);
+    if (style == CLOUD && !gets_on(svg, first, from.x, end.x))
+        return;
     if (!s->open || s->role != pen->role || s->style != style || !same(s->last, from) || (style == CLOUD && first))
         begin_stroke(svg, pen->role, style, from);
     go_on(svg, end);

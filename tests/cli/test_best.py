@@ -40,7 +40,7 @@ def test_table_options():
     least = round(1000 * run["options"][0]["controls"][0]["wooded"]["exceed_probability"])
     expect_in(f"Today 'simple coppice, 25 years' lets the fewest dangerous rocks through: {least} of 1000.", words, "the best today")
     expect_in("Over a whole rotation ", words, "over the rotation")
-    expect_in("in the worst of these years, counted from today, with 500 rocks in each; ", words)
+    expect_in("in the worst of these years, counted from today, with 60 rocks in each; ", words)  # 6 of 50 times 500
     expect("By contact" not in words, words)
     expect_width(text)
     same = good("--batch", "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out

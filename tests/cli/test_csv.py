@@ -49,6 +49,23 @@ def test_csv_null():
                      "difference")
 
 
+def test_csv_formulas():
+    """CSV: names that a spreadsheet would compute stand behind an apostrophe, others and all numbers as they are"""
+    names = {"=1+1": "'=1+1", "+1": "'+1", "@sum": "'@sum", "-1+cmd": "'-1+cmd", "-\u00e8": "'-\u00e8", "=a,\"b\"": "'=a,\"b\"",
+             "a=b": "a=b", "'=c": "'=c", "-": "-", "-5": "-5", "1": "1"}
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(title="=title", forest=None, controls=[{"x_m": 105, "name": "@road"}],
+                                              options=[{"name": n, "forest": [belt(10, 50 + 4 * i, name=n)]} for i, n in enumerate(names)]))
+        for rows, more in (("controls", ()), ("stands", ("--rows", "stands"))):
+            cells = read_csv(good("--batch", "-f", "csv", "-n", 20, *more, path).out)[1]
+            expect_equal([row["option"] for row in cells], list(names.values()), rows)
+            expect_equal({row["title"] for row in cells}, {"'=title"}, rows)
+        expect_equal([row["name"] for row in cells], list(names.values()), "stands")
+        below = [row for row in read_csv(good("--batch", "-f", "csv", "-n", 200, path).out)[1]
+                 if row["difference.energy_per_released_kJ.mean"].startswith("-")]
+        expect(len(below) > 0 and below[0]["name"] == "'@road", "a difference below 0 is a number", below)
+
+
 def test_csv_stands():
     """CSV --rows stands: a row a stand, values equal to JSON's"""
     header, rows = read_csv(good("--batch", "-f", "csv", "--rows", "stands", PAPER, FOUR, "-n", "10").out)

@@ -275,6 +275,43 @@ def test_page():
         expect("How often" not in without and "Blocks   " not in without, without)
 
 
+def test_wide_figures():
+    """Figures of eight digits and their intervals leave a blank between them, in 80 columns"""
+    options = [{"name": name, "forest": [{**WOOD, "to_m": to}]} for name, to in (("half", 70), ("whole", 140), ("third", 50))]
+    blocks = [{"per_year": 1, "volume_m3": [400, 80000], "exponent": 1}]
+    rare = [{"per_year": 1e-7, "volume_m3": [0.5, 1], "exponent": 1}]
+    with Folder() as f:
+        text = good("--batch", f.write("s.yaml", slope_site(blocks=blocks))).out
+        result = good("--batch", "-f", "json", f.path / "s.yaml").json()[0]
+        row = re.findall(r"\n    without forest  .*", text)[-1]
+        expect(len(row) <= 81 and "\u2026" not in row, row)
+        found = re.findall(r"(\d\.\d) \(([\d.]+)\u2013([\d.]+)\)e(\d)", row)
+        expect_equal(len(found), 3, row)
+        for (value, lo, hi, power), back in zip(found, hazard_of(result)["return"][1:]):
+            for shown, key in ((value, "energy_kJ"), (lo, "lo"), (hi, "hi")):
+                wanted = back[key] / 10 ** int(power)
+                expect_near(float(shown), wanted, 0.05 * (1 + 1e-9) if wanted < 10 else 0.5, key)
+        text = good("--batch", f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}]))).out
+        rows = re.findall(r"\n    (?:without forest|half|third) +(\d\.\d) \([\d.]+\u2013[\d.]+\)e(\d) ", text)
+        expect_equal(len(rows), 3, text)
+
+
+def test_unknown_lower_end():
+    """An energy that as many rocks bring as just come down so often has 0 as its lower end on the page, null in JSON"""
+    seen = 0
+    with Folder() as f:
+        for per_year in (0.0035, 0.004, 0.005, 0.006, 0.008):
+            path = f.write("s.yaml", slope_site(blocks={"per_year": per_year, "volume_m3": [0.1, 0.2], "exponent": 1}, controls=[{"x_m": 140}]))
+            rows = re.findall(r"\n    (?:without forest|through the wood)  .*", good("--batch", "-n", 300, path).out)
+            result = good("--batch", "-f", "json", "-n", 300, path).json()[0]
+            backs = [hazard_of(result, side)["return"][3] for side in ("bare", "wooded")]
+            for row, back in zip(rows[-2:], backs):
+                if back["energy_kJ"] is not None and back["lo"] is None and back["hi"] is not None:
+                    expect(re.search(r" [\d.]+ \(0\u2013[\d.]+\)$", row), row, back)
+                    seen += 1
+    expect(seen > 0, "no lower end is unknown")
+
+
 def test_many():
     """More than two options are a table, in figures of JSON, below the sentence of the one that keeps off most"""
     def shown(value):

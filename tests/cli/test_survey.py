@@ -5,7 +5,7 @@ import json
 import math
 import statistics
 
-from harness import DONE, INPUT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, run_all, scene
+from harness import DONE, INPUT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, good, run_all, scene
 
 HEAD = "plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m,spacing_m"
 STEMS = {  # plot: (area, slope, [(species, kind, stool, dbh, height, spacing)])
@@ -236,6 +236,15 @@ def test_columns():
         r = survey(f, table().replace("slope_deg", "slope_degr"))
         expect_equal(r.status, INPUT, r)
         expect_in("plots.csv:1:14: 'slope_degr': unknown column; did you mean 'slope_deg'?", r.err)
+
+
+def test_by_name():
+    """A survey that comes with the program is found by its name, with and without .csv, as a scene is"""
+    with Folder() as f:
+        wanted = good("--survey", "six-plots.csv", cwd=f.path).out
+        expect_equal(good("--survey", "six-plots", cwd=f.path).out, wanted)
+        r = ceduo("--survey", "five-plots", cwd=f.path)
+        expect_equal(r.status, INPUT, r)
 
 
 def test_output():

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (PROFILES, Folder, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
+from harness import (PROFILES, Folder, belt, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
                      wooded_scene)
 from pages import (blocks_of, cells_of_rows, columns, digits, expect_cells, expect_option, expect_order, expect_width,
                    half_of_mean, of_1000, section, table_row)
@@ -216,6 +216,27 @@ def test_table_blocks():
         shares = [[int(n) for n in re.findall(r"\d+", r[6])] for r in rows]  # each with its interval: not of equally many
         expect(all(a[1] <= b[2] for a, b in zip(shares, shares[1:])) and shares[-1][1] > shares[0][2],
                "a larger block carries more", shares)
+
+
+def test_table_bounded():
+    """What a page adds costs a few times what was asked for: few rocks in each of many years, no sizes that meet all stems there are"""
+    slope = {"vertices_m": [[0, 2100], [3000, 0]], "segments": [{"rn": 0.35, "rt": 0.875, "roughness_rad": 0.25, "friction": 0.5}]}
+    with Folder() as f:
+        for dbh, thick, rocks in ((0.02, 1e-4, 50), (0.02, 1e-4, 500), (0.035, 1e-6, 500)):
+            shrubs = belt(10, 2600, shoots=[{"per_ha": 100000, "dbh_m": dbh, "height_m": 4, "volume_m3": 0.001}], trees=[],
+                          stools={"per_ha": 20000, "spacing_m": 0.1})
+            path = f.write("s.yaml", scene(rock={"shape": "cylinder", "diameter_m": 1, "height_m": thick}, forest=[shrubs],
+                                           controls=[{"x_m": 2700}], slope=slope))
+            text = good("--batch", "-n", rocks, path).out
+            own = result(path, "-n", rocks)["options"][0]["summary"]["contacts"]
+            largest = re.search(r"\n +5\.00 +13000 .* (\d+) +(\S+)\n", text)
+            expect_equal(largest and largest[2], "-", text)
+            expect(thick > 1e-6 or float(largest[1]) > 100 * own > 0, "hundreds of times the stems", text)
+            expect_in("A size with a dash was left out: its rocks come to so many stems", " ".join(text.split()))
+        page = " ".join(good("--batch", "-n", 50, "rotation").out.split())
+        expect_in("counted from today, with 10 rocks in each", page)
+        page = " ".join(good("--batch", "-n", 5, "rotation").out.split())
+        expect_in("counted from today, with 5 rocks in each", page)
 
 
 def test_table_blocks_cases():

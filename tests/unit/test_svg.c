@@ -86,6 +86,35 @@ static void curves_need_few_points(void **state)
     free(picture);
 }
 
+/* A rock that goes to and fro in a pit for ever draws no more than is to be seen; one that goes on is drawn to its end. */
+static void ways_that_get_nowhere_are_short(void **state)
+{
+    (void)state;
+    enum { N = 20000 };
+    static double x[N], y[N];
+    size_t length[2];
+    for (int on = 0; on < 2; on++) {
+        struct ceduo_svg *svg = ceduo_svg_create(100, 20);
+        struct ceduo_frame frame = {.width = 100, .height = 20, .x1 = 199, .y1 = 79};
+        int n = on ? 1000 : N;
+        for (int i = 0; i < n; i++) {
+            x[i] = on ? 199.0 * i / (n - 1) : 20 + 10 * sin(i);
+            y[i] = 40 + 30 * sin(1.7 * i);
+        }
+        struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+        assert_true(ceduo_canvas_cloud_start(canvas));
+        ceduo_canvas_cloud_add(canvas, &frame, (size_t)n, x, y);
+        ceduo_canvas_cloud_show(canvas, 0);
+        char *picture = put(svg);
+        length[on] = strlen(picture);
+        if (on)
+            expect_has(picture, "L798 "); /* the last point: 199 dots of 4 units, from the middle of the first */
+        free(picture);
+    }
+    assert_true(length[0] < 10000);
+    assert_true(length[1] > 8000);
+}
+
 static void axes_and_bars(void **state)
 {
     (void)state;
@@ -169,6 +198,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_are_where_they_are),
         cmocka_unit_test(curves_need_few_points),
+        cmocka_unit_test(ways_that_get_nowhere_are_short),
         cmocka_unit_test(axes_and_bars),
         cmocka_unit_test(text_and_signs),
         cmocka_unit_test(screens),

@@ -11,6 +11,21 @@
 
 #define OPTIONS 3
 
+/* So many digits, without an exponent below 1e9; from there on with it, and where more than 6 decimals would be needed. */
+static void numbers_are_shown_with_their_digits(void **state)
+{
+    (void)state;
+    const struct {
+        double value;
+        int digits;
+        const char *shown;
+    } rows[] = {{12.345, 3, "12.3"},         {999999999, 2, "999999999"}, {1e9, 2, "1e+09"},    {1.26e9, 2, "1.3e+09"},
+                {-2.5e9, 2, "-2.5e+09"},     {0.0123, 2, "0.012"},        {0.00012, 2, "0.00012"}, {1.2e-8, 2, "1.2e-08"},
+                {0, 3, "0"},                 {NAN, 3, "-"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_string_equal(WRITTEN(rows[i].value, rows[i].digits), rows[i].shown);
+}
+
 /* Three options without stems, of which no more is known than what a test says: the figures of each, and the errors of
  * their differences to the first. */
 static struct line_scene scene;
@@ -244,6 +259,7 @@ static void why_there_is_no_rotation(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_are_shown_with_their_digits),
         cmocka_unit_test(an_interval_is_rounded_outward),
         cmocka_unit_test(three_standard_errors_apart_is_not_clear),
         cmocka_unit_test(what_is_not_accepted_is_not_judged),
