@@ -117,5 +117,14 @@ def test_table_best_same():
         expect(re.search(r"Today all options are equal: \d+ of 1000\.", words), words)
 
 
+def test_table_four_best():
+    """Table: four options that are equal and better than a fifth are all named, with commas and one 'and'"""
+    with Folder() as f:
+        path = f.write("s.yaml", wooded_scene(forest=None, options=[{"name": "none"}, *({"name": n, "forest": [belt(10, 95)]} for n in "abcd")]))
+        words = " ".join(good("--batch", path).out.split())
+        share = result(path)["options"][1]["controls"][1]["wooded"]["exceed_probability"]
+        expect_in(f"'a', 'b', 'c' and 'd' are equal and let the fewest dangerous rocks through: {share * 1000:.0f} of 1000.", words)
+
+
 if __name__ == "__main__":
     run_all(__name__)
