@@ -604,6 +604,7 @@ static void widths_of_few(void **state)
     expect_near(ceduo_half_width_of_share(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
     EXPECT_NEAR(ceduo_half_width_of_share(0, 0, 20), .1611, .5e-4); /* Newcombe 1998, Table I */
     EXPECT_NEAR(ceduo_half_width_of_share(1, 0, 29), .1170, .5e-4);
+    EXPECT_NEAR(ceduo_half_width_of_share(1, 0, 29), ceduo_half_width_of_share(0, 0, 29), 1e-15);
 }
 
 /* Of n pairs that are all equal as many as 3.841/(n + 3.841) may differ: Wilson's upper end of 0 of n. */

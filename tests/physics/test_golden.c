@@ -474,6 +474,9 @@ static void volumes_of_tabacchi(void **state)
         {"castanea-sativa", 20, 15, -2.001 + 0.036524 * 400 * 15 + 0.74466 * 20, CEDUO_VOLUME_EQUATION},
         {"robinia-pseudoacacia", 20, 15, -2.1214 + 0.037123 * 400 * 15 + 0.14296 * 20, CEDUO_VOLUME_EQUATION},
         {"picea-abies", 30, 20, -9.1298 + 0.034866 * 900 * 20 + 1.4633 * 30, CEDUO_VOLUME_EQUATION},
+        /* to the limits of its rectangle */
+        {"ostrya-carpinifolia", 20, 30, -1.4983 + 0.038828 * 400 * 30, CEDUO_VOLUME_EQUATION},
+        {"castanea-sativa", 20, 5, -2.001 + 0.036524 * 400 * 5 + 0.74466 * 20, CEDUO_VOLUME_EQUATION},
         /* beyond the rectangle d2 h times that of its nearest point */
         {"ostrya-carpinifolia", 4.7, 4, (-1.4983 + 0.038828 * 25 * 5) * (4.7 * 4.7 * 4) / (25 * 5), CEDUO_VOLUME_FORM_FACTOR},
         {"ostrya-carpinifolia", 36, 20, (-1.4983 + 0.038828 * 35 * 35 * 20) * (36 * 36.) / (35 * 35), CEDUO_VOLUME_FORM_FACTOR},

@@ -462,6 +462,25 @@ static void stems_of_another_sort_make_another_forest(void **state)
     EXPECT(key_of(DBHS), !=, key); /* or all the given one on the mean */
 }
 
+/* As many shoots of three cohorts, of which the last two have each other's share. */
+static void cohorts_of_another_share_make_another_forest(void **state)
+{
+    (void)state;
+    open_site();
+    struct ceduo_stems cohorts[3];
+    for (size_t i = 0; i < LENGTH(cohorts); i++) {
+        cohorts[i] = site.plots[0].shoots;
+        cohorts[i].dbh = .02 * (double)(i + 1);
+        cohorts[i].per_ha = 1000 * (double)(i + 1);
+    }
+    site.belts[0].stand.shoots = cohorts;
+    site.belts[0].stand.shoots_count = LENGTH(cohorts);
+    uint64_t key = key_of(STEMS);
+    cohorts[1].per_ha = 3000;
+    cohorts[2].per_ha = 2000;
+    EXPECT(key_of(STEMS), !=, key);
+}
+
 static void whatever_decides_about_growth_makes_other_years(void **state)
 {
     (void)state;
@@ -480,6 +499,7 @@ int main(void)
         cmocka_unit_test(whatever_decides_about_stems_makes_another_forest),
         cmocka_unit_test(whatever_decides_about_low_wood_and_groups_makes_another_forest),
         cmocka_unit_test(stems_of_another_sort_make_another_forest),
+        cmocka_unit_test(cohorts_of_another_share_make_another_forest),
         cmocka_unit_test(whatever_decides_about_growth_makes_other_years),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -158,6 +158,26 @@ static void a_given_age_stands_over_that_of_the_curve(void **state)
     ceduo_grown_stand_release(&grown);
 }
 
+/* Where none are left on an old stool they become fewer by e in 5 years; where none were even at first, it keeps what it has. */
+static void no_old_shoots(void **state)
+{
+    (void)state;
+    struct sample s;
+    init(&s);
+    s.stand.growth.sdi_most = 0;
+    s.stand.growth.shoots_old = 0;
+    s.stand.stools_per_ha = 1;
+    assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would come up */
+    struct ceduo_grown_stand grown = at(&s, 3, 10);
+    expect_near(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
+    ceduo_grown_stand_release(&grown);
+    s.stand.growth.shoots_young = 0;
+    grown = at(&s, 3, 10);
+    EXPECT(grown.stand.shoots[0].per_ha, ==, 7500);
+    EXPECT(grown.stand.shoots[0].dbh, >, .05);
+    ceduo_grown_stand_release(&grown);
+}
+
 /* By its curve a stem of 1e-320 m is some 1e-318 years old; what it is wide later was beyond all numbers. */
 static void next_to_nothing_grows_as_a_new_stem(void **state)
 {
@@ -605,6 +625,7 @@ int main(void)
         cmocka_unit_test(year_0_is_the_stand_as_filed),
         cmocka_unit_test(an_inventory_grows_along_its_curves),
         cmocka_unit_test(a_given_age_stands_over_that_of_the_curve),
+        cmocka_unit_test(no_old_shoots),
         cmocka_unit_test(next_to_nothing_grows_as_a_new_stem),
         cmocka_unit_test(thicker_than_its_curve_it_grows_no_more),
         cmocka_unit_test(a_stratum_without_a_curve_stays),

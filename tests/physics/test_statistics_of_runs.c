@@ -733,6 +733,49 @@ static void unfinished_rocks_count_for_the_upper_bound(void **state)
     ceduo_run_free(run);
 }
 
+/* Blocks of all sizes fall on one of two grounds: on one they stay, on the other they bounce for ever. Nobody reaches the
+ * control; the upper end is that of as many rocks as the heaviest would be, with the weights of the unfinished counted in. */
+static void unfinished_blocks_count_by_their_weights(void **state)
+{
+    (void)state;
+    enum { ROCKS = 60 };
+    static struct line_scene flat;
+    static double volumes[] = {.05, 5};
+    const double x[] = {0, 100, 1000}, z[] = {0, 0, 0};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    line_scene_init(&flat, 3, x, z, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
+    flat.segments[0].rn = flat.segments[0].rt = ceduo_number(0);
+    flat.segments[0].friction = 1;
+    line_scene_release(&flat, 100, 1, 0, 0, 0);
+    flat.scene.release.x = (struct ceduo_number){.mean = 100, .spread = 50, .kind = CEDUO_UNIFORM};
+    flat.control = (struct ceduo_control){.x = 600, .accepted = NAN, .measured_speed = NAN};
+    flat.scene.controls_count = 1;
+    flat.scene.blocks = &blocks;
+    flat.scene.blocks_count = 1;
+    struct ceduo_run *run = run_scene(&flat.scene, ROCKS, 2);
+    struct ceduo_follower *f = ceduo_follower_create(&flat.scene, NULL);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    const double *weights = ceduo_run_weights(run);
+    double all = 0, most = 0, unfinished = 0, lo, hi;
+    for (uint64_t r = 0; r < ROCKS; r++) {
+        struct ceduo_trajectory way;
+        struct ceduo_crossing crossing;
+        assert_int_equal(ceduo_follower_follow(f, r, NULL, &way, &crossing), CEDUO_OK);
+        all += weights[r];
+        most = fmax(most, weights[r]);
+        unfinished += way.end == CEDUO_UNFINISHED ? weights[r] : 0;
+    }
+    EXPECT(a.reached, ==, 0);
+    EXPECT(a.unfinished, >, ROCKS / 4);
+    EXPECT(a.unfinished, <, ROCKS * 3 / 4);
+    EXPECT(fabs(unfinished / all - (double)a.unfinished / ROCKS), >, .01); /* weights matter */
+    ceduo_wilson_share(unfinished / all, all / most, &lo, &hi);
+    EXPECT_NEAR(a.missed[CEDUO_UNFINISHED], unfinished / all, 1e-12);
+    EXPECT_NEAR(a.reach_hi, hi, 1e-12);
+    ceduo_follower_free(f);
+    ceduo_run_free(run);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -754,6 +797,7 @@ int main(void)
         cmocka_unit_test(a_control_that_nobody_reaches),
         cmocka_unit_test(a_control_without_an_accepted_energy),
         cmocka_unit_test(unfinished_rocks_count_for_the_upper_bound),
+        cmocka_unit_test(unfinished_blocks_count_by_their_weights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

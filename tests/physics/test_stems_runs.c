@@ -280,6 +280,100 @@ static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
     ceduo_run_free(run);
 }
 
+/* Of blocks of all sizes the same by their weights; the error of the mean is what a regression on the weights leaves (Cochran
+ * 1977), and what it spreads from seed to seed. */
+static void stems_hit_by_blocks(void **state)
+{
+    (void)state;
+    enum { ROCKS = 400, SEEDS = 200 };
+    static double volumes[] = {.05, 1}, own[ROCKS];
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_moments over = {0}, errors = {0};
+    struct ceduo_arrivals a;
+    open_sides();
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        site.scene.simulation.seed = seed;
+        struct ceduo_run *run = run_of(&site.scene, &sides.options[0], ROCKS, 1, CEDUO_EXACT_BYTES);
+        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+        ceduo_moments_add(&over, a.contacts);
+        ceduo_moments_add(&errors, a.contacts_se);
+        if (seed < SEEDS) {
+            ceduo_run_free(run);
+            continue;
+        }
+        const double *w = ceduo_run_weights(run);
+        struct ceduo_follower *f = ceduo_follower_create(&site.scene, &sides.options[0]);
+        double all = 0, reached = 0, sum = 0, mean = 0, ww = 0, wx = 0, xx = 0;
+        for (uint64_t rock = 0; rock < ROCKS; rock++) {
+            struct ceduo_trajectory way;
+            struct ceduo_crossing c;
+            assert_int_equal(ceduo_follower_follow(f, rock, NULL, &way, &c), CEDUO_OK);
+            own[rock] = c.reached ? (double)c.stems_hit : NAN;
+            all += w[rock];
+            reached += c.reached ? w[rock] : 0;
+            sum += c.reached ? w[rock] * own[rock] : 0;
+        }
+        for (uint64_t rock = 0; rock < ROCKS; rock++) {
+            own[rock] = isnan(own[rock]) ? 0 : w[rock] * (own[rock] - sum / reached);
+            mean += own[rock] / ROCKS;
+        }
+        for (uint64_t rock = 0; rock < ROCKS; rock++) {
+            double dw = w[rock] - all / ROCKS, dx = own[rock] - mean;
+            ww += dw * dw;
+            wx += dw * dx;
+            xx += dx * dx;
+        }
+        expect_exact("mean contacts of blocks", a.contacts, sum / reached, 1e-12);
+        expect_exact("their error", a.contacts_se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
+        ceduo_follower_free(f);
+        ceduo_run_free(run);
+    }
+    double ratio = ceduo_moments_sd(&over) / errors.mean;
+    EXPECT_NEAR(ratio, 1, 4 / sqrt(2. * SEEDS));
+}
+
+/* A run that was made longer than others keeps its figures; the difference is of the rocks that both have. */
+static void a_longer_run_keeps_its_figures(void **state)
+{
+    (void)state;
+    open_sides();
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.rocks_most = 1500;
+    struct ceduo_run *longer, *alone = run_of(&site.scene, &sides.options[1], 1500, 1, CEDUO_EXACT_BYTES);
+    struct ceduo_run *few[] = {run_of(&site.scene, &sides.options[0], 600, 1, CEDUO_EXACT_BYTES),
+                               run_of(&site.scene, &sides.options[1], 600, 1, CEDUO_EXACT_BYTES)};
+    struct ceduo_pool *pool;
+    struct ceduo_result *result;
+    struct ceduo_arrivals wanted;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_extend(pool, 600), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fly(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
+    assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
+    assert_int_equal(ceduo_run_arrivals(alone, 0, &wanted), CEDUO_OK);
+    EXPECT(result->bare.rocks, ==, 600);
+    EXPECT(result->options[0].wooded.rocks, ==, 600);
+    EXPECT(result->options[1].wooded.rocks, ==, 1500);
+    const struct ceduo_arrivals *a = ceduo_result_wooded(result, 1, 0);
+    EXPECT(a->released, ==, 1500);
+    EXPECT(a->reached, ==, wanted.reached);
+    EXPECT(a->energy.mean, ==, wanted.energy.mean);
+    EXPECT(a->exceed_hi, ==, wanted.exceed_hi);
+    EXPECT(a->contacts, ==, wanted.contacts);
+    struct ceduo_difference d = result->options[1].differences[0], of_few = ceduo_run_difference(few[1], few[0], 0);
+    EXPECT(d.energy_per_released.mean, <, 0);
+    expect_exact("difference", d.energy_per_released.mean, of_few.energy_per_released.mean, 1e-9);
+    expect_exact("its error", d.energy_per_released.se, of_few.energy_per_released.se, 1e-12);
+    EXPECT_NEAR(d.exceed_probability.mean, of_few.exceed_probability.mean, 1e-12);
+    ceduo_result_free(result);
+    ceduo_pool_free(pool);
+    ceduo_run_free(alone);
+    ceduo_run_free(few[0]);
+    ceduo_run_free(few[1]);
+}
+
 /* Behind every stem a flight or roll is computed afresh; where the stem takes nothing that must not show. */
 static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
 {
@@ -400,6 +494,8 @@ int main(void)
         cmocka_unit_test(differences_without_all_samples_are_the_same),
         cmocka_unit_test(the_same_bits_among_stems_with_any_number_of_threads_and_steps),
         cmocka_unit_test(a_run_among_stems_flies_the_rocks_that_can_be_followed),
+        cmocka_unit_test(stems_hit_by_blocks),
+        cmocka_unit_test(a_longer_run_keeps_its_figures),
         cmocka_unit_test(stems_that_take_nothing_leave_the_way_as_it_is),
         cmocka_unit_test(options_with_the_same_stems_share_a_run),
         cmocka_unit_test(whatever_decides_about_stems_makes_another_run),

@@ -481,6 +481,88 @@ static void sums_over_the_years(void **state)
     }
 }
 
+/* The first of the rocks say how much one spreads, but the mean is of all. */
+static void more_rocks_than_are_paired(void **state)
+{
+    (void)state;
+    enum { MANY = CEDUO_PAIRED_ROCKS + 300000 };
+    const double paired = CEDUO_PAIRED_ROCKS;
+    init();
+    wood.option.belts_count = 0;
+    wood.site.scene.slope.vertices = 2;
+    wood.site.scene.release.vx = (struct ceduo_number){.mean = 5, .spread = 2, .kind = CEDUO_UNIFORM};
+    wood.site.scene.controls_count = 1;
+    wood.controls[0].x = wood.controls[0].x_given = 1;
+    wood.controls[0].accepted = 7e3;
+    struct ceduo_run *first = run_of(NULL, CEDUO_PAIRED_ROCKS);
+    struct ceduo_brief brief = ceduo_run_brief(first, 0);
+    ceduo_run_free(first);
+    struct ceduo_years *years = grown(0, 0, 1);
+    struct ceduo_pool *pool = pool_of(2, NULL);
+    struct ceduo_run *run;
+    struct ceduo_flown bare;
+    assert_int_equal(ceduo_pool_fly(pool, NULL, MANY, &run), CEDUO_OK);
+    assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_years_fly(years, pool, &bare, MANY), CEDUO_OK);
+    double p = brief.exceed_probability, sd = sqrt(p * (1 - p) * paired / (paired - 1));
+    EXPECT(p, >, .01);
+    EXPECT(p, <, .99);
+    EXPECT_NEAR(ceduo_years_sum(years, 0).exceed.se, sd / sqrt(MANY), 1e-9 * sd);
+    ceduo_flown_free(&bare);
+    ceduo_pool_free(pool);
+    ceduo_years_free(years);
+}
+
+/* Of blocks of all sizes the shares of years are weighed; the error is what a regression on the weights leaves. */
+static void years_of_blocks(void **state)
+{
+    (void)state;
+    enum { FEW = 300 };
+    static double volumes[] = {.05, 1}, marks[2][FEW];
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_years *years[2];
+    double weights[FEW];
+    init();
+    wood.site.scene.blocks = &blocks;
+    wood.site.scene.blocks_count = 1;
+    for (int i = 0; i < 2; i++) {
+        wood.belts[1].stand.stools_per_ha = i == 0 ? 2500 : 600;
+        years[i] = flown(3, 7, 2, 1, FEW);
+        for (size_t r = 0; r < FEW; r++)
+            marks[i][r] = 0;
+        for (size_t y = 0; y < years[i]->count; y++) {
+            double energies[FEW];
+            struct ceduo_run *run = run_of(&years[i]->years[y].option, FEW);
+            assert_true(ceduo_run_values(run, years[i]->last_control, CEDUO_SAMPLE_ENERGY, energies));
+            for (size_t r = 0; r < FEW; r++) {
+                marks[i][r] += (energies[r] > 50e3) / 3.;
+                weights[r] = ceduo_run_weights(run)[r];
+            }
+            ceduo_run_free(run);
+        }
+    }
+    for (int of = 0; of < 3; of++) { /* one, the other, their difference */
+        double w1 = 0, x1 = 0, ww = 0, wx = 0, xx = 0, x[FEW];
+        for (size_t r = 0; r < FEW; r++) {
+            x[r] = weights[r] * (of < 2 ? marks[of][r] : marks[0][r] - marks[1][r]);
+            w1 += weights[r] / FEW;
+            x1 += x[r] / FEW;
+        }
+        for (size_t r = 0; r < FEW; r++) {
+            ww += (weights[r] - w1) * (weights[r] - w1);
+            wx += (weights[r] - w1) * (x[r] - x1);
+            xx += (x[r] - x1) * (x[r] - x1);
+        }
+        struct ceduo_paired found = of < 2 ? ceduo_years_sum(years[of], years[of]->last_control).exceed
+                                           : ceduo_years_difference(years[0], years[1]);
+        EXPECT_NEAR(found.mean, x1 / w1, 1e-12);
+        EXPECT_NEAR(found.se, sqrt((xx - wx * wx / ww) / FEW / (FEW - 1)) / w1, 1e-12);
+        EXPECT(fabs(found.mean), >, 0);
+    }
+    ceduo_years_free(years[0]);
+    ceduo_years_free(years[1]);
+}
+
 static void metres_felled(void **state)
 {
     (void)state;
@@ -613,6 +695,10 @@ static void whole_rotations(void **state)
     wood.site.scene.year_last = 5;
     w = ceduo_window_in(&wood.site.scene, &wood.option);
     EXPECT(w.last, ==, 5);
+    wood.site.scene.year_last = 2; /* before the first: that year alone */
+    w = ceduo_window_in(&wood.site.scene, &wood.option);
+    EXPECT(w.first, ==, 3);
+    EXPECT(w.last, ==, 3);
     wood.site.scene.year_last = 3 + CEDUO_YEARS_MOST - 1;
     EXPECT(ceduo_window_in(&wood.site.scene, &wood.option).step, ==, 1);
     wood.site.scene.year_last = 48700;
@@ -696,6 +782,8 @@ int main(void)
         cmocka_unit_test(threads_and_steps_change_nothing),
         cmocka_unit_test(a_wood_is_flown_once),
         cmocka_unit_test(sums_over_the_years),
+        cmocka_unit_test(more_rocks_than_are_paired),
+        cmocka_unit_test(years_of_blocks),
         cmocka_unit_test(metres_felled),
         cmocka_unit_test(by_the_index_alone),
         cmocka_unit_test(no_forest_is_the_bare_run),

@@ -303,6 +303,40 @@ static bool question(void)
     return status == CEDUO_OK;
 }
 
+/* Years flown once and once more, with the weights of blocks. */
+static bool years_of_blocks(void)
+{
+    static double volumes[] = {0.05, 1};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
+    struct ceduo_pool *pool = NULL;
+    struct ceduo_years *years = NULL;
+    struct ceduo_flown bare = {0};
+    struct ceduo_run *run;
+    enum ceduo_status status = ceduo_pool_create(&def, &pool);
+    if (status == CEDUO_OK)
+        status = ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.step = 1}, &years);
+    if (status == CEDUO_OK)
+        status = ceduo_pool_fly(pool, NULL, 40, &run);
+    if (status == CEDUO_OK)
+        status = ceduo_flown_read(run, 1, &bare);
+    for (uint64_t rocks = 30; rocks <= 40 && status == CEDUO_OK; rocks += 10)
+        status = ceduo_years_fly(years, pool, &bare, rocks);
+    if (status == CEDUO_OK) {
+        struct ceduo_years_summary s = ceduo_years_sum(years, 0);
+        assert_true(s.exceed.se > 0);
+        add(&s.exceed, sizeof s.exceed);
+    }
+    ceduo_flown_free(&bare);
+    ceduo_years_free(years);
+    ceduo_pool_free(pool);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
+}
+
 /* The question of 30 rocks, answered. */
 static bool ask(struct ceduo_question q)
 {
@@ -763,6 +797,7 @@ static void what_stands_on_runs(void **state)
     (void)state;
     without_memory(join_pools);
     without_memory(question);
+    without_memory(years_of_blocks);
     without_memory(ask_by_index);
     without_memory(ask_both_laws);
     without_memory(doubt_whole);

@@ -321,6 +321,35 @@ static void differences_of_blocks(void **state)
         ceduo_run_free(runs[i]);
 }
 
+/* A hundred energies of blocks stand for all: in the order of the rocks, each at the middle of a hundredth of all weights. */
+static void energies_of_blocks_are_even_quantiles(void **state)
+{
+    (void)state;
+    enum { ROCKS = 900, MOST = 100 };
+    static double volumes[] = {0.05, 1}, all[ROCKS], some[MOST];
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    paper_site_init(&site);
+    site.scene.blocks = &blocks;
+    site.scene.blocks_count = 1;
+    struct ceduo_run_def wood = ceduo_run_def_default(&site.scene);
+    wood.option = &site.option;
+    struct ceduo_run *run = run_of(&wood, ROCKS);
+    assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_ENERGY, all));
+    EXPECT(ceduo_run_energies(run, 0, some, MOST), ==, MOST);
+    const double *weights = ceduo_run_weights(run);
+    double sum = 0, to = 0;
+    size_t n = 0;
+    for (size_t r = 0; r < ROCKS; r++)
+        sum += isnan(all[r]) ? 0 : weights[r];
+    for (size_t r = 0; r < ROCKS; r++) {
+        to += isnan(all[r]) ? 0 : weights[r] / sum * MOST;
+        for (; n < (size_t)floor(to + .5) && n < MOST; n++) /* the middles of steps that its weight covers */
+            EXPECT(some[n], ==, all[r]);
+    }
+    EXPECT(n, ==, MOST);
+    ceduo_run_free(run);
+}
+
 /* In brief a run says what it says at length: of one block or of all sizes, with and without an accepted energy. */
 static void a_run_in_brief(void **state)
 {
@@ -580,6 +609,7 @@ int main(void)
         cmocka_unit_test(a_rock_without_end),
         cmocka_unit_test(differences_of_the_first_rocks),
         cmocka_unit_test(differences_of_blocks),
+        cmocka_unit_test(energies_of_blocks_are_even_quantiles),
         cmocka_unit_test(a_run_in_brief),
         cmocka_unit_test(what_needs_samples),
         cmocka_unit_test(years_before_they_are_flown),
