@@ -3,6 +3,8 @@
 #define NCURSES_WIDECHAR 1
 #include "terminal.h"
 
+#include "base/utf8.h" /* before curses, which takes the word columns */
+
 #include <curses.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -15,6 +17,7 @@
 #include <unistd.h>
 #include <wchar.h>
 
+#include "base/clock.h"
 #include "base/language.h"
 #include "program.h"
 #include "screen.h"
@@ -64,6 +67,23 @@ static void start_colours(void)
         init_pair((short)(c + 1), c, -1);
 }
 
+/* ---- bracketed paste ---- */
+
+static bool pastes; /* the terminal may be asked to say where a paste begins and ends; the Linux console cannot */
+#define PASTES_OFF "\033[?2004l"
+
+static void look_for_pastes(void)
+{
+    const char *name = getenv("TERM"), *move = tigetstr("cup");
+    pastes = strncmp(move, "\033[", 2) == 0 && strncmp(name, "linux", 5) != 0;
+}
+
+static void ask_for_pastes(bool on)
+{
+    ssize_t unused = pastes ? write(STDOUT_FILENO, on ? "\033[?2004h" : PASTES_OFF, sizeof PASTES_OFF - 1) : 0;
+    (void)unused;
+}
+
 /* ---- a crash or a signal ---- */
 
 static struct termios saved_mode;
@@ -80,8 +100,8 @@ static void prepare_restore(void)
 {
     static const char *const names[] = {"sgr0", "cnorm", "rmkx", "rmcup"};
     restore_length = 0;
-    for (size_t i = 0; i < 4; i++) {
-        const char *s = tigetstr(names[i]);
+    for (size_t i = 0; i < 5; i++) {
+        const char *s = i < 4 ? tigetstr(names[i]) : pastes ? PASTES_OFF : NULL;
         size_t n = s && s != (char *)-1 ? strlen(s) : 0;
         if (restore_length + n < sizeof restore_string) {
             memcpy(restore_string + restore_length, s ? s : "", n);
@@ -183,7 +203,6 @@ static int special_key(wint_t code)
                 {KEY_END, K_END},
                 {KEY_PPAGE, K_PAGE_UP},
                 {KEY_NPAGE, K_PAGE_DOWN},
-                {KEY_BACKSPACE, K_BACKSPACE},
                 {KEY_DC, K_DELETE},
                 {KEY_BTAB, K_SHIFT_TAB},
                 {KEY_ENTER, K_ENTER}};
@@ -195,10 +214,113 @@ static int special_key(wint_t code)
     return K_NONE;
 }
 
+/* Curses makes a key of each sequence that the terminal is known for. Of any other it hands on the characters: here they are
+ * swallowed whole, also if they come in pieces, and what stands between the two sequences of a paste is gathered. */
+static struct {
+    enum { PLAIN, ESCAPED, CONTROL, STRING, STRING_ESCAPED, CHARACTERS } state;
+    int number;      /* the one parameter of CSI; -1: none, 9999: more or other than that */
+    int characters;  /* still to be swallowed */
+    double last;     /* when the last character came */
+    bool pasting;
+    char pasted[sizeof ((struct line *)NULL)->text + 8]; /* whatever fills it is too long for a line */
+    size_t length;
+} input;
+
+/* What waits longer for its end was no sequence, but Alt with '[', 'O' or ']'. */
+#define SEQUENCE_SECONDS 1
+
+static bool is_unfinished(void)
+{
+    return input.state != PLAIN && !input.pasting;
+}
+
+static bool is_quiet(void)
+{
+    return ceduo_clock() - input.last > SEQUENCE_SECONDS;
+}
+
+static void press(struct app *app, wint_t c)
+{
+    if (!input.pasting)
+        ceduo_program_key(app, c == '\n' || c == '\r' ? K_ENTER : c == 127 || c == 8 ? K_BACKSPACE : (int)c);
+    else if (c != 0 && input.length + 4 < sizeof input.pasted)
+        input.length += ceduo_utf8_encode(c, input.pasted + input.length);
+}
+
+static void swallow(int characters)
+{
+    input.state = CHARACTERS;
+    input.characters = characters;
+}
+
+static void end_control(struct app *app, wint_t last)
+{
+    input.state = PLAIN;
+    if (input.pasting && last == '~' && input.number == 201) {
+        input.pasting = false;
+        input.pasted[input.length] = '\0';
+        ceduo_program_paste(app, input.pasted);
+    } else if (input.pasting) {
+        return;
+    } else if (last == '~' && input.number == 200) {
+        input.pasting = true;
+        input.length = 0;
+    } else if (input.number < 0 && (last == '[' || last == 'M')) { /* a function key of Linux; a click, in pieces */
+        swallow(last == '[' ? 1 : 3);
+    }
+}
+
+static void take_character(struct app *app, wint_t c)
+{
+    input.last = ceduo_clock();
+    if (input.state == PLAIN && c != K_ESCAPE) {
+        press(app, c);
+    } else if (input.state == STRING || input.state == STRING_ESCAPED) {
+        bool ends = input.state == STRING ? c == '\a' : c == '\\';
+        bool other = input.state == STRING_ESCAPED && !ends; /* another sequence has begun */
+        input.state = ends ? PLAIN : other ? ESCAPED : c == K_ESCAPE ? STRING_ESCAPED : STRING;
+        if (other)
+            take_character(app, c);
+    } else if (input.state == ESCAPED && c == '[') {
+        input.state = CONTROL;
+        input.number = -1;
+    } else if (input.state == ESCAPED && !input.pasting && c == 'O') {
+        swallow(1);
+    } else if (input.state == ESCAPED && !input.pasting && (c == ']' || c == 'P')) {
+        input.state = STRING;
+    } else if (input.state == ESCAPED) {
+        input.state = PLAIN;
+        press(app, K_ESCAPE);
+        take_character(app, c);
+    } else if (c == K_ESCAPE) {
+        input.state = ESCAPED;
+    } else if (input.state == CHARACTERS) {
+        input.state = --input.characters > 0 ? CHARACTERS : PLAIN;
+    } else if (c >= ' ' && c < '@') {
+        bool digit = c >= '0' && c <= '9' && input.number < 1000;
+        input.number = digit ? (input.number < 0 ? 0 : 10 * input.number) + (int)c - '0' : 9999;
+    } else if (c >= '@' && c <= '~') {
+        end_control(app, c);
+    } else {
+        input.state = PLAIN;
+        press(app, c);
+    }
+}
+
+/* Ends what was no sequence: Esc alone, of which curses has waited for the rest. */
+static void take_escape(struct app *app)
+{
+    if (input.state == ESCAPED && !input.pasting) {
+        input.state = PLAIN;
+        press(app, K_ESCAPE);
+    }
+}
+
 static void take_mouse(struct app *app)
 {
     MEVENT event;
-    if (getmouse(&event) != OK)
+    take_escape(app);
+    if (getmouse(&event) != OK || input.pasting)
         return;
     if (event.bstate & BUTTON4_PRESSED)
         ceduo_program_wheel(app, -3);
@@ -206,6 +328,14 @@ static void take_mouse(struct app *app)
         ceduo_program_wheel(app, 3);
     else if (event.bstate & (BUTTON1_PRESSED | BUTTON1_CLICKED))
         ceduo_program_click(app, event.x, event.y);
+}
+
+static void take_special(struct app *app, int key)
+{
+    take_escape(app);
+    input.state = PLAIN;
+    if (key != K_NONE && !input.pasting)
+        ceduo_program_key(app, key);
 }
 
 /* All keys that wait. True where there was one. */
@@ -220,14 +350,14 @@ static bool take_keys(struct app *app)
             take_mouse(app);
             continue;
         }
-        int key = kind == KEY_CODE_YES ? special_key(code) : (int)code;
-        if (kind != KEY_CODE_YES && (code == '\n' || code == '\r'))
-            key = K_ENTER;
-        if (kind != KEY_CODE_YES && (code == 127 || code == 8))
-            key = K_BACKSPACE;
-        if (key != K_NONE)
-            ceduo_program_key(app, key);
+        if (kind == KEY_CODE_YES && code != KEY_BACKSPACE)
+            take_special(app, special_key(code));
+        else
+            take_character(app, kind == KEY_CODE_YES ? 127 : code);
     }
+    take_escape(app);
+    if (is_unfinished() && is_quiet())
+        input.state = PLAIN;
     return any;
 }
 
@@ -244,6 +374,7 @@ static void drain_wake(void)
 static void suspend(void)
 {
     suspended = 0;
+    ask_for_pastes(false);
     endwin();
     signal(SIGTSTP, SIG_DFL);
     raise(SIGTSTP);
@@ -258,7 +389,7 @@ static void loop(struct app *app, bool colours)
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
                                 {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN},
                                 {.fd = wake[0], .events = POLLIN}};
-        int n = poll(fds, 3, -1);
+        int n = poll(fds, 3, is_unfinished() ? 1000 * SEQUENCE_SECONDS : -1);
         if (n < 0 && errno != EINTR)
             break;
         drain_wake();
@@ -266,13 +397,17 @@ static void loop(struct app *app, bool colours)
             break; /* the window is gone */
         if (interrupted) {
             interrupted = 0;
-            ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
+            if (input.pasting) /* a Ctrl-C of its text is not the person's, who has lost its end */
+                input.pasting = !is_quiet();
+            else
+                ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
         if (suspended)
             suspend();
         if (continued) {
             continued = 0;
             reset_prog_mode();
+            ask_for_pastes(true);
             app->redraw = true;
         }
         bool changed = take_keys(app); /* also where a signal told of a new size */
@@ -327,6 +462,8 @@ enum terminal_end ceduo_terminal_run(struct app *app)
             fclose(keys);
         return TERMINAL_NONE;
     }
+    look_for_pastes();
+    ask_for_pastes(true);
     prepare_restore();
     start_colours();
     cbreak();
@@ -338,6 +475,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     mouseinterval(0);
     mousemask(BUTTON1_PRESSED | BUTTON4_PRESSED | BUTTON5_PRESSED, NULL);
     loop(app, colours_wanted());
+    ask_for_pastes(false);
     endwin();
     delscreen(screen);
     if (keys)

@@ -1,0 +1,294 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a terminal sends that is no key: sequences that the program does not know, and what is pasted."""
+import fcntl
+import os
+import pty
+import signal
+import struct
+import sys
+import termios
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from play import FAST, Place, home  # noqa: E402
+from test_terminal import ASAN, Tmux, until  # noqa: E402
+from harness import CEDUO, Suite, expect, expect_equal, tests_of  # noqa: E402
+
+ON, OFF = b"\x1b[?2004h", b"\x1b[?2004l"
+
+# Their letters are keys: 's' saves, 'n' and 'o' ask for another scene, 'q' quits.
+UNKNOWN = {"CSI": "\x1b[99;99s", "CSI with a private mark": "\x1b[?1;2c", "CSI with an intermediate": "\x1b[1;2 q",
+           "CSI of one letter": "\x1b[s", "a function key of Linux": "\x1b[[s", "SS3": "\x1bOs",
+           "OSC to BEL": "\x1b]11;rgb:qsno\a", "OSC to ST": "\x1b]52;c;qsno\x1b\\", "DCS": "\x1bP1+qsno=qs\x1b\\",
+           "one after the other": "\x1b[9s\x1b[9s\x1bOs\x1b]s\x1b[9s"}
+PAUSE = 0.1  # longer than Esc waits, shorter than what makes a key of the beginning of a sequence
+
+
+def changed(t, scene="fast.yaml"):
+    """A scene with an edit that is not saved, at the diameter of the rock."""
+    t.start(scene)
+    t.keys("3")
+    t.sees("diameter")
+    t.keys("+")
+    t.sees("* fast")
+
+
+def unharmed(t, place, what):
+    """Nothing was done since the edit: a last key shows that all before it was read."""
+    t.keys("2")
+    t.sees("stools per ha", "* fast", lacks=("saved ",))
+    expect_equal(place.text("fast.yaml"), FAST, f"the file after {what}")
+    t.keys("3")
+    t.sees("diameter", "* fast")
+
+
+# ---- sequences ----
+
+def test_unknown():
+    """Sequences that the terminal is not known for are swallowed whole."""
+    with Place() as place, Tmux(place) as t:
+        changed(t)
+        for what, sequence in UNKNOWN.items():
+            t.text(sequence)
+            unharmed(t, place, what)
+
+
+def test_in_pieces():
+    """The same where they come in two reads, cut anywhere after their second byte."""
+    with Place() as place, Tmux(place) as t:
+        changed(t)
+        for what, sequence in UNKNOWN.items():
+            for cut in (2, len(sequence) - 1):
+                t.text(sequence[:cut])
+                time.sleep(PAUSE)
+                t.text(sequence[cut:])
+                unharmed(t, place, f"{what}, cut at {cut}")
+
+
+def test_string_in_the_help():
+    """A string whose end comes in two pieces is no Esc: an open list stays open."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.keys(":")
+        t.sees("Commands", "search:")
+        t.text("\x1b]11;rgb:0\x1b")
+        time.sleep(PAUSE)
+        t.text("\\")
+        t.text("redo")
+        t.sees("Commands", "search: redo")
+
+
+def test_escape_goes_on():
+    """Esc is Esc, at once and before any other key; Alt with a bracket holds the keys up for a second only."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        for after in ("", "2", "\x1b", "\x1b[B", "\x1b[M ,!"):
+            t.keys("1", ":")
+            t.sees("Commands", "search:")
+            t.text("\x1b" + after)
+            t.sees("stools per ha" if after in ("2", "\x1b[M ,!") else "Belts of forest", lacks=("search:",))
+        for held in ("\x1b[", "\x1bO", "\x1b]"):
+            t.keys("1")
+            t.sees("Belts of forest")
+            t.text(held)
+            time.sleep(1.5)
+            t.keys("2")
+            t.sees("stools per ha")
+
+
+def test_known():
+    """Arrows, Home, End, PgUp, PgDn, Del, Shift-Tab and function keys of three terminals, with and without colour."""
+    for changes in ({"TERM": "tmux-256color"}, {"TERM": "xterm"}, {"TERM": "linux", "NO_COLOR": "1"}):
+        linux = changes["TERM"] == "linux"
+        with Place() as place, Tmux(place, **changes) as t:
+            t.start("fast.yaml")
+            t.text("\x1b[[A" if linux else "\x1bOP")
+            t.sees("Every edit is live")
+            t.text("\x1b[6~")
+            t.sees("redo", lacks=("Every edit is live",))
+            t.text("\x1b[5~")
+            t.sees("Every edit is live")
+            t.keys("Escape")
+            t.sees("Belts of forest", lacks=("Every edit is live",))
+            arrow = "\x1b[" if linux else "\x1bO"
+            t.text(f"{arrow}B{arrow}C")
+            t.sees("to, m: where the belt ends")
+            t.text(f"{arrow}D")
+            t.sees("from, m: where the belt begins")
+            t.text("\x1b[3~")
+            t.sees("deleted: belt 2")
+
+
+# ---- pastes ----
+
+def paste(t, text):
+    """As tmux pastes: between the two sequences if the program asked for them, otherwise as keys."""
+    t.tmux("set-buffer", "--", text)
+    t.tmux("paste-buffer", "-p", "-r")
+
+
+def test_paste_nowhere():
+    """Where nothing is typed a paste does nothing, whatever is in it, and that is said."""
+    with Place() as place, Tmux(place) as t:
+        changed(t)
+        for text in ("s", "\x1b[<0;12;1M\x1b[M ,!", "qsno\nwdd\r\n", "\x1b[99s", "2\x1bOs", "s" * 5000):
+            paste(t, text)
+            t.sees("what was pasted goes nowhere: no field is open")
+            unharmed(t, place, repr(text[:20]))
+
+
+def test_paste_field():
+    """A paste goes into the field that is open: line ends as one blank, nothing of it a key."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.keys("3", "G")
+        t.sees("title  ")
+        t.keys("Enter")
+        t.sees("Esc leaves it as it was")
+        paste(t, "\n  Über\tdem\r\n\x15 Weg\x01!\n")
+        t.sees("Esc leaves it as it was", "Über dem  Weg!")
+        t.keys("BSpace")
+        paste(t, " x" * 600)
+        t.sees("too long for this line", "Esc leaves it as it was")
+        t.keys("Enter")
+        t.sees("*   Über dem  Weg", lacks=("Esc leaves it as it was",))
+
+
+def test_paste_in_pieces():
+    """A paste that comes slowly and in pieces is one, also if its end is cut."""
+    with Place() as place, Tmux(place) as t:
+        changed(t)
+        for piece in ("\x1b[20", "0~sq", "s\x1b", "[20", "1~"):
+            t.text(piece)
+            time.sleep(PAUSE)
+        t.sees("goes nowhere")
+        unharmed(t, place, "a paste in pieces")
+
+
+def test_paste_list():
+    """In a list and in fields a paste is what is typed; in a text it does nothing."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.keys(":")
+        t.sees("Commands", "search:")
+        paste(t, "redo\n")
+        t.sees("search: redo", "Ctrl-R", lacks=("undo",))
+        t.keys("Escape", "/")
+        t.sees("Search in this view")
+        paste(t, "accepted_kJ\n")
+        t.sees("Search in this view", "accepted_kJ")
+        paste(t, "x" * 1100)
+        t.sees("too long for this line")
+        t.keys("Escape", "?")
+        t.sees("Every edit is live")
+        paste(t, "q")
+        time.sleep(PAUSE)
+        t.sees("Every edit is live")
+        t.keys("Escape")
+        t.sees("goes nowhere")
+
+
+def test_paste_without_end():
+    """A paste whose end is lost is given up by Ctrl-C."""
+    with Place() as place, Tmux(place) as t:
+        t.start("fast.yaml")
+        t.text("\x1b[200~qq")
+        time.sleep(1.5)
+        t.keys("2")
+        time.sleep(1.5)
+        t.sees("Belts of forest")
+        t.keys("C-c")
+        time.sleep(PAUSE)
+        t.keys("2")
+        t.sees("stools per ha")
+
+
+# ---- what the terminal is asked for ----
+
+class Pty:
+    """The program on a bare pseudo-terminal, and all that it writes."""
+
+    def __init__(self, place, term):
+        self.out = b""
+        self.pid, self.fd = pty.fork()
+        if self.pid == 0:
+            try:
+                os.chdir(place.path)
+                os.execve(CEDUO, [CEDUO, "fast.yaml"], {**home(place.path), "TERM": term})
+            finally:
+                os._exit(127)
+        fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        os.set_blocking(self.fd, False)
+        self.writes(b"1 slope")
+
+    def read(self):
+        try:
+            self.out += os.read(self.fd, 65536)
+        except (BlockingIOError, OSError):
+            pass
+        return self.out
+
+    def writes(self, part):
+        until(lambda: f"{part} in {self.out[-2000:]!r}", lambda: part in self.read())
+
+    def end(self, by):
+        """Ends it by a key or a signal; returns all it wrote."""
+        if isinstance(by, bytes):
+            os.write(self.fd, by)
+        else:
+            os.kill(self.pid, by)
+        until("the program ends", lambda: self.read() and os.waitpid(self.pid, os.WNOHANG)[0] == self.pid)
+        for _ in range(10):
+            self.read()
+        os.close(self.fd)
+        return self.out
+
+
+def test_asked():
+    """The terminal is asked to mark pastes, and no longer at the end, by whatever it came."""
+    ends = [b"q", signal.SIGTERM, signal.SIGHUP] + ([] if ASAN else [signal.SIGSEGV, signal.SIGABRT])
+    for by in ends:
+        with Place() as place:
+            program = Pty(place, "xterm")
+            program.writes(ON)
+            out = program.end(by)
+            expect(OFF in out.rsplit(ON, 1)[1], f"ended by {by}: {out[-300:]!r}")
+
+
+def test_not_asked():
+    """The Linux console, which marks no pastes, is not asked."""
+    with Place() as place:
+        expect(b"?2004" not in Pty(place, "linux").end(b"q"), "asked")
+
+
+def test_asked_again():
+    """Suspended, the terminal marks no pastes for the shell; they are marked again once the program goes on."""
+    with Place() as place, Tmux(place) as t:
+        place.write("shell.sh", "stty -icanon min 1 -echo; printf 'READ>'; dd bs=1 count=4 2>&- | od -An -c; stty sane\n")
+        changed(t)
+        t.keys("C-z")
+        t.sees("READY>", lacks=("1 slope",))
+        t.text("clear; sh shell.sh")
+        t.keys("Enter")
+        t.sees("READ>")
+        paste(t, "abcd")
+        t.sees("a   b   c   d")
+        t.text("fg")
+        t.keys("Enter")
+        t.sees("1 slope", "* fast")
+        paste(t, "s")
+        t.sees("goes nowhere")
+        unharmed(t, place, "Ctrl-Z and fg")
+
+
+def main():
+    os.environ.pop("TMUX", None)
+    suite = Suite()
+    suite.run(tests_of(sys.modules[__name__]))
+    suite.end()
+
+
+if __name__ == "__main__":
+    main()
