@@ -32,7 +32,7 @@ import random_scenes  # noqa: E402
 SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))
 FIRST = int(os.environ.get("FIRST") or 0)
 CHUNK = 25         # scenes of one call of the program
-SECONDS = 5        # of processor time for a scene; beyond that it hangs
+SECONDS = 60       # of processor time for a call, which takes one to three; so far beyond that it hangs on any machine
 MEMORY = 2 << 30   # bytes
 WORK = 100_000     # contacts and stems of all rocks of a scene, about; ten times as many are too many
 ACCEPTED = 0.6     # at least this share of the scenes must be good
@@ -55,7 +55,7 @@ def limits():
 
 
 def run(folder, *arguments):
-    return ceduo(*arguments, cwd=folder, timeout=20 * SECONDS, preexec_fn=limits)
+    return ceduo(*arguments, cwd=folder, timeout=10 * SECONDS, preexec_fn=limits)
 
 
 def table_of_parameters():

@@ -3,6 +3,7 @@
 """--survey: from a CSV of sample plots to a stand that scenes take, and what is refused."""
 import json
 import math
+import re
 import statistics
 
 from harness import DONE, INPUT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, good, run_all, scene
@@ -163,9 +164,12 @@ def test_what_is_assumed():
         one = {"A": STEMS["A"]}
         text = survey(f, table(one)).out
         expect_in("One plot has no standard error", text)
-        expect("doubt:" not in text or "spacing" in text.split("doubt:")[1], text)
+        expect("doubt:" not in text, text)
         expect_in("one plot, no standard error", text)
         stand_of(f, text)
+        two = {"A": (200, 0, [("ostrya-carpinifolia", "shoot", n, 6.2, 6.4, 0.3 + n / 10) for n in (1, 2)])}
+        paths = re.findall(r"path: ([^,}]*)", survey(f, table(two)).out.split("doubt:")[1])
+        expect_equal(paths, ["stools.spacing_m"], "of two stools of one plot the spacing alone has an error")
 
 
 def test_any_order():

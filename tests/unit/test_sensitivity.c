@@ -352,6 +352,13 @@ static void stools_are_not_more_than_their_shoots(void **state)
         EXPECT_NEAR(stand->shoots[0].per_ha, cases[i][3], 1e-9);
     }
     ceduo_inputs_release(&copy);
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, &inputs[1], 1), ==, CEDUO_OK); /* the shoots alone: 500, then 2500 */
+    stand = &copy.scene.options[0].belts[0].stand;
+    for (int i = 0; i < 2; i++) {
+        ceduo_inputs_set(&copy, (double[]){i});
+        EXPECT_NEAR(stand->stools_per_ha, i == 0 ? 500 : 600, 1e-9);
+    }
+    ceduo_inputs_release(&copy);
     ceduo_scene_release(&file);
 }
 
