@@ -176,6 +176,14 @@ def test_written():
                 expect_in("draws", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
 
 
+def test_written_as_yml():
+    """A scene may end in .yml as well"""
+    with Folder() as f:
+        r = ceduo("-n", 20, "--calibrate", f"{RT}=0.7:0.98", "-o", f.path / "fitted.yml", f.write("s.yaml", quarry()))
+        expect_equal(r.status, DONE, r)
+        expect_in("doubt: {draws: fitted.draws.csv}", (f.path / "fitted.yml").read_text())
+
+
 def test_not_written():
     """Where the draws cannot lie beside the scene neither is written: a device of their name, a name too long for one of its own"""
     with Folder() as f:

@@ -181,6 +181,12 @@ def test_office():
     expect_in("How often, and with how much, at road (135 m)", page.text["figcaption"])
 
 
+def test_few_rocks():
+    """With fewer rocks than it usually takes the doubt has no more than were asked for"""
+    _, page = report("four-systems", few=("-n", 50, *DOUBT[2:]))
+    expect_in("'rocks' is the error of 50 rocks", page.text["p"])
+
+
 def test_left_out():
     """A page that would fill more than four sheets leaves out, and names, what it says elsewhere or a picture shows again"""
     _, page = report(*EVERYTHING, "four-systems", few=("-n", 200, "--sensitivity=2"))

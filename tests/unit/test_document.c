@@ -2,6 +2,7 @@
 #include "folder.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -9,7 +10,6 @@
 #include "ceduo/observe.h"
 #include "io/file.h"
 #include "model/document.h"
-#include "model/recovery.h"
 #include "model/recovery.h"
 
 static const char scene[] = "# my comment\n"
@@ -542,6 +542,31 @@ static void half_a_copy_is_taken_away(void **state)
     free(own);
 }
 
+/* In whatever order the folder has them. */
+static void the_newest_copies_come_first(void **state)
+{
+    (void)state;
+    static const time_t when[] = {3000, 1000, 5000, 2000, 4000};
+    char *own = ceduo_recovery_path(path);
+    struct arena arena = {0};
+    size_t n;
+    for (int i = 0; i < 5; i++) {
+        char name[400];
+        snprintf(name, sizeof name, "%.*s-%d.yaml", (int)(strrchr(own, '-') - own), own, 999999990 + i);
+        FILE *f = fopen(name, "w");
+        assert_non_null(f);
+        fputs("# unsaved work on /a/scene\ntitle: t\n", f);
+        fclose(f);
+        assert_int_equal(utimensat(AT_FDCWD, name, (struct timespec[]){{.tv_sec = when[i]}, {.tv_sec = when[i]}}, 0), 0);
+    }
+    const struct recovery *list = ceduo_recovery_list(&arena, &n);
+    assert_int_equal(n, 5);
+    for (int i = 0; i < 5; i++)
+        assert_int_equal(list[i].when, 5000 - 1000 * i);
+    ceduo_arena_free(&arena);
+    free(own);
+}
+
 static void what_a_killed_save_left_is_taken_away(void **state)
 {
     (void)state;
@@ -856,6 +881,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_changed_value_of_another_file_has_no_source, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(the_newest_copies_come_first, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(what_a_killed_save_left_is_taken_away, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down),
