@@ -173,7 +173,11 @@ static void only_dead_temporaries_are_removed(void **state)
     in_folder(link, "out.ceduo-tmp-19-0");
     assert_int_equal(mkfifo(link, 0600), 0);
     in_folder(path, "out");
+    int next = dup(held); /* the lowest that is free, before and after */
+    assert_int_equal(close(next), 0);
     ceduo_file_tidy(path); /* whether the file itself is there or not */
+    assert_int_equal(dup(held), next);
+    assert_int_equal(close(next), 0);
     for (int again = 0; again < 2; again++) {
         for (size_t i = 0; i < LENGTH(rows); i++) {
             char there[256];
