@@ -186,7 +186,9 @@ def test_what_is_assumed():
         one = {"A": STEMS["A"]}
         text = survey(f, table(one)).out
         expect_in("One plot has no standard error", text)
-        expect("doubt:" not in text or "spacing" in text.split("doubt:")[1], text)
+        expect("doubt:" not in text, text)
+        two = {"A": (200, 35, [*STEMS["A"][2][:2], (*STEMS["A"][2][2][:5], 0.4), STEMS["A"][2][3]])}  # stools with a spacing
+        expect_equal(survey(f, table(two)).out.split("doubt:\n")[1], '  - {path: stools.spacing_m, mean: 0.35, sd: 0.05}\n')
         expect_in("one plot, no standard error", text)
         stand_of(f, text)
 
