@@ -344,6 +344,15 @@ def test_thick():
         expect_in("plots.csv:2:17: 750 cm: pi\u00f9 di 300 cm; \u00e8 in mm?", r.err)
 
 
+def test_thin():
+    """Two stems that differ by more than their mean get it as their spread, which a stand takes"""
+    with Folder() as f:
+        text = survey(f, HEAD + "\nA,200,0,,tree,,0.2,1.5,\nA,,,,tree,,4.9,5,\n").out
+        expect(statistics.stdev((0.2, 4.9)) > 2.55)
+        expect_in("dbh_m: 0.0255, dbh_sd_m: 0.0255,", text)
+        stand_of(f, text)
+
+
 def test_many_wrong():
     """All that is wrong is told at once"""
     with Folder() as f:
