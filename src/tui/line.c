@@ -94,25 +94,3 @@ bool ceduo_line_paste(struct line *line, const char *text)
     }
     return true;
 }
-
-bool ceduo_line_paste(struct line *line, const char *text)
-{
-    size_t n = strlen(text), kept = line->fresh ? 0 : strlen(line->text);
-    bool begun = false, gap = false;
-    if (kept + n >= sizeof line->text)
-        return false;
-    for (size_t i = 0, step; i < n; i += step) {
-        uint32_t code = 0;
-        step = ceduo_utf8_decode(text + i, n - i, &code);
-        step = step > 0 ? step : 1;
-        gap |= code == '\n' || code == '\r' || code == '\t';
-        if (!ceduo_utf8_printable(code))
-            continue;
-        if (begun && gap)
-            ceduo_line_key(line, ' ');
-        ceduo_line_key(line, (int)code);
-        begun = true;
-        gap = false;
-    }
-    return true;
-}

@@ -415,21 +415,6 @@ bool ceduo_popup_paste(struct app *app, const char *text)
     return true;
 }
 
-bool ceduo_popup_paste(struct app *app, const char *text)
-{
-    struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT)
-        return false;
-    if (p->kind == POPUP_FIELDS)
-        ceduo_jobs_stop_seek(app->figures.jobs); /* as a key does */
-    p->message[0] = '\0';
-    if (ceduo_line_paste(&p->fields[p->at], text))
-        offer(app, p);
-    else
-        snprintf(p->message, sizeof p->message, "%s", _(CEDUO_LINE_FULL));
-    return true;
-}
-
 const char *ceduo_popup_bar(const struct app *app)
 {
     return _(kinds[app->popup->kind].bar);

@@ -80,7 +80,6 @@ void ceduo_popup_foreseen(struct app *app, const struct foreseen *foreseen);
 const char *ceduo_popup_bar(const struct app *app); /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 bool ceduo_popup_paste(struct app *app, const char *text); /* false: nothing is typed there */
-bool ceduo_popup_paste(struct app *app, const char *text); /* false: nothing is typed there */
 void ceduo_popup_close(struct app *app);
 
 #endif

@@ -185,16 +185,6 @@ void ceduo_program_paste(struct app *app, const char *text)
     settle(app);
 }
 
-void ceduo_program_paste(struct app *app, const char *text)
-{
-    app->message[0] = '\0';
-    if (app->popup ? !ceduo_popup_paste(app, text) : !app->editing)
-        ceduo_app_say(app, "%s", _("what was pasted goes nowhere: no field is open"));
-    else if (!app->popup && !ceduo_line_paste(&app->line, text))
-        ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
-    settle(app);
-}
-
 void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);

@@ -13,7 +13,6 @@ void ceduo_program_free(struct app *app);
 
 void ceduo_program_key(struct app *app, int key);
 void ceduo_program_paste(struct app *app, const char *text); /* into the line that is being typed; otherwise nowhere */
-void ceduo_program_paste(struct app *app, const char *text); /* into the line that is being typed; otherwise nowhere */
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int by);
 

@@ -33,7 +33,7 @@ double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double orig
 {
     if (kind == CEDUO_OBSERVED_STOPS)
         return value + origin;
-    return kind == CEDUO_OBSERVED_ENERGY || kind == CEDUO_OBSERVED_WAY_ENERGY ? value / KILO : value;
+    return kind == CEDUO_OBSERVED_ENERGY || kind == CEDUO_OBSERVED_WAY_ENERGY ? value * KILO : value;
 }
 
 const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)

@@ -234,13 +234,22 @@ def look_up(mapping, name):
     return mapping
 
 
+def is_formula(text):
+    """Whether a spreadsheet would compute it."""
+    try:
+        float(text)
+        return text.startswith("+")
+    except ValueError:
+        return text[:1] in ("=", "+", "@", "\t") or (text[:1] == "-" and len(text) > 1)
+
+
 def expect_cell(cell, value, name):
     if value is None:
         expect_equal(cell, "", name)
     elif isinstance(value, bool):
         expect_equal(cell, "true" if value else "false", name)
     elif isinstance(value, str):
-        expect_equal(cell, value, name)
+        expect_equal(cell, "'" + value if is_formula(value) else value, name)
     else:
         expect(cell != "" and float(cell) == value, f"{name}: found {cell!r}, wanted {value!r}")
 

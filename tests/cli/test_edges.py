@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Edges of the model: rocks without end, nobody arrives, no forest, walls, far coordinates."""
+import math
 import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (INPUT, RUN, USAGE, Folder, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result,
+from harness import (DONE, INPUT, RUN, USAGE, Folder, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result,
                      run_all, scene, stand, wooded_scene)
 from pages import expect_order
 from runs import ENDLESS, RESULT, expect_rows, expect_shape, read_csv, wilson
@@ -152,6 +153,17 @@ def test_fewer_shoots():
                               ("forest[0].stand.shoots[0].height_m=0", "height_m")):
             done = ceduo("--batch", "-s", change, path)
             expect(done.status in (USAGE, INPUT) and done.out == "" and words in done.err and "^" in done.err, done)
+
+
+def test_right_angle():
+    """A facet as steep as a wall is refused, one that is hardly less is not"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(release=None))
+        key = "slope.segments[0].roughness_rad"
+        for angle, status in ((math.pi / 2, USAGE), (math.nextafter(math.pi / 2, 0), DONE)):
+            done = ceduo("--check", "-s", f"{key}={angle!r}", path)
+            expect_equal(done.status, status, done)
+            expect(status == DONE or f"{key}: {angle!r} is not below 1.57" in done.err, done)
 
 
 def shifted(by, up):

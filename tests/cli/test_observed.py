@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What was seen of real rocks: the forms in which a scene may say it, and what is refused."""
-from harness import DONE, INPUT, Folder, ceduo, expect, expect_equal, expect_in, run_all, scene
+import json
+import math
+
+from harness import DONE, INPUT, Folder, ceduo, expect, expect_equal, expect_in, expect_near, run_all, scene
 
 TABLE = "id,Distance,block\n1,41.5,a\n2,44,a\n3,52.25,b\n4,61,a\n"
 
@@ -73,6 +76,38 @@ def test_kinds():
     refused("-1 is below 0", [{"height": {"x_m": 50, "values": [2, -1]}}])
 
 
+def test_values():
+    """Each kind, as values and as their mean: what is compared is what the file says, in its unit and its coordinates"""
+    ground = {"vertices_m": [[1000, 70], [1100, 0]], "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2}]}
+    stretch = {"from_m": 1020, "to_m": 1060}
+    seen = {"stops": {"x_m": [1040, 1052]}, "passed at 1050 m": 3, "scars": {**stretch, "height_m": [0.5, 1.2]}}
+    wanted = {"stops": 1046, "passed at 1050 m": 3, "scars": 0.85}
+    rows = [{"stops": seen["stops"]}, {"passed": {"x_m": 1050, "count": 3, "of": 4}}, {"scars": seen["scars"]}]
+    for i, values in enumerate(({"values": [3, 4, 8]}, {"mean": 5, "sd": 2, "n": 5})):
+        x = 1050 + i
+        places = {"from_m": 1020, "to_m": 1060 + i}
+        for kind in ("speed", "height", "energy"):
+            rows.append({kind: {"x_m": x, **values}})
+            wanted[f"{kind} at {x} m"] = 5
+        for key in ("speed_m_s", "height_m", "energy_kJ"):
+            rows.append({"on_the_way": {**places, key: values}})
+            wanted[f"on_the_way.{key} {places['from_m']}-{places['to_m']} m"] = 5
+        for key in ("speed_m_s", "height_m"):
+            rows.append({"largest": {key: values}, "name": f"{key} {i}"})
+            wanted[f"{key} {i}"] = 5
+    with Folder() as f:
+        path = f.write("s.yaml", quarry(rows, slope=ground, release={"x_m": 1000}, controls=[{"x_m": 1090}]))
+        r = ceduo("--calibrate", "slope.segments[0].rt=0.85:0.95", "-n", 40, "-f", "json", path)
+        expect_equal(r.status, DONE, r)
+        found = {o["what"]: o for o in json.loads(r.out)["observations"]}
+        expect_equal(sorted(found), sorted(wanted))
+        for what, value in wanted.items():
+            expect_near(found[what]["seen"], value, 1e-9, what)
+        fall = math.pi / 6 * 0.7 ** 3 * 2600 * 9.81 * 0.7 / 1000  # kJ for each metre along x
+        for what, x in (("energy at 1050 m", 50), ("on_the_way.energy_kJ 1020-1060 m", 60)):
+            expect(0.02 * fall * x < found[what]["single_hi"] <= fall * x, "no rock has more than it fell", what, found[what])
+
+
 def test_places():
     """What lies off the profile, before the release or where nobody looked"""
     refused("s.yaml:", [{"stops": {"x_m": [40, 120]}}])
@@ -84,6 +119,10 @@ def test_places():
     refused("does not lie beyond the release, 60 m", {"passed": {"x_m": 50, "count": 1, "of": 2, "release": {"x_m": 60}}})
     refused("20 does not lie beyond from_m, 40", {"scars": {"from_m": 40, "to_m": 20, "height_m": [1]}})
     refused("20 does not lie beyond from_m, 40", {"on_the_way": {"from_m": 40, "to_m": 20, "speed_m_s": {"values": [1]}}})
+    accepted({"stops": {"x_m": [0, 100], "seen_from_m": 0}})  # both ends are the slope's
+    accepted({"passed": {"x_m": 100, "count": 1, "of": 2}})
+    accepted({"on_the_way": {"from_m": 0, "to_m": 100, "speed_m_s": {"values": [1]}}})
+    refused("100.00001 lies beyond the slope", {"passed": {"x_m": 100.00001, "count": 1, "of": 2}})
     refused("beyond the slope", {"on_the_way": {"from_m": 40, "to_m": 200, "speed_m_s": {"values": [1]}}})
 
 

@@ -87,6 +87,29 @@ def test_densities():
         expect_in("; spacing on 2 of them", text)
 
 
+def test_rare():
+    """A class of 2.5 errors has a gamma law, which stays above 0; an interval that would reach below 0 begins there"""
+    with Folder() as f:
+        for plots, with_one, below in ((9, 4, False), (5, 2, True)):  # of n plots k with one tree
+            rows = [f"{i},100,0,,tree,,20,12," if i < with_one else f"{i},100,0,,,,,," for i in range(plots)]
+            text = survey(f, "\n".join([HEAD, *rows]) + "\n").out
+            each = [100] * with_one + [0] * (plots - with_one)
+            mean, se = statistics.mean(each), statistics.stdev(each) / math.sqrt(plots)
+            line = next(row for row in text.splitlines() if row.startswith("# tree"))
+            half = {9: 2.306004, 5: 2.776445}[plots] * se  # Student, 8 and 4 degrees of freedom
+            expect_equal(mean < half, below)
+            expect_in(f" {max(0, mean - half):.0f} to {mean + half:.0f}", line)
+            _, path = stand_of(f, text)
+            if below:
+                continue
+            expect(2 * se < mean < 3 * se, mean, se)
+            found = json.loads(ceduo("--sensitivity=2", "-n", 20, "-f", "json", path).out)["figures"][0]["inputs"]
+            tree = next(i for i in found if i["path"] == "forest[0].stand.trees[0].per_ha")
+            normal = (1 + math.erf(-3 / math.sqrt(2))) / 2
+            expect_near(gamma_share(tree["lo"], mean, se), normal, 1e-5)
+            expect_near(gamma_share(tree["hi"], mean, se), 1 - normal, 1e-5)
+
+
 def test_same_bytes():
     """An Italian spreadsheet, other words, CRLF, a mark, tabs and another language give the same bytes"""
     with Folder() as f:
@@ -288,6 +311,7 @@ BAD = [  # (content, place, words)
     (HEAD + "\n" + ROW.replace(",20,", ",2e6,"), ":2:17", "beyond 1e+06 cm"),
     (HEAD + "\n" + ROW.replace(",20,", ",nan,"), ":2:17", "'nan' is not a number"),
     (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m: a stem with a diameter at breast height is higher than 1.3 m"),
+    (HEAD + "\n" + ROW.replace(",12,", ",1.3,"), ":2:20", "1.3 m: a stem with a diameter at breast height is higher than 1.3 m"),
     (HEAD + "\n" + ROW.replace(",12,", ",-1,"), ":2:20", "below 0 m"),
     (HEAD + "\n" + ROW.replace(",12,", ",,"), "", "no standard and no tree has a height_m"),
     (HEAD + "\n" + ROW.replace("tree,,20,12", "shoot,1,6,"), "", "no shoot has a height_m"),
@@ -329,6 +353,15 @@ def test_thick():
         r = survey(f, HEAD + "\n" + ROW.replace(",20,", ",750,"), "--language", "it")
         expect_equal(r.status, INPUT, r)
         expect_in("plots.csv:2:17: 750 cm: pi\u00f9 di 300 cm; \u00e8 in mm?", r.err)
+
+
+def test_thin():
+    """Two stems that differ by more than their mean get it as their spread, which a stand takes"""
+    with Folder() as f:
+        text = survey(f, HEAD + "\nA,200,0,,tree,,0.2,1.5,\nA,,,,tree,,4.9,5,\n").out
+        expect(statistics.stdev((0.2, 4.9)) > 2.55)
+        expect_in("dbh_m: 0.0255, dbh_sd_m: 0.0255,", text)
+        stand_of(f, text)
 
 
 def test_many_wrong():

@@ -119,11 +119,20 @@ static void folders_are_listed(void **state)
     ceduo_arena_free(&arena);
 }
 
+static int descriptors(void)
+{
+    int n = 0;
+    for (int fd = 0; fd < 256; fd++)
+        n += fcntl(fd, F_GETFD) >= 0;
+    return n;
+}
+
 /* Names as long as a file system takes them, of characters of two bytes: its temporary's name is cut between two. */
 static void long_names_are_written(void **state)
 {
     (void)state;
     char name[256] = "", path[512];
+    int open_before = descriptors();
     for (int i = 0; i < 127; i++)
         strcat(name, "\xc3\xa4");
     for (int longer = 0; longer < 2; longer++) {
@@ -138,6 +147,7 @@ static void long_names_are_written(void **state)
         EXPECT(close(fd), ==, 0);
         ceduo_file_tidy(path);
         assert_int_equal(access(dead, F_OK), -1);
+        assert_int_equal(descriptors(), open_before);
     }
 }
 
@@ -173,7 +183,9 @@ static void only_dead_temporaries_are_removed(void **state)
     in_folder(link, "out.ceduo-tmp-19-0");
     assert_int_equal(mkfifo(link, 0600), 0);
     in_folder(path, "out");
+    int open_before = descriptors();
     ceduo_file_tidy(path); /* whether the file itself is there or not */
+    assert_int_equal(descriptors(), open_before);
     for (int again = 0; again < 2; again++) {
         for (size_t i = 0; i < LENGTH(rows); i++) {
             char there[256];

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "base/utf8.h"
 #include "io/emit.h"
 #include "io/node.h"
 #include "io/resolve.h"
@@ -29,6 +30,17 @@ static const struct node *parsed(struct arena *arena, const char *bytes)
     return parse(arena, &text);
 }
 
+/* What ends a line for some readers, or does something, is escaped. */
+static void expect_printable(const struct text *text)
+{
+    uint32_t c = 0;
+    for (size_t i = 0, length; i < text->length; i += length) {
+        length = ceduo_utf8_decode(text->bytes + i, text->length - i, &c);
+        if (length == 0 || (c != '\n' && !ceduo_utf8_printable(c)))
+            fail_msg("U+%04x in: %s", c, text->bytes);
+    }
+}
+
 /* Written in its two ways, a tree is read back as it is. */
 static void expect_back(struct arena *arena, const struct node *node)
 {
@@ -38,6 +50,7 @@ static void expect_back(struct arena *arena, const struct node *node)
             ceduo_emit(&text, node);
         else
             ceduo_emit_flow(&text, node);
+        expect_printable(&text);
         const struct node *back = parse(arena, &text);
         if (!ceduo_node_equal(back, node) || (node->kind == NODE_SCALAR && strcmp(back->text, node->text) != 0))
             fail_msg("not read back: %s", text.bytes);
