@@ -28,6 +28,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, RUN, SANITIZED, SLOWER, Failure, Folder, Suite, ceduo, expect,  # noqa: E402
                      expect_equal, good, no_constant)
 import random_scenes  # noqa: E402
+from runs import is_formula  # noqa: E402
 
 SCENES = int(os.environ.get("SCENES") or (500 if os.environ.get("FULL") else 250))
 FIRST = int(os.environ.get("FIRST") or 0)
@@ -641,7 +642,7 @@ def expect_cell(cell, value, what):
     elif isinstance(value, float):
         expect(cell != "" and float(cell) == value, f"{what}: {cell!r} in CSV, {value!r} in JSON")
     elif not any(unicodedata.category(c) == "Cc" for c in value):
-        expect_equal(cell, value, what)
+        expect_equal(cell, "'" + value if is_formula(value) else value, what)
 
 
 def compare_row(row, parts, skip, what):

@@ -643,7 +643,7 @@ static void make_roll(void)
     site.x[1] = 160;
     site.z[1] = site.z[0] - 80;
     site.segments[0] = (struct ceduo_segment){ceduo_number(0), ceduo_number(1), NAN, 0, .1, .6};
-    site.scene.release = (struct ceduo_release){ceduo_number(1), ceduo_number(0), ceduo_number(2), ceduo_number(-1), ceduo_number(0)};
+    site.scene.release = (struct ceduo_release){ceduo_number(1), ceduo_number(0), ceduo_number(2), ceduo_number(-1), ceduo_number(0), false};
     for (int i = 0; i < 2; i++) {
         struct ceduo_stand *stand = &site.belts[i].stand;
         stand->stools_per_ha = 300;

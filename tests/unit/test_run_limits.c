@@ -245,7 +245,7 @@ static void a_rock_without_end(void **state)
     slope->z[1] = slope->z[0];
     slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5, .6};
     site.control.x = slope->x[1];
-    site.scene.release = (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0)};
+    site.scene.release = (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.cells = 2;
     def.cell_x = cells;
@@ -432,7 +432,7 @@ static void little_is_asked_of_a_run(void **state)
     site.scene.simulation.rocks = 300;
     site.scene.slope.segments[0].friction = 9; /* holds all that are released without speed */
     site.scene.release = (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0),
-                                                ceduo_number(0)};
+                                                ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = 0; /* as one */
     def.cells = 2;
