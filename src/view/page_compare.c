@@ -112,7 +112,7 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     static const struct ceduo_page_column flown[] = {
-        {N_("option"), 23, 2, 0},   {NULL, -9, 0, 0},         {NP_("head", "worst year"), -11, 0, 0}, {NP_("head", "contact"), -8, 0, 0},
+        {N_("option"), 22, 2, 0},   {NULL, -10, 0, 0},        {NP_("head", "worst year"), -11, 0, 0}, {NP_("head", "contact"), -8, 0, 0},
         {NP_("head", "free run"), -9, 0, 0}, {NP_("head", "energy"), -7, 0, 0}, {NP_("head", "m3/y"), -5, 0, 0},        {N_("m3"), -6, 0, 0}};
     static const struct ceduo_page_column by_index[] = {{N_("option"), 23, 2, 0},  {NP_("head", "ADC m, worst"), -14, 0, 0},
                                                         {NP_("head", "contact"), -8, 0, 0}, {NP_("head", "free run"), -9, 0, 0},
